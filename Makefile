@@ -1,0 +1,52 @@
+# exactpt: `make demo` and `make test` work on a fresh Debian machine, and set up what they need.
+#
+# Everything is installed into .venv; the rest (compilers, CGAL) comes from Debian's packages.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PACKAGES := g++ cmake libcgal-dev
+JOBS ?= 2
+
+.DEFAULT_GOAL := help
+.PHONY: help demo test lint quick check-cgal clean
+
+help: ## what can be made
+	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+
+demo: $(VENV)/installed ## set up, run the packaged scene to its first contact, write an animation
+	$(BIN)/exactpt demo
+
+test: $(VENV)/developing cgal_check/build/cgal_check lint ## set up (CGAL included), pass all tests
+	$(BIN)/python -m pytest -m "" --cov=exactpt --cov-report=term:skip-covered
+
+quick: $(VENV)/developing ## the tests that take seconds
+	$(BIN)/python -m pytest
+
+lint: $(VENV)/developing ## formatting, rules, types, imports
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+check-cgal: cgal_check/build/cgal_check ## build the independent witness
+
+cgal_check/build/cgal_check: $(wildcard cgal_check/*.cpp cgal_check/*.hpp) cgal_check/CMakeLists.txt
+	@.ci/apt-install $(PACKAGES)
+	cmake -S cgal_check -B cgal_check/build -DCMAKE_BUILD_TYPE=Release
+	cmake --build cgal_check/build --parallel $(JOBS)
+
+$(BIN)/python:
+	@.ci/apt-install --if-no-venv python3-venv
+	$(PYTHON) -m venv $(VENV)
+
+$(VENV)/installed: $(BIN)/python pyproject.toml
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	@touch $@
+
+$(VENV)/developing: $(BIN)/python pyproject.toml
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@touch $@ $(VENV)/installed
+
+clean: ## remove what was built (not .venv)
+	rm -rf build dist cgal_check/build *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
