@@ -1,0 +1,29 @@
+"""The errors that exactpt raises on purpose: the caller's, the engine's, and a spent budget."""
+
+from __future__ import annotations
+
+__all__ = ["AuditError", "BudgetExceeded", "ExactPTError", "InputError"]
+
+
+class ExactPTError(Exception):
+    """Root of every error that exactpt raises on purpose."""
+
+
+class InputError(ExactPTError, ValueError):
+    """What the caller passed in is not acceptable; the message says what and where."""
+
+
+class AuditError(ExactPTError, AssertionError):
+    """An invariant is broken: always a bug in exactpt, never in the input."""
+
+
+class BudgetExceeded(ExactPTError):  # noqa: N818 - an outcome, named as one
+    """A bound on events or seconds was reached; ``reached`` is the time proved free of contact.
+
+    ``reached`` is a rational: no contact happens in the closed interval from the
+    start of the scene to it.
+    """
+
+    def __init__(self, message: str, reached: object) -> None:
+        super().__init__(message)
+        self.reached = reached

@@ -1,0 +1,1 @@
+"""One instant: points, predicates, polygons."""

@@ -1,0 +1,106 @@
+"""Polygons and chains at one instant: orientation, convexity, simplicity, containment.
+
+All exact. Boxes in floats, rounded outward, only say which edges need not be compared.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
+from exactpt.geometry.predicates import Point, between, side
+from exactpt.kernel.numbers import QQ
+
+__all__ = [
+    "contains",
+    "edges",
+    "first_self_touch",
+    "is_convex",
+    "segments_meet",
+    "signed_area2",
+]
+
+
+def edges(size: int, *, closed: bool) -> list[tuple[int, int]]:
+    """The edges of a body as pairs of vertices; edge i starts at vertex i.
+
+    A point has none, a segment one (closed or not), a polygon as many as vertices.
+    """
+    pairs = [(i, i + 1) for i in range(size - 1)]
+    if closed and size > 2:
+        pairs.append((size - 1, 0))
+    return pairs
+
+
+def signed_area2(points: Sequence[Point]) -> QQ:
+    """Twice the signed area, positive if counter-clockwise."""
+    total = QQ(0)
+    for (x0, y0), (x1, y1) in zip(points, [*points[1:], points[0]], strict=True):
+        total += x0 * y1 - x1 * y0
+    return total
+
+
+def is_convex(points: Sequence[Point]) -> bool:
+    """Whether a simple counter-clockwise polygon has no right turn (straight ones are fine)."""
+    n = len(points)
+    return all(side(points[i - 2], points[i - 1], points[i]) >= 0 for i in range(n))
+
+
+def segments_meet(a: Point, b: Point, c: Point, d: Point) -> bool:
+    """Whether the closed segments ab and cd share a point."""
+    abc, abd = side(a, b, c), side(a, b, d)
+    cda, cdb = side(c, d, a), side(c, d, b)
+    if abc * abd < 0 and cda * cdb < 0:
+        return True
+    return (
+        (abc == 0 and between(a, b, c))
+        or (abd == 0 and between(a, b, d))
+        or (cda == 0 and between(c, d, a))
+        or (cdb == 0 and between(c, d, b))
+    )
+
+
+def first_self_touch(points: Sequence[Point], *, closed: bool) -> tuple[int, int] | None:
+    """Two edges that share more than a common end, or one edge (i, i) without length; or None.
+
+    None says that the polygon (or chain) is simple.
+    """
+    pairs = edges(len(points), closed=closed)
+    for i, (u, v) in enumerate(pairs):
+        if points[u] == points[v]:
+            return i, i
+    boxes = boxes_of_points([(points[u], points[v]) for u, v in pairs])
+    found: list[tuple[int, int]] = []
+    for first, second in overlapping_pairs(boxes):
+        for i, j in zip(first.tolist(), second.tolist(), strict=True):
+            if _touch(points, pairs[i], pairs[j]):
+                found.append((i, j))
+    return min(found, default=None)
+
+
+def _touch(points: Sequence[Point], e: tuple[int, int], f: tuple[int, int]) -> bool:
+    common = set(e) & set(f)
+    if not common:
+        return segments_meet(points[e[0]], points[e[1]], points[f[0]], points[f[1]])
+    (v,) = common
+    a = points[e[0] if e[1] == v else e[1]]
+    b = points[f[0] if f[1] == v else f[1]]
+    # Edges with a common end overlap if they leave it in one direction.
+    return side(a, points[v], b) == 0 and (between(points[v], a, b) or between(points[v], b, a))
+
+
+def contains(points: Sequence[Point], p: Point) -> bool:
+    """Whether the closed simple polygon contains p (either orientation; the boundary counts)."""
+    inside = False
+    for a, b in _cyclic_pairs(points):
+        s = side(a, b, p)
+        if s == 0 and between(a, b, p):
+            return True
+        # A ray to the right crosses the edge (half-open in y, so vertices count once).
+        if (a[1] > p[1]) != (b[1] > p[1]) and (s > 0) == (b[1] > a[1]):
+            inside = not inside
+    return inside
+
+
+def _cyclic_pairs(points: Sequence[Point]) -> Iterator[tuple[Point, Point]]:
+    return zip(points, [*points[1:], points[0]], strict=True)

@@ -1,0 +1,46 @@
+"""Predicates of points, written once over any ring: + - * only.
+
+Over the rationals they are static predicates; over polynomials in t, the functions
+whose signs a certificate watches.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol, Self, TypeVar
+
+from exactpt.kernel.numbers import QQ, sign
+
+__all__ = ["Point", "Ring", "between", "orient2d", "side"]
+
+
+class Ring(Protocol):
+    """What a predicate asks of coordinates. No division, no comparison."""
+
+    def __add__(self, other: Self, /) -> Self: ...
+    def __sub__(self, other: Self, /) -> Self: ...
+    def __mul__(self, other: Self, /) -> Self: ...
+
+
+R = TypeVar("R", bound=Ring)
+
+Point = tuple[QQ, QQ]
+"""A point with rational coordinates."""
+
+
+def orient2d(a: tuple[R, R], b: tuple[R, R], c: tuple[R, R]) -> R:
+    """Twice the signed area of the triangle abc.
+
+    Positive if a, b, c turn left (counter-clockwise), negative if they turn right,
+    zero if they are collinear.
+    """
+    return (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])
+
+
+def side(a: Point, b: Point, c: Point) -> int:
+    """1, 0 or -1 as c lies left of, on, or right of the line from a to b."""
+    return sign(orient2d(a, b, c))
+
+
+def between(a: Point, b: Point, c: Point) -> bool:
+    """Whether c, on the line of a and b (or anywhere, if a = b), lies in the closed segment ab."""
+    return all(min(u, v) <= w <= max(u, v) for u, v, w in zip(a, b, c, strict=True))

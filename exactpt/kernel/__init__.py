@@ -1,0 +1,1 @@
+"""Exact arithmetic: numbers, polynomials, their real roots, and the float filters."""

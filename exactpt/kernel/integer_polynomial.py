@@ -1,0 +1,192 @@
+"""Polynomials over the integers as plain tuples: what certificates are made of.
+
+``f[i]`` is the coefficient of t**i; the last entry is never 0, and the zero
+polynomial is ``()``. A certificate only asks for signs, so positive factors are
+dropped freely and integers suffice everywhere.
+
+Sources: D. E. Knuth, *TAOCP* vol. 2, section 4.6.1 (pseudo-division, gcd of
+primitive parts); J. von zur Gathen, J. Gerhard, *Modern Computer Algebra*,
+section 14.6 (square-free part).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TypeAlias
+
+from exactpt.kernel.numbers import QQ, ZZ, gcd, sign
+
+__all__ = [
+    "IntPoly",
+    "add",
+    "derivative",
+    "evaluate",
+    "from_rationals",
+    "greatest_common_divisor",
+    "multiply",
+    "negate",
+    "positive_remainder",
+    "primitive",
+    "quotient",
+    "scale",
+    "sign_at",
+    "square_free",
+    "subtract",
+    "trimmed",
+]
+
+IntPoly: TypeAlias = "tuple[ZZ, ...]"
+
+
+def trimmed(coefficients: Iterable[ZZ]) -> IntPoly:
+    """The polynomial with these coefficients, leading zeros dropped."""
+    f = list(coefficients)
+    while f and f[-1] == 0:
+        f.pop()
+    return tuple(f)
+
+
+def from_rationals(coefficients: Iterable[QQ]) -> IntPoly:
+    """A positive multiple with integer coefficients: the primitive one."""
+    f = list(coefficients)
+    denominator = ZZ(1)
+    for c in f:
+        denominator *= ZZ(c.denominator) // gcd(denominator, ZZ(c.denominator))
+    return primitive(trimmed(ZZ(c.numerator) * (denominator // ZZ(c.denominator)) for c in f))
+
+
+def add(f: IntPoly, g: IntPoly) -> IntPoly:
+    """f + g."""
+    if len(f) < len(g):
+        f, g = g, f
+    if len(f) > len(g):
+        return (*(a + b for a, b in zip(f, g, strict=False)), *f[len(g) :])
+    return trimmed([a + b for a, b in zip(f, g, strict=True)])
+
+
+def negate(f: IntPoly) -> IntPoly:
+    """-f."""
+    return tuple([-c for c in f])
+
+
+def subtract(f: IntPoly, g: IntPoly) -> IntPoly:
+    """f - g."""
+    return add(f, negate(g))
+
+
+def scale(f: IntPoly, factor: ZZ) -> IntPoly:
+    """factor * f."""
+    return tuple([factor * c for c in f]) if factor else ()
+
+
+def multiply(f: IntPoly, g: IntPoly) -> IntPoly:
+    """f * g."""
+    if len(f) > len(g):
+        f, g = g, f
+    if not f:
+        return ()
+    if len(f) == 1:
+        a = f[0]
+        return tuple([a * b for b in g])
+    product = [ZZ(0)] * (len(f) + len(g) - 1)
+    for i, a in enumerate(f):
+        if a:
+            for j, b in enumerate(g):
+                product[i + j] += a * b
+    return tuple(product)
+
+
+def derivative(f: IntPoly) -> IntPoly:
+    """df/dt."""
+    return tuple([i * c for i, c in enumerate(f) if i])
+
+
+def evaluate(f: IntPoly, t: QQ) -> QQ:
+    """f(t)."""
+    value = QQ(0)
+    for c in reversed(f):
+        value = value * t + c
+    return value
+
+
+def sign_at(f: IntPoly, t: QQ) -> int:
+    """The sign of f(t): Horner's rule on q**deg(f) * f(p/q), integers only."""
+    if not f:
+        return 0
+    p, q = t.numerator, t.denominator
+    value = f[-1]
+    if q == 1:
+        for c in f[-2::-1]:
+            value = value * p + c
+        return sign(value)
+    power = q
+    for c in f[-2::-1]:
+        value = value * p + c * power
+        power *= q
+    return sign(value)
+
+
+def primitive(f: IntPoly) -> IntPoly:
+    """f divided by the positive gcd of its coefficients."""
+    content = gcd(*f) if f else ZZ(1)
+    return tuple([c // content for c in f]) if content > 1 else f
+
+
+def positive_remainder(f: IntPoly, g: IntPoly) -> IntPoly:
+    """The remainder of a *positive* multiple of f on division by g: primitive.
+
+    Ordinary pseudo-division multiplies f by a power of the leading coefficient of
+    g, whose sign would be lost; here |leading coefficient| is used, so that the
+    sign of the remainder is that of the rational one (Sturm's sequence needs it).
+    """
+    lead, size = g[-1], len(g)
+    positive, lead = (lead, lead) if lead > 0 else (-lead, lead)
+    remainder = list(f)
+    while len(remainder) >= size:
+        top = remainder.pop()
+        if top == 0:
+            continue
+        shift = len(remainder) + 1 - size
+        factor = top if lead > 0 else -top
+        remainder = [positive * c for c in remainder]
+        for i in range(size - 1):
+            remainder[shift + i] -= factor * g[i]
+    return primitive(trimmed(remainder))
+
+
+def quotient(f: IntPoly, g: IntPoly) -> IntPoly:
+    """f / g up to a positive factor, where g divides f over the rationals: primitive."""
+    lead, size = g[-1], len(g)
+    remainder, result = list(f), [ZZ(0)] * (len(f) - size + 1)
+    positive = abs(lead)
+    for shift in range(len(f) - size, -1, -1):
+        # Multiply everything by |lead|, so that the next digit is an integer.
+        remainder = [positive * c for c in remainder]
+        result = [positive * c for c in result]
+        factor = remainder[shift + size - 1] // lead
+        result[shift] = factor
+        for i in range(size):
+            remainder[shift + i] -= factor * g[i]
+    return primitive(trimmed(result))
+
+
+def greatest_common_divisor(f: IntPoly, g: IntPoly) -> IntPoly:
+    """The primitive gcd over the rationals, with positive leading coefficient."""
+    f, g = primitive(f), primitive(g)
+    while g:
+        f, g = g, positive_remainder(f, g) if len(f) >= len(g) else f
+    return negate(f) if f and f[-1] < 0 else f
+
+
+def square_free(f: IntPoly) -> IntPoly:
+    """The primitive polynomial with the roots of f, each once, and the leading sign of f."""
+    f = primitive(f)
+    if len(f) <= 2:
+        return f
+    if len(f) == 3:
+        if f[1] * f[1] != 4 * f[0] * f[2]:
+            return f
+        # c2 (t + c1 / 2 c2)^2: the root once, with the sign of c2.
+        return primitive((f[1], 2 * f[2]) if f[2] > 0 else (-f[1], 2 * f[2]))
+    common = greatest_common_divisor(f, derivative(f))
+    return f if len(common) == 1 else quotient(f, common)

@@ -1,0 +1,174 @@
+"""Integers and rationals: the only door through which GMP enters.
+
+gmpy2 ships no type stubs. For the type checker `ZZ` is ``int`` and `QQ` is
+``Fraction``, which have the same interface; so a float mixed with an exact
+number is a type error (at run time gmpy2 would silently answer with an inexact
+``mpfr``).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from fractions import Fraction
+from typing import TYPE_CHECKING, Final, TypeAlias
+
+import gmpy2
+
+from exactpt.errors import InputError
+
+if TYPE_CHECKING:
+    ZZ = int
+    from fractions import Fraction as QQ
+
+    def gcd(*values: ZZ) -> ZZ:
+        """The greatest common divisor, never negative."""
+
+    def isqrt(value: ZZ) -> ZZ:
+        """The integer part of the square root of ``value >= 0``."""
+
+    def is_square(value: ZZ) -> bool:
+        """Whether ``value`` is the square of an integer."""
+
+else:
+    QQ = gmpy2.mpq
+    ZZ = gmpy2.mpz
+    gcd = gmpy2.gcd
+    isqrt = gmpy2.isqrt
+    is_square = gmpy2.is_square
+
+__all__ = [
+    "QQ",
+    "ZZ",
+    "Rational",
+    "ceil",
+    "enclosing_floats",
+    "floor",
+    "gcd",
+    "is_square",
+    "isqrt",
+    "nearest_float",
+    "parse_rational",
+    "power_of_two",
+    "rational",
+    "sign",
+]
+
+Rational: TypeAlias = "int | Fraction | QQ | float | str"
+"""What a caller may pass as a number; see `rational`."""
+
+_NUMBER: Final = re.compile(
+    r"([+-]?\d+)(?:/(\d+))?\Z|([+-]?)(\d*)\.?(\d*)(?:[eE]([+-]?\d{1,6}))?\Z", re.ASCII
+)
+_EXPONENT_LIMIT: Final = 100_000
+_EXACT: Final[type[QQ]] = type(QQ())
+
+
+def sign(value: QQ | ZZ) -> int:
+    """-1, 0 or 1."""
+    return (value > 0) - (value < 0)
+
+
+def floor(value: QQ) -> ZZ:
+    """The largest integer at most ``value``."""
+    return ZZ(value.numerator // value.denominator)
+
+
+def ceil(value: QQ) -> ZZ:
+    """The smallest integer at least ``value``."""
+    return ZZ(-(-value.numerator // value.denominator))
+
+
+def power_of_two(exponent: int) -> QQ:
+    """2**exponent, for an exponent of either sign."""
+    one = ZZ(1)
+    return QQ(one << exponent) if exponent >= 0 else QQ(one, one << -exponent)
+
+
+def parse_rational(text: str) -> QQ:
+    """The number written as ``"p"``, ``"p/q"``, ``"1.25"`` or ``"-3e-2"``, exactly.
+
+    Raises:
+        InputError: if the text is none of these, a denominator is 0, or a decimal
+            exponent is beyond ±100,000 (its digits alone would fill the memory).
+    """
+    match = _NUMBER.match(text)
+    if match is None:
+        raise InputError(f"not a number: {shorten(text)}")
+    whole, denominator, minus, units, decimals, exponent = match.groups()
+    if whole is not None:
+        if denominator is None:
+            return QQ(ZZ(whole))
+        q = ZZ(denominator)
+        if q == 0:
+            raise InputError(f"denominator is zero: {shorten(text)}")
+        return QQ(ZZ(whole), q)
+    digits = units + decimals
+    if not digits:
+        raise InputError(f"not a number: {shorten(text)}")
+    power = int(exponent or 0)
+    if abs(power) > _EXPONENT_LIMIT:
+        raise InputError(f"exponent beyond {_EXPONENT_LIMIT}: {shorten(text)}")
+    power -= len(decimals)
+    value = QQ(ZZ(digits))
+    scale: ZZ = ZZ(10) ** abs(power)
+    value = value * scale if power >= 0 else value / scale
+    return -value if minus == "-" else value
+
+
+def shorten(text: object, limit: int = 60) -> str:
+    """The text of a value, cut so that a message stays one readable line."""
+    shown = repr(text)
+    return shown if len(shown) <= limit else f"{shown[: limit - 12]}...{shown[-8:]}"
+
+
+def rational(value: Rational) -> QQ:
+    """The exact rational that ``value`` denotes.
+
+    Accepts ints, Fractions, gmpy2 ``mpz`` and ``mpq``, numpy integers, finite
+    floats (their exact binary value), and the strings of `parse_rational`.
+
+    Raises:
+        InputError: for anything else (booleans, NaN, infinities, inexact ``mpfr``).
+    """
+    if isinstance(value, _EXACT):
+        return value
+    if isinstance(value, str):
+        return parse_rational(value)
+    if isinstance(value, float):  # numpy.float64 too
+        if not math.isfinite(value):
+            raise InputError(f"not a finite number: {value!r}")
+        return QQ(*value.as_integer_ratio())
+    if isinstance(value, bool) or type(value).__name__ == "mpfr":
+        raise InputError(f"not an exact number: {value!r}")
+    if hasattr(value, "numerator") and hasattr(value, "denominator"):
+        return QQ(ZZ(int(value.numerator)), ZZ(int(value.denominator)))
+    if hasattr(value, "__index__"):  # numpy integers have no denominator
+        return QQ(ZZ(value.__index__()))
+    raise InputError(f"not a number: {shorten(value)}")
+
+
+def nearest_float(value: QQ) -> float:
+    """The double nearest to ``value``; ±inf beyond the largest double.
+
+    gmpy2 and ``fractions`` round correctly, but the one returns inf and the other
+    raises where the value is too large.
+    """
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
+
+
+def enclosing_floats(value: QQ) -> tuple[float, float]:
+    """The nearest doubles lo <= value <= hi; equal if and only if value is a double."""
+    near = nearest_float(value)
+    if math.isinf(near):
+        largest = math.nextafter(math.inf, 0.0)
+        return (largest, near) if near > 0 else (near, -largest)
+    exact = QQ(*near.as_integer_ratio())
+    if exact == value:
+        return near, near
+    if exact < value:
+        return near, math.nextafter(near, math.inf)
+    return math.nextafter(near, -math.inf), near

@@ -1,0 +1,139 @@
+"""Polynomials over the rationals: what motions are written in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, ClassVar, Final, final
+
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ, Rational, rational
+
+if TYPE_CHECKING:
+    import sympy
+
+__all__ = ["ONE", "ZERO", "Polynomial", "polynomial"]
+
+
+@final
+class Polynomial:
+    """A polynomial in t over the rationals: dense, immutable, hashable.
+
+    >>> f = Polynomial([0, "1/2", -1])
+    >>> f(3)
+    mpq(-15,2)
+    >>> f.derivative()
+    Polynomial(['1/2', '-2'])
+
+    Attributes:
+        coefficients: ``coefficients[i]`` belongs to t**i; the last is never 0, so
+            the zero polynomial has none.
+    """
+
+    __slots__ = ("coefficients",)
+    coefficients: tuple[QQ, ...]
+    __match_args__: ClassVar = ("coefficients",)
+
+    def __init__(self, coefficients: Iterable[Rational] = ()) -> None:
+        values = [rational(c) for c in coefficients]
+        while values and values[-1] == 0:
+            values.pop()
+        object.__setattr__(self, "coefficients", tuple(values))
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a Polynomial cannot be changed: {name}")
+
+    @classmethod
+    def _of(cls, values: list[QQ]) -> Polynomial:
+        while values and values[-1] == 0:
+            values.pop()
+        self = cls.__new__(cls)
+        object.__setattr__(self, "coefficients", tuple(values))
+        return self
+
+    @classmethod
+    def from_sympy(cls, expression: sympy.Expr, variable: sympy.Symbol) -> Polynomial:
+        """The polynomial that a SymPy expression is in ``variable``.
+
+        Raises:
+            InputError: if it is none, or has coefficients that are not rational.
+        """
+        from exactpt.kernel.sympy_door import coefficients_from_sympy
+
+        return cls(coefficients_from_sympy(expression, variable))
+
+    def to_sympy(self, variable: sympy.Symbol) -> sympy.Expr:
+        """The polynomial as a SymPy expression in ``variable``."""
+        from exactpt.kernel.sympy_door import polynomial_to_sympy
+
+        return polynomial_to_sympy(self, variable)
+
+    @property
+    def degree(self) -> int:
+        """The degree; -1 for the zero polynomial."""
+        return len(self.coefficients) - 1
+
+    def __call__(self, t: Rational) -> QQ:
+        """The value at a rational t."""
+        at, value = rational(t), QQ(0)
+        for c in reversed(self.coefficients):
+            value = value * at + c
+        return value
+
+    def __add__(self, other: Polynomial) -> Polynomial:
+        f, g = self.coefficients, other.coefficients
+        if len(f) < len(g):
+            f, g = g, f
+        return Polynomial._of([*(a + b for a, b in zip(f, g, strict=False)), *f[len(g) :]])
+
+    def __neg__(self) -> Polynomial:
+        return Polynomial._of([-c for c in self.coefficients])
+
+    def __sub__(self, other: Polynomial) -> Polynomial:
+        return self + -other
+
+    def __mul__(self, other: Polynomial) -> Polynomial:
+        f, g = self.coefficients, other.coefficients
+        if not f or not g:
+            return ZERO
+        product = [QQ(0)] * (len(f) + len(g) - 1)
+        for i, a in enumerate(f):
+            for j, b in enumerate(g):
+                product[i + j] += a * b
+        return Polynomial._of(product)
+
+    def derivative(self) -> Polynomial:
+        """The derivative."""
+        return Polynomial._of([i * c for i, c in enumerate(self.coefficients) if i])
+
+    def __iter__(self) -> Iterator[QQ]:
+        return iter(self.coefficients)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Polynomial):
+            return NotImplemented
+        return self.coefficients == other.coefficients
+
+    def __hash__(self) -> int:
+        return hash(self.coefficients)
+
+    def __repr__(self) -> str:
+        return f"Polynomial({[str(c) for c in self.coefficients]})"
+
+
+ZERO: Final = Polynomial()
+ONE: Final = Polynomial([1])
+
+
+def polynomial(value: Polynomial | Rational | Iterable[Rational]) -> Polynomial:
+    """A polynomial from itself, from one number (a constant), or from coefficients.
+
+    Raises:
+        InputError: if ``value`` is none of these.
+    """
+    if isinstance(value, Polynomial):
+        return value
+    if isinstance(value, Iterable) and not isinstance(value, str):
+        return Polynomial(value)
+    if isinstance(value, (str, int, float)) or hasattr(value, "numerator"):
+        return Polynomial([value])
+    raise InputError(f"not a polynomial: {value!r}")

@@ -1,0 +1,52 @@
+"""To and from SymPy: the one module that imports it, itself imported only when called."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy
+
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ
+
+if TYPE_CHECKING:
+    from exactpt.kernel.algebraic import AlgebraicNumber
+    from exactpt.kernel.polynomial import Polynomial
+
+__all__ = ["algebraic_to_sympy", "coefficients_from_sympy", "polynomial_to_sympy"]
+
+
+def _rational(value: QQ) -> sympy.Rational:
+    return sympy.Rational(int(value.numerator), int(value.denominator))
+
+
+def coefficients_from_sympy(expression: sympy.Expr, variable: sympy.Symbol) -> list[QQ]:
+    """The rational coefficients of a polynomial expression, constant term first.
+
+    Raises:
+        InputError: if the expression is no polynomial in ``variable`` over the rationals.
+    """
+    try:
+        poly = sympy.Poly(sympy.nsimplify(expression, rational=True), variable, domain="QQ")
+    except (sympy.PolynomialError, sympy.CoercionFailed) as error:
+        raise InputError(f"not a rational polynomial in {variable}: {expression}") from error
+    return [QQ(int(c.p), int(c.q)) for c in reversed(poly.all_coeffs())]
+
+
+def polynomial_to_sympy(f: Polynomial, variable: sympy.Symbol) -> sympy.Expr:
+    """The expression sum(c[i] * variable**i)."""
+    terms = (_rational(c) * variable**i for i, c in enumerate(f.coefficients))
+    return sum(terms, start=sympy.Integer(0))
+
+
+def algebraic_to_sympy(number: AlgebraicNumber) -> sympy.Expr:
+    """A rational, or the real root of the number's polynomial in its interval."""
+    if number.is_rational:
+        return _rational(number.low)
+    t = sympy.Symbol("t")
+    poly = sympy.Poly([int(c) for c in reversed(number.polynomial)], t)
+    low, high = _rational(number.low), _rational(number.high)
+    for root in poly.real_roots(multiple=True):
+        if low < root < high:
+            return root
+    raise AssertionError(f"no root of {poly} in ({low}, {high})")

@@ -1,0 +1,40 @@
+"""Hypothesis profiles, and a limit on refinement.
+
+``dev`` (random, short) is the default; HYPOTHESIS_PROFILE=ci is derandomized and longer.
+"""
+
+import os
+
+import pytest
+from hypothesis import HealthCheck, settings
+
+from exactpt.kernel.algebraic import AlgebraicNumber
+
+settings.register_profile(
+    "dev", max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.register_profile(
+    "ci",
+    max_examples=300,
+    derandomize=True,
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "dev"))
+
+MOST_BITS = 100_000
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _bounded_refinement():
+    """Refinement that runs away fails at once; no test needs a tenth of these bits."""
+    refine = AlgebraicNumber.refine
+
+    def bounded(self):
+        if max(q.denominator.bit_length() for q in (self.low, self.high)) > MOST_BITS:
+            raise AssertionError(f"refined beyond {MOST_BITS} bits: {self.polynomial}")
+        refine(self)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(AlgebraicNumber, "refine", bounded)
+        yield

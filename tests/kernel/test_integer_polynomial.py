@@ -1,0 +1,193 @@
+"""Integer polynomials against FLINT: ring laws, remainders with their sign, gcds."""
+
+from fractions import Fraction
+
+import flint
+from hypothesis import assume, example, given
+from hypothesis import strategies as st
+from oracles import exact, real_roots, value
+from strategies import (
+    as_int_poly,
+    as_rational,
+    fractions,
+    int_polys,
+    planted_polys,
+    small,
+    times,
+    wide_fractions,
+)
+
+from exactpt.kernel.integer_polynomial import (
+    add,
+    derivative,
+    evaluate,
+    from_rationals,
+    greatest_common_divisor,
+    multiply,
+    negate,
+    positive_remainder,
+    primitive,
+    quotient,
+    scale,
+    sign_at,
+    square_free,
+    subtract,
+    trimmed,
+)
+
+nonzero = int_polys.filter(bool)
+huge = st.lists(st.integers(-(2**200), 2**200), max_size=6).map(lambda f: trimmed(as_int_poly(f)))
+polys = st.one_of(int_polys.map(as_int_poly), huge)
+
+
+def oracle(f):
+    return flint.fmpz_poly([int(c) for c in f])
+
+
+def back(f):
+    return as_int_poly(f.coeffs())
+
+
+def over_q(f):
+    return flint.fmpq_poly([int(c) for c in f])
+
+
+@given(f=polys, g=polys)
+def test_sums_and_products_are_flints(f, g):
+    assert add(f, g) == back(oracle(f) + oracle(g))
+    assert subtract(f, g) == back(oracle(f) - oracle(g))
+    assert multiply(f, g) == back(oracle(f) * oracle(g))
+    assert negate(f) == back(-oracle(f))
+
+
+@given(f=polys, g=polys, h=polys)
+def test_ring_laws(f, g, h):
+    assert add(f, g) == add(g, f)
+    assert multiply(f, g) == multiply(g, f)
+    assert add(add(f, g), h) == add(f, add(g, h))
+    assert multiply(multiply(f, g), h) == multiply(f, multiply(g, h))
+    assert multiply(f, add(g, h)) == add(multiply(f, g), multiply(f, h))
+    assert subtract(f, f) == ()
+
+
+@given(f=polys, g=polys)
+def test_the_derivative_of_a_product(f, g):
+    expected = add(multiply(derivative(f), g), multiply(f, derivative(g)))
+
+    assert derivative(multiply(f, g)) == expected
+    assert derivative(f) == back(oracle(f).derivative())
+
+
+@given(f=polys, k=st.one_of(small, st.integers(-(2**100), 2**100)))
+def test_scale(f, k):
+    assert scale(f, k) == back(oracle(f) * k)
+
+
+@given(f=polys, t=wide_fractions)
+@example(f=(), t=Fraction(1))
+@example(f=as_int_poly([-1, 3]), t=Fraction(1, 3))
+def test_values_and_signs(f, t):
+    expected = value(f, t)
+
+    assert exact(evaluate(f, as_rational(t))) == expected
+    assert sign_at(f, as_rational(t)) == (expected > 0) - (expected < 0)
+
+
+@given(f=st.lists(wide_fractions, max_size=5))
+def test_from_rationals_is_the_primitive_positive_multiple(f):
+    g = from_rationals([as_rational(q) for q in f])
+
+    assert primitive(g) == g
+    if not any(f):
+        assert g == ()
+        return
+    while not f[-1]:
+        f.pop()
+    ratio = int(g[-1]) / f[-1]
+    assert ratio > 0
+    assert [ratio * q for q in f] == [int(c) for c in g]
+
+
+@given(f=polys, k=st.integers(1, 10**20))
+def test_primitive_divides_by_the_content_and_keeps_the_sign(f, k):
+    g = primitive(scale(f, k))
+
+    assert g == primitive(f)
+    assert oracle(g).content() == (1 if f else 0)
+    assert [(c > 0) - (c < 0) for c in g] == [(c > 0) - (c < 0) for c in f]
+
+
+@given(f=polys, g=polys.filter(bool))
+def test_the_remainder_is_a_positive_multiple_of_the_rational_one(f, g):
+    expected = divmod(over_q(f), over_q(g))[1]
+
+    remainder = positive_remainder(f, g)
+
+    assert remainder == from_rationals(
+        [as_rational(Fraction(int(c.p), int(c.q))) for c in expected.coeffs()]
+    )
+
+
+@given(f=polys.filter(bool), g=polys.filter(bool), k=st.sampled_from([1, -1, 6, -(10**9)]))
+def test_the_quotient_of_a_product_is_its_factor_up_to_a_positive_number(f, g, k):
+    product = scale(multiply(f, g), k)
+
+    assert quotient(product, f) == primitive(scale(g, k))
+
+
+@given(f=polys, g=polys, h=int_polys.map(as_int_poly))
+def test_gcds_are_flints(f, g, h):
+    f, g = multiply(f, h), multiply(g, h)
+    common = oracle(f).gcd(oracle(g))
+
+    expected = back(common // common.content()) if common else ()
+
+    assert greatest_common_divisor(f, g) == expected
+
+
+@given(f=nonzero)
+def test_the_square_free_part_has_the_roots_once_and_the_leading_sign(f):
+    g = square_free(as_int_poly(f))
+
+    assert g == primitive(g)
+    assert (g[-1] > 0) == (f[-1] > 0)
+    factors = {tuple(p.coeffs()) for p, _ in oracle(f).factor()[1]}
+    assert {tuple(p.coeffs()): m for p, m in oracle(g).factor()[1]} == dict.fromkeys(factors, 1)
+
+
+@given(f=planted_polys(max_factors=2, max_power=3))
+def test_the_square_free_part_keeps_the_real_roots(f):
+    g = square_free(as_int_poly(f))
+
+    expected = [(r.factor, r.index) for r in real_roots(f)]
+    assert [(r.factor, r.index) for r in real_roots(g)] == expected
+
+
+def test_bug_square_free_of_a_negative_square():
+    """-(t - 1)^2 gave -1 - t, whose root is -1: the linear coefficient was negated twice."""
+    assert square_free(as_int_poly([-1, 2, -1])) == as_int_poly([1, -1])
+
+
+@given(q=fractions, k=st.sampled_from([1, -1, 4, -9]))
+def test_the_square_free_part_of_a_square(q, k):
+    line = (-q.numerator, q.denominator)
+    assume(q.denominator > 0)
+
+    f = square_free(as_int_poly(times((k,), line, line)))
+
+    assert f == (primitive(as_int_poly(line)) if k > 0 else negate(primitive(as_int_poly(line))))
+
+
+def test_the_zero_polynomial_and_constants():
+    zero, five = (), as_int_poly([5])
+
+    assert add(zero, five) == five
+    assert multiply(zero, five) == zero
+    assert derivative(five) == zero
+    assert primitive(zero) == zero
+    assert from_rationals([]) == zero
+    assert greatest_common_divisor(zero, zero) == zero
+    assert greatest_common_divisor(zero, negate(five)) == as_int_poly([1])
+    assert positive_remainder(five, five) == zero
+    assert positive_remainder(zero, five) == zero
+    assert square_free(negate(five)) == as_int_poly([-1])

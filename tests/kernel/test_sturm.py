@@ -1,0 +1,123 @@
+"""Sturm's theorem and isolation against SymPy, at multiple roots and interval ends too."""
+
+from fractions import Fraction
+
+import pytest
+import sympy
+from hypothesis import example, given
+from hypothesis import strategies as st
+from oracles import compare_with_rational, exact, real_roots, value
+from strategies import as_int_poly, as_rational, fractions, int_polys, planted_polys, times
+
+from exactpt.errors import InputError
+from exactpt.kernel import sturm
+from exactpt.kernel.numbers import QQ
+from exactpt.kernel.sturm import cauchy_bound, count_roots, isolating_intervals, sturm_sequence
+
+nonzero = int_polys.filter(bool)
+
+
+def in_range(roots, lo, hi):
+    """Those in (lo, hi]."""
+    return [
+        r for r in roots if compare_with_rational(r, lo) > 0 and compare_with_rational(r, hi) <= 0
+    ]
+
+
+@st.composite
+def polys_with_ends(draw):
+    """A polynomial and an interval whose ends are often roots of it."""
+    f = draw(nonzero)
+    roots = [r.low for r in real_roots(f) if r.is_rational]
+    ends = st.one_of(fractions, st.sampled_from(roots)) if roots else fractions
+    return f, *sorted([draw(ends), draw(ends)])
+
+
+@given(case=polys_with_ends())
+@example(case=((0, 0, -1, 1), Fraction(0), Fraction(2)))
+@example(case=((0, 0, -1, 1), Fraction(-1), Fraction(0)))
+@example(case=((1, -3, 3, -1), Fraction(0), Fraction(1)))
+@example(case=((1, -3, 3, -1), Fraction(1), Fraction(1)))
+def test_sturms_theorem(case):
+    """V(lo) - V(hi) is the number of distinct real roots in (lo, hi], ends roots or not."""
+    f, lo, hi = case
+
+    count = count_roots(sturm_sequence(as_int_poly(f)), as_rational(lo), as_rational(hi))
+
+    assert count == len(in_range(real_roots(f), lo, hi))
+
+
+@given(f=nonzero, lo=fractions, hi=fractions)
+def test_the_count_is_sympys(f, lo, hi):
+    """SymPy counts in closed intervals; with an end that is no root, so do we."""
+    lo, hi = sorted([lo, hi])
+    p, t = as_int_poly(f), sympy.Symbol("t")
+    ends = (
+        sympy.Rational(lo.numerator, lo.denominator),
+        sympy.Rational(hi.numerator, hi.denominator),
+    )
+    expected = sympy.Poly(list(reversed(f)), t).count_roots(*ends) - (value(f, lo) == 0)
+
+    assert count_roots(sturm_sequence(p), as_rational(lo), as_rational(hi)) == expected
+
+
+@given(f=nonzero)
+def test_every_complex_root_is_below_cauchys_bound(f):
+    bound = cauchy_bound(as_int_poly(f))
+
+    # |c_n| x^n > sum |c_i| x^i for x = bound: then no root is as large (Cauchy).
+    smaller = sum(abs(c) * bound**i for i, c in enumerate(f[:-1]))
+    assert abs(f[-1]) * bound ** (len(f) - 1) > smaller
+    assert bound.denominator == 1
+    assert bound.numerator.bit_count() == 1
+
+
+@given(case=polys_with_ends())
+@example(case=(times((0, 1), (-1, 1), (-2, 1)), Fraction(0), Fraction(2)))
+@example(case=(times((-1, 1), (-1, 1), (-1, 2)), Fraction(0), Fraction(1)))
+def test_isolating_intervals_hold_one_root_each_from_left_to_right(case):
+    f, lo, hi = case
+    roots = in_range(real_roots(f), lo, hi)
+
+    found = list(isolating_intervals(as_int_poly(f), as_rational(lo), as_rational(hi)))
+
+    assert len(found) == len(roots)
+    for (l, r), root in zip(found, roots, strict=True):
+        left, right = exact(l), exact(r)
+        if left == right:
+            assert compare_with_rational(root, right) == 0
+        else:
+            (alone,) = in_range(roots, left, right)
+            assert alone is root
+
+
+@given(f=planted_polys())
+def test_all_roots_lie_within_cauchys_bound(f):
+    p = as_int_poly(f)
+    bound = cauchy_bound(p)
+
+    assert count_roots(sturm_sequence(p), -bound, bound) == len(real_roots(f))
+
+
+def test_roots_are_isolated_lazily(monkeypatch):
+    """Who asks for the first of 40 roots does not pay for the others."""
+    f = as_int_poly(times(*[(-k, 1) for k in range(1, 41)]))
+    evaluations = []
+    plain = sturm._variations
+    monkeypatch.setattr(
+        sturm, "_variations", lambda sequence, t: evaluations.append(t) or plain(sequence, t)
+    )
+
+    next(isolating_intervals(f, QQ(0), QQ(64)))
+    first = len(evaluations)
+    list(isolating_intervals(f, QQ(0), QQ(64)))
+
+    assert first < 10
+    assert len(evaluations) - first > 40
+
+
+def test_refusals():
+    with pytest.raises(InputError):
+        sturm_sequence(())
+    with pytest.raises(InputError):
+        count_roots(sturm_sequence(as_int_poly([0, 1])), QQ(1), QQ(0))
