@@ -1,0 +1,1 @@
+"""Points over time: motions, bodies, and the tracks of their vertices."""

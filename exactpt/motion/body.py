@@ -1,0 +1,219 @@
+"""Bodies: a shape, its motion, its name; and from these the tracks of the vertices."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, final
+
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.kernel.polynomial import Polynomial, polynomial
+from exactpt.motion.motions import REST, Coefficients, Motion, Pieces, Position, SimpleMotion
+from exactpt.motion.track import Track
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["Body", "BodyPiece", "Keyframe", "VertexLike"]
+
+VertexLike: TypeAlias = (
+    "Sequence[Rational] | Mapping[str, Coefficients] | tuple[Polynomial, Polynomial]"
+)
+"""A vertex as a caller may write it: (x, y), or {"x": polynomial, "y": polynomial}."""
+
+
+class Keyframe(NamedTuple):
+    """The shape of a deforming body at one time."""
+
+    t: QQ
+    vertices: tuple[tuple[QQ, QQ], ...]
+
+
+class BodyPiece(NamedTuple):
+    """What a body does up to a time.
+
+    Attributes:
+        until: the last time of the piece; None for ever.
+        tracks: one for each vertex, in the order of the scene.
+    """
+
+    until: QQ | None
+    tracks: tuple[Track, ...]
+
+
+@final
+class Body:
+    """A closed set that moves: a point, a segment, an open chain, or a simple polygon.
+
+    Args:
+        name: unique in its scene.
+        vertices: one (a point), two (a segment) or more; each a pair of numbers, or a
+            mapping with polynomials "x" and "y" (missing: 0) for a vertex that moves in
+            the body's frame. A numpy array of shape (n, 2) will do. Either orientation.
+        motion: carries the shape; at rest if not given.
+        closed: False for an open chain.
+        keyframes: instead of vertices: pairs (t, vertices) with increasing t; linear in
+            between, at rest before the first and after the last.
+
+    Raises:
+        InputError: if the arguments do not describe a body, or the motion jumps.
+    """
+
+    __slots__ = ("_shapes", "closed", "keyframes", "motion", "name", "vertices")
+
+    def __init__(
+        self,
+        name: str,
+        vertices: Iterable[VertexLike] | None = None,
+        motion: Motion = REST,
+        *,
+        closed: bool = True,
+        keyframes: Sequence[tuple[Rational, Sequence[Sequence[Rational]]]] | None = None,
+    ) -> None:
+        if not name:
+            raise InputError("a body has a name that is not empty")
+        if (vertices is None) == (keyframes is None):
+            raise InputError(f"body {name!r}: give either vertices or keyframes")
+        self.name = name
+        self.motion = motion
+        self.closed = closed
+        self.keyframes: tuple[Keyframe, ...] = ()
+        self.vertices: tuple[Position, ...] = ()
+        if keyframes is not None:
+            self.keyframes = _read_keyframes(name, keyframes)
+        else:
+            self.vertices = tuple(
+                _read_vertex(name, i, v)
+                for i, v in enumerate(vertices if vertices is not None else ())
+            )
+        self._shapes = self._shape_pieces()
+        if not self._shapes[0][1]:
+            raise InputError(f"body {name!r}: at least one vertex is needed")
+        self._check_continuity()
+
+    @property
+    def size(self) -> int:
+        """The number of vertices."""
+        return len(self._shapes[0][1])
+
+    @property
+    def breakpoints(self) -> tuple[QQ, ...]:
+        """The rational times at which the formulas of the tracks change, in order."""
+        ends = {until for until, _ in self._shapes if until is not None}
+        if isinstance(self.motion, Pieces):
+            ends.update(self.motion.until)
+        return tuple(sorted(ends))
+
+    def piece_after(self, t: QQ) -> BodyPiece:
+        """What the body does just after a rational time."""
+        end = next((b for b in self.breakpoints if b > t), None)
+        return BodyPiece(end, self._tracks(self._shape_after(t), self._motion_after(t)))
+
+    def at(self, t: Rational) -> list[tuple[QQ, QQ]]:
+        """The exact positions of the vertices at a rational time."""
+        time = rational(t)
+        return [track.at(time) for track in self.piece_after(time).tracks]
+
+    def _tracks(self, shape: Sequence[Position], motion: SimpleMotion) -> tuple[Track, ...]:
+        return tuple(motion.track(position) for position in shape)
+
+    def _shape_pieces(self) -> list[tuple[QQ | None, tuple[Position, ...]]]:
+        if not self.keyframes:
+            return [(None, self.vertices)]
+        first, last = self.keyframes[0], self.keyframes[-1]
+        pieces: list[tuple[QQ | None, tuple[Position, ...]]] = [(first.t, _at_rest(first))]
+        for before, after in zip(self.keyframes, self.keyframes[1:], strict=False):
+            pieces.append((after.t, _between(before, after)))
+        pieces.append((None, _at_rest(last)))
+        return pieces
+
+    def _shape_after(self, t: QQ) -> tuple[Position, ...]:
+        return next(shape for until, shape in self._shapes if until is None or until > t)
+
+    def _motion_after(self, t: QQ) -> SimpleMotion:
+        if not isinstance(self.motion, Pieces):
+            return self.motion
+        for until, motion in zip(self.motion.until, self.motion.motions, strict=False):
+            if until > t:
+                return motion
+        return self.motion.motions[-1]
+
+    def _check_continuity(self) -> None:
+        if not isinstance(self.motion, Pieces):
+            return
+        pairs = zip(self.motion.motions, self.motion.motions[1:], strict=False)
+        for t, (before, after) in zip(self.motion.until, pairs, strict=True):
+            shape = self._shape_after(t)
+            for i, (a, b) in enumerate(
+                zip(self._tracks(shape, before), self._tracks(shape, after), strict=True)
+            ):
+                if a.at(t) != b.at(t):
+                    raise InputError(
+                        f"body {self.name!r}: vertex {i} jumps at t = {t} "
+                        f"from {_show(a.at(t))} to {_show(b.at(t))}"
+                    )
+
+    def __repr__(self) -> str:
+        what = {1: "point", 2: "segment"}.get(self.size, "polygon" if self.closed else "chain")
+        return f"<Body {self.name!r}: {what} of {self.size} vertices>"
+
+
+def _show(position: tuple[QQ, QQ]) -> str:
+    return f"({position[0]}, {position[1]})"
+
+
+def _read_vertex(name: str, index: int, vertex: VertexLike) -> Position:
+    try:
+        if isinstance(vertex, Mapping):
+            unknown = set(vertex) - {"x", "y"}
+            if unknown:
+                raise InputError(f"unknown key {min(unknown)!r}")
+            return polynomial(vertex.get("x", ())), polynomial(vertex.get("y", ()))
+        if isinstance(vertex, str) or len(vertex) != 2:
+            raise InputError(f"a vertex has two coordinates: {vertex!r}")
+        return polynomial(vertex[0]), polynomial(vertex[1])
+    except InputError as error:
+        raise InputError(f"body {name!r}: vertex {index}: {error}") from None
+
+
+def _read_keyframes(
+    name: str, keyframes: Sequence[tuple[Rational, Sequence[Sequence[Rational]]]]
+) -> tuple[Keyframe, ...]:
+    frames: list[Keyframe] = []
+    for i, (t, vertices) in enumerate(keyframes):
+        try:
+            points = tuple((rational(v[0]), rational(v[1])) for v in vertices)
+            frame = Keyframe(rational(t), points)
+        except InputError as error:
+            raise InputError(f"body {name!r}: keyframe {i}: {error}") from None
+        if frames and frame.t <= frames[-1].t:
+            raise InputError(
+                f"body {name!r}: keyframe {i}: t = {frame.t} is not after {frames[-1].t}"
+            )
+        if frames and len(points) != len(frames[0].vertices):
+            raise InputError(
+                f"body {name!r}: keyframe {i}: {len(points)} vertices, "
+                f"but keyframe 0 has {len(frames[0].vertices)}"
+            )
+        frames.append(frame)
+    if not frames:
+        raise InputError(f"body {name!r}: at least one keyframe is needed")
+    return tuple(frames)
+
+
+def _at_rest(frame: Keyframe) -> tuple[Position, ...]:
+    return tuple((Polynomial([x]), Polynomial([y])) for x, y in frame.vertices)
+
+
+def _between(before: Keyframe, after: Keyframe) -> tuple[Position, ...]:
+    """Each vertex on a line: a + (b - a) (t - t0) / (t1 - t0)."""
+    span = after.t - before.t
+
+    def line(a: QQ, b: QQ) -> Polynomial:
+        slope = (b - a) / span
+        return Polynomial([a - slope * before.t, slope])
+
+    return tuple(
+        (line(x0, x1), line(y0, y1))
+        for (x0, y0), (x1, y1) in zip(before.vertices, after.vertices, strict=True)
+    )

@@ -1,0 +1,210 @@
+"""Float images of tracks: doubles with proven errors, in a frame where they are of moderate size.
+
+The frame shifts and scales space and time: x' = (x - cx) / 2^s, likewise y with a
+scale of its own, t' = (t - t0) / 2^r. Signs of orientations and of differences of
+coordinates, and the order of times, do not change. So a scene far from the origin, or
+very small or large, is filtered as well as any other.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Final, final
+
+from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of_two
+
+if TYPE_CHECKING:
+    from exactpt.kernel.algebraic import AlgebraicNumber
+    from exactpt.motion.track import Track
+
+__all__ = ["Frame", "Image", "frame_for"]
+
+U: Final = 2.0**-53
+SMALLEST: Final = 2.0**-100
+LARGEST: Final = 2.0**100
+
+
+@final
+class Image:
+    """The doubles next to the coefficients of a track, in a frame.
+
+    Coefficients that are 0 or of size 2^-100 to 2^100 are the nearest doubles; if one
+    is outside, ``x0`` and all others are NaN, which no filter accepts.
+
+    Attributes:
+        x0, x1, y0, y1: the constant and linear coefficients of a track that translates.
+        xs, ys: all its coefficients, of one length; ``degree`` + 1 each.
+        ws: the denominator's coefficients if the track turns, else empty (a constant
+            denominator is divided out).
+        degree: the degree of the path; of the numerators if it turns.
+        motion: vertices of equal ``motion`` keep their difference (translating) or
+            their distances (turning) for ever; -1 is equal to nothing.
+    """
+
+    __slots__ = ("degree", "motion", "ws", "x0", "x1", "xs", "y0", "y1", "ys")
+
+    def __init__(self, xs: list[float], ys: list[float], ws: list[float], motion: int) -> None:
+        self.xs = xs
+        self.ys = ys
+        self.ws = ws
+        self.degree: int = len(xs) - 1
+        self.x0: float = xs[0]
+        self.y0: float = ys[0]
+        self.x1: float = xs[1] if len(xs) > 1 else 0.0
+        self.y1: float = ys[1] if len(ys) > 1 else 0.0
+        self.motion: int = motion
+
+
+@final
+class Frame:
+    """A frame, the identities of motions in it, and the errors of its images.
+
+    Attributes:
+        errors: ``errors[i]`` bounds the error of coefficient i of every image of a
+            translating track made so far, in x and in y; 0 while all are exact.
+    """
+
+    def __init__(
+        self, center: tuple[QQ, QQ], scale: tuple[int, int], origin: QQ, time_scale: int
+    ) -> None:
+        self._center = center
+        self._scale = scale
+        self._origin = origin
+        self._time_scale = time_scale
+        self._identity = (
+            center == (QQ(0), QQ(0)) and scale == (0, 0) and origin == 0 and time_scale == 0
+        )
+        self._motions: dict[object, int] = {}
+        self.errors: list[float] = [0.0, 0.0]
+
+    def point(self, position: tuple[QQ, QQ]) -> tuple[float, float]:
+        """The doubles nearest to a position."""
+        if self._identity:
+            return nearest_float(position[0]), nearest_float(position[1])
+        return (
+            nearest_float((position[0] - self._center[0]) * power_of_two(-self._scale[0])),
+            nearest_float((position[1] - self._center[1]) * power_of_two(-self._scale[1])),
+        )
+
+    def time(self, t: QQ) -> tuple[float, float]:
+        """Doubles that enclose a rational time."""
+        if self._identity:
+            return enclosing_floats(t)
+        return enclosing_floats((t - self._origin) * power_of_two(-self._time_scale))
+
+    def enclosure(self, t: AlgebraicNumber) -> tuple[float, float]:
+        """Doubles that enclose an algebraic time, neighbours or nearly so."""
+        if self._identity:
+            return t.enclosure()
+        while True:
+            lo, hi = self.time(t.low)[0], self.time(t.high)[1]
+            if hi <= math.nextafter(math.nextafter(lo, math.inf), math.inf) or t.is_rational:
+                return lo, hi
+            t.refine()
+
+    def exact_time(self, t: float) -> QQ:
+        """The rational time that a double of the frame stands for."""
+        return QQ(*t.as_integer_ratio()) * power_of_two(self._time_scale) + self._origin
+
+    def image(self, track: Track) -> Image:
+        """The image of a track."""
+        motion = -1
+        if track.frame is not None:
+            motion = self._motions.setdefault(track.frame, len(self._motions))
+        x, y, w = self._moved(track)
+        size = max(len(x), len(y), 1)
+        if len(w) > 1:
+            size = max(size, len(w))
+            ws, divisor = _floats(w, QQ(1), size), QQ(1)
+        else:
+            ws, divisor = [], QQ(w[0])
+        xs, ys = _floats(x, divisor, size), _floats(y, divisor, size)
+        if not (_moderate(xs) and _moderate(ys) and _moderate(ws)):
+            nan = [math.nan] * size
+            return Image(nan, nan, nan if ws else [], motion)
+        if not ws:
+            self.errors += [0.0] * (size - len(self.errors))
+            self._note_errors(x, xs, divisor)
+            self._note_errors(y, ys, divisor)
+        return Image(xs, ys, ws, motion)
+
+    def _moved(self, track: Track) -> tuple[Sequence[QQ], Sequence[QQ], Sequence[QQ]]:
+        """The track's coefficients in the frame (still exact; any common factor)."""
+        if self._identity:
+            return track.x, track.y, track.w  # type: ignore[return-value]
+        cx, cy = self._center
+        x, y, w = ([QQ(c) for c in part] for part in (track.x, track.y, track.w))
+        x = _combine(x, w, -cx, power_of_two(-self._scale[0]))
+        y = _combine(y, w, -cy, power_of_two(-self._scale[1]))
+        step = power_of_two(self._time_scale)
+        return tuple(_substituted(f, self._origin, step) for f in (x, y, w))  # type: ignore[return-value]
+
+    def _note_errors(self, exact: Sequence[QQ], floats: list[float], divisor: QQ) -> None:
+        for i, c in enumerate(exact):
+            value = floats[i]
+            if value and QQ(*value.as_integer_ratio()) * divisor != c:
+                self.errors[i] = max(self.errors[i], abs(value) * (2.0 * U))
+
+
+def _floats(coefficients: Iterable[QQ], divisor: QQ, size: int) -> list[float]:
+    one = divisor == 1
+    values = [nearest_float(c if one else c / divisor) for c in coefficients]
+    return values + [0.0] * (size - len(values))
+
+
+def _moderate(values: list[float]) -> bool:
+    return all(v == 0.0 or SMALLEST <= abs(v) <= LARGEST for v in values)
+
+
+def _combine(f: list[QQ], g: list[QQ], a: QQ, factor: QQ) -> list[QQ]:
+    """(f + a g) * factor."""
+    size = max(len(f), len(g))
+    f = f + [QQ(0)] * (size - len(f))
+    g = g + [QQ(0)] * (size - len(g))
+    return [(x + a * y) * factor for x, y in zip(f, g, strict=True)]
+
+
+def _substituted(f: list[QQ], origin: QQ, step: QQ) -> list[QQ]:
+    """f(origin + step * t)."""
+    f = f[:]
+    n = len(f)
+    if origin:
+        for i in range(n - 1):
+            for j in range(n - 2, i - 1, -1):
+                f[j] += origin * f[j + 1]
+    factor = QQ(1)
+    for i in range(n):
+        f[i] *= factor
+        factor *= step
+    return f
+
+
+def frame_for(points: Sequence[tuple[QQ, QQ]], start: QQ, end: QQ) -> Frame:
+    """A frame in which these points and the time span are of moderate size.
+
+    Shifts and scales only where needed, so that the integers of an ordinary scene stay
+    the integers they are.
+    """
+    cx, sx = _axis([p[0] for p in points])
+    cy, sy = _axis([p[1] for p in points])
+    span = end - start
+    r = _exponent(span)
+    r = 0 if -30 <= r <= 30 else r
+    far = max(abs(start), abs(end)) > 64 * span
+    return Frame((cx, cy), (sx, sy), start if far else QQ(0), r)
+
+
+def _axis(values: list[QQ]) -> tuple[QQ, int]:
+    low, high = min(values), max(values)
+    extent = max(high - low, QQ(0))
+    size = max(abs(low), abs(high))
+    center = low if size > extent * power_of_two(20) and size > power_of_two(40) else QQ(0)
+    exponent = _exponent(extent or size)
+    return center, (0 if -40 <= exponent <= 40 else exponent)
+
+
+def _exponent(value: QQ) -> int:
+    if value == 0:
+        return 0
+    return abs(value.numerator).bit_length() - value.denominator.bit_length()

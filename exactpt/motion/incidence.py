@@ -1,0 +1,62 @@
+"""Incidences: a vertex on an edge or on a vertex, decided exactly at an algebraic time."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, subtract
+from exactpt.motion.track import Track
+
+__all__ = ["Touch", "coincide", "difference", "lies_on", "orientation"]
+
+
+class Touch(NamedTuple):
+    """A vertex on an edge, or on a vertex, numbered as in the scene.
+
+    Attributes:
+        body, vertex: the vertex.
+        other: the body it touches.
+        edge: the edge of ``other``, or -1.
+        other_vertex: the vertex of ``other``, or -1.
+    """
+
+    body: int
+    vertex: int
+    other: int
+    edge: int
+    other_vertex: int
+
+
+def difference(p: IntPoly, pw: IntPoly, q: IntPoly, qw: IntPoly) -> IntPoly:
+    """A positive multiple of q / qw - p / pw."""
+    return subtract(multiply(q, pw), multiply(p, qw))
+
+
+def orientation(a: Track, b: Track, c: Track) -> IntPoly:
+    """A positive multiple of the orientation of three tracks: the determinant of (x, y, w).
+
+    Positive where a, b, c turn left.
+    """
+    bc = difference(c.y, c.w, b.y, b.w)
+    ca = difference(a.y, a.w, c.y, c.w)
+    ab = difference(b.y, b.w, a.y, a.w)
+    return add(add(multiply(a.x, bc), multiply(b.x, ca)), multiply(c.x, ab))
+
+
+def coincide(a: Track, b: Track, t: AlgebraicNumber) -> bool:
+    """Whether two vertices are at one place."""
+    return (
+        t.sign_of(difference(a.x, a.w, b.x, b.w)) == 0
+        and t.sign_of(difference(a.y, a.w, b.y, b.w)) == 0
+    )
+
+
+def lies_on(v: Track, a: Track, b: Track, t: AlgebraicNumber) -> bool:
+    """Whether v is in the closed segment ab: on its line, and (a - v) . (b - v) <= 0."""
+    if t.sign_of(orientation(a, b, v)) != 0:
+        return False
+    along_x = multiply(difference(v.x, v.w, a.x, a.w), difference(v.x, v.w, b.x, b.w))
+    along_y = multiply(difference(v.y, v.w, a.y, a.w), difference(v.y, v.w, b.y, b.w))
+    # Both products have the denominator w(v)^2 w(a) w(b).
+    return t.sign_of(add(along_x, along_y)) <= 0

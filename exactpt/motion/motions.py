@@ -1,0 +1,172 @@
+"""Motions: how a body's rest shape is carried through time.
+
+A motion maps the rest position of a vertex, itself a polynomial in t where the body
+deforms, to the vertex's track. Time is the scene's time, not time since a piece began.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import Final, Protocol, TypeAlias, final
+
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.kernel.polynomial import ONE, ZERO, Polynomial, polynomial
+from exactpt.motion.track import Track, track
+
+__all__ = [
+    "REST",
+    "Affine",
+    "Coefficients",
+    "Motion",
+    "Pieces",
+    "Position",
+    "Rigid",
+    "SimpleMotion",
+    "Translation",
+]
+
+Coefficients: TypeAlias = "Polynomial | Rational | Iterable[Rational]"
+"""A polynomial as a caller may write it: coefficients (constant first), or a number."""
+
+Position: TypeAlias = tuple[Polynomial, Polynomial]
+"""The coordinates of a vertex in its body's frame; constants unless the body deforms."""
+
+
+class SimpleMotion(Protocol):
+    """A motion by one formula for all time."""
+
+    def track(self, position: Position) -> Track:
+        """The track of the vertex with this position in the body's frame."""
+        ...
+
+
+@final
+class Translation:
+    """A translation by (x(t), y(t)), added to every vertex."""
+
+    __slots__ = ("x", "y")
+
+    def __init__(self, x: Coefficients = ZERO, y: Coefficients = ZERO) -> None:
+        self.x = polynomial(x)
+        self.y = polynomial(y)
+
+    def track(self, position: Position) -> Track:
+        """The track of the vertex with this position in the body's frame."""
+        return track(position[0] + self.x, position[1] + self.y, None, None)
+
+    def __repr__(self) -> str:
+        return f"Translation(x={self.x!r}, y={self.y!r})"
+
+
+REST: Final = Translation()
+
+
+@final
+class Rigid:
+    """A turn about ``pivot`` by the angle a(t), tan(a / 2) = half_turn(t), then a translation.
+
+    With h = half_turn, cos a = (1 - h^2) / (1 + h^2) and sin a = 2 h / (1 + h^2): the
+    coordinates are rational functions with the positive denominator 1 + h^2.
+    """
+
+    __slots__ = ("half_turn", "pivot", "x", "y")
+
+    def __init__(
+        self,
+        half_turn: Coefficients,
+        *,
+        pivot: Sequence[Rational] = (0, 0),
+        x: Coefficients = ZERO,
+        y: Coefficients = ZERO,
+    ) -> None:
+        if len(pivot) != 2:
+            raise InputError(f"a pivot has two coordinates: {pivot!r}")
+        self.pivot: tuple[QQ, QQ] = (rational(pivot[0]), rational(pivot[1]))
+        self.half_turn = polynomial(half_turn)
+        self.x = polynomial(x)
+        self.y = polynomial(y)
+
+    def track(self, position: Position) -> Track:
+        """The track of the vertex with this position in the body's frame."""
+        px, py = Polynomial([self.pivot[0]]), Polynomial([self.pivot[1]])
+        h = self.half_turn
+        w, cosine, sine = ONE + h * h, ONE - h * h, h + h
+        dx, dy = position[0] - px, position[1] - py
+        x = cosine * dx - sine * dy + w * (px + self.x)
+        y = sine * dx + cosine * dy + w * (py + self.y)
+        if h.degree <= 0:
+            scale = Polynomial([1 / w(0)])
+            return track(x * scale, y * scale, None, None)
+        rigid = position[0].degree <= 0 and position[1].degree <= 0
+        frame = ("turn", h, self.pivot, self.x, self.y) if rigid else None
+        return track(x, y, w, frame)
+
+    def __repr__(self) -> str:
+        pivot = (str(self.pivot[0]), str(self.pivot[1]))
+        return f"Rigid({self.half_turn!r}, pivot={pivot}, x={self.x!r}, y={self.y!r})"
+
+
+@final
+class Affine:
+    """The map (u, v) -> M(t) (u, v) + (x(t), y(t)), with a 2 x 2 matrix of polynomials."""
+
+    __slots__ = ("matrix", "x", "y")
+
+    def __init__(
+        self,
+        matrix: Sequence[Sequence[Coefficients]],
+        *,
+        x: Coefficients = ZERO,
+        y: Coefficients = ZERO,
+    ) -> None:
+        if len(matrix) != 2 or any(len(row) != 2 for row in matrix):
+            raise InputError(f"an affine motion has a 2 x 2 matrix: {matrix!r}")
+        (a, b), (c, d) = matrix
+        self.matrix = ((polynomial(a), polynomial(b)), (polynomial(c), polynomial(d)))
+        self.x = polynomial(x)
+        self.y = polynomial(y)
+
+    def track(self, position: Position) -> Track:
+        """The track of the vertex with this position in the body's frame."""
+        (a, b), (c, d) = self.matrix
+        u, v = position
+        return track(a * u + b * v + self.x, c * u + d * v + self.y, None, None)
+
+    def __repr__(self) -> str:
+        return f"Affine({self.matrix!r}, x={self.x!r}, y={self.y!r})"
+
+
+@final
+class Pieces:
+    """Motions one after the other: each holds until its time, the last for ever.
+
+    Where two pieces meet, every vertex must be at the same place under both; the body
+    checks it, since it knows the vertices.
+    """
+
+    __slots__ = ("motions", "until")
+
+    def __init__(self, pieces: Sequence[tuple[Rational | None, SimpleMotion]]) -> None:
+        if not pieces:
+            raise InputError("a piecewise motion has at least one piece")
+        if pieces[-1][0] is not None:
+            raise InputError(f"the last piece has no end: until = {pieces[-1][0]}")
+        ends: list[QQ] = []
+        for end, _ in pieces[:-1]:
+            if end is None:
+                raise InputError("only the last piece may go on for ever")
+            ends.append(rational(end))
+        for before, after in pairwise(ends):
+            if before >= after:
+                raise InputError(f"pieces end in increasing order: {before}, then {after}")
+        self.until: tuple[QQ, ...] = tuple(ends)
+        self.motions: tuple[SimpleMotion, ...] = tuple(motion for _, motion in pieces)
+
+    def __repr__(self) -> str:
+        ends = [*map(str, self.until), None]
+        return f"Pieces({list(zip(ends, self.motions, strict=True))!r})"
+
+
+Motion: TypeAlias = "SimpleMotion | Pieces"

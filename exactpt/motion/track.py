@@ -1,0 +1,69 @@
+"""Tracks: where one vertex is at every time, in homogeneous integer polynomials."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from typing import final
+
+from exactpt.kernel.integer_polynomial import IntPoly, evaluate
+from exactpt.kernel.numbers import QQ, ZZ, gcd
+from exactpt.kernel.polynomial import Polynomial
+
+__all__ = ["Track", "track"]
+
+
+@final
+class Track:
+    """The path (x / w, y / w) of a vertex, with integer polynomials x, y, w in t.
+
+    Attributes:
+        x, y: numerators.
+        w: their denominator, positive at every time; a constant unless the body turns.
+        frame: tracks with equal frames keep their distances for ever: they translate
+            together, or (w not constant) turn together. ``None`` is equal to nothing.
+    """
+
+    __slots__ = ("frame", "w", "x", "y")
+
+    def __init__(self, x: IntPoly, y: IntPoly, w: IntPoly, frame: Hashable) -> None:
+        self.x = x
+        self.y = y
+        self.w = w
+        self.frame = frame
+
+    def at(self, t: QQ) -> tuple[QQ, QQ]:
+        """The exact position at a rational time."""
+        if len(self.w) == 1:
+            return evaluate(self.x, t) / self.w[0], evaluate(self.y, t) / self.w[0]
+        w = evaluate(self.w, t)
+        return evaluate(self.x, t) / w, evaluate(self.y, t) / w
+
+    def __repr__(self) -> str:
+        return f"Track({self.x}, {self.y}, {self.w})"
+
+
+def track(x: Polynomial, y: Polynomial, w: Polynomial | None, turning: Hashable) -> Track:
+    """The track of (x / w, y / w), brought to integers; ``w`` None stands for 1.
+
+    ``turning`` identifies the motion of a vertex that turns; a vertex that only
+    translates is identified by its coefficients of t, t^2, ...
+    """
+    if w is None:
+        frame: Hashable = (x.coefficients[1:], y.coefficients[1:])
+        parts = [x.coefficients, y.coefficients]
+    else:
+        frame = turning
+        parts = [x.coefficients, y.coefficients, w.coefficients]
+    denominator = ZZ(1)
+    for part in parts:
+        for c in part:
+            if denominator % c.denominator:
+                denominator = _lcm(denominator, ZZ(c.denominator))
+    scaled = [
+        tuple([ZZ(c.numerator) * (denominator // c.denominator) for c in part]) for part in parts
+    ]
+    return Track(scaled[0], scaled[1], scaled[2] if w is not None else (denominator,), frame)
+
+
+def _lcm(a: ZZ, b: ZZ) -> ZZ:
+    return a * (b // gcd(a, b))

@@ -1,0 +1,180 @@
+"""The moving vertices of a scene: what every tiling is built on.
+
+Each body becomes a ring of vertices, counter-clockwise, with the body on the left of
+its edges. So that every ring turns around an inside, thin bodies get an infinitesimal
+one: a point becomes a triangle and a segment a rectangle, whose vertices are several
+copies of one vertex of the scene. A copy carries the direction of its offset, which says
+only in which directions a line may touch it. Contacts are decided without the offsets.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Final, final
+
+from exactpt.errors import InputError
+from exactpt.geometry.polygon import signed_area2
+from exactpt.kernel.integer_polynomial import IntPoly, multiply, subtract
+from exactpt.kernel.numbers import QQ, ZZ
+from exactpt.motion.frame import Frame, Image, frame_for
+from exactpt.motion.track import Track
+
+if TYPE_CHECKING:
+    from exactpt.motion.body import Body
+
+__all__ = ["MovingBody", "Vertex", "Vertices"]
+
+_NO_TRACK: Final = Track((), (), (ZZ(1),), None)
+_NO_IMAGE: Final = Image([0.0], [0.0], [], -1)
+
+# A triangle with no side in a direction that rows and columns of points have.
+_POINT_OFFSETS: Final = ((-3, 1), (1, -4), (2, 3))
+
+
+@final
+class Vertex:
+    """A vertex of a ring.
+
+    Attributes:
+        id: its position in `Vertices.all`.
+        body: the position of its body in the scene.
+        index: the vertex of the scene that it is (the copies of a thin body share it).
+        track: its path until the body's next breakpoint.
+        image: the track in doubles.
+        offset: the direction (dx, dy) of its infinitesimal offset, polynomials in t; None
+            unless the body is thin.
+        ahead, behind: the ids of its neighbours on the ring.
+    """
+
+    __slots__ = ("ahead", "behind", "body", "id", "image", "index", "offset", "track")
+
+    def __init__(self, vertex_id: int, body: int, index: int, track: Track, image: Image) -> None:
+        self.id: int = vertex_id
+        self.body: int = body
+        self.index: int = index
+        self.track: Track = track
+        self.image: Image = image
+        self.offset: tuple[IntPoly, IntPoly] | None = None
+        self.ahead: int = -1
+        self.behind: int = -1
+
+
+@final
+class MovingBody:
+    """A body as a ring of vertices, with its current piece of motion.
+
+    Attributes:
+        ring: vertex ids, counter-clockwise.
+        until: the next rational time at which its tracks change; None if there is none.
+        horizon: a double at least ``until`` in the frame; infinite for None.
+        deforms: whether distances between its vertices may change, in the current piece.
+        is_tiled: whether its inside is tiled: it deforms at some time, and has a diagonal.
+    """
+
+    __slots__ = ("body", "deforms", "horizon", "is_tiled", "ring", "until")
+
+    def __init__(self, body: Body) -> None:
+        self.body = body
+        self.ring: list[int] = []
+        self.until: QQ | None = None
+        self.horizon: float = float("inf")
+        self.deforms: bool = False
+        self.is_tiled: bool = False
+
+
+@final
+class Vertices:
+    """The rings of all bodies from a time on.
+
+    With ``tile_insides``, polygons that ever deform are marked as tiled inside.
+
+    Attributes:
+        all: the vertices, by id; those of a body are consecutive.
+        bodies: in the order of the scene.
+        frame: in which the images are.
+    """
+
+    def __init__(
+        self, bodies: Sequence[Body], start: QQ, end: QQ, *, tile_insides: bool = False
+    ) -> None:
+        positions = [body.at(start) for body in bodies]
+        flat = [p for points in positions for p in points]
+        self.frame: Frame = frame_for(flat or [(QQ(0), QQ(0))], start, end)
+        self.all: list[Vertex] = []
+        self.bodies: list[MovingBody] = []
+        for i, body in enumerate(bodies):
+            moving = MovingBody(body)
+            self.bodies.append(moving)
+            for index in _ring_indices(body, positions[i]):
+                vertex = Vertex(len(self.all), i, index, _NO_TRACK, _NO_IMAGE)
+                moving.ring.append(vertex.id)
+                self.all.append(vertex)
+            for behind, here in zip(moving.ring, [*moving.ring[1:], moving.ring[0]], strict=True):
+                self.all[behind].ahead = here
+                self.all[here].behind = behind
+            self.enter_piece(i, start)
+            moving.is_tiled = (
+                tile_insides and len(positions[i]) > 3 and self._ever_deforms(i, start)
+            )
+
+    def _ever_deforms(self, i: int, start: QQ) -> bool:
+        """Whether a body deforms in any of its pieces from a time on."""
+        body = self.bodies[i].body
+        return any(
+            _deforms([self.frame.image(track) for track in body.piece_after(t).tracks])
+            for t in (start, *(b for b in body.breakpoints if b > start))
+        )
+
+    def enter_piece(self, i: int, t: QQ) -> None:
+        """Give the vertices of a body the tracks that hold just after a rational time."""
+        moving = self.bodies[i]
+        piece = moving.body.piece_after(t)
+        moving.until = piece.until
+        moving.horizon = float("inf") if piece.until is None else self.frame.time(piece.until)[1]
+        images = [self.frame.image(track) for track in piece.tracks]
+        moving.deforms = _deforms(images)
+        for copy, vertex_id in enumerate(moving.ring):
+            vertex = self.all[vertex_id]
+            vertex.track = piece.tracks[vertex.index]
+            vertex.image = images[vertex.index]
+            vertex.offset = _offset(piece.tracks, copy)
+
+    def name(self, vertex_id: int) -> str:
+        """The name in event logs: ``"body:vertex"``."""
+        vertex = self.all[vertex_id]
+        return f"{self.bodies[vertex.body].body.name}:{vertex.index}"
+
+
+def _deforms(images: Sequence[Image]) -> bool:
+    first = images[0].motion
+    return first < 0 or any(image.motion != first for image in images)
+
+
+def _ring_indices(body: Body, positions: list[tuple[QQ, QQ]]) -> list[int]:
+    size = len(positions)
+    if size == 1:
+        return [0, 0, 0]
+    if size == 2:
+        return [0, 0, 1, 1]
+    if not body.closed:
+        raise InputError(f"body {body.name!r}: open chains have no tiling yet")
+    ring = list(range(size))
+    return ring if signed_area2(positions) > 0 else ring[::-1]
+
+
+def _offset(tracks: Sequence[Track], copy: int) -> tuple[IntPoly, IntPoly] | None:
+    """The offset of the copy-th ring vertex of a thin body.
+
+    A segment from a to b has the ring a-left, a-right, b-right, b-left; "left" is the
+    direction (-dy, dx) for (dx, dy) = b - a, whatever its length.
+    """
+    if len(tracks) == 1:
+        right, up = _POINT_OFFSETS[copy]
+        return (ZZ(right),), (ZZ(up),)
+    if len(tracks) == 2:
+        a, b = tracks
+        dx = subtract(multiply(b.x, a.w), multiply(a.x, b.w))
+        dy = subtract(multiply(b.y, a.w), multiply(a.y, b.w))
+        left = copy in (0, 3)
+        return (subtract((), dy), dx) if left else (dy, subtract((), dx))
+    return None

@@ -1,0 +1,1 @@
+"""What is given: bodies and a time span, and their file format."""

@@ -1,0 +1,1 @@
+"""Seeded scene families, from generic to wholly degenerate; see `exactpt.scene.generate`."""

@@ -1,0 +1,124 @@
+"""Convex bodies in all kinds of motion: generic scenes."""
+
+from __future__ import annotations
+
+from random import Random
+
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, Translation
+from exactpt.scene.families.shapes import cells, convex_polygon, poly, shape, velocity
+from exactpt.scene.scene import Scene
+
+__all__ = [
+    "ballistic",
+    "convex",
+    "deforming",
+    "keyframed",
+    "mixed_shapes",
+    "pieces",
+    "turning",
+]
+
+
+def convex(rng: Random) -> Scene:
+    """Convex polygons in linear motion."""
+    k = rng.randint(2, 12)
+    bodies = [
+        Body(f"b{i}", convex_polygon(rng, c, 40, rng.randint(3, 9)), velocity(rng, 50))
+        for i, c in enumerate(cells(rng, k, 100))
+    ]
+    return Scene(bodies, (0, rng.choice([1, 2, 5])))
+
+
+def mixed_shapes(rng: Random) -> Scene:
+    """Convex polygons, segments and points in linear motion."""
+    k = rng.randint(1, 12)
+    bodies = [
+        Body(f"b{i}", shape(rng, c, 40), velocity(rng, 50))
+        for i, c in enumerate(cells(rng, k, 100))
+    ]
+    return Scene(bodies, (0, rng.choice([1, 2, 5])))
+
+
+def ballistic(rng: Random) -> Scene:
+    """Shapes on parabolas."""
+    k = rng.randint(2, 9)
+    bodies = []
+    for i, c in enumerate(cells(rng, k, 100)):
+        x = poly(0, rng.randint(-50, 50), QQ(rng.randint(-20, 20), 2))
+        y = poly(0, rng.randint(-50, 50), QQ(rng.randint(-20, 20), 2))
+        bodies.append(Body(f"b{i}", shape(rng, c, 40), Translation(x, y)))
+    return Scene(bodies, (0, rng.choice([1, 2, 4])))
+
+
+def turning(rng: Random) -> Scene:
+    """Shapes that turn while they move."""
+    k = rng.randint(2, 7)
+    bodies = []
+    for i, c in enumerate(cells(rng, k, 100)):
+        outline = shape(rng, c, 30)
+        if rng.random() < 0.7:
+            pivot = (c[0] + rng.randint(-5, 5), c[1] + rng.randint(-5, 5))
+            half_turn = poly(rng.randint(-1, 1), QQ(rng.randint(-4, 4), 4))
+            move = velocity(rng, 20)
+            motion: Motion = Rigid(half_turn, pivot=pivot, x=move.x, y=move.y)
+        else:
+            motion = velocity(rng, 20)
+        bodies.append(Body(f"b{i}", outline, motion))
+    return Scene(bodies, (0, rng.choice([1, 2])))
+
+
+def deforming(rng: Random) -> Scene:
+    """Convex shapes under affine maps with positive determinant, or scaled and sheared."""
+    k = rng.randint(2, 7)
+    bodies = []
+    for i, c in enumerate(cells(rng, k, 100)):
+        outline = shape(rng, c, 25)
+        a = QQ(rng.randint(-2, 2), 4)
+        b = QQ(rng.randint(-2, 2), 8)
+        move = velocity(rng, 20)
+        # The matrix [[1 + a t / 2, b t], [-b t, 1 + a t / 2]] has positive determinant.
+        p = poly(1, a / 2) if a >= 0 else poly(1, 0, a * a / 8)
+        matrix = [[p, poly(0, b)], [poly(0, -b), p]]
+        centered = [(v[0] - c[0], v[1] - c[1]) for v in outline]
+        x, y = poly(c[0]) + move.x, poly(c[1]) + move.y
+        bodies.append(Body(f"b{i}", centered, Affine(matrix, x=x, y=y)))
+    return Scene(bodies, (0, rng.choice([1, 2, 3])))
+
+
+def pieces(rng: Random) -> Scene:
+    """Shapes that change their velocity at rational times, some at the same one."""
+    k = rng.randint(2, 9)
+    bodies = []
+    for i, c in enumerate(cells(rng, k, 100)):
+        bodies.append(Body(f"b{i}", shape(rng, c, 40), _zigzag(rng)))
+    return Scene(bodies, (0, 4))
+
+
+def keyframed(rng: Random) -> Scene:
+    """Triangles, segments and points between keyframes."""
+    k = rng.randint(2, 6)
+    bodies = []
+    for i, c in enumerate(cells(rng, k, 100)):
+        size = rng.choice([1, 2, 3, 3])
+        outline = convex_polygon(rng, c, 40, 3)[:size]
+        times = sorted(rng.sample(range(-1, 5), rng.randint(1, 3)))
+        frames = [
+            (t, [(x + rng.randint(-9, 9), y + rng.randint(-9, 9)) for x, y in outline])
+            for t in times
+        ]
+        bodies.append(Body(f"b{i}", keyframes=frames))
+    return Scene(bodies, (0, 4))
+
+
+def _zigzag(rng: Random) -> Motion:
+    ends = sorted(rng.sample([QQ(n, 2) for n in range(1, 8)], rng.randint(1, 3)))
+    x = y = t = QQ(0)
+    parts: list[tuple[QQ | None, Translation]] = []
+    for end in (*ends, None):
+        vx, vy = rng.randint(-40, 40), rng.randint(-40, 40)
+        parts.append((end, Translation([x - vx * t, vx], [y - vy * t, vy])))
+        if end is not None:
+            x, y, t = x + vx * (end - t), y + vy * (end - t), end
+    return Pieces(parts)

@@ -1,0 +1,122 @@
+"""Convex bodies where everything coincides: grids, rows, mirror images, grazing passes."""
+
+from __future__ import annotations
+
+from random import Random
+
+from exactpt.geometry.predicates import Point
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Rigid, Translation
+from exactpt.scene.families.shapes import box, cells, poly, shape, velocity
+from exactpt.scene.scene import Scene
+
+__all__ = [
+    "convoy",
+    "grazing",
+    "grids_passing",
+    "mirrored",
+    "polygons_in_step",
+    "row",
+    "small_grid",
+]
+
+
+def small_grid(rng: Random) -> Scene:
+    """Shapes with tiny integer coordinates and velocities: everything coincides."""
+    k = rng.randint(2, 8)
+    bodies = [
+        Body(f"b{i}", shape(rng, c, 1), velocity(rng, 1)) for i, c in enumerate(cells(rng, k, 3))
+    ]
+    return Scene(bodies, (0, rng.choice([1, 3, 6])))
+
+
+def grids_passing(rng: Random) -> Scene:
+    """Two grids of equal boxes, one passing through the gaps of the other."""
+    n = rng.randint(2, 4)
+    pitch = rng.choice([5, 6])
+    offset = rng.choice([QQ(2), QQ(3), QQ(5, 2)])
+    still = [Body(f"s{i}.{j}", box(pitch * i, pitch * j)) for i in range(n) for j in range(n)]
+    velocity = rng.choice([Translation([0, 1]), Translation([0, -1]), Translation([0], [0, 1])])
+    far = QQ(-pitch * n)
+    dx, dy = (far, offset) if velocity.x.degree == 1 else (offset, far)
+    moving = [
+        Body(f"m{i}.{j}", box(dx + pitch * i, dy + pitch * j, 1, 1), velocity)
+        for i in range(n)
+        for j in range(n)
+    ]
+    return Scene([*still, *moving], (0, 2 * pitch * n))
+
+
+def row(rng: Random) -> Scene:
+    """Equal boxes (some flat, some points) sliding along one line, meeting end to end."""
+    k = rng.randint(2, 7)
+    horizontal = rng.random() < 0.5
+    bodies = []
+    at = 0
+    for i in range(k):
+        width, height = rng.randint(0, 3), rng.choice([0, 2, 2, 2])
+        outline: list[Point] = [(QQ(at + x), y) for x, y in box(0, 0, width, height)]
+        outline = list(dict.fromkeys(outline))
+        if rng.random() < 0.3:
+            outline = [(x, -y) for x, y in reversed(outline)]
+        if not horizontal:
+            outline = [(y, x) for x, y in reversed(outline)]
+        speed = rng.randint(-2, 2)
+        motion = Translation([0, speed]) if horizontal else Translation([0], [0, speed])
+        bodies.append(Body(f"b{i}", outline, motion))
+        at += width + rng.randint(1, 4)
+    return Scene(bodies, (0, rng.choice([1, 4])))
+
+
+def convoy(rng: Random) -> Scene:
+    """All bodies with one velocity, but perhaps one."""
+    k = rng.randint(3, 10)
+    common = velocity(rng, 20)
+    bodies = [Body(f"b{i}", shape(rng, c, 40), common) for i, c in enumerate(cells(rng, k, 100))]
+    if rng.random() < 0.7:
+        bodies[0] = Body("b0", bodies[0].vertices, velocity(rng, 50))
+    return Scene(bodies, (0, 3))
+
+
+def mirrored(rng: Random) -> Scene:
+    """A scene and its mirror image: events come in pairs."""
+    k = rng.randint(1, 5)
+    bodies = []
+    for i, (x, y) in enumerate(cells(rng, k, 100)):
+        outline = shape(rng, (x + 60, y), 40)
+        move = velocity(rng, 30)
+        bodies.append(Body(f"r{i}", outline, move))
+        image = [(-u, v) for u, v in reversed(outline)]
+        bodies.append(Body(f"l{i}", image, Translation(-move.x, move.y)))
+    return Scene(bodies, (0, 3))
+
+
+def polygons_in_step(rng: Random) -> Scene:
+    """Equal squares on a grid that turn in step."""
+    n = rng.randint(1, 3)
+    half_turn = poly(0, rng.choice([QQ(1), QQ(1, 2)]))
+    bodies = []
+    for i in range(n):
+        for j in range(n):
+            x, y = QQ(rng.choice([6, 7]) * i), QQ(6 * j)
+            outline = [(x + 2, y), (x, y + 2), (x - 2, y), (x, y - 2)]
+            turn = half_turn if rng.random() < 0.8 else -half_turn
+            bodies.append(Body(f"b{i}.{j}", outline, Rigid(turn, pivot=(x, y))))
+    return Scene(bodies, (0, 2))
+
+
+def grazing(rng: Random) -> Scene:
+    """Bodies thrown up to a ceiling that they reach, miss or pass by a little or not at all."""
+    k = rng.randint(1, 5)
+    bodies = [Body("ceiling", [(-10, 10), (10 * k, 10), (10 * k, 12), (-10, 12)])]
+    tiny = QQ(1, 10 ** rng.choice([3, 12, 40]))
+    for i in range(k):
+        # Height 10 - 2 at the apex t = 2, for a body of height 2.
+        miss = rng.choice([QQ(0), -tiny, -tiny, QQ(-1)])
+        top = rng.choice([1, 2])
+        outline = [(10 * i, 0), (10 * i + 4, 0), (10 * i + top, 2)]
+        rise = QQ(8) + miss
+        y = poly(0, rise, -rise / 4)
+        bodies.append(Body(f"b{i}", outline, Translation([0, rng.randint(-1, 1)], y)))
+    return Scene(bodies, (0, 4))

@@ -1,0 +1,84 @@
+"""Shapes and motions that the scene families are made of."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from random import Random
+
+from exactpt.geometry.predicates import Point, side
+from exactpt.kernel.numbers import QQ
+from exactpt.kernel.polynomial import Polynomial
+from exactpt.motion.motions import Translation
+
+__all__ = ["box", "cells", "convex_polygon", "hull", "poly", "shape", "velocity"]
+
+
+def convex_polygon(rng: Random, center: Point, radius: int, size: int) -> list[Point]:
+    """A convex polygon of 3 to ``size`` integer vertices around a center, counter-clockwise.
+
+    The hull of random integer points in the square of half-width ``radius``.
+    """
+    while True:
+        points = [
+            (center[0] + rng.randint(-radius, radius), center[1] + rng.randint(-radius, radius))
+            for _ in range(size)
+        ]
+        chain = hull(points)
+        if len(chain) > 2:
+            return chain
+
+
+def hull(points: Sequence[Point]) -> list[Point]:
+    """Andrew's monotone chain; strictly convex."""
+    ordered = sorted(set(points))
+    halves: list[Point] = []
+    for sequence in (ordered, ordered[::-1]):
+        chain: list[Point] = []
+        for p in sequence:
+            while len(chain) > 1 and side(chain[-2], chain[-1], p) <= 0:
+                chain.pop()
+            chain.append(p)
+        halves += chain[:-1]
+    return halves
+
+
+def cells(rng: Random, count: int, spacing: int) -> list[tuple[QQ, QQ]]:
+    """Centers of distinct cells of a square grid with about a third of it empty."""
+    width = math.ceil(math.sqrt(1.5 * count)) + 1
+    chosen = rng.sample(range(width * width), count)
+    return [(QQ(spacing * (c % width)), QQ(spacing * (c // width))) for c in chosen]
+
+
+def poly(*coefficients: QQ | int) -> Polynomial:
+    """The polynomial with these coefficients, the constant first."""
+    return Polynomial(coefficients)
+
+
+def velocity(rng: Random, speed: int) -> Translation:
+    """A random integer velocity with coordinates up to ``speed``."""
+    return Translation([0, rng.randint(-speed, speed)], [0, rng.randint(-speed, speed)])
+
+
+def shape(rng: Random, center: Point, radius: int) -> list[Point]:
+    """Mostly a polygon; now and then a segment or a point."""
+    kind = rng.randrange(8)
+    if kind == 0:
+        return [
+            (center[0] + rng.randint(-radius, radius), center[1] + rng.randint(-radius, radius))
+        ]
+    if kind == 1:
+        while True:
+            a, b = (
+                (center[0] + rng.randint(-radius, radius), center[1] + rng.randint(-radius, radius))
+                for _ in range(2)
+            )
+            if a != b:
+                return [a, b]
+    return convex_polygon(rng, center, radius, rng.randint(3, 9))
+
+
+def box(x: QQ | int, y: QQ | int, width: int = 2, height: int = 2) -> list[Point]:
+    """A box with its lower left corner at (x, y)."""
+    a, b = QQ(x), QQ(y)
+    return [(a, b), (a + width, b), (a + width, b + height), (a, b + height)]

@@ -1,0 +1,51 @@
+"""Seeded scenes by family, from generic to wholly degenerate: the same on every machine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from random import Random
+from typing import Final, TypeAlias
+
+from exactpt.scene.families import convex, degenerate, simple
+from exactpt.scene.scene import Scene
+
+__all__ = ["CONVEX", "FAMILIES", "SIMPLE", "Family", "generate"]
+
+Family: TypeAlias = Callable[[Random], Scene]
+
+CONVEX: Final[dict[str, Family]] = {
+    "convex": convex.convex,
+    "mixed_shapes": convex.mixed_shapes,
+    "ballistic": convex.ballistic,
+    "turning": convex.turning,
+    "deforming": convex.deforming,
+    "pieces": convex.pieces,
+    "keyframed": convex.keyframed,
+    "small_grid": degenerate.small_grid,
+    "grids_passing": degenerate.grids_passing,
+    "row": degenerate.row,
+    "convoy": degenerate.convoy,
+    "mirrored": degenerate.mirrored,
+    "polygons_in_step": degenerate.polygons_in_step,
+    "grazing": degenerate.grazing,
+}
+"""Families of convex bodies that stay convex (points and segments included)."""
+
+SIMPLE: Final[dict[str, Family]] = {
+    "stars": simple.stars,
+    "turning_stars": simple.turning_stars,
+    "blobs": simple.blobs,
+    "combs": simple.combs,
+    "spirals": simple.spirals,
+    "clamps": simple.clamps,
+    "letters": simple.letters,
+}
+"""Families with simple polygons of any shape."""
+
+FAMILIES: Final[dict[str, Family]] = {**CONVEX, **SIMPLE}
+"""All families by name; each makes a scene from a random generator."""
+
+
+def generate(family: str, seed: int) -> Scene:
+    """The scene of a family with this seed."""
+    return FAMILIES[family](Random(f"{family}:{seed}"))

@@ -1,0 +1,113 @@
+"""Scenes: what is given. Bodies and a closed time span, validated before anything runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import final
+
+from exactpt.errors import InputError
+from exactpt.geometry.polygon import first_self_touch, signed_area2
+from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.motion.body import Body
+
+__all__ = ["Scene"]
+
+
+@final
+class Scene:
+    """Bodies that move during a closed time span.
+
+    Attributes:
+        bodies: in the order of the file; names are unique.
+        start: the first time.
+        end: the last time, after ``start``.
+
+    Raises:
+        InputError: if names repeat, the span is empty or reversed, or a polygon or
+            chain is not simple at the start.
+    """
+
+    __slots__ = ("bodies", "end", "start")
+
+    def __init__(self, bodies: Iterable[Body], time: Sequence[Rational] = (0, 1)) -> None:
+        self.bodies = tuple(bodies)
+        if len(time) != 2:
+            raise InputError(f"a time span has a start and an end: {time!r}")
+        self.start, self.end = rational(time[0]), rational(time[1])
+        if self.start >= self.end:
+            raise InputError(f"time: the span from {self.start} to {self.end} is empty")
+        names: set[str] = set()
+        for body in self.bodies:
+            if body.name in names:
+                raise InputError(f"body {body.name!r}: the name is taken by another body")
+            names.add(body.name)
+            self._check_simple(body)
+
+    def _check_simple(self, body: Body) -> None:
+        points = body.at(self.start)
+        touch = first_self_touch(points, closed=body.closed)
+        if touch is not None:
+            i, j = touch
+            what = "polygon" if body.closed else "chain"
+            if i == j:
+                u = points[i]
+                raise InputError(
+                    f"body {body.name!r}: vertex {i} and the next one are both at "
+                    f"({u[0]}, {u[1]}) at the start, t = {self.start}"
+                )
+            raise InputError(
+                f"body {body.name!r}: not a simple {what} at the start, t = {self.start}: "
+                f"edge {i} from {_show(points[i])} meets edge {j} from {_show(points[j])}"
+            )
+        if body.closed and len(points) > 2 and signed_area2(points) == 0:
+            raise InputError(f"body {body.name!r}: the polygon has no area at t = {self.start}")
+
+    @classmethod
+    def load(cls, path: str | Path) -> Scene:
+        """Read a scene from a JSON file in the format of the contract.
+
+        Raises:
+            InputError: one line that names the file, the body, the key and the value.
+        """
+        from exactpt.scene.format import load
+
+        return load(Path(path))
+
+    def save(self, path: str | Path) -> None:
+        """Write the scene as JSON, exactly; the file is complete or not there."""
+        from exactpt.scene.format import save
+
+        save(self, Path(path))
+
+    def at(self, t: Rational) -> dict[str, list[tuple[QQ, QQ]]]:
+        """The exact vertex positions of every body at a rational time, by name."""
+        return {body.name: body.at(t) for body in self.bodies}
+
+    def until(self, end: Rational) -> Scene:
+        """The scene up to an earlier end (a later one changes nothing).
+
+        Raises:
+            InputError: if the end is not after the start.
+        """
+        last = min(rational(end), self.end)
+        if last <= self.start:
+            raise InputError(f"the end t = {last} is not after the start t = {self.start}")
+        other = Scene.__new__(Scene)
+        other.bodies, other.start, other.end = self.bodies, self.start, last
+        return other
+
+    @property
+    def vertex_count(self) -> int:
+        """The number of vertices of all bodies."""
+        return sum(body.size for body in self.bodies)
+
+    def __repr__(self) -> str:
+        return (
+            f"<Scene: {len(self.bodies)} bodies, {self.vertex_count} vertices, "
+            f"t in [{self.start}, {self.end}]>"
+        )
+
+
+def _show(position: tuple[QQ, QQ]) -> str:
+    return f"({position[0]}, {position[1]})"

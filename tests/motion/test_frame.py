@@ -1,0 +1,161 @@
+"""Float images: every coefficient within its bound, in whatever frame the scene is put."""
+
+import math
+from fractions import Fraction
+
+from hypothesis import given
+from hypothesis import strategies as st
+from oracles import compare_with_rational, exact, value
+from strategies import algebraics, as_rational, fractions
+
+from exactpt.kernel.numbers import QQ
+from exactpt.kernel.polynomial import Polynomial
+from exactpt.motion.frame import Frame, frame_for
+from exactpt.motion.track import track
+
+UNIT = Fraction(1, 2**53)
+powers = st.one_of(st.just(0), st.integers(-60, 60), st.integers(-1100, 1100))
+numbers = st.one_of(
+    fractions,
+    st.builds(lambda q, e: q * Fraction(2) ** e, fractions, powers),
+    st.builds(Fraction, st.integers(-(10**20), 10**20), st.integers(1, 10**20)),
+)
+polys = st.lists(numbers, max_size=4)
+
+
+@st.composite
+def frames(draw):
+    """Frames as scenes get them, from points and a time span."""
+    points = draw(st.lists(st.tuples(numbers, numbers), min_size=1, max_size=3))
+    start = draw(numbers)
+    span = abs(draw(numbers)) or Fraction(1)
+    exact_points = [(as_rational(x), as_rational(y)) for x, y in points]
+    return frame_for(exact_points, as_rational(start), as_rational(start + span))
+
+
+def shifted(f, origin, step):
+    """The coefficients of f(origin + step t), by evaluation at enough points and Newton's form."""
+    result = [Fraction(0)]
+    for c in reversed(f):
+        moved = [Fraction(0)] * (len(result) + 1)
+        for i, a in enumerate(result):
+            moved[i] += a * origin
+            moved[i + 1] += a * step
+        moved[0] += c
+        result = moved
+    return result
+
+
+def in_frame(frame, f, axis):
+    """The coordinate polynomial in the frame's coordinates and time."""
+    center, scale = exact(frame._center[axis]), Fraction(2) ** -frame._scale[axis]
+    f = [*f, *[Fraction(0)] * (1 - len(f))]
+    f[0] -= center
+    origin, step = exact(frame._origin), Fraction(2) ** frame._time_scale
+    return [c * scale for c in shifted(f, origin, step)]
+
+
+def padded(f, size):
+    f = list(f)
+    while len(f) > size and f[-1] == 0:
+        f.pop()
+    return f + [Fraction(0)] * (size - len(f))
+
+
+@given(frame=frames(), x=polys, y=polys)
+def test_images_of_translating_tracks_are_within_the_errors(frame, x, y):
+    path = track(Polynomial(x), Polynomial(y), None, None)
+
+    image = frame.image(path)
+
+    if math.isnan(image.x0):
+        return
+    for axis, (floats, f) in enumerate([(image.xs, x), (image.ys, y)]):
+        true = padded(in_frame(frame, f, axis), len(floats))
+        assert len(true) == len(floats)
+        for i, (a, c) in enumerate(zip(floats, true, strict=True)):
+            if a or abs(c) > Fraction(2) ** -1074:  # (see the bug below)
+                assert abs(Fraction(a) - c) <= Fraction(frame.errors[i])
+                assert 2.0**-100 <= abs(a) <= 2.0**100
+
+
+@given(frame=frames(), h=polys.filter(any), x=polys)
+def test_images_of_turning_tracks_are_right_to_a_unit(frame, h, x):
+    """Numerators and denominator, which have a common factor."""
+    turn = Polynomial(h)
+    w = Polynomial([1]) + turn * turn
+    path = track(Polynomial(x), turn, w, ("turn", 1))
+
+    image = frame.image(path)
+
+    if math.isnan(image.x0) or not image.ws:
+        return
+    whole = [[exact(c) for c in part] for part in (path.x, path.y, path.w)]
+    origin, step = exact(frame._origin), Fraction(2) ** frame._time_scale
+    for axis, floats in ((0, image.xs), (1, image.ys), (None, image.ws)):
+        f = whole[2]
+        if axis is not None:
+            size = max(len(whole[axis]), len(f))
+            center, scale = exact(frame._center[axis]), Fraction(2) ** -frame._scale[axis]
+            f = [
+                (a - center * b) * scale
+                for a, b in zip(padded(whole[axis], size), padded(f, size), strict=True)
+            ]
+        true = padded(shifted(f, origin, step), len(floats))
+        for a, c in zip(floats, true, strict=True):
+            assert abs(Fraction(a) - c) <= UNIT * abs(c)
+
+
+def test_bug_a_coefficient_too_small_for_a_double_counts_as_zero():
+    """1e-400 becomes 0.0, which passes for moderate and exact; the exact value must be tested."""
+    frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    tiny = Polynomial([1, Fraction(1, 10**400)])
+
+    image = frame.image(track(tiny, Polynomial([1]), None, None))
+
+    assert math.isnan(image.x0) or frame.errors[1] > 0.0
+
+
+def test_bug_the_errors_are_shorter_than_an_image_of_nan():
+    """A cubic of immoderate size left ``errors`` at two entries: an IndexError later."""
+    frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+
+    image = frame.image(track(Polynomial([0, 0, 0, 10**40]), Polynomial([1]), None, None))
+
+    assert math.isnan(image.x0)
+    assert len(frame.errors) >= len(image.xs)
+
+
+@given(frame=frames(), case=algebraics())
+def test_times_are_enclosed(frame, case):
+    t, root = case
+    origin, step = exact(frame._origin), Fraction(2) ** frame._time_scale
+
+    lo, hi = frame.enclosure(t)
+
+    if math.isfinite(lo):
+        assert compare_with_rational(root, origin + step * Fraction(lo)) >= 0
+    if math.isfinite(hi):
+        assert compare_with_rational(root, origin + step * Fraction(hi)) <= 0
+    assert hi <= math.nextafter(math.nextafter(lo, math.inf), math.inf)
+
+
+@given(frame=frames(), t=st.floats(-(2.0**60), 2.0**60))
+def test_a_double_of_the_frame_stands_for_one_time(frame, t):
+    assert frame.time(frame.exact_time(t)) == (t, t)
+
+
+@given(
+    points=st.lists(st.tuples(fractions, fractions), min_size=1, max_size=3),
+    x=st.lists(st.integers(-(2**52), 2**52), max_size=3),
+    end=st.integers(1, 1000),
+)
+def test_ordinary_scenes_keep_their_integers(points, x, end):
+    exact_points = [(as_rational(p), as_rational(q)) for p, q in points]
+    frame = frame_for(exact_points, QQ(0), QQ(end))
+
+    image = frame.image(track(Polynomial(x), Polynomial([7]), None, None))
+
+    assert [value(x, Fraction(1))] == [sum(map(Fraction, image.xs), Fraction(0))]
+    assert not any(frame.errors)
+    assert frame.time(QQ(end)) == (float(end), float(end))

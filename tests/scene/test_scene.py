@@ -1,0 +1,142 @@
+"""Scenes from Python: validated when they are made, simple polygons by brute force."""
+
+from fractions import Fraction
+from itertools import combinations
+
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+from oracles import exact
+from strategies import as_rational, fractions
+
+from exactpt.errors import InputError
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.scene.scene import Scene
+
+grid = st.tuples(st.integers(0, 3), st.integers(0, 3))
+
+
+def meet(p, q, r, s):
+    """Whether the closed segments pq and rs meet: solve for both parameters."""
+    d, e = (q[0] - p[0], q[1] - p[1]), (s[0] - r[0], s[1] - r[1])
+    f = (r[0] - p[0], r[1] - p[1])
+    det = d[0] * e[1] - d[1] * e[0]
+    if det:
+        u = Fraction(f[0] * e[1] - f[1] * e[0], det)
+        v = Fraction(f[0] * d[1] - f[1] * d[0], det)
+        return 0 <= u <= 1 and 0 <= v <= 1
+    if f[0] * d[1] - f[1] * d[0]:
+        return False
+    on = sorted([p, q]), sorted([r, s])
+    return max(on[0][0], on[1][0]) <= min(on[0][1], on[1][1])
+
+
+def is_simple(points, *, closed):
+    """By definition: edges meet in the one point that they share, and nowhere else."""
+    n = len(points)
+    edges = [(i, i + 1) for i in range(n - 1)]
+    if closed and n > 2:
+        edges.append((n - 1, 0))
+    if any(points[i] == points[j] for i, j in edges):
+        return False
+    for (a, b), (c, d) in combinations(edges, 2):
+        common = {a, b} & {c, d}
+        if not common:
+            if meet(points[a], points[b], points[c], points[d]):
+                return False
+            continue
+        (v,) = common
+        one, other = points[a + b - v], points[c + d - v]
+        u = (one[0] - points[v][0], one[1] - points[v][1])
+        w = (other[0] - points[v][0], other[1] - points[v][1])
+        if u[0] * w[1] == u[1] * w[0] and u[0] * w[0] + u[1] * w[1] > 0:
+            return False
+    return True
+
+
+@given(points=st.lists(grid, min_size=1, max_size=7), closed=st.booleans())
+@example(points=[(0, 0), (2, 0), (1, 0)], closed=False)
+@example(points=[(0, 0), (2, 0), (1, 0)], closed=True)
+@example(points=[(0, 0), (1, 0), (2, 0)], closed=True)
+@example(points=[(0, 0), (1, 0), (2, 0)], closed=False)
+@example(points=[(0, 0), (2, 2), (2, 0), (0, 2)], closed=True)
+@example(points=[(0, 0), (2, 0), (2, 2), (1, 0), (0, 2)], closed=True)
+def test_simple_is_simple_by_definition(points, closed):
+    body = Body("a", points, closed=closed)
+
+    if is_simple(points, closed=closed):
+        assert Scene([body]).bodies == (body,)
+        return
+    with pytest.raises(InputError, match="body 'a'") as refusal:
+        Scene([body])
+    assert len(str(refusal.value).splitlines()) == 1
+
+
+@given(start=fractions)
+def test_it_is_the_start_that_counts(start):
+    """A segment that is a point at t = 1, and only there."""
+    body = Body("a", [(0, 0), {"x": [1, -1]}])
+
+    if start == 1:
+        with pytest.raises(InputError, match="t = 1"):
+            Scene([body], (as_rational(start), 9))
+    else:
+        assert Scene([body], (as_rational(start), 9)).bodies == (body,)
+
+
+def test_positions_by_name():
+    bodies = [Body("a", [(0, 0)], Translation([0, 1])), Body("b", [(5, 5), (6, "1/2")])]
+
+    at = Scene(bodies, (0, 3)).at("5/2")
+
+    assert {name: [(exact(x), exact(y)) for x, y in ps] for name, ps in at.items()} == {
+        "a": [(Fraction(5, 2), 0)],
+        "b": [(5, 5), (6, Fraction(1, 2))],
+    }
+
+
+def test_a_scene_up_to_an_earlier_end():
+    scene = Scene([Body("a", [(0, 0)])], (1, 9))
+
+    assert scene.until("5/2").end == as_rational(Fraction(5, 2))
+    assert scene.until(20).end == 9
+    assert (scene.until(2).start, scene.until(2).bodies) == (1, scene.bodies)
+    assert scene.end == 9
+    for end in (1, 0, "-1/2"):
+        with pytest.raises(InputError, match="is not after the start t = 1"):
+            scene.until(end)
+
+
+def test_counts_and_repr():
+    scene = Scene([Body("a", [(0, 0)]), Body("b", [(5, 5), (6, 6)])], ("1/2", 3))
+
+    assert scene.vertex_count == 3
+    assert repr(scene) == "<Scene: 2 bodies, 3 vertices, t in [1/2, 3]>"
+    assert [repr(body) for body in scene.bodies] == [
+        "<Body 'a': point of 1 vertices>",
+        "<Body 'b': segment of 2 vertices>",
+    ]
+
+
+@pytest.mark.parametrize(
+    "time, words",
+    [
+        ((1, 1), "time: the span from 1 to 1 is empty"),
+        ((2, "1/3"), "time: the span from 2 to 1/3 is empty"),
+        ((1,), "a start and an end"),
+        ((1, 2, 3), "a start and an end"),
+        ((float("nan"), 1), "not a finite number"),
+        ((0, float("inf")), "not a finite number"),
+        ((0, "soon"), "not a number: 'soon'"),
+        ((False, True), "not an exact number: False"),
+    ],
+)
+def test_time_spans_that_are_none_are_refused(time, words):
+    with pytest.raises(InputError, match=words):
+        Scene([], time)
+
+
+def test_a_name_can_be_taken_once():
+    with pytest.raises(InputError, match="body 'a': the name is taken by another body"):
+        Scene([Body("a", [(0, 0)]), Body("a", [(9, 9)])])
