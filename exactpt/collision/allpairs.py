@@ -1,0 +1,143 @@
+"""The reference: every vertex against every edge, exactly, with no tiling and no filter.
+
+Written from the definition of a contact, to be read in one go and believed. It shares
+nothing with the tilings but the kernel.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from exactpt.collision.contact import Contact, contact_of, tracks_before
+from exactpt.geometry.polygon import contains, edges, segments_meet
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ
+from exactpt.kernel.roots import common_roots, roots_after
+from exactpt.motion.incidence import Touch, coincide, difference, lies_on, orientation
+from exactpt.motion.track import Track
+from exactpt.scene.scene import Scene
+
+__all__ = ["first_contact_allpairs"]
+
+
+def first_contact_allpairs(scene: Scene) -> Contact | None:
+    """The first contact in the scene's time span, by trying everything."""
+    start = AlgebraicNumber(scene.start)
+    overlaps = _overlapping_at_start(scene)
+    if overlaps:
+        touches = _touches(scene, [b.piece_after(scene.start).tracks for b in scene.bodies], start)
+        return contact_of(scene, start, touches, overlaps)
+    best: AlgebraicNumber | None = None
+    for i in range(len(scene.bodies)):
+        for j in range(i + 1):
+            until = scene.end if best is None else best.high
+            time = _first_between(scene, i, j, until)
+            if time is not None and (best is None or time.compare(best) < 0):
+                best = time
+    if best is None:
+        return None
+    return contact_of(scene, best, _touches(scene, tracks_before(scene, best), best))
+
+
+def _first_between(scene: Scene, i: int, j: int, until: QQ) -> AlgebraicNumber | None:
+    """The first time in (start, until] at which bodies i and j (perhaps one body) touch."""
+    a, b = scene.bodies[i], scene.bodies[j]
+    ends = sorted({t for t in (*a.breakpoints, *b.breakpoints) if scene.start < t < until})
+    begin = scene.start
+    for end in (*ends, until):
+        p, q = a.piece_after(begin).tracks, b.piece_after(begin).tracks
+        pairs = _vertex_edge_pairs(p, q, edges(b.size, closed=b.closed), same=i == j)
+        if i != j:
+            pairs += _vertex_edge_pairs(q, p, edges(a.size, closed=a.closed), same=False)
+        best: AlgebraicNumber | None = None
+        for v, u, w in pairs:
+            limit = end if best is None else best.high
+            time = next(_meetings(v, u, w, AlgebraicNumber(begin), limit), None)
+            if time is not None and (best is None or time.compare(best) < 0):
+                best = time
+        if best is not None:
+            return best
+        begin = end
+    return None
+
+
+def _vertex_edge_pairs(
+    p: tuple[Track, ...], q: tuple[Track, ...], q_edges: list[tuple[int, int]], *, same: bool
+) -> list[tuple[Track, Track, Track]]:
+    """Each vertex of p with each edge of q; a point is an edge from itself to itself.
+
+    Within one body, a vertex meets the edges that do not end there; and each edge may
+    shrink to a point.
+    """
+    triples = [
+        (v, q[a], q[b])
+        for i, v in enumerate(p)
+        for a, b in (q_edges or [(0, 0)])
+        if not (same and i in (a, b))
+    ]
+    if same:
+        triples += [(q[a], q[b], q[b]) for a, b in q_edges]
+    return triples
+
+
+def _meetings(
+    v: Track, a: Track, b: Track, start: AlgebraicNumber, until: QQ
+) -> Iterator[AlgebraicNumber]:
+    """The times in (start, until] at which v comes to lie on the segment ab, in order.
+
+    Where the three are collinear for ever, v enters the segment at one of its ends.
+    """
+    f = orientation(a, b, v)
+    if f:
+        for root in roots_after(f, start, until):
+            if lies_on(v, a, b, root.time):
+                yield root.time
+        return
+    times: list[AlgebraicNumber] = []
+    for u in (a, b):
+        dx, dy = difference(u.x, u.w, v.x, v.w), difference(u.y, u.w, v.y, v.w)
+        times += [root.time for root in common_roots(dx, dy, start, until)][:1]
+    if times:
+        yield min(times)
+
+
+def _touches(
+    scene: Scene, tracks: list[tuple[Track, ...]], time: AlgebraicNumber
+) -> Iterator[Touch]:
+    """Every incidence at a time."""
+    bodies = scene.bodies
+    for i, p in enumerate(tracks):
+        for j, q in enumerate(tracks):
+            for v, track in enumerate(p):
+                on_vertex = [
+                    w
+                    for w, other in enumerate(q)
+                    if (i, v) != (j, w) and coincide(track, other, time)
+                ]
+                for w in on_vertex:
+                    if (i, v) < (j, w):
+                        yield Touch(i, v, j, -1, w)
+                for e, (a, b) in enumerate(edges(bodies[j].size, closed=bodies[j].closed)):
+                    ends = {(j, a), (j, b)}
+                    if (i, v) in ends or a in on_vertex or b in on_vertex:
+                        continue
+                    if lies_on(track, q[a], q[b], time):
+                        yield Touch(i, v, j, e, -1)
+
+
+def _overlapping_at_start(scene: Scene) -> list[tuple[int, int]]:
+    points = [body.at(scene.start) for body in scene.bodies]
+    found = []
+    for j, b in enumerate(scene.bodies):
+        for i, a in enumerate(scene.bodies[:j]):
+            crossing = any(
+                segments_meet(points[i][u], points[i][v], points[j][x], points[j][y])
+                for u, v in edges(a.size, closed=a.closed) or [(0, 0)]
+                for x, y in edges(b.size, closed=b.closed) or [(0, 0)]
+            )
+            inside = (a.closed and a.size > 2 and contains(points[i], points[j][0])) or (
+                b.closed and b.size > 2 and contains(points[j], points[i][0])
+            )
+            if crossing or inside:
+                found.append((i, j))
+    return sorted(found)

@@ -1,0 +1,213 @@
+"""Contacts as users see them: when, what touches what, where, and along which normal."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import final
+
+from exactpt.geometry.polygon import signed_area2
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.integer_polynomial import IntPoly, multiply, scale, subtract
+from exactpt.kernel.numbers import QQ, ZZ, nearest_float
+from exactpt.motion.incidence import Touch, difference, orientation
+from exactpt.motion.track import Track
+from exactpt.scene.scene import Scene
+
+__all__ = ["Contact", "Pair", "contact_of", "nearest_value", "time_to_json", "tracks_before"]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """A vertex that touches an edge or a vertex.
+
+    Attributes:
+        kind: "vertex-edge" or "vertex-vertex".
+        body, vertex: whose vertex, numbered as in the scene.
+        other: the body that it touches (the same body in a self-contact).
+        edge: the edge of ``other``, from vertex ``edge`` to the next; None for a vertex.
+        other_vertex: the vertex of ``other``; None for an edge.
+        point: where, as the nearest doubles.
+        normal: the unit normal of the edge, out of ``other`` (of a body without inside:
+            towards where the vertex came from); None at a vertex.
+    """
+
+    kind: str
+    body: str
+    vertex: int
+    other: str
+    edge: int | None
+    other_vertex: int | None
+    point: tuple[float, float]
+    normal: tuple[float, float] | None
+
+    def to_json(self) -> dict[str, object]:
+        """The pair as in the contract."""
+        if self.edge is None:
+            b: dict[str, object] = {"body": self.other, "vertex": self.other_vertex}
+        else:
+            b = {"body": self.other, "edge": self.edge}
+        return {
+            "kind": self.kind,
+            "a": {"body": self.body, "vertex": self.vertex},
+            "b": b,
+            "point": list(self.point),
+            "normal": None if self.normal is None else list(self.normal),
+        }
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Contact:
+    """The first contact of a scene.
+
+    Attributes:
+        time: exactly when.
+        kind: "initial" at the start of the scene; else "vertex-edge", "vertex-vertex"
+            (if no vertex is on the inside of an edge) or "self" (if only one body is).
+        pairs: every incidence at that time.
+        overlaps: the pairs of bodies that overlap at the start, by name.
+    """
+
+    time: AlgebraicNumber
+    kind: str
+    pairs: tuple[Pair, ...]
+    overlaps: tuple[tuple[str, str], ...] = ()
+
+    def to_json(self) -> dict[str, object]:
+        """The contact as in the contract."""
+        data: dict[str, object] = {
+            "time": time_to_json(self.time),
+            "kind": self.kind,
+            "pairs": [pair.to_json() for pair in self.pairs],
+        }
+        if self.overlaps:
+            data["overlaps"] = [list(names) for names in self.overlaps]
+        return data
+
+
+def time_to_json(time: AlgebraicNumber) -> dict[str, object]:
+    """A time as in the contract; the same on every machine, however it was found."""
+    number = time.simplified()
+    low, high = number.canonical_interval()
+    return {
+        "approx": float(number),
+        "low": str(low),
+        "high": str(high),
+        "polynomial": [str(c) for c in number.polynomial],
+    }
+
+
+def tracks_before(scene: Scene, time: AlgebraicNumber) -> list[tuple[Track, ...]]:
+    """The tracks of every body in the piece that leads up to a time after the start."""
+    return [
+        body.piece_after(
+            max((b for b in body.breakpoints if time.compare_rational(b) > 0), default=scene.start)
+        ).tracks
+        for body in scene.bodies
+    ]
+
+
+def contact_of(
+    scene: Scene,
+    time: AlgebraicNumber,
+    touches: Iterable[Touch],
+    overlaps: Sequence[tuple[int, int]] = (),
+) -> Contact:
+    """The contact that these touches are.
+
+    Args:
+        scene: the scene.
+        time: when.
+        touches: every incidence then.
+        overlaps: bodies that overlap, at the start.
+    """
+    number = time.simplified()
+    tracks = tracks_before(scene, number)
+    touches = sorted(touches)
+    pairs = tuple(_pair(scene, tracks, touch, number) for touch in touches)
+    names = tuple((scene.bodies[i].name, scene.bodies[j].name) for i, j in overlaps)
+    return Contact(number, _kind(scene, number, pairs), pairs, names)
+
+
+def _kind(scene: Scene, time: AlgebraicNumber, pairs: Sequence[Pair]) -> str:
+    if time.compare_rational(scene.start) == 0:
+        return "initial"
+    kinds = {pair.kind for pair in pairs if pair.body != pair.other}
+    if not kinds:
+        return "self"
+    return "vertex-edge" if "vertex-edge" in kinds else "vertex-vertex"
+
+
+def _pair(
+    scene: Scene, tracks: list[tuple[Track, ...]], touch: Touch, time: AlgebraicNumber
+) -> Pair:
+    v = tracks[touch.body][touch.vertex]
+    normal = None
+    if touch.edge >= 0:
+        other = tracks[touch.other]
+        a, b = other[touch.edge], other[(touch.edge + 1) % len(other)]
+        normal = _normal(scene, touch, v, a, b, time)
+    return Pair(
+        kind="vertex-edge" if touch.edge >= 0 else "vertex-vertex",
+        body=scene.bodies[touch.body].name,
+        vertex=touch.vertex,
+        other=scene.bodies[touch.other].name,
+        edge=touch.edge if touch.edge >= 0 else None,
+        other_vertex=touch.other_vertex if touch.edge < 0 else None,
+        point=(nearest_value(v.x, v.w, time), nearest_value(v.y, v.w, time)),
+        normal=normal,
+    )
+
+
+def _normal(
+    scene: Scene, touch: Touch, v: Track, a: Track, b: Track, time: AlgebraicNumber
+) -> tuple[float, float]:
+    w = multiply(a.w, b.w)
+    dx = nearest_value(difference(a.x, a.w, b.x, b.w), w, time)
+    dy = nearest_value(difference(a.y, a.w, b.y, b.w), w, time)
+    body = scene.bodies[touch.other]
+    if body.closed and body.size > 2:
+        out = 1 if signed_area2(body.at(scene.start)) > 0 else -1
+    else:
+        # Towards the side that the vertex came from; the right one if it came along the line.
+        out = -time.sign_before(orientation(a, b, v)) or 1
+    length = math.hypot(dx, dy)
+    if length == 0.0 or not math.isfinite(length):
+        return (0.0, 0.0)
+    return (out * dy / length + 0.0, -out * dx / length + 0.0)
+
+
+def nearest_value(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> float:
+    """The double nearest to p / w at a time; w is positive there."""
+    if time.sign_of(p) == 0:
+        return 0.0
+    while True:
+        low, high = _range(p, w, time.low, time.high)
+        a, b = nearest_float(low), nearest_float(high)
+        if a == b:
+            return a
+        if b == math.nextafter(a, math.inf) and math.isfinite(a + b):
+            middle = (QQ(*a.as_integer_ratio()) + QQ(*b.as_integer_ratio())) / 2
+            f = subtract(scale(p, ZZ(middle.denominator)), scale(w, ZZ(middle.numerator)))
+            s = time.sign_of(f)
+            return nearest_float(middle) if s == 0 else b if s > 0 else a
+        time.refine()
+
+
+def _range(p: IntPoly, w: IntPoly, low: QQ, high: QQ) -> tuple[QQ, QQ]:
+    a, b = _horner(p, low, high)
+    c, d = _horner(w, low, high)
+    if c <= 0:
+        c = QQ(1, 1 << 4096)  # not narrow enough yet; w is positive
+    return (a / d if a > 0 else a / c), (b / c if b > 0 else b / d)
+
+
+def _horner(f: IntPoly, low: QQ, high: QQ) -> tuple[QQ, QQ]:
+    a = b = QQ(0)
+    for c in reversed(f):
+        products = (a * low, a * high, b * low, b * high)
+        a, b = min(products) + c, max(products) + c
+    return a, b

@@ -1,0 +1,1 @@
+"""Time: event times, and the queue that orders them. Knows no geometry."""

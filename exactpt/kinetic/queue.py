@@ -1,0 +1,203 @@
+"""The event queue: times of events as float enclosures, exact only where two overlap.
+
+The order of events is total and the same on every machine: by exact time, and at one
+time the slots in increasing order. Cancelled events are dropped when they surface.
+"""
+
+from __future__ import annotations
+
+import heapq
+from typing import Protocol, final
+
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.counters import counters
+from exactpt.kernel.integer_polynomial import IntPoly
+
+__all__ = ["EventQueue", "EventTime", "ExactQueue", "Resolver"]
+
+
+@final
+class EventTime:
+    """A time known by an enclosure, and exactly on demand.
+
+    Attributes:
+        low, high: doubles, in the frame of the run: low <= time <= high.
+        a, b, c: what the time is a root of, for the resolver; it knows what they mean.
+        exact: the number itself, once it has been asked for.
+        crossing: whether the watched function changes sign (else it only touches 0).
+    """
+
+    __slots__ = ("a", "b", "c", "crossing", "exact", "high", "low")
+
+    def __init__(
+        self,
+        low: float,
+        high: float,
+        a: int,
+        b: int,
+        c: int,
+        exact: AlgebraicNumber | None = None,
+        crossing: bool = True,  # noqa: FBT001, FBT002 - positional for speed
+    ) -> None:
+        self.low: float = low
+        self.high: float = high
+        self.a: int = a
+        self.b: int = b
+        self.c: int = c
+        self.exact: AlgebraicNumber | None = exact
+        self.crossing: bool = crossing
+
+
+class Resolver(Protocol):
+    """Who knows what an event time is a root of."""
+
+    def resolve(self, time: EventTime) -> AlgebraicNumber:
+        """The exact time; kept in ``time.exact``, and the enclosure made as narrow as doubles."""
+        ...
+
+
+class EventQueue:
+    """At most one pending event a slot, popped in the order of time."""
+
+    def __init__(self, resolver: Resolver) -> None:
+        self._resolver = resolver
+        self._heap: list[tuple[float, int, int, EventTime]] = []
+        self._live: dict[int, EventTime] = {}
+        self._sequence: int = 0
+
+    def __len__(self) -> int:
+        return len(self._live)
+
+    def schedule(self, slot: int, time: EventTime) -> None:
+        """Put an event into a slot, in place of what was there."""
+        self._live[slot] = time
+        self._sequence += 1
+        heapq.heappush(self._heap, (time.low, self._sequence, slot, time))
+        if len(self._heap) > 4 * len(self._live) + 256:
+            self._compact()
+
+    def cancel(self, slot: int) -> None:
+        """Empty a slot."""
+        self._live.pop(slot, None)
+
+    def pending(self, slot: int) -> EventTime | None:
+        """The time of the event in a slot."""
+        return self._live.get(slot)
+
+    def slots(self) -> list[int]:
+        """All slots with a pending event, in increasing order."""
+        return sorted(self._live)
+
+    def _compact(self) -> None:
+        self._heap = [entry for entry in self._heap if self._live.get(entry[2]) is entry[3]]
+        heapq.heapify(self._heap)
+
+    def pop(self) -> tuple[EventTime, list[tuple[int, EventTime]]] | None:
+        """The earliest time, and all slots with an event then; None if there are none.
+
+        A slot comes with its own account of the time, in increasing order of slots.
+
+        An enclosure that ends before the next one begins decides alone. Otherwise all
+        events that may be first are compared exactly.
+        """
+        heap, live = self._heap, self._live
+        while heap and live.get(heap[0][2]) is not heap[0][3]:
+            heapq.heappop(heap)
+        if not heap:
+            return None
+        _, _, slot, time = heapq.heappop(heap)
+        bound = time.high
+        candidates: list[tuple[float, int, int, EventTime]] = []
+        while heap and heap[0][0] <= bound:
+            entry = heapq.heappop(heap)
+            if live.get(entry[2]) is entry[3]:
+                candidates.append(entry)
+                bound = min(bound, entry[3].high)
+        if not candidates:
+            counters.filtered += 1
+            del live[slot]
+            return time, [(slot, time)]
+        return self._pop_exactly([(slot, time), *((e[2], e[3]) for e in candidates)])
+
+    def _pop_exactly(
+        self, entries: list[tuple[int, EventTime]]
+    ) -> tuple[EventTime, list[tuple[int, EventTime]]]:
+        entries.sort()  # slots are distinct
+        best: list[tuple[int, EventTime]] = []
+        later: list[tuple[int, EventTime]] = []
+        for slot, time in entries:
+            order = -1 if not best else self._compare(time, best[0][1])
+            if order < 0:
+                later += best
+                best = [(slot, time)]
+            elif order == 0:
+                best.append((slot, time))
+            else:
+                later.append((slot, time))
+        for slot, time in later:
+            self._sequence += 1
+            heapq.heappush(self._heap, (time.low, self._sequence, slot, time))
+        for slot, _ in best:
+            del self._live[slot]
+        return _simplest([time for _, time in best]), best
+
+    def _compare(self, s: EventTime, t: EventTime) -> int:
+        if s.high < t.low:
+            return -1
+        if s.low > t.high:
+            return 1
+        if s.a == t.a and s.b == t.b and s.c == t.c and s.low == t.low and s.high == t.high:
+            return 0  # the same root of the same function
+        counters.exact += 1
+        x = s.exact or self._resolver.resolve(s)
+        y = t.exact or self._resolver.resolve(t)
+        return x.compare(y)
+
+
+@final
+class ExactQueue(EventQueue):
+    """The same without floats: every comparison of two times is exact."""
+
+    def __init__(self, resolver: Resolver) -> None:
+        super().__init__(resolver)
+        self._exact_heap: list[tuple[AlgebraicNumber, int, int, EventTime]] = []
+
+    def schedule(self, slot: int, time: EventTime) -> None:
+        """Put an event into a slot, in place of what was there."""
+        self._live[slot] = time
+        self._sequence += 1
+        number = time.exact or self._resolver.resolve(time)
+        heapq.heappush(self._exact_heap, (number, self._sequence, slot, time))
+
+    def pop(self) -> tuple[EventTime, list[tuple[int, EventTime]]] | None:
+        """The earliest time, and all slots with an event then; None if there are none."""
+        heap, live = self._exact_heap, self._live
+        entries: list[tuple[int, EventTime]] = []
+        first: AlgebraicNumber | None = None
+        while heap:
+            number, _, slot, time = heap[0]
+            if live.get(slot) is time:
+                counters.exact += 1
+                if first is not None and number.compare(first) > 0:
+                    break
+                first = number
+                entries.append((slot, time))
+                del live[slot]
+            heapq.heappop(heap)
+        if not entries:
+            return None
+        entries.sort()
+        return _simplest([time for _, time in entries]), entries
+
+
+def _simplest(times: list[EventTime]) -> EventTime:
+    """Of equal times the one known by the least polynomial: the same in every run."""
+    best = times[0]
+    for time in times:
+        if time.exact is not None and (best.exact is None or _size(time.exact) < _size(best.exact)):
+            best = time
+    return best
+
+
+def _size(number: AlgebraicNumber) -> tuple[int, IntPoly]:
+    return len(number.polynomial), number.polynomial

@@ -1,0 +1,1 @@
+"""Topology: a planar map of half-edges, without coordinates or time."""

@@ -1,0 +1,159 @@
+"""A planar map of half-edges: who follows whom around a face. No coordinates, no time.
+
+Half-edges come in twins h and h ^ 1, with opposite directions; the face of a half-edge
+is on its left. Edges that are removed leave their handles to later ones.
+
+Source: M. de Berg et al., *Computational Geometry*, 3rd ed., section 2.2 (the doubly
+connected edge list).
+"""
+
+from __future__ import annotations
+
+from typing import final
+
+from exactpt.errors import AuditError
+
+__all__ = ["NOTHING", "PlanarMap"]
+
+NOTHING = -1
+"""The origin of a half-edge whose edge has been removed."""
+
+
+@final
+class PlanarMap:
+    """Half-edges in parallel lists; a handle is an index.
+
+    Attributes:
+        origin: the vertex where a half-edge starts; `NOTHING` for a free handle.
+        following: the next half-edge around the face on the left.
+        previous: the one before.
+    """
+
+    def __init__(self) -> None:
+        self.origin: list[int] = []
+        self.following: list[int] = []
+        self.previous: list[int] = []
+        self._free: list[int] = []
+
+    def add_edge(self, u: int, v: int) -> int:
+        """A new edge, linked to nothing yet; the half-edge from u to v (an even handle)."""
+        if self._free:
+            h = self._free.pop()
+            self.origin[h], self.origin[h + 1] = u, v
+        else:
+            h = len(self.origin)
+            self.origin += (u, v)
+            self.following += (h + 1, h)
+            self.previous += (h + 1, h)
+        return h
+
+    def link(self, h: int, g: int) -> None:
+        """Let g follow h around their face."""
+        self.following[h] = g
+        self.previous[g] = h
+
+    def copy(self) -> PlanarMap:
+        """An independent copy."""
+        other = PlanarMap()
+        other.origin, other._free = self.origin[:], self._free[:]
+        other.following, other.previous = self.following[:], self.previous[:]
+        return other
+
+    def target(self, h: int) -> int:
+        """The vertex where a half-edge ends."""
+        return self.origin[h ^ 1]
+
+    def split_face(self, h: int, g: int) -> int:
+        """Cut the face of h and g by a new edge from the origin of h to the origin of g.
+
+            .--- g <--- o          .--- g <--- o
+            v           ^          v       7   ^      e runs from origin[h] to
+            :   face    :    =>    :     e/    :      origin[g], with g in the face
+            |           |          |     /     |      on its left and h in the one
+            o --- h --> .          o --- h --> .      on its right.
+
+        Returns:
+            e.
+        """
+        before_h, before_g = self.previous[h], self.previous[g]
+        e = self.add_edge(self.origin[h], self.origin[g])
+        self.link(before_h, e)
+        self.link(e, g)
+        self.link(before_g, e ^ 1)
+        self.link(e ^ 1, h)
+        return e
+
+    def remove_edge(self, h: int) -> None:
+        """Remove an edge between two different faces, which become one."""
+        g = h ^ 1
+        before_h, after_h = self.previous[h], self.following[h]
+        before_g, after_g = self.previous[g], self.following[g]
+        self.link(before_h, after_g)
+        self.link(before_g, after_h)
+        self.origin[h] = self.origin[g] = NOTHING
+        self._free.append(min(h, g))
+
+    def slide_origin(self, h: int) -> None:
+        r"""Move the origin of h back along the half-edge a before it.
+
+            b     f     h                b     f
+          ----> m ----> o ...>         ----> m ......>      m leaves f at h no longer:
+                  a     :                      \\   h         f runs b, h and loses o,
+                        : c                  a  7  o        the face g across h runs
+                  g     v                    g     : c      twin(h), a, c and gains m.
+
+        This one operation serves both repairs of a pseudo-triangulation: a corner that
+        collapses (theory: HIT) and a bend that straightens (FLAT).
+        """
+        a = self.previous[h]
+        b, t = self.previous[a], h ^ 1
+        c = self.following[t]
+        self.link(b, h)
+        self.link(t, a)
+        self.link(a, c)
+        self.origin[h] = self.origin[a]
+
+    def slide_target(self, a: int) -> None:
+        """Move the target of a on along the half-edge h after it: `slide_origin` mirrored."""
+        h = self.following[a]
+        b, t = self.following[h], a ^ 1
+        c = self.previous[t]
+        self.link(a, b)
+        self.link(h, t)
+        self.link(c, h)
+        self.origin[t] = self.origin[h ^ 1]
+
+    def face(self, h: int) -> list[int]:
+        """The half-edges of a face, from h on."""
+        cycle = [h]
+        g = self.following[h]
+        while g != h:
+            cycle.append(g)
+            g = self.following[g]
+        return cycle
+
+    def fan(self, h: int) -> list[int]:
+        """The half-edges that start where h does, counter-clockwise, from h on."""
+        fan = [h]
+        g = self.previous[h] ^ 1
+        while g != h:
+            fan.append(g)
+            g = self.previous[g] ^ 1
+        return fan
+
+    def half_edges(self) -> list[int]:
+        """All half-edges in use, in increasing order."""
+        return [h for h, v in enumerate(self.origin) if v != NOTHING]
+
+    def audit(self) -> None:
+        """Check the links.
+
+        Raises:
+            AuditError: if some half-edge is not where its neighbours say.
+        """
+        for h in self.half_edges():
+            g = self.following[h]
+            if self.previous[g] != h:
+                raise AuditError(f"previous[following[{h}]] is {self.previous[g]}")
+            if self.origin[g] != self.target(h):
+                raise AuditError(f"half-edge {h} ends at {self.target(h)}, not at {self.origin[g]}")

@@ -1,0 +1,61 @@
+"""The tiling of a scene at a rational time, built there or reached by running."""
+
+from __future__ import annotations
+
+from exactpt.collision.tilings import TILINGS, tiling_for
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.vertices import Vertices
+from exactpt.scene.scene import Scene
+from exactpt.simulation.simulation import Simulation
+from exactpt.tiling.instant import Instant
+from exactpt.tiling.snapshot import Snapshot, snapshot
+
+__all__ = ["tile_at"]
+
+
+def tile_at(
+    scene: Scene,
+    at: QQ,
+    *,
+    tiling: str = "auto",
+    by_running: bool = False,
+    max_events: int | None = None,
+    max_seconds: float | None = None,
+) -> Snapshot:
+    """The tiling just after a time in the span of the scene.
+
+    Args:
+        scene: the scene.
+        at: when.
+        tiling: which one.
+        by_running: simulate from the start up to then; else the tiling is built then.
+        max_events: see `Simulation`.
+        max_seconds: see `Simulation`.
+
+    Raises:
+        InputError: if the time is outside the span, or not before the first contact.
+        BudgetExceeded: if the bounds are reached.
+    """
+    if not scene.start <= at <= scene.end:
+        raise InputError(
+            f"--at: t = {at} is outside the time span from {scene.start} to {scene.end}"
+        )
+    name = tiling_for(scene, tiling)
+    simulation = Simulation(
+        scene,
+        tiling=name if by_running else "auto",
+        max_events=max_events,
+        max_seconds=max_seconds,
+    )
+    for _ in simulation.run(at):
+        pass
+    if simulation.contact is not None:
+        raise InputError(
+            f"--at: no tiling at t = {at}: the first contact is at "
+            f"t = {float(simulation.contact.time)!r}"
+        )
+    if by_running:
+        return simulation.snapshot()
+    vertices = Vertices(scene.bodies, at, scene.end)
+    return snapshot(vertices, TILINGS[name].mesh_at(Instant(vertices, at, after=False)), name, at)

@@ -1,0 +1,1 @@
+"""Pseudo-triangulations of the free space, and how they repair themselves."""

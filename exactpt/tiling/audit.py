@@ -1,0 +1,46 @@
+"""The audit of a tiling at an instant: is it an embedded pseudo-triangulation?"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from exactpt.errors import AuditError
+from exactpt.tiling.greedy.shadow import Predicates
+from exactpt.tiling.mesh import SOLID, Mesh
+
+__all__ = ["audit_angles", "audit_fan"]
+
+
+def audit_angles(mesh: Mesh, predicates: Predicates) -> None:
+    """Check links and marks, every marked angle by its sign, and the order around vertices.
+
+    Raises:
+        AuditError: at the first fault.
+    """
+    mesh.audit()
+    m = mesh.map
+    for h in m.half_edges():
+        a, p, b = m.origin[m.previous[h]], m.origin[h], m.origin[h ^ 1]
+        if mesh.region[h] != SOLID and a != b and (predicates.sign(a, p, b) > 0) != mesh.corner[h]:
+            raise AuditError(f"angle {h} at vertices {a}, {p}, {b} is not as marked")
+    for h in mesh.ring_edge:
+        audit_fan(mesh, h, predicates)
+
+
+def audit_fan(mesh: Mesh, h: int, predicates: Predicates) -> None:
+    """Check that the half-edges out of a vertex turn once around it, counter-clockwise.
+
+    Seen from the first one, the others must have increasing angles between 0 and 2 pi.
+
+    Raises:
+        AuditError: if they do not.
+    """
+    m, sign = mesh.map, predicates.sign
+    v = m.origin[h]
+    targets = [m.target(g) for g in m.fan(h)]
+    base = targets[0]
+    for u, w in pairwise(targets[1:]):
+        # 1: angle below pi, 0: pi, -1: above.
+        side_u, side_w = sign(v, base, u), sign(v, base, w)
+        if side_u < side_w or (side_u == side_w and sign(v, u, w) <= 0):
+            raise AuditError(f"vertex {v}: the edges to {u} and {w} are in the wrong order")

@@ -1,0 +1,84 @@
+"""From a set of diagonals to a mesh: sort the edges around every vertex."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cmp_to_key
+
+from exactpt.errors import AuditError
+from exactpt.tiling.instant import Instant
+from exactpt.tiling.mesh import FREE, INSIDE, OUTER, SOLID, Diagonal, Mesh
+
+__all__ = ["build_mesh"]
+
+
+def build_mesh(instant: Instant, diagonals: Iterable[Diagonal]) -> Mesh:
+    """The mesh of all body edges and these diagonals, with its marks.
+
+    Args:
+        instant: the predicates.
+        diagonals: pairwise without crossings; a pseudo-triangulation together with the
+            body edges.
+
+    Raises:
+        AuditError: if a tile has not three corners.
+    """
+    vertices = instant.vertices.all
+    mesh = Mesh(len(vertices))
+    around: list[list[int]] = [[] for _ in vertices]
+    inside: list[list[int]] = [[] for _ in vertices]
+    for body in instant.vertices.bodies:
+        for v in body.ring:
+            mesh.ring_edge[v] = mesh.add_edge(v, vertices[v].ahead, boundary=True)
+            mesh.region[mesh.ring_edge[v]] = INSIDE if body.is_tiled else SOLID
+    for u, v, region in diagonals:
+        h = mesh.add_edge(u, v, boundary=False)
+        mesh.region[h] = mesh.region[h ^ 1] = region
+        fans = inside if region == INSIDE else around
+        fans[u].append(h)
+        fans[v].append(h ^ 1)
+    for v, edges in enumerate(around):
+        # Counter-clockwise: to the next vertex of the ring, (the body and its diagonals),
+        # to the vertex before, (free space and its diagonals).
+        ahead, behind = mesh.ring_edge[v], mesh.ring_edge[vertices[v].behind] ^ 1
+        within = _sorted_fan(instant, mesh, v, ahead, inside[v])
+        fan = [ahead, *within, behind, *_sorted_fan(instant, mesh, v, behind, edges)]
+        for h, following in zip(fan, [*fan[1:], fan[0]], strict=True):
+            mesh.map.link(following ^ 1, h)
+    _mark_angles(instant, mesh)
+    return mesh
+
+
+def _sorted_fan(
+    instant: Instant, mesh: Mesh, v: int, reference: int, edges: list[int]
+) -> list[int]:
+    """Half-edges out of v in counter-clockwise order from a reference direction."""
+    if len(edges) < 2:
+        return edges
+    target = {h: mesh.map.target(h) for h in edges}
+    base = mesh.map.target(reference)
+    # 1: angle from the reference below pi, 0: equal to it, -1: above.
+    half = {h: instant.sign(v, base, w) for h, w in target.items()}
+
+    def order(g: int, h: int) -> int:
+        if half[g] != half[h]:
+            return half[h] - half[g]
+        return -instant.sign(v, target[g], target[h])
+
+    return sorted(edges, key=cmp_to_key(order))
+
+
+def _mark_angles(instant: Instant, mesh: Mesh) -> None:
+    m = mesh.map
+    for h in m.half_edges():
+        if mesh.region[h] != SOLID:
+            a, p, b = m.origin[m.previous[h]], m.origin[h], m.target(h)
+            mesh.corner[h] = a == b or instant.sign(a, p, b) > 0
+    for face in [*mesh.faces(FREE), *mesh.faces(INSIDE)]:
+        corners = sum(mesh.corner[h] for h in face)
+        if corners == 0:
+            for h in face:
+                mesh.region[h] = OUTER
+        elif corners != 3:
+            names = " ".join(instant.vertices.name(m.origin[h]) for h in face)
+            raise AuditError(f"a face with {corners} corners: {names}")

@@ -1,0 +1,245 @@
+"""Certificates: the sign of an orientation or x-order just after now, and when it may fail.
+
+A small door: the tilings ask here and never learn which path answered. Floats with
+proven bounds are asked first (`exactpt.tiling.coefficients`); what they leave open is
+decided exactly.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, final
+
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.counters import counters
+from exactpt.kernel.integer_polynomial import IntPoly, sign_at, square_free
+from exactpt.kernel.numbers import QQ
+from exactpt.kernel.roots import common_roots, roots_after
+from exactpt.kinetic.queue import EventTime
+from exactpt.motion.incidence import difference
+from exactpt.motion.incidence import orientation as base_orientation
+from exactpt.tiling import coefficients
+from exactpt.tiling.exact import orientation, x_order
+
+if TYPE_CHECKING:
+    from exactpt.motion.vertices import Vertex, Vertices
+
+__all__ = ["X_ORDER", "Certifier"]
+
+X_ORDER: Final = -1
+"""The third vertex of an event time that is a root of an x-order."""
+
+
+@final
+class Certifier:
+    """Certificates of moving vertices at the current time.
+
+    Attributes:
+        now: the current time; ``now_low`` and ``now_high`` enclose it.
+        roots_now: triples of vertices whose function vanishes now.
+        end: the last time of interest.
+        exact_only: whether the float filters are switched off.
+        made: how many certificates have been computed.
+        skipped: how many have not, since they cannot fail.
+        zeros: how many of those made anew were found to vanish now, or for ever.
+        errors: bounds on the coefficients of the images, see `Frame`.
+    """
+
+    def __init__(self, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool) -> None:
+        self._vertices = vertices
+        self._all: list[Vertex] = vertices.all
+        self.end: QQ = end
+        self._end_high: float = vertices.frame.time(end)[1]
+        self.exact_only: bool = exact_only
+        self.made: int = 0
+        self.skipped: int = 0
+        self.zeros: int = 0
+        self.errors: list[float] = vertices.frame.errors
+        self.roots_now: list[tuple[int, int, int]] = []
+        low, high = vertices.frame.time(start)
+        self.now: EventTime = EventTime(low, high, -1, -1, -1, AlgebraicNumber(start))
+        self.now_low: float = low
+        self.now_high: float = high
+
+    def move_to(self, time: EventTime, roots: list[tuple[int, int, int]]) -> None:
+        """Make this time the current one; ``roots``: triples whose orientation vanishes then."""
+        self.now = time
+        self.now_low = time.low
+        self.now_high = time.high
+        self.roots_now = roots
+
+    def vertex(self, vertex_id: int) -> Vertex:
+        """The moving vertex with this id."""
+        return self._all[vertex_id]
+
+    @property
+    def exact_now(self) -> AlgebraicNumber:
+        """The current time as a number."""
+        return self.now.exact or self.resolve(self.now)
+
+    def resolve(self, time: EventTime) -> AlgebraicNumber:
+        """The exact time of an event; its enclosure becomes as narrow as doubles."""
+        vertices, frame = self._all, self._vertices.frame
+        if time.c == X_ORDER:
+            f = x_order(vertices[time.a], vertices[time.b])
+        else:
+            f = base_orientation(*(vertices[v].track for v in (time.a, time.b, time.c)))
+        low, high = frame.exact_time(time.low), frame.exact_time(time.high)
+        p = square_free(f)
+        number = (
+            AlgebraicNumber(low) if sign_at(p, low) == 0 else AlgebraicNumber.root(p, low, high)
+        )
+        time.exact = number
+        time.low, time.high = frame.enclosure(number)
+        if time is self.now:
+            self.now_low, self.now_high = time.low, time.high
+        return number
+
+    def rigid(self, a: int, b: int, c: int) -> bool:
+        """Whether three vertices keep their orientation for ever."""
+        va, vb, vc = self._all[a], self._all[b], self._all[c]
+        motion = va.image.motion
+        if motion >= 0 and motion == vb.image.motion and motion == vc.image.motion:
+            return True
+        return va.offset is not None and va.body == vb.body and va.body == vc.body
+
+    def keeps_x_order(self, a: int, b: int) -> bool:
+        """Whether two vertices keep the difference of their x coordinates for ever."""
+        va, vb = self._all[a], self._all[b]
+        p, q = va.image, vb.image
+        if va.offset is not None and self._vertices.bodies[va.body].deforms:
+            return False  # its offsets turn
+        return p.motion == q.motion and p.motion >= 0 and not p.ws
+
+    def orientation(self, a: int, b: int, c: int) -> tuple[int, EventTime | None]:
+        """The sign of the orientation just after now, and its first zero later.
+
+        The sign is 0 if the orientation is zero for ever; then the time is the first at
+        which two of the vertices coincide. A zero without change of sign counts, since
+        it may be a touch.
+        """
+        self.made += 1
+        va, vb, vc = self._all[a], self._all[b], self._all[c]
+        if self.exact_only or va.track is vb.track or vb.track is vc.track or va.track is vc.track:
+            return self._exact_orientation(va, vb, vc)
+        bodies = self._vertices.bodies
+        horizon = min(
+            self._end_high,
+            bodies[va.body].horizon,
+            bodies[vb.body].horizon,
+            bodies[vc.body].horizon,
+        )
+        s, low, high = coefficients.orientation(
+            va.image,
+            vb.image,
+            vc.image,
+            self.errors,
+            self.now_low,
+            self.now_high,
+            horizon,
+            bool(self.roots_now) and self.vanishes_now(a, b, c),
+        )
+        if s == 0:
+            return self._exact_orientation(va, vb, vc)
+        counters.filtered += 1
+        if low > horizon:
+            return s, None
+        return s, EventTime(low, high, a, b, c)
+
+    def vanishes_now(self, a: int, b: int, c: int) -> bool:
+        """Whether the function of these vertices is known to be zero now."""
+        return any(a in key and b in key and c in key for key in self.roots_now)
+
+    def _until(self, *vertices: Vertex) -> QQ:
+        until = self.end
+        for v in vertices:
+            end = self._vertices.bodies[v.body].until
+            if end is not None and end < until:
+                until = end
+        return until
+
+    def _exact_orientation(self, a: Vertex, b: Vertex, c: Vertex) -> tuple[int, EventTime | None]:
+        counters.exact += 1
+        f = base_orientation(a.track, b.track, c.track)
+        until, now = self._until(a, b, c), self.exact_now
+        if f:
+            s = now.sign_of(f)
+            if s == 0:
+                self.zeros += 1
+                s = now.sign_after(f)
+            return s, self._first_root(f, until, a.id, b.id, c.id)
+        self.zeros += 1
+        time = self.first_coincidence(a.id, b.id, c.id)
+        f = orientation(a, b, c)
+        if not f:
+            return 0, time
+        root = next((r for r in roots_after(f, now, until) if r.crossing), None)
+        if root is not None and (
+            time is None or time.exact is None or root.time.compare(time.exact) < 0
+        ):
+            time = self._event_time(root.time, (a.id, b.id, c.id), crossing=True)
+        return now.sign_after(f), time
+
+    def _first_root(self, f: IntPoly, until: QQ, a: int, b: int, c: int) -> EventTime | None:
+        root = next(roots_after(f, self.exact_now, until), None)
+        if root is None:
+            return None
+        return self._event_time(root.time, (a, b, c), crossing=root.crossing)
+
+    def first_coincidence(self, *ids: int) -> EventTime | None:
+        """The first time at which two of some vertices, always on one line, coincide."""
+        first: AlgebraicNumber | None = None
+        vertices = [self._all[v] for v in ids]
+        until = self._until(*vertices)
+        for i, u in enumerate(vertices):
+            for v in vertices[:i]:
+                if u.track is v.track or (u.image.motion == v.image.motion and u.image.motion >= 0):
+                    continue
+                p, q = u.track, v.track
+                dx, dy = difference(p.x, p.w, q.x, q.w), difference(p.y, p.w, q.y, q.w)
+                root = next(common_roots(dx, dy, self.exact_now, until), None)
+                if root is not None and (first is None or root.time.compare(first) < 0):
+                    first = root.time
+        if first is None:
+            return None
+        return self._event_time(first, (ids[0], ids[1], ids[-1]), crossing=False)
+
+    def _event_time(
+        self, number: AlgebraicNumber, key: tuple[int, int, int], *, crossing: bool
+    ) -> EventTime:
+        low, high = self._vertices.frame.enclosure(number)
+        return EventTime(low, high, *key, number, crossing)
+
+    def x_order(self, a: int, b: int) -> tuple[int, EventTime | None]:
+        """Whether a is left of b just after now (1, else -1), and when that ends."""
+        self.made += 1
+        va, vb = self._all[a], self._all[b]
+        if self.exact_only or va.track is vb.track:
+            return self._exact_x_order(va, vb)
+        bodies = self._vertices.bodies
+        horizon = min(self._end_high, bodies[va.body].horizon, bodies[vb.body].horizon)
+        s, low, high = coefficients.x_difference(
+            va.image,
+            vb.image,
+            self.errors,
+            self.now_low,
+            self.now_high,
+            horizon,
+            bool(self.roots_now) and self.vanishes_now(a, b, X_ORDER),
+        )
+        if s == 0:
+            return self._exact_x_order(va, vb)
+        counters.filtered += 1
+        if low > horizon:
+            return s, None
+        return s, EventTime(low, high, a, b, X_ORDER)
+
+    def _exact_x_order(self, a: Vertex, b: Vertex) -> tuple[int, EventTime | None]:
+        counters.exact += 1
+        f, now = x_order(a, b), self.exact_now
+        root = next((r for r in roots_after(f, now, self._until(a, b)) if r.crossing), None)
+        time = (
+            None
+            if root is None
+            else self._event_time(root.time, (a.id, b.id, X_ORDER), crossing=True)
+        )
+        return now.sign_after(f), time

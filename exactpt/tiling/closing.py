@@ -1,0 +1,92 @@
+"""A tiling at the very time of an event.
+
+A kinetic tiling is the one just after the current time. Where certificates vanish at that
+time, some of its edges run through vertices, and some of its faces have no area, just
+then. `close_at` gives the tiling of that very moment: what is collinear then is treated
+like what is collinear for ever (`exactpt.tiling.exact`), so that the middle vertex of
+three sticks out.
+"""
+
+from __future__ import annotations
+
+from exactpt.errors import AuditError
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.motion.vertices import Vertex
+from exactpt.tiling.exact import comes_first
+from exactpt.tiling.instant import Instant
+from exactpt.tiling.mesh import FREE, Mesh
+
+__all__ = ["close_at"]
+
+
+def close_at(mesh: Mesh, instant: Instant) -> bool:
+    """Collapse, in place, every corner that is zero or straight at an instant.
+
+    Args:
+        mesh: a pseudo-triangulation just before or just after the instant.
+        instant: predicates at the time itself.
+
+    Returns:
+        Whether anything changed.
+
+    Raises:
+        AuditError: if a corner closes on the edge of a body: there is a contact then.
+    """
+    due = {h for h in mesh.map.half_edges() if _has_closed(mesh, h, instant)}
+    changed = bool(due)
+    while due:
+        h = _first(mesh, due, instant)
+        for g in _collapse(mesh, h, instant):
+            due.discard(g)
+            if mesh.map.origin[g] >= 0 and _has_closed(mesh, g, instant):
+                due.add(g)
+    return changed
+
+
+def _angle(mesh: Mesh, h: int) -> tuple[int, int, int]:
+    m = mesh.map
+    return m.origin[m.previous[h]], m.origin[h], m.origin[h ^ 1]
+
+
+def _has_closed(mesh: Mesh, h: int, instant: Instant) -> bool:
+    a, p, b = _angle(mesh, h)
+    return mesh.region[h] == FREE and mesh.corner[h] and a != b and instant.sign(a, p, b) <= 0
+
+
+def _first(mesh: Mesh, due: set[int], instant: Instant) -> int:
+    """The least of the closed corners, but of copies of one triple the first to close."""
+    all_vertices = instant.vertices.all
+    number = AlgebraicNumber(instant.time)
+    first, *others = sorted(due)
+
+    def vertices(h: int) -> tuple[Vertex, Vertex, Vertex]:
+        a, p, b = _angle(mesh, h)
+        return all_vertices[a], all_vertices[p], all_vertices[b]
+
+    p = vertices(first)
+    for h in others:
+        q = vertices(h)
+        if {v.track for v in p} == {v.track for v in q} and comes_first(q, -1, p, -1, number):
+            first, p = h, q
+    return first
+
+
+def _collapse(mesh: Mesh, h: int, instant: Instant) -> list[int]:
+    """Collapse one corner; the half-edges whose angles may have changed."""
+    m = mesh.map
+    a, p, b = _angle(mesh, h)
+    before, face = m.previous[h], m.face(h)
+    if len(face) == 3:
+        middle = instant.middle(a, p, b)
+        edge = next(g for g in face if middle not in mesh.ends(g))
+    else:
+        origin_moves = instant.nearer(p, a, b)
+        edge = h if origin_moves else before
+    if mesh.is_boundary(edge):
+        raise AuditError(f"a vertex is on the body edge {mesh.ends(edge)}")
+    nearby = [*face, *m.face(edge ^ 1)]
+    if len(face) == 3:
+        mesh.dissolve_triangle(edge)
+    else:
+        mesh.collapse_corner(h, origin_moves=edge == h)
+    return nearby

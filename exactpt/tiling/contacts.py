@@ -1,0 +1,75 @@
+"""Which vertices touch which edges at the current time: the decision that a contact is one.
+
+Proof that nothing is missed. Let t be the first contact and look at the tiling just
+before it, in the limit towards t. A contact of vertex v and body edge e squeezes to a
+point every face between them. A face that is pinched at a point z falls into two loops;
+its three corners share out, so one loop has at most one corner besides z and encloses
+no area. If it has none, an edge has shrunk to a point: two neighbours coincide. If it
+has one, q, both its chains from q to z lie on one line: every angle of the loop is zero
+or straight at t. So all vertices of the loop, v and the ends of the edge it meets
+included, belong to angles whose orientation vanishes at t: either for the first time in
+a while, and then that angle has an event at t (touching zeros are scheduled too), or for
+ever; but a corner that is zero for ever is never left standing (`exactpt.tiling.exact`),
+and a straight angle that is so for ever is found by following the chain. Hence testing
+the vertices of all angles with an event at t, extended along straight angles, finds
+every contact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from exactpt.motion.incidence import Touch
+from exactpt.tiling.placement import coincide, lies_on
+
+if TYPE_CHECKING:
+    from exactpt.motion.vertices import Vertex, Vertices
+    from exactpt.tiling.certificates import Certifier
+
+__all__ = ["touches"]
+
+
+def touches(certifier: Certifier, vertices: Vertices, candidates: Iterable[int]) -> list[Touch]:
+    """All touches now among these vertices and the body edges between them, in order.
+
+    Vertex on vertex counts once, and not as a vertex on the edges that end there.
+    Neighbours on one body touch only if their edge has shrunk to a point.
+    """
+    chosen: dict[tuple[int, int], Vertex] = {}
+    for vertex_id in candidates:
+        vertex = vertices.all[vertex_id]
+        chosen.setdefault((vertex.body, vertex.index), vertex)
+    points = [chosen[key] for key in sorted(chosen)]
+    found: set[Touch] = set()
+    meeting: set[tuple[int, int, int, int]] = set()
+    for i, a in enumerate(points):
+        for b in points[:i]:
+            if coincide(certifier, a, b):
+                found.add(Touch(b.body, b.index, a.body, -1, a.index))
+                meeting.add((a.body, a.index, b.body, b.index))
+                meeting.add((b.body, b.index, a.body, a.index))
+    for a in points:
+        size = vertices.bodies[a.body].body.size
+        for edge, b in _edges(vertices, chosen, a, size):
+            for v in points:
+                if v.body == a.body and v.index in (a.index, b.index):
+                    continue
+                if (v.body, v.index, a.body, a.index) in meeting:
+                    continue
+                if (v.body, v.index, b.body, b.index) in meeting:
+                    continue
+                if lies_on(certifier, v, a, b):
+                    found.add(Touch(v.body, v.index, a.body, edge, -1))
+    return sorted(found)
+
+
+def _edges(
+    vertices: Vertices, chosen: dict[tuple[int, int], Vertex], a: Vertex, size: int
+) -> list[tuple[int, Vertex]]:
+    """The body edge that starts at a, as (number, other end), if its end is chosen too."""
+    body = vertices.bodies[a.body].body
+    if size == 1 or (a.index == size - 1 and (size == 2 or not body.closed)):
+        return []
+    other = chosen.get((a.body, (a.index + 1) % size))
+    return [] if other is None else [(a.index, other)]

@@ -1,0 +1,139 @@
+"""Orientation and x-order of moving vertices, exactly: the decider behind every filter.
+
+**One symbolic rule** resolves all degeneracies that last (a function that is zero for
+ever). It is an infinitesimal perturbation in two steps, the second smaller than every
+positive power of the first:
+
+1. The plane is turned clockwise by rho. So of two vertices with equal x for ever the
+   upper one is the left one: points are ordered by (x, -y), and a vertical direction is
+   the steepest descent, not the steepest ascent.
+2. Every vertex v of the scene is inflated to a disc of radius eps * (1 - kappa |v|^2),
+   kappa infinitesimal again, and every body to the hull of its discs. So points and
+   segments have an inside too. (The rings of thin bodies have several copies of a vertex,
+   see `exactpt.motion.vertices`: its disc is shared out among them, by direction.)
+
+Proof that step 2 decides three vertices a, m, b of the scene that stay on one line, m
+between a and b: the radius is a strictly concave function along the line, so the disc of
+m sticks out of the hull of the discs of a and b on either side. So the free edge from a
+to b is hit by m, whichever sides its ends touch; an angle of exactly pi at m in a free
+face is reflex; and a corner of angle 0 at a, between m and b, has collapsed. In every one
+of these cases the orientation (previous, here, next) around a free face counts as
+*negative*: **zero counts as -1**. That is all that the code has to know of step 2.
+
+The perturbed bodies contain the bodies, so no contact is lost: a touch becomes an
+overlap. A contact itself is always decided on the unperturbed input
+(`exactpt.motion.incidence`).
+
+The perturbation is smaller than every time step: for a function f of t that is not zero
+for ever, the sign just after a time is that of f, whatever the perturbation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, negate, scale, subtract
+from exactpt.kernel.numbers import ZZ
+from exactpt.motion.incidence import difference
+from exactpt.motion.incidence import orientation as base_orientation
+from exactpt.motion.track import Track
+from exactpt.motion.vertices import Vertex
+
+__all__ = [
+    "comes_first",
+    "cross",
+    "orientation",
+    "x_order",
+    "x_order_terms",
+]
+
+
+def cross(a: Track, b: Track, c: Track, d: Track) -> IntPoly:
+    """A positive multiple of (b - a) x (d - c)."""
+    ux, uy = difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
+    vx, vy = difference(c.x, c.w, d.x, d.w), difference(c.y, c.w, d.y, d.w)
+    return subtract(multiply(ux, vy), multiply(uy, vx))
+
+
+def copy_orientation(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
+    """The orientation of three vertices of which some are copies of one.
+
+    Of two copies: (offset(b) - offset(a)) x (c - a), in the limit of small offsets; of
+    three: the orientation of their offsets.
+    """
+    if a.track is c.track and b.track is not c.track:
+        a, b, c = c, a, b
+    elif b.track is c.track and a.track is not c.track:
+        a, b, c = b, c, a
+    p, q = a.track, c.track
+    dx, dy = _offset_difference(a, b)
+    if p is q:
+        ex, ey = _offset_difference(a, c)
+    else:
+        ex, ey = difference(p.x, p.w, q.x, q.w), difference(p.y, p.w, q.y, q.w)
+    return subtract(multiply(dx, ey), multiply(dy, ex))
+
+
+def _offset_difference(a: Vertex, b: Vertex) -> tuple[IntPoly, IntPoly]:
+    zero: tuple[IntPoly, IntPoly] = ((), ())
+    (ax, ay), (bx, by) = a.offset or zero, b.offset or zero
+    return subtract(bx, ax), subtract(by, ay)
+
+
+def orientation(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
+    """What has the sign of the orientation; ``()`` if it is zero for ever (counts as -1)."""
+    if a.track is b.track or b.track is c.track or c.track is a.track:
+        return copy_orientation(a, b, c)
+    return base_orientation(a.track, b.track, c.track)
+
+
+def x_order_terms(a: Vertex, b: Vertex) -> Iterator[IntPoly]:
+    """The terms, from the largest on, of what is positive while a is left of b.
+
+    That is x(b) - x(a); then y(a) - y(b), by step 1; then the same of the offsets.
+    """
+    yield difference(a.track.x, a.track.w, b.track.x, b.track.w)
+    yield difference(b.track.y, b.track.w, a.track.y, a.track.w)
+    dx, dy = _offset_difference(a, b)
+    yield dx
+    yield negate(dy)
+
+
+def x_order(a: Vertex, b: Vertex) -> IntPoly:
+    """The first of these terms that is not zero for ever."""
+    return next((f for f in x_order_terms(a, b) if f), ())
+
+
+def comes_first(
+    p: tuple[Vertex, Vertex, Vertex],
+    sign_p: int,
+    q: tuple[Vertex, Vertex, Vertex],
+    sign_q: int,
+    t: AlgebraicNumber,
+) -> bool:
+    """Whether the copies p become collinear before the copies q do.
+
+    Both are of the same three vertices of the scene, in orders that may differ; their
+    orientation F vanishes at t and changes to sign_p and sign_q. With the offsets it is
+    F + eta g + ..., so that in the direction of the change, sign * F passes
+    -sign * eta * g: first the one for which -sign * g is less.
+    """
+    f = scale(_offset_term(*p), ZZ(sign_p))
+    g = scale(_offset_term(*q), ZZ(sign_q))
+    return t.sign_of(subtract(f, g)) > 0
+
+
+def _offset_term(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
+    """The coefficient of eta in the orientation of three vertices moved by eta * offset.
+
+    Row (x, y, w) of the determinant becomes (x + eta dx w, y + eta dy w, w).
+    """
+    total: IntPoly = ()
+    for u, v, w in ((a, b, c), (b, c, a), (c, a, b)):
+        if u.offset is not None:
+            (dx, dy), p, q = u.offset, v.track, w.track
+            along_x = multiply(dx, difference(q.y, q.w, p.y, p.w))
+            along_y = multiply(dy, difference(q.x, q.w, p.x, p.w))
+            total = add(total, multiply(subtract(along_x, along_y), u.track.w))
+    return total

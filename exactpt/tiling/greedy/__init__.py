@@ -1,0 +1,1 @@
+"""The greedy vertical pseudo-triangulation (paper, section 4)."""

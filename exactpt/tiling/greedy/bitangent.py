@@ -1,0 +1,136 @@
+"""Bitangents of two disjoint convex bodies, and their order by direction.
+
+A bitangent is directed from left to right. theta(s) is the clockwise angle from "up" to
+its direction, in (0, pi]; pi is vertical. Larger slope means smaller theta.
+"""
+
+from __future__ import annotations
+
+from typing import Final, final
+
+from exactpt.errors import AuditError
+from exactpt.kernel.numbers import nearest_float, sign
+from exactpt.motion.incidence import difference
+from exactpt.tiling.greedy.slope import Slope, slope_terms
+from exactpt.tiling.instant import Instant
+
+__all__ = ["Bitangent", "tangent_pair"]
+
+INFINITY: Final = float("inf")
+
+
+def tangent_pair(instant: Instant, a: int, b: int, side_a: int, side_b: int) -> tuple[int, int]:
+    """The vertices at which the bitangent from the body of a to that of b touches.
+
+    Each end moves along its ring while a neighbour is on the wrong side of the line. A
+    vertex whose two neighbours are on the right side is the tangent point as seen from
+    the other end, since the ring is convex. Of vertices that stay on the line the
+    nearest one is taken: it sticks out (`exactpt.tiling.exact`, step 3).
+
+    Args:
+        instant: the predicates.
+        a: a vertex of a convex ring to start from.
+        b: one of another ring, disjoint from the first.
+        side_a: 1 if the body of a shall be on the left of the line, -1 on the right.
+        side_b: the same for the body of b.
+
+    Raises:
+        AuditError: if the walk does not end (the bodies are not convex or not disjoint).
+    """
+    vertices = instant.vertices.all
+    steps = 0
+    settled = 0
+    while settled < 2:
+        for n in (vertices[a].ahead, vertices[a].behind):
+            s = side_a * instant.sign(a, b, n)
+            if s < 0 or (s == 0 and instant.nearer(b, n, a)):
+                a = n
+                settled = 0
+                break
+        else:
+            settled += 1
+            if settled < 2:
+                for n in (vertices[b].ahead, vertices[b].behind):
+                    s = side_b * instant.sign(a, b, n)
+                    if s < 0 or (s == 0 and instant.nearer(a, n, b)):
+                        b = n
+                        settled = 0
+                        break
+                else:
+                    settled += 1
+        steps += 1
+        if steps > 2 * len(vertices) + 100:
+            raise AuditError(
+                f"no bitangent of {instant.vertices.name(a)} and {instant.vertices.name(b)}"
+            )
+    return a, b
+
+
+@final
+class Bitangent:
+    """A bitangent with its place in the order of the sweep.
+
+    Attributes:
+        a, b: its left and its right vertex.
+        key: -slope, rounded; never in the wrong order, but equal for slopes that are close.
+        cell: the cell of the sweep in which it was found.
+        left, right: the arcs at the ends of that cell then.
+    """
+
+    __slots__ = (
+        "_direction",
+        "_instant",
+        "_number",
+        "_sides",
+        "a",
+        "b",
+        "cell",
+        "key",
+        "left",
+        "number",
+        "right",
+    )
+
+    def __init__(
+        self,
+        instant: Instant,
+        ends: tuple[int, int],
+        sides: tuple[int, int],
+        cell: int,
+        arcs: tuple[int, int],
+        number: int,
+    ) -> None:
+        self.a, self.b = ends
+        self.cell = cell
+        self.left, self.right = arcs
+        self.number = number
+        self._instant = instant
+        self._sides = sides
+        (ax, ay), (bx, by) = instant.positions[self.a], instant.positions[self.b]
+        dx, dy = bx - ax, by - ay
+        self._direction = (dx, dy)
+        if dx != 0:
+            self.key: float = nearest_float(-dy / dx)
+        else:
+            # Vertical at the time. Just after, if not for ever: steep upwards or downwards.
+            self.key = -INFINITY if dy > 0 else INFINITY
+
+    def __lt__(self, other: Bitangent) -> bool:
+        """Whether theta is smaller, for equal keys; perturbed, so that the order is total."""
+        order = self.compare(other)
+        return order < 0 if order else self.number < other.number
+
+    def compare(self, other: Bitangent) -> int:
+        """-1 or 1 as theta is smaller or larger just after the instant, perturbed; 0 if equal."""
+        (ux, uy), (vx, vy) = self._direction, other._direction
+        now = sign(ux * vy - uy * vx)
+        return now or self._instant.first_sign(slope_terms(self._slope(), other._slope()))
+
+    def _slope(self) -> Slope:
+        vertices = self._instant.vertices.all
+        a, b = vertices[self.a], vertices[self.b]
+        # Of zero width, at the time if that is asked for, else for ever.
+        upright = self._direction[0] == 0 and (
+            not self._instant.after or not difference(a.track.x, a.track.w, b.track.x, b.track.w)
+        )
+        return Slope(a, b, self._sides, upright=upright)

@@ -1,0 +1,265 @@
+"""The kinetic greedy vertical pseudo-triangulation of convex bodies (paper, section 4.2).
+
+Corners and bends are repaired as in any tiling; of two diagonals that become one line
+the one with the larger theta gives way. Diagonals that become vertical, and bitangents
+that do and so become the smallest of all, are found by the vertical decomposition.
+"""
+
+from __future__ import annotations
+
+from typing import final
+
+from exactpt.errors import AuditError, InputError
+from exactpt.kernel.numbers import QQ
+from exactpt.tiling.build import build_mesh
+from exactpt.tiling.greedy.shadow import facing_visit, flip, flip_until_greedy, shadow
+from exactpt.tiling.greedy.sweep import greedy_diagonals
+from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition
+from exactpt.tiling.instant import Instant
+from exactpt.tiling.kinetic import CELL, EXTREME, KINDS, KineticTiling, RebuildNeeded
+from exactpt.tiling.mesh import Mesh
+from exactpt.tiling.moment import Moment
+from exactpt.tiling.placement import coordinate_order
+
+__all__ = ["GreedyTiling", "greedy_mesh"]
+
+
+def greedy_mesh(instant: Instant, cells: VerticalDecomposition) -> tuple[Mesh, int]:
+    """The greedy tiling, and how many flips were needed after the sweep.
+
+    None, unless parallel bitangents met in the sweep; then the result is checked. Uses up
+    the vertical decomposition.
+    """
+    diagonals, tied = greedy_diagonals(instant, cells)
+    mesh = build_mesh(instant, diagonals)
+    flips = flip_until_greedy(mesh, instant, mesh.diagonals()) if tied else []
+    return mesh, len(flips)
+
+
+@final
+class GreedyTiling(KineticTiling):
+    """The canonical tiling of convex bodies: at any time the one that the sweep builds.
+
+    Attributes:
+        cells: the vertical decomposition.
+    """
+
+    name = "greedy"
+    cells: VerticalDecomposition
+
+    def _build(self, time: QQ) -> None:
+        instant = Instant(self.vertices, time, exact_only=self.certifier.exact_only)
+        self.cells = VerticalDecomposition.at(instant)
+        self.mesh, flips = greedy_mesh(instant, self.cells.copy())
+        self.stats.flips += flips
+
+    def _close(self, mesh: Mesh, instant: Instant) -> None:
+        super()._close(mesh, instant)
+        flip_until_greedy(mesh, instant, mesh.diagonals())
+
+    @classmethod
+    def mesh_at(cls, instant: Instant) -> Mesh:
+        """The greedy tiling of an instant."""
+        return greedy_mesh(instant, VerticalDecomposition.at(instant))[0]
+
+    def _certify_everything(self) -> None:
+        self._due_cells: set[int] = set()
+        self._due_extremes: set[int] = set()
+        super()._certify_everything()
+        for cell in range(len(self.cells.left)):
+            self._certify_cell(cell)
+        for i in range(len(self.vertices.bodies)):
+            self._certify_extremes(i)
+
+    # Certificates of the vertical decomposition
+
+    def _certify_cell(self, cell: int) -> None:
+        slot = KINDS * cell + CELL
+        self._due_cells.discard(cell)
+        left, right = self.cells.left[cell], self.cells.right[cell]
+        if NO_ARC in (left, right) or left >> 1 == right >> 1:
+            self.queue.cancel(slot)
+            return
+        a, b = self._cell_pair(cell)
+        if not self._certify_x_order(slot, a, b):
+            self._due_cells.add(cell)
+
+    def _certify_x_order(self, slot: int, a: int, b: int) -> bool:
+        """Certify that a is left of b; whether it is so just after now."""
+        if self.certifier.keeps_x_order(a, b):
+            self.certifier.skipped += 1
+            self.queue.cancel(slot)
+            # What is kept may be wrong only in the midst of simultaneous events.
+            return not self._careful or Moment(self.certifier, before=False).left_of(a, b)
+        s, time = self.certifier.x_order(a, b)
+        if s < 0 or time is None:
+            self.queue.cancel(slot)
+        else:
+            self.queue.schedule(slot, time)
+        return s > 0
+
+    def _certify_extremes(self, i: int) -> None:
+        for arc in (2 * i, 2 * i + 1):
+            self._certify_extreme(2 * arc)
+            self._certify_extreme(2 * arc + 1)
+
+    def _certify_extreme(self, handle: int) -> None:
+        """Certify that an extreme vertex is so against one neighbour on its ring.
+
+        Args:
+            handle: twice the arc, plus 1 for the neighbour behind.
+        """
+        slot = KINDS * handle + EXTREME
+        self._due_extremes.discard(handle)
+        a, b = self._extreme_pair(handle)
+        if not self._certify_x_order(slot, a, b):
+            self._due_extremes.add(handle)
+
+    def _certify_body(self, i: int) -> list[int]:
+        vanishing = super()._certify_body(i)
+        self._certify_extremes(i)
+        for arc in (2 * i, 2 * i + 1):
+            for cell in sorted(self.cells.cells_of(arc)):
+                self._certify_cell(cell)
+        return vanishing
+
+    def _recheck(self, slots: list[int]) -> None:
+        for slot in slots:
+            if slot % KINDS == CELL:
+                self._certify_cell(slot // KINDS)
+            else:
+                self._certify_extreme(slot // KINDS)
+        # In the plane turned by rho (`exactpt.tiling.exact`, step 1) x is x - rho y. Two
+        # vertices l and r that exchange their order now, l the left one before, do so
+        # when x(r) - x(l) has fallen to rho (y(r) - y(l)): before now, and so before the
+        # angles that fail now, if r is the upper one; after them if l is.
+        self._repair_rising()
+
+    # Repairs
+
+    def _has_more(self) -> bool:
+        return bool(self._due_extremes or self._due_cells)
+
+    def _repair_more(self) -> None:
+        after = Moment(self.certifier, before=False)
+        if self._due_extremes:
+            self._move_extreme(min(self._due_extremes))
+        else:
+            self._pass_vertical(min(self._due_cells), after)
+
+    def _repair_rising(self) -> None:
+        """Exchange the pairs that do so just before now."""
+        before = Moment(self.certifier, before=True)
+        rising = True
+        while rising:
+            rising = False
+            for handle in sorted(self._due_extremes):
+                if self._is_rising(*self._extreme_pair(handle)):
+                    self._move_extreme(handle)
+                    rising = True
+                    break
+            for cell in sorted(self._due_cells):
+                if self._is_rising(*self._cell_pair(cell)):
+                    self._pass_vertical(cell, before)
+                    rising = True
+                    break
+
+    def _is_rising(self, left: int, right: int) -> bool:
+        u, v = self.vertices.all[left], self.vertices.all[right]
+        return coordinate_order(self.certifier, u, v, 1) > 0
+
+    def _cell_pair(self, cell: int) -> tuple[int, int]:
+        vertex = self.cells.vertex
+        return vertex[self.cells.left[cell]], vertex[self.cells.right[cell]]
+
+    def _extreme_pair(self, handle: int) -> tuple[int, int]:
+        """An extreme vertex and its neighbour on the ring, as they should be from left to right."""
+        arc = handle >> 1
+        vertex = self.vertices.all[self.cells.vertex[arc]]
+        neighbour = vertex.behind if handle % 2 else vertex.ahead
+        return (vertex.id, neighbour) if arc % 2 == 0 else (neighbour, vertex.id)
+
+    def _move_extreme(self, handle: int) -> None:
+        arc = handle >> 1
+        vertex = self.vertices.all[self.cells.vertex[arc]]
+        self.cells.vertex[arc] = vertex.behind if handle % 2 else vertex.ahead
+        self.stats.count("internal")
+        self._certify_extreme(2 * arc)
+        self._certify_extreme(2 * arc + 1)
+        for cell in sorted(self.cells.cells_of(arc)):
+            self._certify_cell(cell)
+
+    def _pass_vertical(self, cell: int, moment: Moment) -> None:
+        """The two arcs of a cell exchange their order: their bitangent is vertical now."""
+        self._due_cells.discard(cell)
+        u, v = self._cell_pair(cell)
+        rising = self._is_rising(u, v)
+        a, b = self.cells.swap(cell, left_is_lower=rising)
+        for touched in sorted({cell, a, b}):
+            self._certify_cell(touched)
+        # Rising from the left one to the right one, it goes from the smallest theta to the
+        # largest; falling, from the largest to the smallest.
+        if rising:
+            self._leave(u, v, moment)
+        else:
+            self._enter(u, v, moment)
+
+    def _check_batch(self, touched: list[int]) -> None:
+        super()._check_batch(touched)
+        m = self.mesh.map
+        nearby = [g for h in touched if m.origin[h] >= 0 for g in (*m.face(h), h)]
+        after = Moment(self.certifier, before=False)
+        try:
+            flips = flip_until_greedy(self.mesh, after, nearby)
+        except AuditError:
+            raise RebuildNeeded from None
+        for old, new, changed in flips:
+            self.stats.flips += 1
+            self._record("diagonal", (old,), (new,))
+            self._recertify(tuple(h for h in changed if m.origin[h] >= 0))
+
+    def _edge(self, u: int, v: int) -> int | None:
+        m = self.mesh.map
+        return next((h for h in m.fan(self.mesh.ring_edge[u]) if m.target(h) == v), None)
+
+    def _leave(self, u: int, v: int, moment: Moment) -> None:
+        """A diagonal has become the one of largest theta: its shadow takes its place."""
+        h = self._edge(u, v)
+        if h is None:
+            raise RebuildNeeded
+        if not self.mesh.is_hull(h):
+            visits = shadow(self.mesh, h, moment)
+            if visits is None:
+                raise RebuildNeeded
+            self._flip(h, visits, moment)
+
+    def _enter(self, u: int, v: int, moment: Moment) -> None:
+        """A bitangent has become the one of smallest theta: it replaces its diagonal."""
+        if self._edge(u, v) is not None:
+            return  # on the convex hull
+        m = self.mesh.map
+        around = m.fan(self.mesh.ring_edge[u])
+        g = facing_visit(self.mesh, around, v, moment)
+        for h in [] if g is None else m.face(g):
+            if self.mesh.is_boundary(h) or self.mesh.is_hull(h):
+                continue
+            visits = shadow(self.mesh, h, moment)
+            if visits is not None and {m.origin[visits[0]], m.origin[visits[1]]} == {u, v}:
+                self._flip(h, visits, moment)
+                return
+        raise RebuildNeeded
+
+    def _flip(self, h: int, visits: tuple[int, int], moment: Moment) -> None:
+        old = self.mesh.ends(h)
+        new = (self.mesh.map.origin[visits[0]], self.mesh.map.origin[visits[1]])
+        changed = flip(self.mesh, h, visits, moment)
+        self._record("diagonal", (old,), (new,))
+        self._recertify(tuple(changed))
+
+    def _repair_convex_vertex(self, h: int, kind: str) -> None:  # noqa: ARG002
+        vertex = self.vertices.all[self.mesh.map.origin[h]]
+        body = self.vertices.bodies[vertex.body].body
+        raise InputError(
+            f"body {body.name!r}: stops being convex at vertex {vertex.index}, "
+            f"t = {float(self.now)}: the greedy tiling is for convex bodies"
+        )

@@ -1,0 +1,264 @@
+"""Shadow edges and flips: the other diagonal of a pseudo-quadrangle.
+
+A diagonal s between two pseudo-triangles is removed; what is left is a pseudo-quadrangle
+with four corners. The corners that face s from either side are joined by a geodesic
+inside; its one edge that is no edge of the boundary is the shadow of s (paper, section
+2.2; checked against the definition in the tests). A pseudo-quadrangle may visit a vertex
+twice, so everything here is about visits, that is half-edges.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Protocol
+
+from exactpt.errors import AuditError
+from exactpt.tiling.mesh import FREE, Mesh
+
+__all__ = [
+    "Predicates",
+    "facing_visit",
+    "flip",
+    "flip_until_greedy",
+    "opposite_corner",
+    "shadow",
+    "tangency",
+]
+
+
+class Predicates(Protocol):
+    """What is asked of vertices, just after some time."""
+
+    def sign(self, a: int, b: int, c: int) -> int:
+        """1 if a, b, c turn left, -1 if right, 0 if collinear for ever (counts as right)."""
+        ...
+
+    def left_of(self, a: int, b: int) -> bool:
+        """Whether a comes before b from left to right."""
+        ...
+
+    def turn(self, a: int, b: int, c: int, d: int) -> int:
+        """1 if the direction from a to b turns left to that from c to d, -1 if right."""
+        ...
+
+
+def opposite_corner(mesh: Mesh, h: int) -> int:
+    """The corner of the face of h that is at neither end of the side chain with h."""
+    m = mesh.map
+    g = m.following[h]
+    while not mesh.corner[g]:
+        g = m.following[g]
+    g = m.following[g]
+    while not mesh.corner[g]:
+        g = m.following[g]
+    return g
+
+
+def shadow(mesh: Mesh, h: int, predicates: Predicates) -> tuple[int, int] | None:
+    """The visits (half-edges of the two faces of h) that the shadow edge of h joins.
+
+    The ends start at the two facing corners and move away from them along their side
+    chains until the segment between them is tangent at both. None if that does not end
+    in a segment that crosses h: the mesh is no pseudo-triangulation just after now.
+    """
+    m = mesh.map
+    cycle = _cycle(mesh, h, opposite_corner(mesh, h))
+    n = len(cycle)
+    points = [m.origin[g] for g in cycle]
+    is_corner = [mesh.corner[g] for g in cycle]
+    for g in (m.following[h], m.following[h ^ 1]):  # here two angles have become one
+        k = cycle.index(g)
+        is_corner[k] = predicates.sign(points[k - 1], points[k], points[(k + 1) % n]) > 0
+    ends = [0, cycle.index(opposite_corner(mesh, h ^ 1))]
+    distances = [0, 0]  # from their corners, negative: backwards
+    e = stuck = steps = 0
+    while stuck < 2 and steps < 8 * n:
+        steps += 1
+        i, y = ends[e], points[ends[1 - e]]
+        step = 0 if points[i] == y else _step(points, i, distances[e], y, predicates)
+        if step == 0 or (is_corner[(i + step) % n] and distances[e] + step != 0):
+            stuck += 1
+            e = 1 - e
+        else:
+            ends[e], distances[e], stuck = (i + step) % n, distances[e] + step, 0
+    x, y = ends
+    if (
+        points[x] == points[y]
+        or _step(points, x, distances[0], points[y], predicates)
+        or _step(points, y, distances[1], points[x], predicates)
+        or not _crosses(points[x], points[y], *mesh.ends(h), predicates)
+    ):
+        return None
+    return cycle[x], cycle[y]
+
+
+def tangency(mesh: Mesh, h: int, visits: tuple[int, int]) -> list[tuple[int, int, int]]:
+    """The four triples whose orientations keep a shadow edge tangent at both its ends.
+
+    Of each end, with the neighbours before and after it on the boundary of the two faces
+    of h.
+    """
+    cycle = _cycle(mesh, h, visits[0])
+    points = [mesh.map.origin[g] for g in cycle]
+    j = cycle.index(visits[1])
+    x, y = points[0], points[j]
+    return [
+        (x, points[1], y),
+        (x, y, points[-1]),
+        (y, points[(j + 1) % len(points)], x),
+        (y, x, points[j - 1]),
+    ]
+
+
+def _cycle(mesh: Mesh, h: int, start: int) -> list[int]:
+    """The visits of the union of the two faces of h, counter-clockwise from one of them."""
+    following, t = mesh.map.following, h ^ 1
+    cycle = [start]
+    g = following[start]
+    while True:
+        if g == h:  # at the origin of h: on in the other face
+            g = following[t]
+        elif g == t:
+            g = following[h]
+        if g == start:
+            return cycle
+        cycle.append(g)
+        g = following[g]
+
+
+def _step(points: list[int], i: int, distance: int, y: int, predicates: Predicates) -> int:
+    """Which way visit i has to move to be tangent to the segment to y: 1, -1 or 0.
+
+    At its corner (distance 0) the segment must be inside the angle. On the chain after
+    the corner both neighbours must be on the right of the segment, on the chain before
+    it on the left: the solid side. A neighbour farther from the corner that is on the
+    line for ever is nearer to y and sticks out: the end moves there. (A neighbour may be
+    another visit of the vertex of y; then it is for the other end to move.)
+    """
+    x, after, before = points[i], points[(i + 1) % len(points)], points[i - 1]
+    if distance >= 0 and y != after and predicates.sign(x, after, y) <= 0:
+        return 1
+    if distance <= 0 and y != before and predicates.sign(x, y, before) <= 0:
+        return -1
+    if distance > 0 and predicates.sign(x, y, before) > 0:
+        return -1
+    if distance < 0 and predicates.sign(x, y, after) < 0:
+        return 1
+    return 0
+
+
+def _crosses(x: int, y: int, u: int, v: int, predicates: Predicates) -> bool:
+    """Whether segments xy and uv cross inside, or share one end."""
+    if x in (u, v) or y in (u, v):
+        return {x, y} != {u, v}
+    sign = predicates.sign
+    return sign(x, y, u) != sign(x, y, v) and sign(u, v, x) != sign(u, v, y)
+
+
+def flip(mesh: Mesh, h: int, visits: tuple[int, int], predicates: Predicates) -> list[int]:
+    """Replace diagonal h by the segment between two visits of its faces.
+
+    Returns:
+        The half-edges whose angles have changed; the first is one of the new diagonal.
+        If one of the two faces was a triangle, all angles of both new faces.
+    """
+    m = mesh.map
+    was_triangle = any(m.following[m.following[m.following[g]]] == g for g in (h, h ^ 1))
+    g, k = visits
+    joined = mesh.flip_out(h)
+    e = mesh.flip_in(g, k)
+    changed = dict.fromkeys((e, e ^ 1, g, k, *joined))
+    for a in changed:
+        mesh.corner[a] = predicates.sign(m.origin[m.previous[a]], m.origin[a], m.origin[a ^ 1]) > 0
+    if was_triangle:
+        changed.update(dict.fromkeys((*m.face(e), *m.face(e ^ 1))))
+    return list(changed)
+
+
+def flip_until_greedy(
+    mesh: Mesh,
+    predicates: Predicates,
+    candidates: Iterable[int],
+    may_go: Callable[[int], bool] | None = None,
+) -> list[tuple[tuple[int, int], tuple[int, int], list[int]]]:
+    """Flip every diagonal whose shadow has smaller theta, until there is none.
+
+    Each flip lowers the multiset of angles, so it ends; a pseudo-triangulation in which
+    no diagonal can be flipped so is the greedy one (paper, Lemma 4.2: the local property).
+
+    Args:
+        mesh: a pseudo-triangulation just after the time of the predicates.
+        predicates: of that time.
+        candidates: half-edges of the diagonals to look at first.
+        may_go: whether the diagonal of a half-edge takes part; by default all do.
+
+    Returns:
+        For each flip the old edge, the new edge, and the half-edges of changed angles.
+
+    Raises:
+        AuditError: if a diagonal has no shadow: the mesh is no pseudo-triangulation.
+    """
+    todo = dict.fromkeys(min(h, h ^ 1) for h in candidates)
+    flips = []
+    while todo:
+        h = next(iter(todo))
+        del todo[h]
+        if mesh.is_boundary(h) or mesh.map.origin[h] < 0 or mesh.is_hull(h):
+            continue
+        if may_go is not None and not may_go(h):
+            continue
+        visits = shadow(mesh, h, predicates)
+        if visits is None:
+            raise AuditError(f"diagonal {h} has no shadow edge")
+        old, new = mesh.ends(h), (mesh.map.origin[visits[0]], mesh.map.origin[visits[1]])
+        if _theta_is_smaller(mesh, new, old, predicates):
+            changed = flip(mesh, h, visits, predicates)
+            flips.append((old, new, changed))
+            e = changed[0]
+            for g in (*mesh.map.face(e), *mesh.map.face(e ^ 1)):
+                todo[min(g, g ^ 1)] = None
+    return flips
+
+
+def _theta_is_smaller(
+    mesh: Mesh, s: tuple[int, int], t: tuple[int, int], predicates: Predicates
+) -> bool:
+    """Whether theta(s) < theta(t), for two edges that cross.
+
+    If they are parallel for ever, they join copies of the same two vertices. Inflation
+    then changes the slope by (h(b) - h(a)) / L, where h is +1 for a body below the line
+    (`exactpt.tiling.greedy.slope`); larger slope is smaller theta.
+    """
+    a, b = s if predicates.left_of(*s) else s[::-1]
+    c, d = t if predicates.left_of(*t) else t[::-1]
+    turn = predicates.turn(a, b, c, d)
+    if turn == 0:
+        turn = _rise(mesh, c, d, predicates) - _rise(mesh, a, b, predicates)
+    return turn < 0
+
+
+def _rise(mesh: Mesh, a: int, b: int, predicates: Predicates) -> int:
+    """h(b) - h(a) for a bitangent from a to b."""
+    return _side(mesh, a, a, b, predicates) - _side(mesh, b, a, b, predicates)
+
+
+def _side(mesh: Mesh, v: int, a: int, b: int, predicates: Predicates) -> int:
+    """1 if the body of v, an end of the bitangent ab, is on its left; -1 if on its right."""
+    m = mesh.map
+    neighbours = [m.target(h) for h in m.fan(mesh.ring_edge[v]) if mesh.is_boundary(h)]
+    return next((s for n in neighbours if (s := predicates.sign(a, b, n))), 0)
+
+
+def facing_visit(mesh: Mesh, around: list[int], target: int, predicates: Predicates) -> int | None:
+    """Of the half-edges out of a vertex, the one whose free angle a target is seen in."""
+    m, sign = mesh.map, predicates.sign
+    for h in around:
+        if mesh.region[h] != FREE:
+            continue
+        p, after, before = m.origin[h], m.origin[h ^ 1], m.origin[m.previous[h]]
+        if target in (after, before):
+            continue
+        left, right = sign(p, after, target) > 0, sign(p, target, before) > 0
+        if (left and right) if mesh.corner[h] else (left or right):
+            return h
+    return None

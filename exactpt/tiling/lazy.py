@@ -1,0 +1,44 @@
+"""Any pointed pseudo-triangulation: the fewest events, for those who only want the contact."""
+
+from __future__ import annotations
+
+from typing import final
+
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.vertices import MovingBody
+from exactpt.tiling.build import build_mesh
+from exactpt.tiling.greedy.greedy import greedy_mesh
+from exactpt.tiling.greedy.vertical import VerticalDecomposition
+from exactpt.tiling.instant import Instant
+from exactpt.tiling.kinetic import KineticTiling
+from exactpt.tiling.mesh import Mesh
+from exactpt.tiling.plane_sweep import sweep_diagonals
+from exactpt.tiling.pointed import make_pointed
+
+__all__ = ["LazyTiling"]
+
+
+@final
+class LazyTiling(KineticTiling):
+    """Starts greedy and repairs corners and bends alone."""
+
+    def _build(self, time: QQ) -> None:
+        instant = Instant(self.vertices, time, exact_only=self.certifier.exact_only)
+        self.mesh = self.mesh_at(instant)
+
+    @classmethod
+    def mesh_at(cls, instant: Instant) -> Mesh:
+        """A tiling of an instant: of convex bodies by rotation, else by a plane sweep."""
+        if all(is_convex(instant, body) for body in instant.vertices.bodies):
+            return greedy_mesh(instant, VerticalDecomposition.at(instant))[0]
+        mesh = build_mesh(instant, sweep_diagonals(instant))
+        make_pointed(mesh, instant)
+        return mesh
+
+
+def is_convex(instant: Instant, body: MovingBody) -> bool:
+    """Whether a body is convex and not tiled inside."""
+    vertices = instant.vertices.all
+    return not body.is_tiled and all(
+        instant.sign(vertices[v].ahead, v, vertices[v].behind) <= 0 for v in body.ring
+    )

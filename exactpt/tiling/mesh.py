@@ -1,0 +1,229 @@
+"""A tiling as topology with marks: which half-edges bound what, which angles are corners.
+
+The angle of half-edge h is the one at its origin, between the half-edge before it and h,
+in the face on the left.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Final, NamedTuple, final
+
+from exactpt.errors import AuditError
+from exactpt.planar.halfedge import PlanarMap
+
+__all__ = ["FREE", "INSIDE", "OUTER", "SOLID", "Diagonal", "Mesh"]
+
+FREE: Final = 0
+OUTER: Final = 1
+SOLID: Final = 2
+INSIDE: Final = 3
+
+
+class Diagonal(NamedTuple):
+    """An edge of a tiling between two vertices, in free space or inside a body."""
+
+    u: int
+    v: int
+    region: int = FREE
+
+
+@final
+class Mesh:
+    """A planar map of body edges and diagonals, with marks that the repairs keep right.
+
+    Attributes:
+        map: the half-edges.
+        region: of each half-edge, what is on its left: `FREE` (a pseudo-triangle),
+            `OUTER` (outside the convex hull), `SOLID` (inside a rigid body), `INSIDE` (a
+            pseudo-triangle inside a body that deforms).
+        corner: of each half-edge, whether its angle is less than pi (in a tile: one of
+            three).
+        boundary: of each edge (half of the handle), whether it is an edge of a body.
+        ring_edge: of each vertex, the half-edge to the next one on its ring; the body is
+            on its left. It is never removed.
+    """
+
+    def __init__(self, vertices: int) -> None:
+        self.map = PlanarMap()
+        self.region: list[int] = []
+        self.corner: list[bool] = []
+        self.boundary: list[bool] = []
+        self.ring_edge: list[int] = [-1] * vertices
+
+    def add_edge(self, u: int, v: int, *, boundary: bool) -> int:
+        """A new edge, not linked yet, with free space on both sides."""
+        h = self.map.add_edge(u, v)
+        self._mark(h, boundary=boundary)
+        return h
+
+    def _mark(self, h: int, *, boundary: bool) -> None:
+        if h == len(self.region):
+            self.region += (FREE, FREE)
+            self.corner += (False, False)
+            self.boundary.append(boundary)
+        else:
+            self.region[h] = self.region[h + 1] = FREE
+            self.boundary[h >> 1] = boundary
+
+    def is_boundary(self, h: int) -> bool:
+        """Whether a half-edge belongs to the edge of a body."""
+        return self.boundary[h >> 1]
+
+    def is_hull(self, h: int) -> bool:
+        """Whether an edge is on the convex hull of everything."""
+        return OUTER in (self.region[h], self.region[h ^ 1])
+
+    def ends(self, h: int) -> tuple[int, int]:
+        """The origin and the target of a half-edge."""
+        return self.map.origin[h], self.map.origin[h ^ 1]
+
+    def diagonals(self) -> list[int]:
+        """One half-edge (the even one) of every edge that no body has."""
+        origin = self.map.origin
+        return [h for h in range(0, len(origin), 2) if origin[h] >= 0 and not self.boundary[h >> 1]]
+
+    def faces(self, region: int = FREE) -> list[list[int]]:
+        """The faces of a region as cycles of half-edges, each from its least half-edge."""
+        seen: set[int] = set()
+        faces = []
+        for h in self.map.half_edges():
+            if h not in seen and self.region[h] == region:
+                face = self.map.face(h)
+                seen.update(face)
+                faces.append(face)
+        return faces
+
+    def collapse_corner(self, h: int, *, origin_moves: bool) -> None:
+        """Repair the corner of h, whose two edges have come to lie on one another.
+
+        With ``origin_moves`` the edge before h is the shorter one: h then starts at its
+        far end. Else h is the shorter one, and the edge before ends at its target.
+        """
+        m = self.map
+        region, corner = self.region, self.corner
+        if origin_moves:
+            a, t = m.previous[h], h ^ 1
+            m.slide_origin(h)
+            corner[h], corner[a], region[a] = True, False, region[t]
+        else:
+            a = m.previous[h]
+            t, b = a ^ 1, m.following[h]
+            was = corner[t]
+            m.slide_target(a)
+            # The face of a loses the corner; the one across gains a bend at its new end t.
+            corner[b], corner[h], corner[t] = True, was, False
+            region[h] = region[t]
+
+    def straighten(self, h: int, *, origin_moves: bool) -> None:
+        """Repair the bend at the origin of h, whose two edges have become one line.
+
+        With ``origin_moves`` h gives way: it then starts where the edge before it does.
+        Else the edge before gives way and ends where h does.
+        """
+        m = self.map
+        region, corner = self.region, self.corner
+        if origin_moves:
+            a, t = m.previous[h], h ^ 1
+            c, was = m.following[t], corner[a]
+            m.slide_origin(h)
+            corner[h], corner[a], corner[c] = was, True, False
+            region[a] = region[t]
+        else:
+            a = m.previous[h]
+            t = a ^ 1
+            m.slide_target(a)
+            # Angle of t: at the far end of h, a corner now; of h: at the old bend, reflex.
+            corner[h], corner[t] = False, True
+            region[h] = region[t]
+
+    def cut_off(self, h: int) -> int:
+        """Close the triangle at the bend of h by a new edge; the half-edge of it outside.
+
+        The bend lies between the half-edge before h and h; the new half-edge leads from
+        the origin of the one to the target of the other, with their old face on its left.
+        """
+        m = self.map
+        a, b = m.previous[h], m.following[h]
+        was = self.corner[a]
+        e = m.split_face(a, b)
+        self._mark(min(e, e ^ 1), boundary=False)
+        self.region[e] = self.region[a]
+        inside = INSIDE if self.region[a] == INSIDE else FREE
+        for g in (a, h, e ^ 1):
+            self.region[g], self.corner[g] = inside, True
+        self.corner[e] = was
+        return e
+
+    def dissolve_triangle(self, h: int) -> None:
+        """Remove a diagonal that the opposite vertex of its triangle has come to lie on.
+
+        The vertex is a bend of the face across then.
+        """
+        m = self.map
+        first, second = m.following[h], m.previous[h]
+        self.corner[first] = self.corner[h ^ 1]
+        self.corner[second] = False
+        self.region[first] = self.region[second] = self.region[h ^ 1]
+        m.remove_edge(h)
+
+    def flip_out(self, h: int) -> tuple[int, int]:
+        """Remove a diagonal between two tiles.
+
+        Returns:
+            The half-edges that follow at its origin and at its target; each now has the
+            joined angle there (its mark is the caller's to set).
+        """
+        m = self.map
+        at_origin, at_target = m.following[h ^ 1], m.following[h]
+        m.remove_edge(h)
+        return at_origin, at_target
+
+    def flip_in(self, h: int, g: int) -> int:
+        """Insert a diagonal between the visits of h and g in one tile.
+
+        Returns:
+            The half-edge from the origin of h to that of g; the four angles at its ends
+            belong to it, its twin, h and g (their marks are the caller's to set).
+        """
+        e = self.map.split_face(h, g)
+        self._mark(min(e, e ^ 1), boundary=False)
+        self.region[e] = self.region[e ^ 1] = self.region[h]
+        return e
+
+    def copy(self) -> Mesh:
+        """An independent copy."""
+        other = Mesh(0)
+        other.map = self.map.copy()
+        other.region, other.corner = self.region[:], self.corner[:]
+        other.boundary, other.ring_edge = self.boundary[:], self.ring_edge[:]
+        return other
+
+    def audit(self) -> None:
+        """Check links and marks.
+
+        Raises:
+            AuditError: if a tile has not three corners, the outer face has any, or the
+                half-edges of a face disagree on what it is.
+        """
+        self.map.audit()
+        for h in self.map.half_edges():
+            if self.region[h] != self.region[self.map.following[h]]:
+                raise AuditError(f"half-edge {h} and the next one bound different regions")
+        self.audit_faces(self.map.half_edges())
+
+    def audit_faces(self, half_edges: Iterable[int]) -> None:
+        """Check the number of corners of the faces of some half-edges.
+
+        Raises:
+            AuditError: if a tile has not three corners, or the outer face has any.
+        """
+        seen: set[int] = set()
+        for h in half_edges:
+            if h in seen or self.map.origin[h] < 0 or self.region[h] == SOLID:
+                continue
+            face = self.map.face(h)
+            seen.update(face)
+            corners = [g for g in face if self.corner[g]]
+            if len(corners) != (0 if self.region[h] == OUTER else 3):
+                raise AuditError(f"face {face} has corners {corners}")

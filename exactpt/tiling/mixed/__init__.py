@@ -1,0 +1,1 @@
+"""The mixed pseudo-triangulation of simple polygons (paper, section 5)."""

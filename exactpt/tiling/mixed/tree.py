@@ -1,0 +1,71 @@
+"""The balanced tree over the vertices of a polygon whose nodes have geodesics.
+
+Node (a, b), 0 <= a < b <= n, has the geodesic from vertex a to vertex b along the
+polygon; its children are (a, m) and (m, b), m in the middle, where the geodesics of the
+children are pinned to the boundary and its own is not. The leaves are the edges. Above
+the root (0, n), a loop pinned at vertex 0, stands `TOP`: the cycle that is pinned nowhere,
+the relative geodesic cycle of the polygon. The shape depends on n alone and never changes.
+
+Source: the paper, section 5.1, after J. Basch et al., *Kinetic collision detection for two
+simple polygons*, CGTA 27 (2004).
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Final, final
+
+__all__ = ["ROOT", "TOP", "GeodesicTree", "tree_of_size"]
+
+TOP: Final = 0
+ROOT: Final = 1
+
+
+@final
+class GeodesicTree:
+    """The tree over n vertices; nodes are numbered, parents before children.
+
+    Attributes:
+        size: n.
+        low, high: of each node, its interval (a, b).
+        parent: of each node; -1 of `TOP`.
+        depth: of each node; 0 of `TOP`.
+        leaf: of each edge, its node.
+    """
+
+    def __init__(self, size: int) -> None:
+        self.size = size
+        self.low: list[int] = [0, 0]
+        self.high: list[int] = [size, size]
+        self.parent: list[int] = [-1, TOP]
+        self.depth: list[int] = [0, 1]
+        self.leaf: list[int] = [-1] * size
+        node = ROOT
+        while node < len(self.low):
+            a, b = self.low[node], self.high[node]
+            if b - a == 1:
+                self.leaf[a] = node
+            else:
+                middle = (a + b) // 2
+                for low, high in ((a, middle), (middle, b)):
+                    self.low.append(low)
+                    self.high.append(high)
+                    self.parent.append(node)
+                    self.depth.append(self.depth[node] + 1)
+            node += 1
+
+    def __len__(self) -> int:
+        return len(self.low)
+
+    def ancestors(self, node: int) -> list[int]:
+        """The node and all above it, up to `TOP`."""
+        path = [node]
+        while self.parent[path[-1]] >= 0:
+            path.append(self.parent[path[-1]])
+        return path
+
+
+@lru_cache(maxsize=256)
+def tree_of_size(size: int) -> GeodesicTree:
+    """The tree over so many vertices, made once."""
+    return GeodesicTree(size)

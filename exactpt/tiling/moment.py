@@ -1,0 +1,80 @@
+"""Predicates just after, or just before, the current time of a run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, final
+
+from exactpt.kernel.counters import counters
+from exactpt.tiling import coefficients
+from exactpt.tiling.certificates import X_ORDER
+from exactpt.tiling.exact import cross, orientation, x_order
+
+if TYPE_CHECKING:
+    from exactpt.kernel.integer_polynomial import IntPoly
+    from exactpt.tiling.certificates import Certifier
+
+__all__ = ["Moment"]
+
+
+@final
+class Moment:
+    """Signs just after now, or just before it; they differ only for what vanishes now."""
+
+    def __init__(self, certifier: Certifier, *, before: bool) -> None:
+        self._certifier = certifier
+        self._before: bool = before
+
+    def sign(self, a: int, b: int, c: int) -> int:
+        """1 if a, b, c turn left, -1 if right, 0 if collinear for ever (counts as right)."""
+        certifier = self._certifier
+        va, vb, vc = certifier.vertex(a), certifier.vertex(b), certifier.vertex(c)
+        copies = va.track is vb.track or vb.track is vc.track or va.track is vc.track
+        if not (certifier.exact_only or copies or certifier.vanishes_now(a, b, c)):
+            s, _, _ = coefficients.orientation(
+                va.image,
+                vb.image,
+                vc.image,
+                certifier.errors,
+                certifier.now_low,
+                certifier.now_high,
+                self._horizon(),
+                False,  # noqa: FBT003
+            )
+            if s:
+                counters.filtered += 1
+                return s
+        return self._exact(orientation(va, vb, vc))
+
+    def left_of(self, a: int, b: int) -> bool:
+        """Whether a comes before b from left to right."""
+        certifier = self._certifier
+        va, vb = certifier.vertex(a), certifier.vertex(b)
+        known = certifier.vanishes_now(a, b, X_ORDER)
+        if not (certifier.exact_only or va.track is vb.track or known):
+            s, _, _ = coefficients.x_difference(
+                va.image,
+                vb.image,
+                certifier.errors,
+                certifier.now_low,
+                certifier.now_high,
+                self._horizon(),
+                False,  # noqa: FBT003
+            )
+            if s:
+                counters.filtered += 1
+                return s > 0
+        return self._exact(x_order(va, vb)) > 0
+
+    def turn(self, a: int, b: int, c: int, d: int) -> int:
+        """1 if the direction from a to b turns left to that from c to d, -1 if right."""
+        return self._exact(cross(*(self._certifier.vertex(v).track for v in (a, b, c, d))))
+
+    def _horizon(self) -> float:
+        # Roots are not asked for; but the filter looks at an interval that is not empty.
+        high = self._certifier.now_high
+        return high + 1e-12 * (1.0 + abs(high))
+
+    def _exact(self, f: IntPoly) -> int:
+        counters.exact += 1
+        now = self._certifier.exact_now
+        return now.sign_before(f) if self._before else now.sign_after(f)

@@ -1,0 +1,137 @@
+"""Where vertices are at the current time itself: order along a line, coincidence.
+
+Unperturbed and at the very time of an event (not just after it): this is what decides
+which vertex is between which, and whether there is a contact.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from exactpt.kernel.counters import counters
+from exactpt.kernel.integer_polynomial import add, multiply, subtract
+from exactpt.motion import incidence
+from exactpt.motion.incidence import difference
+
+if TYPE_CHECKING:
+    from exactpt.motion.frame import Image
+    from exactpt.motion.vertices import Vertex
+    from exactpt.tiling.certificates import Certifier
+
+__all__ = [
+    "coincide",
+    "coordinate_order",
+    "lies_on",
+    "nearer",
+    "nearer_copy",
+    "strictly_between",
+]
+
+U: Final = 2.0**-53
+
+
+def coordinate_order(certifier: Certifier, a: Vertex, b: Vertex, axis: int) -> int:
+    """The sign of x(b) - x(a) (axis 0) or of y(b) - y(a) (axis 1) at the current time."""
+    if a.track is b.track:
+        return 0
+    if not certifier.exact_only:
+        s = _float_order(certifier, a.image, b.image, axis)
+        if s:
+            counters.filtered += 1
+            return s
+    counters.exact += 1
+    p, q = a.track, b.track
+    f = difference(p.y, p.w, q.y, q.w) if axis else difference(p.x, p.w, q.x, q.w)
+    return certifier.exact_now.sign_of(f)
+
+
+def _float_order(certifier: Certifier, a: Image, b: Image, axis: int) -> int:
+    """The certain sign on all of [now_low, now_high], or 0.
+
+    Horner's rule at the middle m of the enclosure, on coefficients off by at most
+    errors[i] (and one unit): the value is off by sum((4n + 8) u |c_i| + errors[i]) |m|^i;
+    within the enclosure, of half-width r, it moves by less than r sum(i |c_i| T^(i-1)),
+    T = |m| + r.
+    """
+    if a.ws or b.ws:
+        return 0
+    low, high = certifier.now_low, certifier.now_high
+    m = 0.5 * (low + high)
+    r = high - low
+    reach = abs(m) + r
+    errors = certifier.errors
+    values, bounds = 0.0, 0.0
+    for image, factor in ((a, -1.0), (b, 1.0)):
+        cs = image.ys if axis else image.xs
+        value, bound, slope = 0.0, 0.0, 0.0
+        unit = (4 * len(cs) + 8) * U
+        for i in range(len(cs) - 1, -1, -1):
+            slope = slope * reach + bound
+            value = value * m + cs[i]
+            bound = bound * reach + abs(cs[i])
+        error = 0.0
+        for i in range(len(cs) - 1, -1, -1):
+            error = error * reach + errors[i]
+        values += factor * value
+        bounds += (unit * bound + error + r * slope) * (1.0 + 1e-10)
+    bounds += 4.0 * U * abs(values)
+    return 1 if values > bounds else -1 if values < -bounds else 0
+
+
+def coincide(certifier: Certifier, a: Vertex, b: Vertex) -> bool:
+    """Whether two vertices are at one place now."""
+    return coordinate_order(certifier, a, b, 0) == 0 and coordinate_order(certifier, a, b, 1) == 0
+
+
+def nearer(certifier: Certifier, p: Vertex, a: Vertex, b: Vertex) -> int:
+    """For a and b in one direction from p: 1 if a is nearer, -1 if b is, 0 if they coincide.
+
+    The copies of a thin vertex coincide here, with p too.
+    """
+    for axis in (0, 1):
+        pa = coordinate_order(certifier, p, a, axis)
+        ab = coordinate_order(certifier, a, b, axis)
+        if pa and ab:
+            return 1 if pa == ab else -1
+        if ab:  # a is at p: the nearest there can be
+            return 1
+    return 0
+
+
+def nearer_copy(certifier: Certifier, p: Vertex, a: Vertex, b: Vertex) -> int:
+    """As `nearer`, for two copies a and b of one thin vertex: by their offsets."""
+    if a.offset is None or b.offset is None or a.track is not b.track:
+        return 0
+    (ax, ay), (bx, by) = a.offset, b.offset
+    t, o = a.track, p.track
+    # (a - b) . (p - a) > 0: the offset of a points more towards p.
+    f = add(
+        multiply(subtract(ax, bx), difference(t.x, t.w, o.x, o.w)),
+        multiply(subtract(ay, by), difference(t.y, t.w, o.y, o.w)),
+    )
+    return certifier.exact_now.sign_of(f)
+
+
+def strictly_between(certifier: Certifier, a: Vertex, p: Vertex, b: Vertex) -> bool:
+    """For three vertices on one line: whether p is between a and b, at neither of them.
+
+    A copy next to p counts as being apart from it.
+    """
+    if a.track is p.track or p.track is b.track:
+        return not (a.track is p.track and p.track is b.track)
+    for axis in (0, 1):
+        ap = coordinate_order(certifier, a, p, axis)
+        if ap:
+            return ap == coordinate_order(certifier, p, b, axis)
+    return False
+
+
+def lies_on(certifier: Certifier, v: Vertex, a: Vertex, b: Vertex) -> bool:
+    """Whether v is in the closed segment ab now."""
+    for axis in (0, 1):
+        if coordinate_order(certifier, a, v, axis) * coordinate_order(certifier, v, b, axis) < 0:
+            return False
+    if coincide(certifier, v, a) or coincide(certifier, v, b):
+        return True
+    counters.exact += 1
+    return incidence.lies_on(v.track, a.track, b.track, certifier.exact_now)

@@ -1,0 +1,191 @@
+"""A first tiling of any disjoint simple polygons: a sweep from left to right.
+
+Between two edges that meet the sweep line next to each other lies a *gap*. The gap keeps
+the chain of vertices that it has been closed with so far on the left: from the last
+vertex of its lower edge to that of its upper one, bulging to the right. A new vertex in
+the gap is joined to the chain by its two tangents; the chain between their ends becomes
+the third side of a pseudo-triangle. For points this is the incremental
+pseudo-triangulation (paper, section 3.1); a vertex on the edge of a gap needs one tangent,
+and where two edges meet, the chain between them is closed off.
+
+The result is a pseudo-triangulation, though not one with the fewest faces
+(`exactpt.tiling.pointed`). O(n log n), and the length of the chains that are passed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cmp_to_key
+from typing import final
+
+from exactpt.tiling.instant import Instant
+from exactpt.tiling.mesh import FREE, INSIDE, SOLID, Diagonal
+
+__all__ = ["Sweep", "SweptEdge", "body_edges", "sweep_diagonals"]
+
+
+@final
+class SweptEdge:
+    """An edge from left to right, the region above it, and the gap there."""
+
+    __slots__ = ("chain", "left", "region", "right")
+
+    def __init__(self, left: int, right: int, region: int) -> None:
+        self.left = left
+        self.right = right
+        self.region = region
+        self.chain: list[int] = []
+
+
+def sweep_diagonals(instant: Instant) -> list[Diagonal]:
+    """The diagonals of a pseudo-triangulation of the free space, hull edges included.
+
+    The insides of bodies that deform are tiled as well, those of rigid bodies not.
+    """
+    return Sweep(instant, body_edges(instant), triangulate=False).run()
+
+
+def body_edges(instant: Instant) -> list[SweptEdge]:
+    """The edges of all bodies. A body is on the left of its ring: above an edge leading right."""
+    vertices = instant.vertices
+    edges = []
+    for body in vertices.bodies:
+        inside = INSIDE if body.is_tiled else SOLID
+        for v in body.ring:
+            ahead = vertices.all[v].ahead
+            if instant.left_of(v, ahead):
+                edges.append(SweptEdge(v, ahead, inside))
+            else:
+                edges.append(SweptEdge(ahead, v, FREE))
+    return edges
+
+
+@final
+class Sweep:
+    """A sweep over edges that do not cross.
+
+    Args:
+        instant: the predicates.
+        edges: the edges; what is above each is tiled unless it is `SOLID`.
+        triangulate: join a vertex to all of the chain that it sees, not by tangents only.
+    """
+
+    def __init__(self, instant: Instant, edges: Iterable[SweptEdge], *, triangulate: bool) -> None:
+        self.instant = instant
+        self.triangulate = triangulate
+        self.diagonals: list[Diagonal] = []
+        # From bottom to top; the first is no edge but the gap below all of them.
+        self.active: list[SweptEdge] = [SweptEdge(-1, -1, FREE)]
+        self.starting: dict[int, list[SweptEdge]] = {}
+        for edge in edges:
+            self.starting.setdefault(edge.left, []).append(edge)
+
+    def run(self) -> list[Diagonal]:
+        """The diagonals of all gaps, from left to right."""
+        for v in self.instant.sorted_by_x(list(range(len(self.instant.vertices.all)))):
+            edges = self.starting.get(v, [])
+            self._pass(v, self._from_bottom_to_top(edges))
+        return self.diagonals
+
+    def _from_bottom_to_top(self, edges: list[SweptEdge]) -> list[SweptEdge]:
+        """Edges with a common left end."""
+
+        def order(a: SweptEdge, b: SweptEdge) -> int:
+            return -self.instant.sign(a.left, a.right, b.right)
+
+        return sorted(edges, key=cmp_to_key(order)) if len(edges) > 1 else edges
+
+    def _pass(self, v: int, starting: list[SweptEdge]) -> None:
+        first = self._first_not_below(v)
+        last = first
+        while last < len(self.active) and self.active[last].right == v:
+            last += 1
+        below = self.active[first - 1]
+        ending = self.active[first:last]
+        if not ending:
+            # Inside a gap: its chain is seen from v between two tangents.
+            lower, upper = self._split_chain(v, below.chain, below.region)
+        else:
+            lower = self._upper_end(v, below.chain, below.region)
+            upper = self._lower_end(v, ending[-1].chain, ending[-1].region)
+            if self.triangulate:
+                for edge in ending[:-1]:
+                    if edge.region != SOLID:
+                        self._join_part(v, edge.chain, 1, len(edge.chain) - 2, edge.region)
+        if starting:
+            for edge in starting[:-1]:
+                edge.chain = [v]
+            starting[-1].chain = upper
+            below.chain = lower
+        else:
+            below.chain = lower + upper[1:]
+        self.active[first:last] = starting
+
+    def _first_not_below(self, v: int) -> int:
+        """The position of the lowest edge that is over v or ends there."""
+        low, high = 1, len(self.active)
+        while low < high:
+            middle = (low + high) // 2
+            edge = self.active[middle]
+            if edge.right != v and self.instant.sign(edge.left, edge.right, v) > 0:
+                low = middle + 1
+            else:
+                high = middle
+        return low
+
+    def _join_part(self, v: int, chain: list[int], low: int, high: int, region: int) -> None:
+        """Join v to a part of a chain: to its ends, or to all of it."""
+        step = 1 if self.triangulate else max(high - low, 1)
+        for i in range(low, high + 1, step):
+            self.diagonals.append(Diagonal(chain[i], v, region))
+
+    def _sees(self, v: int, chain: list[int], i: int) -> bool:
+        """Whether v sees the edge i of a chain: it is on its right, going up."""
+        return self.instant.sign(chain[i], chain[i + 1], v) < 0
+
+    def _split_chain(self, v: int, chain: list[int], region: int) -> tuple[list[int], list[int]]:
+        """The chains below and above v in a gap that starts or goes on there."""
+        if not chain or region == SOLID:
+            return [v], [v]
+        low, high = 0, len(chain) - 1
+        seen = [i for i in range(high) if self._sees(v, chain, i)]
+        if seen:
+            low, high = seen[0], seen[-1] + 1
+        else:
+            low = high = self._only_visible(chain)
+        self._join_part(v, chain, low, high, region)
+        return [*chain[: low + 1], v], [v, *chain[high:]]
+
+    def _only_visible(self, chain: list[int]) -> int:
+        """The one vertex of a chain that is seen by a vertex which sees no edge: an end.
+
+        The lower end, if its wedge between the gap's lower edge (which leads right) and
+        the chain is more than pi: then the chain starts to the left. The directions of
+        the chain turn to the left on the way up, so then it ends to the left as well, and
+        the wedge at its upper end is less than pi.
+        """
+        leans_left = len(chain) > 1 and self.instant.left_of(chain[1], chain[0])
+        return 0 if leans_left else len(chain) - 1
+
+    def _upper_end(self, v: int, chain: list[int], region: int) -> list[int]:
+        """The chain of a gap whose upper edge ends at v: its last vertex is next to v."""
+        if region == SOLID:
+            return [v]
+        i = len(chain) - 1
+        while i > 0 and self._sees(v, chain, i - 1):
+            i -= 1
+        if i < len(chain) - 1:
+            last = len(chain) - 2 if self.triangulate else i
+            self._join_part(v, chain, i, last, region)
+        return [*chain[: i + 1], v]
+
+    def _lower_end(self, v: int, chain: list[int], region: int) -> list[int]:
+        """The same for a gap whose lower edge ends at v: its first vertex is next to v."""
+        if region == SOLID:
+            return [v]
+        i = 0
+        while i < len(chain) - 1 and self._sees(v, chain, i):
+            i += 1
+        if i > 0:
+            self._join_part(v, chain, 1 if self.triangulate else i, i, region)
+        return [v, *chain[i:]]

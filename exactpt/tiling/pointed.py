@@ -1,0 +1,167 @@
+"""From any pseudo-triangulation to one with the fewest faces.
+
+A pseudo-triangulation is *pointed* if every vertex has a tile with an angle above pi
+there, except where the free space itself has an angle below pi (a reflex vertex of a
+polygon, seen from outside). The pointed ones are those with the fewest faces:
+k + m + r - 2 in free space (paper, Lemma 2.1, which needs pointed, not minimal).
+
+A diagonal whose removal leaves a tile with three corners is taken out. If none is left
+but a vertex is not pointed, one of its diagonals is flipped: the other diagonal of the
+pseudo-quadrangle does not end there, since the vertex is a corner of it. So the degree of
+the vertex falls, until two of its neighbouring angles add up to more than pi; the
+diagonal between these can be removed (it takes two corners away at the one end and, as a
+face has at least three, just one at the other).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
+
+from exactpt.errors import AuditError
+from exactpt.tiling.greedy.shadow import Predicates, flip, shadow
+from exactpt.tiling.mesh import OUTER, Mesh
+
+__all__ = ["Change", "MayGo", "make_pointed", "point_vertex"]
+
+MayGo: TypeAlias = Callable[[int], bool]
+"""Whether the diagonal of a half-edge may be removed or flipped."""
+
+
+class Change(NamedTuple):
+    """A diagonal removed, or replaced by another.
+
+    Attributes:
+        handle: the half-edge that was removed.
+        old: its ends.
+        new: the ends of the diagonal in its place, or None.
+        angles: the half-edges whose angles have changed.
+    """
+
+    handle: int
+    old: tuple[int, int]
+    new: tuple[int, int] | None
+    angles: list[int]
+
+
+def make_pointed(mesh: Mesh, predicates: Predicates, may_go: MayGo | None = None) -> None:
+    """Remove and flip diagonals, in place, until every vertex is pointed that can be.
+
+    Args:
+        mesh: a pseudo-triangulation.
+        predicates: of the time.
+        may_go: which half-edges belong to a diagonal that may be removed or flipped; the
+            others count like edges of bodies. By default all diagonals.
+
+    Raises:
+        AuditError: if the mesh is no pseudo-triangulation.
+    """
+    if may_go is None:
+        may_go = _any_diagonal(mesh)
+    _remove(mesh, predicates, mesh.diagonals(), may_go)
+    for first in mesh.ring_edge:
+        point_vertex(mesh, first, predicates, may_go)
+
+
+def _any_diagonal(mesh: Mesh) -> MayGo:
+    return lambda h: not mesh.is_boundary(h)
+
+
+def point_vertex(
+    mesh: Mesh, first: int, predicates: Predicates, may_go: MayGo | None = None
+) -> list[Change]:
+    """Make one vertex pointed, by flips and removals of its diagonals.
+
+    Args:
+        mesh: a pseudo-triangulation, in which no diagonal can be removed.
+        first: the half-edge of the ring that starts at the vertex.
+        predicates: of the time.
+        may_go: as of `make_pointed`.
+
+    Returns:
+        What was done, in order; nothing if the vertex is pointed or need not be.
+
+    Raises:
+        AuditError: if the mesh is no pseudo-triangulation.
+    """
+    m = mesh.map
+    if may_go is None:
+        may_go = _any_diagonal(mesh)
+    changes: list[Change] = []
+    while diagonals := _needless_diagonals(mesh, first, predicates, may_go):
+        removed = _remove(mesh, predicates, diagonals, may_go)
+        changes += removed
+        if removed:
+            continue
+        h = diagonals[0]
+        visits = shadow(mesh, h, predicates)
+        if visits is None:
+            raise AuditError(f"diagonal {h} has no shadow edge")
+        old, new = mesh.ends(h), (m.origin[visits[0]], m.origin[visits[1]])
+        angles = flip(mesh, h, visits, predicates)
+        changes.append(Change(h, old, new, angles))
+    return changes
+
+
+def _remove(mesh: Mesh, predicates: Predicates, todo: list[int], may_go: MayGo) -> list[Change]:
+    """Take out every diagonal whose two tiles are one with three corners together."""
+    m = mesh.map
+    changes = []
+    pending = dict.fromkeys(todo)
+    while pending:
+        h = next(iter(pending))
+        del pending[h]
+        if m.origin[h] < 0 or mesh.is_hull(h) or not may_go(h):
+            continue
+        corners = _corners_after_removal(mesh, h, predicates)
+        if corners is None:
+            continue
+        old = mesh.ends(h)
+        joined = mesh.flip_out(h)
+        for g, is_corner in zip(joined, corners, strict=True):
+            mesh.corner[g] = is_corner
+        face = m.face(joined[0])
+        changes.append(Change(h, old, None, face if len(face) < 5 else list(joined)))
+        for g in face:
+            pending[min(g, g ^ 1)] = None
+    return changes
+
+
+def _corners_after_removal(mesh: Mesh, h: int, predicates: Predicates) -> tuple[bool, bool] | None:
+    """The marks of the joined angles at the ends of h; None if it cannot be removed."""
+    m = mesh.map
+    marks = []
+    lost = 0
+    for g in (h, h ^ 1):
+        # At the origin of g: the angles of g and of the half-edge after its twin.
+        before, after = m.previous[g], m.following[g ^ 1]
+        a, p, b = m.origin[before], m.origin[g], m.target(after)
+        joined = a != b and predicates.sign(a, p, b) > 0 and mesh.corner[g] and mesh.corner[after]
+        marks.append(joined)
+        lost += mesh.corner[g] + mesh.corner[after] - joined
+    return (marks[0], marks[1]) if lost == 3 else None
+
+
+def _needless_diagonals(mesh: Mesh, first: int, predicates: Predicates, may_go: MayGo) -> list[int]:
+    """The diagonals in a sector of a vertex whose angles are all below pi but need not be.
+
+    A sector is between two edges that stay; it needs an angle above pi if it has one.
+    """
+    m = mesh.map
+    v = m.origin[first]
+    sector: list[int] = []  # from an edge that stays on, the half-edges of its angles
+    for h in [*m.fan(first), first]:
+        if sector and not may_go(h):
+            diagonals = sector[1:]
+            if (
+                diagonals
+                and all(mesh.corner[g] for g in sector)
+                and mesh.region[sector[0]] != OUTER
+            ):
+                # Its tiles are passed from the far edge h to the near one.
+                a, b = m.target(h), m.target(sector[0])
+                if a == b or predicates.sign(a, v, b) <= 0:
+                    return diagonals
+            sector = []
+        sector.append(h)
+    return []

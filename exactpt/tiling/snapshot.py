@@ -1,0 +1,217 @@
+"""Snapshots: a tiling as plain data, at a rational time.
+
+Vertices are those of the scene. The copies of a thin vertex become one; faces that have
+no area then are left out, and edges that run along such a face are cut at its vertices.
+What remains is a tiling of the unperturbed free space: no vertex lies inside an edge, and
+every face has three corners.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, final
+
+from exactpt.geometry.predicates import side
+from exactpt.kernel.numbers import QQ
+from exactpt.tiling.mesh import FREE
+
+if TYPE_CHECKING:
+    from exactpt.motion.vertices import Vertices
+    from exactpt.tiling.mesh import Mesh
+
+__all__ = ["Edge", "Face", "Node", "Snapshot", "snapshot"]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Node:
+    """A vertex of the scene and where it is."""
+
+    body: str
+    vertex: int
+    x: QQ
+    y: QQ
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """An edge between nodes ``u < v``; ``kind`` is "boundary" or "diagonal"."""
+
+    u: int
+    v: int
+    kind: str
+    hull: bool
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Face:
+    """A pseudo-triangle.
+
+    Attributes:
+        nodes: counter-clockwise.
+        corners: the three of them with an angle below pi.
+        region: "F1" inside the relative hull of a body, "F2" outside all of them.
+        body: in F1, whose relative hull.
+        level: in F1, the level of its geodesic.
+    """
+
+    nodes: tuple[int, ...]
+    corners: tuple[int, ...]
+    region: str = "F2"
+    body: str | None = None
+    level: int | None = None
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Snapshot:
+    """A tiling at a time.
+
+    Attributes:
+        at: the time; the tiling is the one just after it.
+        tiling: its name.
+        nodes: all vertices of the scene, in its order.
+        edges: body edges and diagonals, in order of their nodes.
+        faces: the pseudo-triangles.
+    """
+
+    at: QQ
+    tiling: str
+    nodes: tuple[Node, ...]
+    edges: tuple[Edge, ...]
+    faces: tuple[Face, ...]
+
+    @property
+    def diagonals(self) -> tuple[Edge, ...]:
+        """The edges that no body has."""
+        return tuple(e for e in self.edges if e.kind == "diagonal")
+
+    def to_json(self) -> dict[str, object]:
+        """The snapshot as in the contract (command ``tile``)."""
+        faces = []
+        for f in self.faces:
+            face: dict[str, object] = {
+                "vertices": list(f.nodes),
+                "corners": list(f.corners),
+                "region": f.region,
+            }
+            if f.body is not None:
+                face |= {"body": f.body, "level": f.level}
+            faces.append(face)
+        return {
+            "at": str(self.at),
+            "tiling": self.tiling,
+            "vertices": [
+                {"body": n.body, "vertex": n.vertex, "x": str(n.x), "y": str(n.y)}
+                for n in self.nodes
+            ],
+            "edges": [{"u": e.u, "v": e.v, "kind": e.kind, "hull": e.hull} for e in self.edges],
+            "faces": faces,
+        }
+
+
+def snapshot(vertices: Vertices, mesh: Mesh, name: str, at: QQ) -> Snapshot:
+    """The tiling that a mesh is at a rational time, in terms of the scene.
+
+    Args:
+        vertices: with the tracks of that time.
+        mesh: the tiling of that very time (`KineticTiling.mesh_now`).
+        name: of the tiling.
+        at: the time.
+    """
+    return _Contraction(vertices, mesh, at).snapshot(name)
+
+
+@final
+class _Contraction:
+    def __init__(self, vertices: Vertices, mesh: Mesh, at: QQ) -> None:
+        self.vertices = vertices
+        self.mesh = mesh
+        self.at = at
+        self.nodes: list[Node] = []
+        first = []
+        for moving in vertices.bodies:
+            body = moving.body
+            first.append(len(self.nodes))
+            tracks = {vertices.all[v].index: vertices.all[v].track for v in moving.ring}
+            self.nodes += [Node(body.name, i, *tracks[i].at(at)) for i in range(body.size)]
+        self.node = [first[v.body] + v.index for v in vertices.all]
+        self.cuts: dict[tuple[int, int], set[int]] = {}
+
+    def snapshot(self, name: str) -> Snapshot:
+        whole = []
+        for face in self.mesh.faces(FREE):
+            nodes, corners = self._contracted(face)
+            if self._has_area(corners):
+                whole.append((nodes, corners))
+            else:
+                self._cut_along(nodes)
+        edges = self._edges()
+        faces = []
+        for nodes, corners in whole:
+            cycle = self._expanded(nodes)
+            least = cycle.index(min(cycle))
+            faces.append(Face(tuple(cycle[least:] + cycle[:least]), tuple(sorted(corners))))
+        faces.sort(key=lambda f: f.nodes)
+        return Snapshot(self.at, name, tuple(self.nodes), tuple(edges), tuple(faces))
+
+    def _contracted(self, face: Sequence[int]) -> tuple[list[int], list[int]]:
+        """The nodes around a face, runs of copies as one; and the nodes of its corners."""
+        ids = [self.node[self.mesh.map.origin[h]] for h in face]
+        nodes = [v for before, v in zip([ids[-1], *ids[:-1]], ids, strict=True) if v != before]
+        return nodes, [self.node[self.mesh.map.origin[h]] for h in face if self.mesh.corner[h]]
+
+    def _has_area(self, corners: Sequence[int]) -> bool:
+        """Whether a face with these corners bounds an area."""
+        a, b, c = ((self.nodes[v].x, self.nodes[v].y) for v in corners)
+        return side(a, b, c) != 0
+
+    def _cut_along(self, nodes: Sequence[int]) -> None:
+        """Cut the edges of a face without area at its vertices that lie inside them."""
+        ordered = sorted(set(nodes), key=lambda v: (self.nodes[v].x, self.nodes[v].y))
+        rank = {v: i for i, v in enumerate(ordered)}
+        for u, v in pairwise([*nodes, nodes[0]]) if len(ordered) > 2 else ():
+            low, high = sorted((rank[u], rank[v]))
+            if high - low > 1:
+                self.cuts.setdefault(_key(u, v), set()).update(ordered[low + 1 : high])
+
+    def _path(self, u: int, v: int) -> Iterator[int]:
+        """The nodes from u to v along an edge and its cuts, without v."""
+        inside = self.cuts.get(_key(u, v))
+        if not inside:
+            yield u
+            return
+        a = self.nodes[u]
+        along = sorted(
+            inside, key=lambda w: abs(self.nodes[w].x - a.x) + abs(self.nodes[w].y - a.y)
+        )
+        for p, q in pairwise([u, *along, v]):
+            yield from self._path(p, q)
+
+    def _expanded(self, nodes: Sequence[int]) -> list[int]:
+        return [w for u, v in pairwise([*nodes, nodes[0]]) for w in self._path(u, v)]
+
+    def _edges(self) -> list[Edge]:
+        found: dict[tuple[int, int], Edge] = {}
+        m = self.mesh.map
+        for h in range(0, len(m.origin), 2):
+            if m.origin[h] < 0:
+                continue
+            u, v = (self.node[w] for w in self.mesh.ends(h))
+            if u == v:
+                continue
+            for p, q in pairwise([*self._path(u, v), v]):
+                key = _key(p, q)
+                old = found.get(key)
+                boundary = self.mesh.is_boundary(h) or (old is not None and old.kind == "boundary")
+                hull = self.mesh.is_hull(h) or (old is not None and old.hull)
+                found[key] = Edge(*key, "boundary" if boundary else "diagonal", hull)
+        return [found[key] for key in sorted(found)]
+
+
+def _key(u: int, v: int) -> tuple[int, int]:
+    return (u, v) if u < v else (v, u)
