@@ -1,0 +1,86 @@
+// The camera: the place in the middle of the picture, exactly, and pixels for a unit of length.
+
+class Camera {
+  constructor(film) {
+    this.place = film.origin.slice();
+    this.scale = 100;
+    this.width = 1;
+    this.height = 1;
+    this.fitted = 100;
+  }
+
+  /** Where the place of a chart is, seen from the camera; in units of length, y upwards. */
+  offset(chart) {
+    return this.place.map((c, i) => toDouble(chart.place[i] - c, -BITS));
+  }
+
+  /** Move by pixels. */
+  pan(dx, dy) {
+    this.place[0] -= fromDouble(dx / this.scale, BITS);
+    this.place[1] += fromDouble(dy / this.scale, BITS);
+  }
+
+  /** Zoom so that what is at a pixel stays there. */
+  zoom(factor, px, py) {
+    const scale = Math.min(Math.max(this.scale * factor, this.fitted / 256), this.fitted * 2 ** 120);
+    const moved = 1 / this.scale - 1 / scale;
+    this.place[0] += fromDouble((px - this.width / 2) * moved, BITS);
+    this.place[1] -= fromDouble((py - this.height / 2) * moved, BITS);
+    this.scale = scale;
+  }
+
+  /** The camera that shows a box [left, bottom, right, top], seen from a chart's place. */
+  framing(chart, [left, bottom, right, top]) {
+    const margin = Math.min(this.width, this.height) * 0.08;
+    const room = (pixels, extent) => (pixels - 2 * margin) / Math.max(extent, 1e-300);
+    const scale = Math.min(room(this.width, right - left), room(this.height, top - bottom));
+    return {
+      place: [
+        chart.place[0] + fromDouble((left + right) / 2, BITS),
+        chart.place[1] + fromDouble((bottom + top) / 2, BITS),
+      ],
+      scale: scale > 1e200 ? Math.min(this.width, this.height) : scale,
+    };
+  }
+
+  /** How many times as large as a picture of everything. */
+  get magnification() {
+    return this.scale / this.fitted;
+  }
+}
+
+/** The box of all vertices of a chart as it is evaluated. */
+function boxOf(chart) {
+  const box = [Infinity, Infinity, -Infinity, -Infinity];
+  chart.x.forEach((x, v) => {
+    const y = chart.y[v];
+    box[0] = Math.min(box[0], x);
+    box[1] = Math.min(box[1], y);
+    box[2] = Math.max(box[2], x);
+    box[3] = Math.max(box[3], y);
+  });
+  return chart.x.length ? box : [0, 0, 1, 1];
+}
+
+function union(a, b) {
+  return [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];
+}
+
+/** A path for the camera from where it is to another place and scale; t runs from 0 to 1. */
+function flight(camera, target) {
+  const from = { place: camera.place.slice(), scale: camera.scale };
+  const way = from.place.map((c, i) => toDouble(target.place[i] - c, -BITS));
+  const growth = Math.log(target.scale / from.scale);
+  // On the screen, the nearer of the two places (the one shown larger) moves evenly.
+  const [anchor, larger] = growth >= 0 ? [target.place, from.scale] : [from.place, target.scale];
+  return (t) => {
+    if (t >= 1) {
+      camera.place = target.place.slice();
+      camera.scale = target.scale;
+      return;
+    }
+    camera.scale = from.scale * Math.exp(growth * t);
+    const share = (growth >= 0 ? t - 1 : t) * (larger / camera.scale);
+    camera.place = anchor.map((c, i) => c + fromDouble(way[i] * share, BITS));
+  };
+}

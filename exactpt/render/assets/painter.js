@@ -1,0 +1,264 @@
+// The painter: tiles, bodies, edges, what has just changed, what fails next, the contact.
+
+class Painter {
+  constructor(canvas, film) {
+    this.canvas = canvas;
+    this.context = canvas.getContext("2d");
+    this.pen = new Pen(this.context);
+    this.film = film;
+    this.colours = {};
+  }
+
+  /** Read the colours of the theme. */
+  readTheme() {
+    const style = getComputedStyle(document.documentElement);
+    for (const name of ["paper", "ink", "soft", "outline", "diagonal", "hull", "accent", "contact",
+      "added", "removed", "next", "tint0", "tint1", "tint2", "tint3", "tint4", "tint5"]) {
+      this.colours[name] = style.getPropertyValue(`--${name}`).trim();
+    }
+  }
+
+  /** Fit the canvas to its box on the screen. */
+  resize(camera) {
+    const { clientWidth, clientHeight } = this.canvas;
+    const ratio = window.devicePixelRatio || 1;
+    [camera.width, camera.height] = [Math.max(clientWidth, 1), Math.max(clientHeight, 1)];
+    this.canvas.width = Math.round(camera.width * ratio);
+    this.canvas.height = Math.round(camera.height * ratio);
+    this.ratio = ratio;
+  }
+
+  /**
+   * Paint the picture.
+   *
+   * @param view what to show: `step`, `time`, `layers`, `hover`, `flash` (edges that a step
+   *   has changed, with a strength from 1 to 0), `pulse` (0 to 1, for the ring of a contact)
+   */
+  paint(chart, camera, view) {
+    const { context, colours, film, pen } = this;
+    context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    context.fillStyle = colours.paper;
+    context.fillRect(0, 0, camera.width, camera.height);
+    context.lineJoin = "round";
+    context.lineCap = "round";
+    pen.aim(chart, camera);
+    const { tiles, edges } = film.after(view.step);
+    if (view.layers.tiles) this.tiles(tiles.filter((tile) => !tile.inside), 1);
+    this.bodies();
+    if (view.layers.tiles) this.tiles(tiles.filter((tile) => tile.inside), 0.4);
+    if (view.hover?.tile) this.tile(view.hover.tile);
+    if (view.layers.edges) this.edges(edges);
+    this.outlines();
+    if (view.layers.next) this.certificate(film.steps[view.step]?.certificate ?? []);
+    if (view.flash) this.flash(view.flash);
+    if (view.hover) this.hover(view.hover);
+    if (view.layers.names) this.names();
+    if (film.isContact(view.step, view.time)) this.contact(view.pulse);
+  }
+
+  stroke(colour, width, dash = []) {
+    this.context.strokeStyle = colour;
+    this.context.lineWidth = width;
+    this.context.setLineDash(dash);
+    this.context.stroke();
+    this.context.setLineDash([]);
+  }
+
+  tiles(tiles, alpha) {
+    const { context, colours, pen } = this;
+    context.globalAlpha = alpha;
+    for (let tint = 0; tint < 6; tint += 1) {
+      context.beginPath();
+      for (const tile of tiles) if (tile.tint === tint) pen.polygon(tile.nodes);
+      context.fillStyle = colours[`tint${tint}`];
+      context.fill();
+    }
+    context.globalAlpha = 1;
+  }
+
+  bodies() {
+    const { context, pen } = this;
+    for (const body of this.film.bodies) {
+      if (!body.closed || body.size < 3) continue;
+      context.beginPath();
+      pen.polygon(ring(body));
+      context.fillStyle = body.colour;
+      context.fill();
+    }
+  }
+
+  outlines() {
+    const { context, colours, pen } = this;
+    context.beginPath();
+    for (const body of this.film.bodies) {
+      if (body.closed && body.size > 2) this.around(body);
+    }
+    this.stroke(colours.outline, 1.2);
+    for (const body of this.film.bodies) {
+      if (body.closed && body.size > 2) continue;
+      context.beginPath();
+      if (body.size > 1) this.around(body);
+      this.stroke(colours.outline, 5.5);
+      this.stroke(body.colour, 3.5);
+      if (body.size === 1 && pen.isNear(body.first)) {
+        context.beginPath();
+        context.arc(...pen.pixel(body.first), 5, 0, 2 * Math.PI);
+        context.fillStyle = body.colour;
+        context.fill();
+        this.stroke(colours.outline, 1.4);
+      }
+    }
+  }
+
+  around(body) {
+    const last = body.closed && body.size > 2 ? body.size : body.size - 1;
+    for (let i = 0; i < last; i += 1) {
+      this.pen.segment(body.first + i, body.first + ((i + 1) % body.size));
+    }
+  }
+
+  edges(edges) {
+    const { context, colours, pen } = this;
+    for (const [isHull, colour, width] of [[false, colours.diagonal, 1.1], [true, colours.hull, 1.8]]) {
+      context.beginPath();
+      for (const { u, v, kind } of edges) if (kind !== "diagonal" === isHull) pen.segment(u, v);
+      this.stroke(colour, width);
+    }
+  }
+
+  /** What has just gone is dashed, what has come is thick. */
+  flash({ removed, added, strength }) {
+    const { context, colours, pen } = this;
+    context.globalAlpha = strength;
+    for (const [pairs, colour, width, dash] of [
+      [removed, colours.removed, 1.8, [3, 5]], [added, colours.added, 3, []]]) {
+      context.beginPath();
+      for (const [u, v] of pairs) pen.segment(u, v);
+      this.stroke(colour, width, dash);
+    }
+    context.globalAlpha = 1;
+  }
+
+  /** The vertices that come to lie on a line next: the outer two joined, all ringed. */
+  certificate(nodes) {
+    const { context, colours, pen } = this;
+    if (!nodes.length) return;
+    const [u, v] = farthest(pen, nodes);
+    context.beginPath();
+    if (u !== v) pen.segment(u, v);
+    this.stroke(colours.next, 1.3, [2, 5]);
+    context.beginPath();
+    for (const node of nodes.filter((n) => pen.isNear(n))) {
+      const [x, y] = pen.pixel(node);
+      context.moveTo(x + 5.5, y);
+      context.arc(x, y, 5.5, 0, 2 * Math.PI);
+    }
+    this.stroke(colours.next, 1.8);
+  }
+
+  tile({ nodes, corners }) {
+    const { context, colours, pen } = this;
+    context.beginPath();
+    pen.polygon(nodes);
+    context.globalAlpha = 0.16;
+    context.fillStyle = colours.accent;
+    context.fill();
+    context.globalAlpha = 1;
+    this.stroke(colours.accent, 1.8);
+    for (const node of corners) this.dot(node, 4, colours.accent);
+  }
+
+  hover({ edge, node }) {
+    if (edge) {
+      this.context.beginPath();
+      this.pen.segment(edge.u, edge.v);
+      this.stroke(this.colours.accent, 3);
+    }
+    if (node !== undefined) this.dot(node, 5, this.colours.accent);
+  }
+
+  dot(node, radius, colour) {
+    const { context, pen } = this;
+    if (!pen.isNear(node)) return;
+    context.beginPath();
+    context.arc(...pen.pixel(node), radius, 0, 2 * Math.PI);
+    context.fillStyle = colour;
+    context.fill();
+    this.stroke(this.colours.paper, 1.2);
+  }
+
+  names() {
+    for (const body of this.film.bodies) {
+      const [x, y] = middle(this.pen, ring(body));
+      if (Math.abs(x) > NEAR || Math.abs(y) > NEAR) continue;
+      this.text(body.name, x, y + (body.size > 2 ? 4 : -11), "12px", this.colours.ink, "center");
+    }
+  }
+
+  text(text, x, y, size, colour, align) {
+    const { context } = this;
+    context.font = `600 ${size} ui-sans-serif, system-ui, sans-serif`;
+    context.textAlign = align;
+    context.lineWidth = 3.5;
+    context.strokeStyle = this.colours.paper;
+    context.strokeText(text, x, y);
+    context.fillStyle = colour;
+    context.fillText(text, x, y);
+  }
+
+  contact(pulse) {
+    const { context, colours, film, pen } = this;
+    film.contact.pairs.forEach(({ node, edge, normal, words }, i) => {
+      if (!pen.isNear(node)) return;
+      const [x, y] = pen.pixel(node);
+      context.beginPath();
+      if (edge) pen.segment(...edge);
+      context.globalAlpha = 0.6;
+      this.stroke(colours.contact, 4);
+      context.globalAlpha = 1 - pulse;
+      context.beginPath();
+      context.arc(x, y, 11 + 26 * pulse, 0, 2 * Math.PI);
+      this.stroke(colours.contact, 2);
+      context.globalAlpha = 1;
+      context.beginPath();
+      context.arc(x, y, 11, 0, 2 * Math.PI);
+      this.stroke(colours.contact, 2.4);
+      this.dot(node, 3.6, colours.contact);
+      if (normal) this.arrow(x, y, normal[0], -normal[1]);
+      const align = x < 0.6 * this.pen.camera.width ? "left" : "right";
+      const row = normal && normal[1] > 0 ? 30 + 18 * i : -18 - 18 * i;
+      this.text(words, x + (align === "left" ? 16 : -16), y + row, "14px", colours.contact, align);
+    });
+  }
+
+  arrow(x, y, dx, dy) {
+    const { context } = this;
+    const [tx, ty] = [x + 52 * dx, y + 52 * dy];
+    context.beginPath();
+    context.moveTo(x + 11 * dx, y + 11 * dy);
+    context.lineTo(tx, ty);
+    for (const side of [1, -1]) {
+      context.moveTo(tx, ty);
+      context.lineTo(tx - 9 * dx - side * 5 * dy, ty - 9 * dy + side * 5 * dx);
+    }
+    this.stroke(this.colours.contact, 2.4);
+  }
+}
+
+/** The vertices of a body. */
+function ring(body) {
+  return Array.from({ length: body.size }, (_, i) => body.first + i);
+}
+
+/** The middle of some vertices on the canvas. */
+function middle(pen, nodes) {
+  const [x, y] = nodes.map((v) => pen.pixel(v)).reduce(([a, b], [c, d]) => [a + c, b + d]);
+  return [x / nodes.length, y / nodes.length];
+}
+
+/** The two of some vertices that are farthest from one another. */
+function farthest(pen, nodes) {
+  const pairs = nodes.flatMap((u, i) => nodes.slice(i).map((v) => [u, v]));
+  const length = ([u, v]) => Math.hypot(pen.x[u] - pen.x[v], pen.y[u] - pen.y[v]);
+  return pairs.reduce((best, pair) => (length(pair) > length(best) ? pair : best));
+}

@@ -1,0 +1,144 @@
+"""A film as JSON data for its page: exact tracks, exact times, and what lives between steps.
+
+Times and places are fixed-point integers (`exactpt.render.fixed`): times in units of
+2**(timeUnit - 192), places in units of 2**(lengthUnit - 192). Tracks are the polynomials
+that the engine runs on, whole.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from exactpt.kernel.numbers import QQ
+from exactpt.render.fixed import BITS, exponent_above, fixed
+from exactpt.render.palette import body_colour
+from exactpt.render.words import pair_in_words, short
+
+if TYPE_CHECKING:
+    from exactpt.collision.contact import Contact
+    from exactpt.kernel.algebraic import AlgebraicNumber
+    from exactpt.motion.body import Body
+    from exactpt.render.film import Film, Step
+    from exactpt.scene.scene import Scene
+
+__all__ = ["data_of"]
+
+_SAFE: Final = 2**53
+_LONGEST: Final = 1200
+"""The most digits of a polynomial whose root a time is that are sent with it."""
+
+
+def data_of(film: Film, *, at: QQ | None = None) -> dict[str, object]:
+    """What the page needs, as JSON data; ``at`` is the time that is shown first."""
+    scene = film.scene
+    time_unit = exponent_above(scene.end - scene.start)
+    time_bits = BITS - time_unit
+    length_unit, origin = _extent(film)
+    end = film.end
+    return {
+        "tiling": film.tiling,
+        "timeUnit": time_unit,
+        "lengthUnit": length_unit,
+        "start": _integer(fixed(scene.start, time_bits)),
+        "end": _integer(fixed(end, time_bits)),
+        "at": None if at is None else _integer(fixed(at, time_bits)),
+        "startText": str(scene.start),
+        "endText": str(scene.end),
+        "origin": [_integer(fixed(c, BITS - length_unit)) for c in origin],
+        "bodies": [
+            _body(body, body_colour(i), scene, end, time_bits)
+            for i, body in enumerate(scene.bodies)
+        ],
+        "steps": [_step(step, time_bits) for step in film.steps],
+        "edges": [list(edge) for edge in sorted(film.edges, key=lambda e: (e.first, e.u, e.v))],
+        "tiles": [
+            [list(t.nodes), list(t.corners), t.tint, t.inside, t.first, t.last]
+            for t in sorted(film.tiles, key=lambda t: (t.first, t.nodes))
+        ],
+        "contact": None if film.contact is None else _contact(film.contact, scene),
+    }
+
+
+def _integer(value: int) -> int | str:
+    """A JSON number if a double holds it, else its digits."""
+    return int(value) if -_SAFE < value < _SAFE else str(value)
+
+
+def _extent(film: Film) -> tuple[int, tuple[QQ, QQ]]:
+    """The exponent of a power of two above the size of the scene, and a place in it."""
+    scene = film.scene
+    last = film.end.simplified().canonical_interval()[0]
+    times = (scene.start, (scene.start + last) / 2, last)
+    boxes = [
+        (min(values), max(values))
+        for t in times
+        for values in zip(*(p for body in scene.bodies for p in body.at(t)), strict=True)
+    ]
+    if not boxes:
+        return 0, (QQ(0), QQ(0))
+    extent = max(high - low for low, high in boxes)
+    (left, right), (bottom, top) = boxes[:2]
+    return exponent_above(extent), ((left + right) / 2, (bottom + top) / 2)
+
+
+def _body(
+    body: Body, colour: str, scene: Scene, end: AlgebraicNumber, time_bits: int
+) -> list[object]:
+    pieces: list[object] = []
+    time: QQ | None = scene.start
+    while time is not None and end.compare_rational(time) >= 0:
+        piece = body.piece_after(time)
+        tracks = [[[_integer(c) for c in f] for f in (t.x, t.y, t.w)] for t in piece.tracks]
+        time = piece.until
+        pieces.append([None if time is None else _integer(fixed(time, time_bits)), tracks])
+    return [body.name, colour, body.closed, pieces]
+
+
+def _step(step: Step, time_bits: int) -> dict[str, object]:
+    number = step.time.simplified()
+    data: dict[str, object] = {
+        "time": _integer(fixed(number, time_bits)),
+        "changes": [
+            [c.kind, [list(e) for e in c.removed], [list(e) for e in c.added]]
+            for c in step.changes
+        ],
+        "certificate": list(step.certificate),
+    }
+    if number.is_rational:
+        data["exact"] = str(number.low)
+        return data
+    digits = [str(c) for c in number.polynomial]
+    data["degree"] = len(digits) - 1
+    data["exact"] = digits if sum(map(len, digits)) <= _LONGEST else None
+    return data
+
+
+def _contact(contact: Contact, scene: Scene) -> dict[str, object]:
+    first: dict[str, int] = {}
+    count = 0
+    for body in scene.bodies:
+        first[body.name] = count
+        count += body.size
+    sizes = {body.name: body.size for body in scene.bodies}
+    pairs = []
+    for pair in contact.pairs:
+        start = first[pair.other]
+        edge, other = None, None
+        if pair.edge is not None:
+            edge = [start + pair.edge, start + (pair.edge + 1) % sizes[pair.other]]
+        if pair.other_vertex is not None:
+            other = start + pair.other_vertex
+        pairs.append(
+            {
+                "node": first[pair.body] + pair.vertex,
+                "edge": edge,
+                "other": other,
+                "normal": None if pair.normal in (None, (0.0, 0.0)) else list(pair.normal or ()),
+                "words": pair_in_words(pair),
+            }
+        )
+    return {
+        "kind": contact.kind,
+        "pairs": pairs,
+        "overlaps": [f"{short(a)} and {short(b)} share a point" for a, b in contact.overlaps],
+    }

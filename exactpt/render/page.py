@@ -1,0 +1,82 @@
+"""Pages: an animation in one HTML file that needs nothing else, the same in every run."""
+
+from __future__ import annotations
+
+import json
+from html import escape
+from importlib.resources import files
+from typing import TYPE_CHECKING, Final
+
+from exactpt.render.data import data_of
+from exactpt.render.palette import DARK, LIGHT
+from exactpt.render.words import clean
+
+if TYPE_CHECKING:
+    from exactpt.kernel.numbers import QQ
+    from exactpt.render.film import Film
+
+__all__ = ["page_of"]
+
+SCRIPTS: Final = (
+    "exact",
+    "film",
+    "chart",
+    "camera",
+    "pen",
+    "painter",
+    "picker",
+    "player",
+    "panel",
+    "stage",
+    "pointer",
+    "controls",
+    "main",
+)
+"""The parts of the page's script; each needs only those before it, and `main` starts it."""
+
+
+def page_of(film: Film, *, title: str = "exactpt", at: QQ | None = None) -> str:
+    """The animation of a film as an HTML document.
+
+    Args:
+        film: what happened.
+        title: of the page.
+        at: the time that is shown first; by default the start.
+    """
+    data = json.dumps(data_of(film, at=at), separators=(",", ":"))
+    parts = {
+        "title": escape(clean(title)),
+        "summary": escape(_summary(film)),
+        "style": _variables() + _asset("page.css"),
+        # Inside a script element nothing but its end is special.
+        "data": data.replace("<", "\\u003c"),
+        "script": "\n".join(_asset(f"{name}.js") for name in SCRIPTS),
+    }
+    # Split first: what is filled in may hold what looks like a place to fill.
+    pieces = _asset("page.html").split("@@")
+    return "".join(parts[piece] if i % 2 else piece for i, piece in enumerate(pieces))
+
+
+def _asset(name: str) -> str:
+    return (files("exactpt.render") / "assets" / name).read_text(encoding="utf-8")
+
+
+def _summary(film: Film) -> str:
+    scene = film.scene
+    count = sum(len(step.changes) for step in film.steps)
+    return (
+        f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices, {film.tiling} tiling, "
+        f"{count} events from t = {scene.start} to {scene.end}"
+    )
+
+
+def _variables() -> str:
+    light, dark = (
+        "".join(f"--{name}:{value};" for name, value in theme.items()) for theme in (LIGHT, DARK)
+    )
+    return (
+        f":root{{color-scheme:light;{light}}}\n"
+        "@media (prefers-color-scheme:dark){:root:not([data-theme=light])"
+        f"{{color-scheme:dark;{dark}}}}}\n"
+        f":root[data-theme=dark]{{color-scheme:dark;{dark}}}\n"
+    )

@@ -1,0 +1,82 @@
+"""Stills: a scene with its tiling at one time, the time of the first contact included."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, final
+
+from exactpt.errors import InputError
+from exactpt.render.fixed import near
+from exactpt.render.run import Run
+from exactpt.tiling.snapshot import Snapshot, snapshot
+
+if TYPE_CHECKING:
+    from exactpt.collision.contact import Contact
+    from exactpt.kernel.numbers import QQ
+    from exactpt.scene.scene import Scene
+
+__all__ = ["Still", "still"]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Still:
+    """A scene at a time.
+
+    Attributes:
+        scene: the scene.
+        at: the time; at a contact that is not rational, a rational just before it.
+        tiling: the tiling then (at a contact: the one that ends there); None if the bodies
+            touch at the start, and there is none.
+        contact: the contact, if this is its time.
+    """
+
+    scene: Scene
+    at: QQ
+    tiling: Snapshot | None
+    contact: Contact | None
+
+
+def still(
+    scene: Scene,
+    at: QQ | None,
+    *,
+    tiling: str = "auto",
+    max_events: int | None = None,
+    max_seconds: float | None = None,
+) -> Still:
+    """The scene at a rational time, or (None) at its first contact.
+
+    Raises:
+        InputError: if the time is outside the span or after the first contact, or there is
+            no contact.
+        BudgetExceeded: if the bounds are reached.
+    """
+    if at is not None and not scene.start <= at <= scene.end:
+        raise InputError(
+            f"--at: t = {at} is outside the time span from {scene.start} to {scene.end}"
+        )
+    run = Run(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
+    until = scene.end if at is None else at
+    while run.advance(until) is not None:
+        pass
+    if run.contact is not None:
+        return _at_contact(run, run.contact, at)
+    if at is None or run.kinetic is None:
+        raise InputError(f"--at: no contact from t = {scene.start} to t = {scene.end}")
+    tile = snapshot(run.kinetic.vertices, run.kinetic.mesh_now(at), run.name, at)
+    return Still(scene, at, tile, None)
+
+
+def _at_contact(run: Run, contact: Contact, at: QQ | None) -> Still:
+    if at is not None and contact.time.compare_rational(at) != 0:
+        raise InputError(
+            f"--at: nothing to draw at t = {at}: "
+            f"the first contact is at t = {float(contact.time)!r}"
+        )
+    scene, kinetic = run.scene, run.kinetic
+    then = near(contact.time, scene.end - scene.start)
+    if kinetic is None:
+        return Still(scene, then, None, contact)
+    tile = snapshot(kinetic.vertices, kinetic.mesh, run.name, then)
+    return Still(scene, then, tile, contact)

@@ -1,0 +1,178 @@
+"""SVG: the primitives of a frame as text, for light and for dark paper."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Final
+from xml.sax.saxutils import escape
+
+from exactpt.render.palette import DARK, LIGHT, TINTS
+from exactpt.render.words import clean, short
+
+if TYPE_CHECKING:
+    from exactpt.render.frame import Frame, Line, Mark, Pixel, Shape, Tile
+
+__all__ = ["THEMES", "svg_of"]
+
+THEMES: Final = ("auto", "light", "dark")
+"""``auto`` follows the reader's preference where the picture is shown."""
+
+_HEADER: Final = 40
+_ARROW: Final = 46.0
+_FONT: Final = "ui-sans-serif, system-ui, 'DejaVu Sans', Arial, sans-serif"
+
+
+def svg_of(frame: Frame, *, theme: str = "auto") -> str:
+    """The picture as an SVG document.
+
+    Strokes keep their width when the picture is scaled. Pixel (0, 0) of the frame's window
+    is at (0, 40), below the caption.
+    """
+    width, height = frame.window.width, frame.window.height + _HEADER
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" '
+        f'width="{width}" height="{height}" role="img" aria-labelledby="caption note">',
+        f"<style>{_style(theme)}</style>",
+        f'<rect class="paper" width="{width}" height="{height}"/>',
+        f'<text id="caption" class="caption" x="20" y="27">{_text(frame.caption)}</text>',
+        f'<text id="note" class="note" x="{width - 20}" y="27">{_text(frame.note)}</text>',
+        f'<g transform="translate(0 {_HEADER})">',
+        *_group("tiles", (_tile(tile) for tile in frame.tiles if not tile.inside)),
+        *_group("bodies", map(_shape, frame.shapes)),
+        *_group("insides", (_tile(tile) for tile in frame.tiles if tile.inside)),
+        *_group("lines", map(_line, frame.lines)),
+        *_group("names", (_name(shape) for shape in frame.shapes if shape.labelled)),
+        *_group("contact", (part for mark in frame.marks for part in _mark(mark, width))),
+        "</g>",
+        "</svg>",
+    ]
+    return "\n".join(parts) + "\n"
+
+
+def _style(theme: str) -> str:
+    light, dark = _rules(LIGHT), _rules(DARK)
+    if theme == "auto":
+        return f"{light}@media (prefers-color-scheme:dark){{{dark}}}"
+    return dark if theme == "dark" else light
+
+
+def _rules(colours: dict[str, str]) -> str:
+    halo = f"paint-order:stroke;stroke:{colours['paper']};stroke-linejoin:round"
+    rules = {
+        "text": f"font-family:{_FONT};fill:{colours['ink']}",
+        "path,line,polygon,polyline,circle": "vector-effect:non-scaling-stroke",
+        ".paper": f"fill:{colours['paper']}",
+        ".caption": "font-size:16px;font-weight:600",
+        ".note": f"font-size:13px;text-anchor:end;fill:{colours['soft']}",
+        **{f".t{i}": f"fill:{colours[f'tint{i}']}" for i in range(TINTS)},
+        "#insides polygon": "fill-opacity:.4",
+        "#bodies *": f"stroke:{colours['outline']};stroke-width:1.2;stroke-linejoin:round",
+        "#bodies .thin": "fill:none;stroke-width:3.4;stroke-linecap:round",
+        ".diagonal": f"stroke:{colours['diagonal']};stroke-width:1.1",
+        ".hull": f"stroke:{colours['hull']};stroke-width:1.7",
+        "#names text": f"font-size:12px;text-anchor:middle;stroke-width:3px;{halo}",
+        "#contact": f"stroke:{colours['contact']};fill:none;stroke-width:2.4",
+        "#contact .dot": f"fill:{colours['contact']};stroke:none",
+        "#contact .touched": "stroke-width:4;stroke-opacity:.55;stroke-linecap:round",
+        "#contact text": f"font-size:14px;font-weight:600;stroke-width:4px;{halo};"
+        f"fill:{colours['contact']}",
+    }
+    return "".join(f"{selector}{{{rule}}}" for selector, rule in rules.items())
+
+
+def _group(name: str, parts: Iterable[str]) -> Iterator[str]:
+    yield f'<g id="{name}">'
+    yield from parts
+    yield "</g>"
+
+
+def _tile(tile: Tile) -> str:
+    return f'<polygon class="t{tile.tint}" points="{_points(tile.pixels)}"/>'
+
+
+def _shape(shape: Shape) -> str:
+    title = f"<title>{_text(shape.name)}</title>"
+    x, y = shape.pixels[0]
+    if len(shape.pixels) == 1:
+        return (
+            f'<circle cx="{_number(x)}" cy="{_number(y)}" r="4.5" fill="{shape.colour}">'
+            f"{title}</circle>"
+        )
+    if len(shape.pixels) == 2 or not shape.closed:
+        return (
+            f'<polyline class="thin" style="stroke:{shape.colour}" '
+            f'points="{_points(shape.pixels)}">{title}</polyline>'
+        )
+    return f'<polygon fill="{shape.colour}" points="{_points(shape.pixels)}">{title}</polygon>'
+
+
+def _line(line: Line) -> str:
+    (x1, y1), (x2, y2) = line.start, line.end
+    return (
+        f'<line class="{line.kind}" x1="{_number(x1)}" y1="{_number(y1)}" '
+        f'x2="{_number(x2)}" y2="{_number(y2)}"/>'
+    )
+
+
+def _name(shape: Shape) -> str:
+    x = sum(p[0] for p in shape.pixels) / len(shape.pixels)
+    y = sum(p[1] for p in shape.pixels) / len(shape.pixels)
+    below = 4.0 if len(shape.pixels) > 2 else -9.0
+    return f'<text x="{_number(x)}" y="{_number(y + below)}">{_text(short(shape.name))}</text>'
+
+
+def _mark(mark: Mark, width: int) -> Iterator[str]:
+    """The feature that is touched, a ring around the point, the normal, and the names."""
+    x, y = mark.pixel
+    if mark.edge is not None:
+        (x1, y1), (x2, y2) = mark.edge
+        yield (
+            f'<line class="touched" x1="{_number(x1)}" y1="{_number(y1)}" '
+            f'x2="{_number(x2)}" y2="{_number(y2)}"/>'
+        )
+    yield f'<circle cx="{_number(x)}" cy="{_number(y)}" r="11"/>'
+    yield f'<circle class="dot" cx="{_number(x)}" cy="{_number(y)}" r="3.2"/>'
+    if mark.normal is not None and mark.normal != (0.0, 0.0):
+        yield _arrow(mark.pixel, mark.normal)
+    on_left = x < 0.6 * width
+    at = x + 18 if on_left else x - 18
+    anchor = "start" if on_left else "end"
+    yield (
+        f'<text x="{_number(at)}" y="{_number(y - 16)}" text-anchor="{anchor}">'
+        f"{_text(mark.label)}</text>"
+    )
+
+
+def _arrow(tail: Pixel, direction: Pixel) -> str:
+    """A line from just outside the ring, with a head at its end."""
+    (x, y), (dx, dy) = tail, direction
+    length = math.hypot(dx, dy)
+    dx, dy = dx / length, dy / length
+    tip = (x + _ARROW * dx, y + _ARROW * dy)
+    left, right = (
+        (tip[0] - 9 * dx - side * 5 * dy, tip[1] - 9 * dy + side * 5 * dx) for side in (1, -1)
+    )
+    start = (x + 11 * dx, y + 11 * dy)
+    return (
+        f'<path class="normal" d="M{_pair(start)}L{_pair(tip)}M{_pair(left)}L{_pair(tip)}'
+        f'L{_pair(right)}"/>'
+    )
+
+
+def _points(pixels: Sequence[Pixel]) -> str:
+    return " ".join(_pair(pixel) for pixel in pixels)
+
+
+def _pair(pixel: Pixel) -> str:
+    return f"{_number(pixel[0])},{_number(pixel[1])}"
+
+
+def _number(value: float) -> str:
+    """A thousandth of a pixel is fine enough, and reads well."""
+    text = f"{value:.3f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+def _text(text: str) -> str:
+    return escape(clean(text))

@@ -1,0 +1,236 @@
+"""Trackers: what of a tiling is there from which step of a run to which.
+
+A tiling that flexes keeps its combinatorics between two steps, so a tile or an edge is
+recorded once, with the steps between which it lives. After a step only what has changed is
+looked at. A tile that changes passes its tint on to the tile that has most of its edges.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import zip_longest
+from typing import TYPE_CHECKING, Final, NamedTuple, final
+
+from exactpt.render.palette import TINTS
+from exactpt.tiling.mesh import FREE, OUTER, SOLID
+
+if TYPE_CHECKING:
+    from exactpt.tiling.kinetic import KineticTiling
+
+__all__ = ["EdgeSpan", "TileSpan", "Tracker"]
+
+_CHUNK: Final = 64
+
+
+class EdgeSpan(NamedTuple):
+    """An edge ``u < v`` after step ``first`` until step ``last`` (None: to the end).
+
+    ``kind`` is "diagonal", "hull" (a diagonal on the convex hull) or "rim" (an edge of a
+    body there).
+    """
+
+    u: int
+    v: int
+    kind: str
+    first: int
+    last: int | None
+
+
+class TileSpan(NamedTuple):
+    """A tile after step ``first`` until step ``last`` (None: to the end).
+
+    ``nodes`` run counter-clockwise; ``corners`` are the three of them with angles below pi;
+    ``inside`` tells whether it is part of a body.
+    """
+
+    nodes: tuple[int, ...]
+    corners: tuple[int, ...]
+    tint: int
+    inside: bool
+    first: int
+    last: int | None
+
+
+@final
+@dataclass(slots=True)
+class _Tile:
+    nodes: tuple[int, ...]
+    corners: tuple[int, ...]
+    tint: int
+    inside: bool
+    since: int
+
+
+@final
+class Tracker:
+    """Watches the mesh of a kinetic tiling.
+
+    Args:
+        kinetic: the tiling; `update` tells after which step it is.
+        node: of every moving vertex, the vertex of the scene that it is.
+    """
+
+    def __init__(self, kinetic: KineticTiling, node: list[int]) -> None:
+        self._kinetic = kinetic
+        self._node = node
+        self._seen: tuple[list[int], list[int], list[int], list[bool]] = ([], [], [], [])
+        self._tile_of: list[int] = []
+        self._tiles: dict[int, _Tile] = {}
+        self._made = 0
+        self._members: dict[tuple[int, int], set[int]] = {}
+        self._key_of: dict[int, tuple[int, int]] = {}
+        self._edges: dict[tuple[int, int], tuple[str, int]] = {}
+        self._gone_tiles: list[TileSpan] = []
+        self._gone_edges: list[EdgeSpan] = []
+        self.update(0)
+
+    @property
+    def tiles(self) -> list[TileSpan]:
+        """All tiles so far."""
+        here = [
+            TileSpan(t.nodes, t.corners, t.tint, t.inside, t.since, None)
+            for t in self._tiles.values()
+        ]
+        return [tile for tile in self._gone_tiles + here if len(tile.nodes) > 2]
+
+    @property
+    def edges(self) -> list[EdgeSpan]:
+        """All edges so far: the diagonals, and the edges of bodies on the hull."""
+        return self._gone_edges + [
+            EdgeSpan(*key, kind, since, None) for key, (kind, since) in self._edges.items()
+        ]
+
+    def update(self, step: int) -> None:
+        """Note what has changed; from this step on it is as it is now."""
+        mesh = self._kinetic.mesh
+        now = (mesh.map.origin, mesh.map.following, mesh.region, mesh.corner)
+        changed: set[int] = set()
+        for old, new in zip(self._seen, now, strict=True):
+            changed.update(_differences(old, new))
+        self._seen = (now[0][:], now[1][:], now[2][:], now[3][:])
+        self._tile_of += [-1] * (len(now[0]) - len(self._tile_of))
+        ordered = sorted(changed)
+        self._update_tiles(ordered, step)
+        self._update_edges(ordered, step)
+
+    def _update_tiles(self, changed: list[int], step: int) -> None:
+        mesh, m = self._kinetic.mesh, self._kinetic.mesh.map
+        old = {h: self._tile_of[h] for h in changed}
+        cycles: list[list[int]] = []
+        found: set[int] = set()
+        for h in changed:
+            if h in found or m.origin[h] < 0 or mesh.region[h] in (OUTER, SOLID):
+                continue
+            cycle = m.face(h)
+            found.update(cycle)
+            old.update((g, self._tile_of[g]) for g in cycle)
+            cycles.append(cycle)
+        for h in changed:
+            self._tile_of[h] = -1
+        before = {tile: self._tiles.pop(tile) for tile in sorted(set(old.values()) - {-1})}
+        for cycle, heir in zip(cycles, _heirs(cycles, old), strict=True):
+            name = heir if heir >= 0 else self._made
+            self._made += heir < 0
+            for h in cycle:
+                self._tile_of[h] = name
+            self._enter(name, cycle, before.pop(name, None), step)
+        for tile in before.values():
+            self._leave(tile, step)
+
+    def _enter(self, name: int, cycle: list[int], before: _Tile | None, step: int) -> None:
+        mesh, m = self._kinetic.mesh, self._kinetic.mesh.map
+        around = [self._node[m.origin[h]] for h in cycle]
+        nodes = [v for u, v in zip([around[-1], *around], around, strict=False) if u != v]
+        corners = tuple(self._node[m.origin[h]] for h in cycle if mesh.corner[h])
+        if before is not None:
+            if set(before.corners) == set(corners) and _same_cycle(before.nodes, nodes):
+                self._tiles[name] = before
+                return
+            self._leave(before, step)
+        tint = before.tint if before is not None else self._new_tint(name, cycle)
+        inside = mesh.region[cycle[0]] != FREE
+        self._tiles[name] = _Tile(tuple(nodes), corners, tint, inside, step)
+
+    def _leave(self, tile: _Tile, step: int) -> None:
+        if tile.since < step:
+            self._gone_tiles.append(
+                TileSpan(tile.nodes, tile.corners, tile.tint, tile.inside, tile.since, step)
+            )
+
+    def _new_tint(self, name: int, cycle: list[int]) -> int:
+        """A tint that no tile next to it has, if there is one."""
+        nearby = (self._tiles.get(self._tile_of[h ^ 1]) for h in cycle)
+        taken = {tile.tint for tile in nearby if tile is not None}
+        free = [tint for tint in range(TINTS) if tint not in taken]
+        return free[name % len(free)] if free else name % TINTS
+
+    def _update_edges(self, changed: list[int], step: int) -> None:
+        m = self._kinetic.mesh.map
+        touched: dict[tuple[int, int], None] = {}
+        for edge in dict.fromkeys(h >> 1 for h in changed):
+            key = self._key_of.pop(edge, None)
+            if key is not None:
+                self._members[key].discard(edge)
+                touched[key] = None
+            u, v = (self._node[w] if w >= 0 else -1 for w in m.origin[2 * edge : 2 * edge + 2])
+            if u != v:
+                key = (u, v) if u < v else (v, u)
+                self._key_of[edge] = key
+                self._members.setdefault(key, set()).add(edge)
+                touched[key] = None
+        for key in touched:
+            kind = self._kind(self._members[key])
+            before = self._edges.get(key)
+            if before is not None and before[0] != kind:
+                del self._edges[key]
+                if before[1] < step:
+                    self._gone_edges.append(EdgeSpan(*key, *before, step))
+            if kind is not None and (before is None or before[0] != kind):
+                self._edges[key] = (kind, step)
+
+    def _kind(self, members: Iterable[int]) -> str | None:
+        """What copies of an edge are together; None for a plain edge of a body, or nothing."""
+        mesh = self._kinetic.mesh
+        edges = list(members)
+        boundary = any(mesh.boundary[e] for e in edges)
+        if any(mesh.is_hull(2 * e) for e in edges):
+            return "rim" if boundary else "hull"
+        return None if boundary or not edges else "diagonal"
+
+
+def _differences(old: list[int], new: list[int]) -> list[int]:
+    """Where two lists differ. Chunks are compared first: nearly all of them are equal."""
+    return [
+        i
+        for start in range(0, max(len(old), len(new)), _CHUNK)
+        if old[start : start + _CHUNK] != new[start : start + _CHUNK]
+        for i, (a, b) in enumerate(
+            zip_longest(old[start : start + _CHUNK], new[start : start + _CHUNK]), start
+        )
+        if a != b
+    ]
+
+
+def _heirs(cycles: list[list[int]], old: dict[int, int]) -> list[int]:
+    """Which tile each cycle continues: the one that had most of its half-edges; -1 for none."""
+    votes = sorted(
+        (-count, i, tile)
+        for i, cycle in enumerate(cycles)
+        for tile, count in Counter(old[h] for h in cycle).items()
+        if tile >= 0
+    )
+    heirs = [-1] * len(cycles)
+    taken: set[int] = set()
+    for _, i, tile in votes:
+        if heirs[i] < 0 and tile not in taken:
+            heirs[i] = tile
+            taken.add(tile)
+    return heirs
+
+
+def _same_cycle(a: tuple[int, ...], b: list[int]) -> bool:
+    if len(a) != len(b):
+        return False
+    return not a or any(tuple(b[i:] + b[:i]) == a for i in range(len(b)))

@@ -1,0 +1,55 @@
+"""Windows: which part of the plane a picture shows; scaled exactly, then rounded to doubles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final, final
+
+from exactpt.kernel.numbers import QQ, ceil, nearest_float
+
+__all__ = ["Window", "window_of"]
+
+WIDTH: Final = 960
+HEIGHT: Final = 720
+LEAST: Final = 240
+MARGIN: Final = 56
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Window:
+    """A rectangle of the plane, ``width`` by ``height`` pixels.
+
+    Attributes:
+        left, top: the place of the plane at pixel (0, 0); pixels count downwards from it.
+        scale: pixels for a unit of length, the same in both directions.
+    """
+
+    left: QQ
+    top: QQ
+    scale: QQ
+    width: int
+    height: int
+
+    def pixel(self, x: QQ, y: QQ) -> tuple[float, float]:
+        """Where a point of the plane is in the picture."""
+        across, down = (x - self.left) * self.scale, (self.top - y) * self.scale
+        return nearest_float(across), nearest_float(down)
+
+
+def window_of(points: Sequence[tuple[QQ, QQ]]) -> Window:
+    """The window around some points: as large as fits, with a margin, never distorted."""
+    xs = [x for x, _ in points] or [QQ(0)]
+    ys = [y for _, y in points] or [QQ(0)]
+    across, up = max(xs) - min(xs), max(ys) - min(ys)
+    room = ((across, WIDTH - 2 * MARGIN), (up, HEIGHT - 2 * MARGIN))
+    scale = min((QQ(pixels) / extent for extent, pixels in room if extent), default=QQ(1))
+    width, height = (max(LEAST, int(ceil(d * scale)) + 2 * MARGIN) for d in (across, up))
+    return Window(
+        left=(min(xs) + max(xs)) / 2 - QQ(width) / (2 * scale),
+        top=(min(ys) + max(ys)) / 2 + QQ(height) / (2 * scale),
+        scale=scale,
+        width=width,
+        height=height,
+    )

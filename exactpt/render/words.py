@@ -1,0 +1,51 @@
+"""Times, features and names in words, for captions and labels."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from exactpt.collision.contact import Contact, Pair
+    from exactpt.kernel.algebraic import AlgebraicNumber
+    from exactpt.kernel.numbers import QQ
+
+__all__ = ["clean", "contact_in_words", "pair_in_words", "short", "time_in_words"]
+
+
+def clean(text: str) -> str:
+    """The text without characters that XML cannot hold (they become U+FFFD)."""
+    return "".join(c if _is_xml(ord(c)) else "\ufffd" for c in text)
+
+
+def _is_xml(c: int) -> bool:
+    return 0x20 <= c < 0xD800 or 0xE000 <= c < 0xFFFE or c >= 0x10000 or c in (0x9, 0xA, 0xD)
+
+
+def short(text: str, limit: int = 24) -> str:
+    """The text, cut in the middle so that a label stays a label."""
+    if len(text) <= limit:
+        return text
+    half = (limit - 1) // 2
+    return f"{text[: limit - 1 - half]}…{text[len(text) - half :]}"
+
+
+def time_in_words(time: AlgebraicNumber | QQ) -> str:
+    """``t = 5/2``, or ``t ≈ 3.1415926`` for a number that is not rational or long."""
+    low = getattr(time, "low", time)
+    exact = str(low)
+    if low == getattr(time, "high", time) and len(exact) <= 16:
+        return f"t = {exact}"
+    return f"t ≈ {float(time):.12g}"
+
+
+def pair_in_words(pair: Pair) -> str:
+    """Which feature touches which: ``tip:2 on edge 4–5 of box``."""
+    mine = f"{short(pair.body)}:{pair.vertex}"
+    if pair.edge is None:
+        return f"{mine} on {short(pair.other)}:{pair.other_vertex}"
+    return f"{mine} on edge {pair.edge} of {short(pair.other)}"
+
+
+def contact_in_words(contact: Contact) -> str:
+    """One line: when, and what kind."""
+    return f"first contact ({contact.kind}) at {time_in_words(contact.time)}"
