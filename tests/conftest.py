@@ -1,4 +1,4 @@
-"""Hypothesis profiles, and a limit on refinement.
+"""Hypothesis profiles, a limit on refinement, and the CGAL witness as a fixture.
 
 ``dev`` (random, short) is the default; HYPOTHESIS_PROFILE=ci is derandomized and longer.
 """
@@ -8,6 +8,8 @@ import os
 import pytest
 from hypothesis import HealthCheck, settings
 
+from exactpt.cgal import CgalCheck, find_program
+from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 
 settings.register_profile(
@@ -38,3 +40,18 @@ def _bounded_refinement():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(AlgebraicNumber, "refine", bounded)
         yield
+
+
+@pytest.fixture(scope="session")
+def program():
+    """The witness: where it is missing the tests fail, they are not skipped."""
+    try:
+        return find_program()
+    except InputError as error:
+        return pytest.fail(str(error))
+
+
+@pytest.fixture(scope="module")
+def witness(program):
+    with CgalCheck(program) as running:
+        yield running
