@@ -69,12 +69,8 @@ def mixed_mesh(instant: Instant, forest: Forest | None = None) -> LabelledMesh:
 
 def flippable(mesh: Mesh, labels: list[Label], h: int) -> bool:
     """Whether a half-edge is of a diagonal of F2 that is not on the convex hull."""
-    return not (
-        labels[h]
-        or labels[h ^ 1]
-        or mesh.is_boundary(h)
-        or mesh.region[h] != FREE
-        or mesh.region[h ^ 1] != FREE
+    return not (labels[h] or labels[h ^ 1] or mesh.is_boundary(h) or mesh.is_hull(h)) and (
+        mesh.region[h] == FREE
     )
 
 
@@ -82,7 +78,9 @@ def _reduce(mesh: Mesh, labels: list[Label], instant: Instant) -> None:
     """Make what is in F2 pointed, then greedy; and what is inside bodies pointed."""
 
     def may_go(h: int) -> bool:
-        return flippable(mesh, labels, h) or mesh.region[h] == INSIDE
+        return not mesh.is_boundary(h) and (
+            mesh.region[h] == INSIDE or flippable(mesh, labels, h)
+        )
 
     make_pointed(mesh, instant, may_go)
     flip_until_greedy(
