@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, final
 
 from exactpt.collision.contact import contact_of
 from exactpt.collision.initial import initial_touches
-from exactpt.collision.tilings import start_tiling, tiling_for
+from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.tiling.events import ContactFound, TilingEvent
@@ -48,7 +48,8 @@ class Run:
         max_seconds: float | None = None,
     ) -> None:
         self.scene = scene
-        self.name = tiling_for(scene, tiling)
+        plan = plan_tiling(scene, tiling, scene.start)
+        self.name = plan.name
         self.kinetic: KineticTiling | None = None
         self.contact: Contact | None = None
         self._events = 0
@@ -58,7 +59,7 @@ class Run:
         if overlaps:
             self.contact = contact_of(scene, AlgebraicNumber(scene.start), touches, overlaps)
         else:
-            self.kinetic = start_tiling(scene, self.name, scene.start)
+            self.kinetic = plan.start(scene.start)
 
     @property
     def now(self) -> AlgebraicNumber:

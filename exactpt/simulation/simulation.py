@@ -8,7 +8,7 @@ from typing import final
 
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
-from exactpt.collision.tilings import start_tiling, tiling_for
+from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import counters
@@ -28,7 +28,7 @@ class Simulation:
 
     Args:
         scene: what moves.
-        tiling: which tiling to keep: "auto", "greedy" or "lazy".
+        tiling: which tiling to keep: "auto" or one of `TILINGS`.
         exact_only: decide everything by exact arithmetic, without the float filters.
         max_events: raise `BudgetExceeded` before one more event than these.
         max_seconds: raise `BudgetExceeded` after this time.
@@ -49,7 +49,8 @@ class Simulation:
         max_seconds: float | None = None,
     ) -> None:
         self.scene = scene
-        self.name = tiling_for(scene, tiling)
+        plan = plan_tiling(scene, tiling, scene.start)
+        self.name = plan.name
         self.contact: Contact | None = None
         self._max_events = max_events
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
@@ -61,7 +62,7 @@ class Simulation:
             start = AlgebraicNumber(scene.start)
             self.contact = contact_of(scene, start, touches, overlaps)
         else:
-            self._kinetic = start_tiling(scene, self.name, scene.start, exact_only=exact_only)
+            self._kinetic = plan.start(scene.start, exact_only=exact_only)
 
     @property
     def now(self) -> AlgebraicNumber:

@@ -478,8 +478,8 @@ class KineticTiling:
         a, p, b = self._angle(h)
         before = m.previous[h]
         kind = "hull" if mesh.region[h] == OUTER else "reflex"
-        fixed_before, fixed_after = mesh.is_boundary(before), mesh.is_boundary(h)
-        if fixed_before and fixed_after:
+        stays_before, stays_after = mesh.stays(h)
+        if stays_before and stays_after:
             self._repair_convex_vertex(h, kind)
             return
         # Of two diagonals that become one line the one before the bend gives way: the one
@@ -487,7 +487,7 @@ class KineticTiling:
         # passed the segment from a (before) to b (after) to its right. If a is left of b,
         # p is below it and a p falls more steeply, so theta(a p) is larger; if a is right
         # of b, p is above and again theta(p a) is larger.
-        origin_moves = fixed_before
+        origin_moves = stays_before
         mesh.straighten(h, origin_moves=origin_moves)
         ends = (p, b, a) if origin_moves else (p, a, b)
         self._slid(h, before, kind, ends, origin_moves=origin_moves)
