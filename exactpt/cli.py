@@ -246,16 +246,17 @@ def demo(output: Path) -> int:
     """
     from importlib.resources import files
 
-    from exactpt.render.animation import write_animation
+    from exactpt.render.draw import write_animation
+    from exactpt.render.film import film_of
     from exactpt.scene.format import loads
 
     given = loads((files("exactpt") / "data" / "demo.json").read_text(encoding="utf-8"))
-    simulation = _simulation(given, "greedy")
-    events = list(simulation.run())
-    click.echo("\n".join(_in_words(given, simulation.contact)))
-    click.echo("\n".join(_stats_in_words(simulation)))
-    write_animation(given, events, simulation.contact, output)
-    click.echo(f"The animation is in {output}")
+    film = film_of(given, tiling="lazy")
+    bodies = ", ".join(body.name for body in given.bodies)
+    click.echo(f"{len(given.bodies)} bodies: {bodies}")
+    click.echo("\n".join(_in_words(given, film.contact)))
+    write_animation(film, output, title="exactpt demo")
+    click.echo(f"the animation is in {output}: open it in a browser")
     return OK
 
 

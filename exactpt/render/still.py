@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, final
 
 from exactpt.errors import InputError
 from exactpt.render.fixed import near
-from exactpt.render.run import Run
+from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.snapshot import Snapshot, snapshot
 
 if TYPE_CHECKING:
@@ -56,27 +56,25 @@ def still(
         raise InputError(
             f"--at: t = {at} is outside the time span from {scene.start} to {scene.end}"
         )
-    run = Run(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
-    until = scene.end if at is None else at
-    while run.advance(until) is not None:
+    simulation = Simulation(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
+    for _ in simulation.run(at):
         pass
-    if run.contact is not None:
-        return _at_contact(run, run.contact, at)
-    if at is None or run.kinetic is None:
-        raise InputError(f"--at: no contact from t = {scene.start} to t = {scene.end}")
-    tile = snapshot(run.kinetic.vertices, run.kinetic.mesh_now(at), run.name, at)
-    return Still(scene, at, tile, None)
+    if simulation.contact is not None:
+        return _at_contact(simulation, simulation.contact, at)
+    if at is None:
+        raise InputError(f"no contact to draw from t = {scene.start} to t = {scene.end}")
+    return Still(scene, at, simulation.snapshot(), None)
 
 
-def _at_contact(run: Run, contact: Contact, at: QQ | None) -> Still:
+def _at_contact(simulation: Simulation, contact: Contact, at: QQ | None) -> Still:
     if at is not None and contact.time.compare_rational(at) != 0:
         raise InputError(
             f"--at: nothing to draw at t = {at}: "
             f"the first contact is at t = {float(contact.time)!r}"
         )
-    scene, kinetic = run.scene, run.kinetic
+    scene, kinetic = simulation.scene, simulation.kinetic
     then = near(contact.time, scene.end - scene.start)
     if kinetic is None:
         return Still(scene, then, None, contact)
-    tile = snapshot(kinetic.vertices, kinetic.mesh, run.name, then)
+    tile = snapshot(kinetic.vertices, kinetic.mesh, simulation.name, then)
     return Still(scene, then, tile, contact)

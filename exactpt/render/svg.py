@@ -30,11 +30,12 @@ def svg_of(frame: Frame, *, theme: str = "auto") -> str:
     is at (0, 40), below the caption.
     """
     width, height = frame.window.width, frame.window.height + _HEADER
+    size = f'width="{width}" height="{height}"'
     parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" '
-        f'width="{width}" height="{height}" role="img" aria-labelledby="caption note">',
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" {size} role="img">',
+        f"<title>{_text(frame.caption)}</title>",
         f"<style>{_style(theme)}</style>",
-        f'<rect class="paper" width="{width}" height="{height}"/>',
+        f'<rect class="paper" {size}/>',
         f'<text id="caption" class="caption" x="20" y="27">{_text(frame.caption)}</text>',
         f'<text id="note" class="note" x="{width - 20}" y="27">{_text(frame.note)}</text>',
         f'<g transform="translate(0 {_HEADER})">',

@@ -39,7 +39,7 @@ def time_in_words(time: AlgebraicNumber | QQ) -> str:
 
 
 def pair_in_words(pair: Pair) -> str:
-    """Which feature touches which: ``tip:2 on edge 4–5 of box``."""
+    """Which feature touches which: ``tip:2 on edge 4 of box``."""
     mine = f"{short(pair.body)}:{pair.vertex}"
     if pair.edge is None:
         return f"{mine} on {short(pair.other)}:{pair.other_vertex}"

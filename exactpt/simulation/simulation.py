@@ -70,6 +70,14 @@ class Simulation:
             return AlgebraicNumber(self.scene.start)
         return self._kinetic.now
 
+    @property
+    def kinetic(self) -> KineticTiling | None:
+        """The tiling that is kept (None if bodies touch at the start); for `exactpt.render`.
+
+        At a contact it is the one just before.
+        """
+        return self._kinetic
+
     def run(self, until: Rational | None = None) -> Iterator[Event]:
         """Process the events up to and including a time, by default the end of the span.
 
