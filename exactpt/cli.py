@@ -7,7 +7,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
@@ -37,6 +37,18 @@ class _Rational(click.ParamType[QQ]):
             return parse_rational(str(value))
         except InputError as error:
             self.fail(str(error), param, ctx)
+
+
+class _Moment(click.ParamType["QQ | Literal['contact']"]):
+    """A number of the scene format, or the word "contact"."""
+
+    name = "number|contact"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> QQ | Literal["contact"]:
+        """The exact rational that was typed, or "contact"."""
+        return "contact" if value == "contact" else RATIONAL.convert(value, param, ctx)
 
 
 RATIONAL = _Rational()
@@ -229,9 +241,71 @@ def check(
 
 
 @cli.command()
+@SCENE
 @click.option(
     "-o",
+    "--out",
     "--output",
+    "output",
+    type=click.Path(path_type=Path),
+    required=True,
+    help="The file: .svg or .png for a picture, .html for an animation.",
+)
+@click.option(
+    "--at",
+    type=_Moment(),
+    help='When: a number, or "contact"; by default at the start.',
+)
+@click.option(
+    "--theme",
+    type=click.Choice(["auto", "light", "dark"]),
+    default="auto",
+    show_default=True,
+    help="Light or dark; auto: as the reader prefers (PNG: light).",
+)
+@TILING
+@_budget
+def draw(
+    scene: Path,
+    output: Path,
+    at: QQ | Literal["contact"] | None,
+    theme: str,
+    tiling: str,
+    max_events: int | None,
+    max_seconds: float | None,
+) -> int:
+    r"""Draw a scene: a picture of it and its tiling at a time, or an animation.
+
+    An animation runs from the start to the first contact or the end, and is one file that
+    opens in any browser; with --at it begins there. PNG needs: pip install 'exactpt[draw]'.
+
+    \b
+    Examples:
+      exactpt draw scene.json -o start.svg
+      exactpt draw scene.json --at 5/2 -o then.png --theme dark
+      exactpt draw scene.json --at contact -o contact.svg
+      exactpt draw scene.json -o film.html
+    """
+    from exactpt.render.draw import draw as draw_scene
+
+    draw_scene(
+        _load(scene, None),
+        output,
+        at=at,
+        tiling=tiling,
+        theme=theme,
+        max_events=max_events,
+        max_seconds=max_seconds,
+    )
+    return OK
+
+
+@cli.command()
+@click.option(
+    "-o",
+    "--out",
+    "--output",
+    "output",
     type=click.Path(path_type=Path),
     default=Path("exactpt-demo.html"),
     show_default=True,
@@ -246,16 +320,16 @@ def demo(output: Path) -> int:
     """
     from importlib.resources import files
 
-    from exactpt.render.draw import write_animation
     from exactpt.render.film import film_of
-    from exactpt.scene.format import loads
+    from exactpt.render.page import page_of
+    from exactpt.scene.format import loads, write_atomically
 
     given = loads((files("exactpt") / "data" / "demo.json").read_text(encoding="utf-8"))
     film = film_of(given, tiling="lazy")
     bodies = ", ".join(body.name for body in given.bodies)
     click.echo(f"{len(given.bodies)} bodies: {bodies}")
     click.echo("\n".join(_in_words(given, film.contact)))
-    write_animation(film, output, title="exactpt demo")
+    write_atomically(output, page_of(film, title="exactpt demo"))
     click.echo(f"the animation is in {output}: open it in a browser")
     return OK
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final
 from exactpt.kernel.numbers import QQ
 from exactpt.render.fixed import BITS, exponent_above, fixed
 from exactpt.render.palette import body_colour
-from exactpt.render.words import pair_in_words, short
+from exactpt.render.words import contact_in_words, pair_in_words, short
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact
@@ -138,6 +138,7 @@ def _contact(contact: Contact, scene: Scene) -> dict[str, object]:
         )
     return {
         "kind": contact.kind,
+        "words": contact_in_words(contact),
         "pairs": pairs,
         "overlaps": [f"{short(a)} and {short(b)} share a point" for a, b in contact.overlaps],
     }

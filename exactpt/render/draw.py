@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Literal
 
 from exactpt.errors import InputError
-from exactpt.render.film import Film, film_of
+from exactpt.render.film import film_of
 from exactpt.render.frame import frame_of
 from exactpt.render.page import page_of
 from exactpt.render.png import png_of
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from exactpt.kernel.numbers import QQ
     from exactpt.scene.scene import Scene
 
-__all__ = ["ENDINGS", "draw", "write_animation"]
+__all__ = ["ENDINGS", "draw"]
 
 ENDINGS: Final = (".svg", ".png", ".html")
 
@@ -28,8 +28,7 @@ def draw(
     scene: Scene,
     path: Path,
     *,
-    at: QQ | None = None,
-    at_contact: bool = False,
+    at: QQ | Literal["contact"] | None = None,
     tiling: str = "auto",
     theme: str = "auto",
     max_events: int | None = None,
@@ -40,8 +39,7 @@ def draw(
     Args:
         scene: what moves.
         path: the file; it is complete or not there.
-        at: when (by default at the start); an animation is shown at that time first.
-        at_contact: the same, at the first contact.
+        at: when, by default at the start; an animation is shown at that time first.
         tiling: which tiling to draw.
         theme: "light", "dark" or "auto" (as the reader prefers; PNG: light).
         max_events: see `Simulation`.
@@ -56,26 +54,13 @@ def draw(
         raise InputError(f"{path}: a drawing ends in one of {', '.join(ENDINGS)}")
     if ending == ".html":
         film = film_of(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
-        write_animation(film, path, title=path.stem, at=at, theme=theme)
+        first = film.end if at == "contact" else at
+        write_atomically(path, page_of(film, title=path.stem, at=first, theme=theme))
         return
-    then = scene.start if at is None else at
-    picture = frame_of(
-        still(
-            scene,
-            None if at_contact else then,
-            tiling=tiling,
-            max_events=max_events,
-            max_seconds=max_seconds,
-        )
-    )
+    then = None if at == "contact" else scene.start if at is None else at
+    picture = still(scene, then, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
     if ending == ".svg":
-        write_atomically(path, svg_of(picture, theme=theme))
+        write_atomically(path, svg_of(frame_of(picture), theme=theme))
     else:
-        write_atomically(path, png_of(svg_of(picture, theme=theme)))
-
-
-def write_animation(
-    film: Film, path: Path, *, title: str, at: QQ | None = None, theme: str = "auto"
-) -> None:
-    """Write the animation of a film: one HTML file that needs nothing else."""
-    write_atomically(path, page_of(film, title=title, at=at, theme=theme))
+        light = "light" if theme == "auto" else theme
+        write_atomically(path, png_of(svg_of(frame_of(picture), theme=light)))

@@ -39,13 +39,16 @@ def time_in_words(time: AlgebraicNumber | QQ) -> str:
 
 
 def pair_in_words(pair: Pair) -> str:
-    """Which feature touches which: ``tip:2 on edge 4 of box``."""
-    mine = f"{short(pair.body)}:{pair.vertex}"
+    """Which feature touches which: ``vertex 2 of tip on edge 4 of box``."""
+    mine = f"vertex {pair.vertex} of {short(pair.body)}"
     if pair.edge is None:
-        return f"{mine} on {short(pair.other)}:{pair.other_vertex}"
+        return f"{mine} on vertex {pair.other_vertex} of {short(pair.other)}"
     return f"{mine} on edge {pair.edge} of {short(pair.other)}"
 
 
-def contact_in_words(contact: Contact) -> str:
-    """One line: when, and what kind."""
-    return f"first contact ({contact.kind}) at {time_in_words(contact.time)}"
+def contact_in_words(contact: Contact, *, limit: int = 2) -> str:
+    """One line: what touches what; of more than ``limit`` incidences only how many more."""
+    found = [pair_in_words(pair) for pair in contact.pairs]
+    found = found or [f"{short(a)} and {short(b)} share a point" for a, b in contact.overlaps]
+    more = [f"{len(found) - limit} more"] if len(found) > limit else []
+    return ", ".join(found[:limit] + more)
