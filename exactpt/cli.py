@@ -98,7 +98,7 @@ def collide(
     max_events: int | None,
     max_seconds: float | None,
 ) -> int:
-    r"""Find the first contact of a scene, exactly.
+    """Find the first contact of a scene, exactly.
 
     \b
     Examples:
@@ -142,7 +142,7 @@ def simulate(
     max_events: int | None,
     max_seconds: float | None,
 ) -> int:
-    r"""Run a scene to the end of its time span or its first contact.
+    """Run a scene to the end of its time span or its first contact.
 
     \b
     Examples:
@@ -182,7 +182,7 @@ def tile(
     max_events: int | None,
     max_seconds: float | None,
 ) -> int:
-    r"""Print the tiling of the free space at a rational time, as JSON.
+    """Print the tiling of the free space at a rational time, as JSON.
 
     It is built at that time, or with --run reached by simulating from the start; for the
     canonical tilings the two are equal.
@@ -225,7 +225,7 @@ def check(
     max_events: int | None,
     max_seconds: float | None,
 ) -> int:
-    r"""Simulate, and have CGAL verify every tiling and every event time.
+    """Simulate, and have CGAL verify every tiling and every event time.
 
     \b
     Examples:
@@ -274,7 +274,7 @@ def draw(
     max_events: int | None,
     max_seconds: float | None,
 ) -> int:
-    r"""Draw a scene: a picture of it and its tiling at a time, or an animation.
+    """Draw a scene: a picture of it and its tiling at a time, or an animation.
 
     An animation runs from the start to the first contact or the end, and is one file that
     opens in any browser; with --at it begins there. PNG needs: pip install 'exactpt[draw]'.
@@ -312,7 +312,7 @@ def draw(
     help="Where the animation goes.",
 )
 def demo(output: Path) -> int:
-    r"""Run a packaged scene to its first contact and draw an animation of it.
+    """Run a packaged scene to its first contact and draw an animation of it.
 
     \b
     Example:

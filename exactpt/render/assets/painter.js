@@ -67,10 +67,11 @@ class Painter {
   tiles(tiles, alpha) {
     const { context, colours, pen } = this;
     context.globalAlpha = alpha;
-    for (let tint = 0; tint < 6; tint += 1) {
+    // One path a tile: a canvas fills many small paths faster than few of many polygons.
+    for (const tile of tiles) {
       context.beginPath();
-      for (const tile of tiles) if (tile.tint === tint) pen.polygon(tile.nodes);
-      context.fillStyle = colours[`tint${tint}`];
+      pen.polygon(tile.nodes);
+      context.fillStyle = colours[`tint${tile.tint}`];
       context.fill();
     }
     context.globalAlpha = 1;
