@@ -375,10 +375,13 @@ def _answer(simulation: Simulation, scene: Scene, contact: Contact | None) -> di
 
 
 def _in_words(scene: Scene, contact: Contact | None) -> list[str]:
+    from exactpt.render.words import polynomial_in_words
+
     if contact is None:
         return [f"no contact from t = {scene.start} to t = {scene.end}"]
     time = contact.time
-    exactly = str(time.low) if time.is_rational else f"root of {_polynomial(time.polynomial)}"
+    root = f"root of {polynomial_in_words(time.polynomial)}"
+    exactly = str(time.low) if time.is_rational else root
     lines = [f"first contact at t = {float(time)!r} ({exactly}), kind {contact.kind}"]
     for pair in contact.pairs:
         feature = f"vertex {pair.other_vertex}" if pair.edge is None else f"edge {pair.edge}"
@@ -388,15 +391,6 @@ def _in_words(scene: Scene, contact: Contact | None) -> list[str]:
         )
     lines += [f"  {a} and {b} share a point" for a, b in contact.overlaps]
     return lines
-
-
-def _polynomial(coefficients: Sequence[object]) -> str:
-    terms = [
-        f"{c}" if i == 0 else f"{c} t" if i == 1 else f"{c} t^{i}"
-        for i, c in enumerate(coefficients)
-        if c != 0
-    ]
-    return " + ".join(reversed(terms)).replace("+ -", "- ")
 
 
 def _stats_in_words(simulation: Simulation) -> list[str]:

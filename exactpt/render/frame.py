@@ -41,10 +41,19 @@ class Shape:
 @final
 @dataclass(frozen=True, slots=True)
 class Tile:
-    """A face of the tiling; ``tint`` counts from 0."""
+    """A face of the tiling, in a tint (from 0), or in the colour of the body that it belongs to.
+
+    Attributes:
+        pixels: around it.
+        tint: its tint.
+        colour: in F1, of its body; else None.
+        level: in F1, of its geodesic.
+    """
 
     pixels: tuple[Pixel, ...]
     tint: int
+    colour: str | None = None
+    level: int = 0
 
 
 @final
@@ -111,7 +120,8 @@ def frame_of(still: Still) -> Frame:
     lines: tuple[Line, ...] = ()
     note = f"{len(scene.bodies)} bodies"
     if still.tiling is not None:
-        tiles, lines = _tiling(still.tiling, window)
+        colours = {shape.name: shape.colour for shape in shapes}
+        tiles, lines = _tiling(still.tiling, window, colours)
         note += f" · {still.tiling.tiling} tiling, {len(tiles)} pseudo-triangles"
     marks: tuple[Mark, ...] = ()
     caption, news = time_in_words(still.at), ""
@@ -146,10 +156,17 @@ def _inside_at(pixels: Sequence[Pixel], y: float) -> list[tuple[float, float]]:
     return list(zip(crossings[::2], crossings[1::2], strict=True))
 
 
-def _tiling(tiling: Snapshot, window: Window) -> tuple[tuple[Tile, ...], tuple[Line, ...]]:
+def _tiling(
+    tiling: Snapshot, window: Window, colours: dict[str, str]
+) -> tuple[tuple[Tile, ...], tuple[Line, ...]]:
     pixels = [window.pixel(node.x, node.y) for node in tiling.nodes]
     tiles = tuple(
-        Tile(tuple(pixels[v] for v in face.nodes), tint)
+        Tile(
+            tuple(pixels[v] for v in face.nodes),
+            tint,
+            None if face.body is None else colours[face.body],
+            face.level or 0,
+        )
         for face, tint in zip(tiling.faces, tints(tiling.faces), strict=True)
     )
     lines = tuple(

@@ -93,7 +93,12 @@ def _group(name: str, parts: Iterable[str]) -> Iterator[str]:
 
 
 def _tile(tile: Tile) -> str:
-    return f'<polygon class="t{tile.tint}" points="{_points(tile.pixels)}"/>'
+    if tile.colour is None:
+        return f'<polygon class="t{tile.tint}" points="{_points(tile.pixels)}"/>'
+    # By level, from the relative hull inwards, in three strengths.
+    opacity = (0.16, 0.28, 0.4)[tile.level % 3]
+    fill = f'fill="{tile.colour}" fill-opacity="{opacity}"'
+    return f'<polygon {fill} points="{_points(tile.pixels)}"/>'
 
 
 def _shape(shape: Shape) -> str:

@@ -5,11 +5,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from exactpt.collision.contact import Contact, Pair
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.numbers import QQ
 
-__all__ = ["clean", "contact_in_words", "pair_in_words", "short", "time_in_words"]
+__all__ = [
+    "clean",
+    "contact_in_words",
+    "pair_in_words",
+    "polynomial_in_words",
+    "short",
+    "time_in_words",
+]
 
 
 def clean(text: str) -> str:
@@ -46,9 +55,28 @@ def pair_in_words(pair: Pair) -> str:
     return f"{mine} on edge {pair.edge} of {short(pair.other)}"
 
 
+def polynomial_in_words(coefficients: Sequence[object]) -> str:
+    """An integer polynomial in t, given with the constant first: ``3 t^2 - t + 1``."""
+    terms = []
+    for power, coefficient in enumerate(map(str, coefficients)):
+        size = coefficient.lstrip("-")
+        t = "" if power == 0 else "t" if power == 1 else f"t^{power}"
+        factor = "" if size == "1" and t else size
+        if size != "0":
+            terms.append(("-" if coefficient != size else "+", f"{factor} {t}".strip()))
+    (sign, first), *rest = terms[::-1] or [("+", "0")]
+    return f"{sign.strip('+')}{first}" + "".join(f" {sign} {term}" for sign, term in rest)
+
+
+def incidences_in_words(contact: Contact) -> list[str]:
+    """Every vertex that touches something, and every two bodies that share a point."""
+    return [pair_in_words(pair) for pair in contact.pairs] + [
+        f"{short(a)} and {short(b)} share a point" for a, b in contact.overlaps
+    ]
+
+
 def contact_in_words(contact: Contact, *, limit: int = 2) -> str:
     """One line: what touches what; of more than ``limit`` incidences only how many more."""
-    found = [pair_in_words(pair) for pair in contact.pairs]
-    found = found or [f"{short(a)} and {short(b)} share a point" for a, b in contact.overlaps]
+    found = incidences_in_words(contact)
     more = [f"{len(found) - limit} more"] if len(found) > limit else []
     return ", ".join(found[:limit] + more)

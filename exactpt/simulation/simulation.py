@@ -165,6 +165,12 @@ class Simulation:
             }
         return data
 
+    def _repr_svg_(self) -> str:
+        """The tiling at the current time, or the contact, for notebooks."""
+        from exactpt.render.notebook import simulation_svg
+
+        return simulation_svg(self)
+
     def _tiling(self) -> KineticTiling:
         if self._kinetic is None:
             raise InputError("the bodies touch at the start: there is no tiling")

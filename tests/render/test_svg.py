@@ -1,7 +1,9 @@
 """A still as SVG: well-formed, with every body and every tile where it is."""
 
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from render_scenes import apart, demo, overlapping, small
@@ -106,6 +108,18 @@ def test_bodies_that_overlap_at_the_start():
     assert len(list(group(root, "tiles"))) == 0
 
 
+def test_tiles_of_f1_have_the_colour_of_their_body_by_level():
+    picture = still(small(), QQ(0))
+    first, *others = picture.tiling.faces
+    face = replace(first, region="F1", body="wall", level=2)
+    tiling = replace(picture.tiling, faces=(face, *others))
+    frame = frame_of(replace(picture, tiling=tiling))
+    tile, *rest = group(ET.fromstring(svg_of(frame)), "tiles")
+    assert tile.get("fill") == frame.shapes[1].colour
+    assert tile.get("fill-opacity") == "0.4"
+    assert all(other.get("class").startswith("t") for other in rest)
+
+
 @pytest.mark.parametrize("theme", ["auto", "light", "dark"])
 def test_themes_do_not_meet_in_one_document(theme):
     _, root = drawn(small(), QQ(0), theme=theme)
@@ -127,6 +141,12 @@ def test_no_picture_of_what_is_not_known(at, message):
         still(small(), at)
     with pytest.raises(InputError, match="no contact to draw"):
         still(apart(), None)
+
+
+def test_the_picture_in_the_docs_is_that_of_the_demo():
+    kept = Path(__file__).parents[2] / "docs" / "first-contact.svg"
+    fresh = svg_of(frame_of(still(demo(), None, tiling="lazy")))
+    assert kept.read_text(encoding="utf-8") == fresh, "draw it anew: make pictures"
 
 
 def test_endings(tmp_path):
