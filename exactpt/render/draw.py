@@ -16,7 +16,9 @@ from exactpt.scene.format import write_atomically
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.numbers import QQ
+    from exactpt.render.film import Film
     from exactpt.scene.scene import Scene
 
 __all__ = ["ENDINGS", "draw"]
@@ -54,7 +56,7 @@ def draw(
         raise InputError(f"{path}: a drawing ends in one of {', '.join(ENDINGS)}")
     if ending == ".html":
         film = film_of(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
-        first = film.end if at == "contact" else at
+        first = _shown_first(film, at)
         write_atomically(path, page_of(film, title=path.stem, at=first, theme=theme))
         return
     then = None if at == "contact" else scene.start if at is None else at
@@ -64,3 +66,18 @@ def draw(
     else:
         light = "light" if theme == "auto" else theme
         write_atomically(path, png_of(svg_of(frame_of(picture), theme=light)))
+
+
+def _shown_first(film: Film, at: QQ | Literal["contact"] | None) -> AlgebraicNumber | QQ | None:
+    if at == "contact":
+        if film.contact is None:
+            raise InputError(
+                f"no contact to draw from t = {film.scene.start} to t = {film.scene.end}"
+            )
+        return film.end
+    if at is not None and (at < film.scene.start or film.end.compare_rational(at) < 0):
+        raise InputError(
+            f"--at: nothing to show at t = {at}: the animation runs from "
+            f"t = {film.scene.start} to t = {float(film.end)!r}"
+        )
+    return at

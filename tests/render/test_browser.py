@@ -188,15 +188,23 @@ def test_light_and_dark(page):
     assert page.execute_script("return document.documentElement.dataset.theme") in {"light", "dark"}
 
 
-def test_it_fits_a_phone(page):
-    emulated = {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True}
+@pytest.mark.parametrize("width, height", [(390, 844), (844, 390)])
+def test_it_fits_a_phone(page, width, height):
+    emulated = {"width": width, "height": height, "deviceScaleFactor": 2, "mobile": True}
     page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", emulated)
     page.refresh()
     wide = page.execute_script(
         "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]"
     )
+    boxes = [
+        page.execute_script(
+            "return document.querySelector(arguments[0]).getBoundingClientRect().toJSON()", name
+        )
+        for name in (".clock", ".layers")
+    ]
     page.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     assert wide[0] <= wide[1]
+    assert boxes[0]["bottom"] <= boxes[1]["top"]
 
 
 @pytest.mark.parametrize("at", ["0", "5/2", "31/7", "8", "contact"])
