@@ -71,6 +71,14 @@ class Simulation:
             return AlgebraicNumber(self.scene.start)
         return self._kinetic.now
 
+    @property
+    def kinetic(self) -> KineticTiling | None:
+        """The tiling that is kept (None if bodies touch at the start); for `exactpt.render`.
+
+        At a contact it is the one just before.
+        """
+        return self._kinetic
+
     def run(self, until: Rational | None = None) -> Iterator[Event]:
         """Process the events up to and including a time, by default the end of the span.
 
@@ -157,6 +165,12 @@ class Simulation:
                 "flips": stats.flips,
             }
         return data
+
+    def _repr_svg_(self) -> str:
+        """The tiling at the current time, or the contact, for notebooks."""
+        from exactpt.render.notebook import simulation_svg
+
+        return simulation_svg(self)
 
     def _tiling(self) -> KineticTiling:
         if self._kinetic is None:
