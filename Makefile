@@ -30,7 +30,7 @@ lint: $(VENV)/developing ## formatting, rules, types, imports
 	$(BIN)/lint-imports
 
 pictures: $(VENV)/installed ## draw docs/first-contact.svg anew, the picture of the README
-	$(BIN)/exactpt draw exactpt/data/demo.json --tiling lazy --at contact -o docs/first-contact.svg
+	$(BIN)/exactpt draw exactpt/data/demo.json --at contact -o docs/first-contact.svg
 
 check-cgal: cgal_check/build/cgal_check ## build the independent witness
 

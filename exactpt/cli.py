@@ -325,7 +325,7 @@ def demo(output: Path) -> int:
     from exactpt.scene.format import loads, write_atomically
 
     given = loads((files("exactpt") / "data" / "demo.json").read_text(encoding="utf-8"))
-    film = film_of(given, tiling="lazy")
+    film = film_of(given, tiling="auto")
     bodies = ", ".join(body.name for body in given.bodies)
     click.echo(f"{len(given.bodies)} bodies: {bodies}")
     click.echo("\n".join(_in_words(given, film.contact)))

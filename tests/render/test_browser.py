@@ -53,7 +53,7 @@ def browser():
 def page(browser, tmp_path_factory):
     """The demo, freshly loaded; it must not have said anything on the console in the end."""
     path = tmp_path_factory.mktemp("page") / "demo.html"
-    path.write_text(page_of(film_of(demo(), tiling="lazy")), encoding="utf-8")
+    path.write_text(page_of(film_of(demo())), encoding="utf-8")
     browser.get(path.as_uri())
     yield browser
     assert browser.get_log("browser") == []
@@ -107,7 +107,7 @@ def test_playing_ends_at_the_contact(page):
 
 
 def test_stepping(page):
-    film = film_of(demo(), tiling="lazy")
+    film = film_of(demo())
     assert click(page, "next")["step"] == 1
     assert click(page, "next")["step"] == 2
     shown = press(page, "\ue014")  # arrow right
@@ -213,10 +213,10 @@ def test_the_picture_at_a_time_is_the_svg_of_that_time(page, at):
         shown = page.execute_script(
             "exactpt.goTo(exactpt.film.steps.length); return exactpt.state()"
         )
-        picture = still(demo(), None, tiling="lazy")
+        picture = still(demo(), None)
     else:
         shown = page.execute_script("exactpt.seek(arguments[0]); return exactpt.state()", at)
-        picture = still(demo(), QQ(at), tiling="lazy")
+        picture = still(demo(), QQ(at))
     frame = frame_of(picture)
     svg = [pixel for shape in frame.shapes for pixel in shape.pixels]
     canvas = shown["pixels"]
@@ -248,7 +248,7 @@ def test_colours_are_where_the_bodies_are(page):
         "document.getElementById(`layer-${k}`).click(); exactpt.seek('5/2')"
     )
     shown = state(page)["pixels"]
-    frame = frame_of(still(demo(), QQ(5, 2), tiling="lazy"))
+    frame = frame_of(still(demo(), QQ(5, 2)))
     first = 0
     for shape in frame.shapes:
         own = shown[first : first + len(shape.pixels)]
@@ -278,7 +278,7 @@ def colour(page, x, y):
 def test_zoomed_in_near_the_contact_it_stays_true(page, digits):
     """The gap between the bow and the quay, 2**-digits before the contact, in pixels."""
     scene = demo()
-    simulation = Simulation(scene, tiling="lazy")
+    simulation = Simulation(scene)
     contact = simulation.run_to_contact()
     at = near(contact.time, QQ(10)) - power_of_two(-digits)
     places = [place for body in scene.bodies for place in body.at(at)]

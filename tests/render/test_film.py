@@ -86,8 +86,8 @@ def test_the_events_are_those_of_the_simulation(scene, tiling):
 
 
 def test_at_the_contact_the_film_shows_the_tiling_that_ends_there():
-    film = film_of(demo(), tiling="lazy")
-    simulation = Simulation(demo(), tiling="lazy")
+    film = film_of(demo())
+    simulation = Simulation(demo())
     list(simulation.run())
     at = near(simulation.contact.time, QQ(10))
     kinetic = simulation.kinetic
@@ -96,7 +96,7 @@ def test_at_the_contact_the_film_shows_the_tiling_that_ends_there():
 
 
 def test_positions_in_the_data_are_exact():
-    film = film_of(demo(), tiling="lazy")
+    film = film_of(demo())
     data = json.loads(json.dumps(data_of(film, at=QQ(5, 2))))
     t = QQ(5, 2)
     places = [place for body in demo().bodies for place in body.at(t)]
@@ -114,7 +114,7 @@ def test_positions_in_the_data_are_exact():
 
 
 def test_times_in_the_data_are_exact():
-    data = data_of(film_of(demo(), tiling="lazy"))
+    data = data_of(film_of(demo()))
     assert data["steps"][-1]["exact"] == ["-141750", "6750", "1099"]
     assert data["contact"]["words"] == "vertex 0 of boat on edge 6 of harbour"
     assert data_of(film_of(small()))["steps"][-1]["exact"] == "3"

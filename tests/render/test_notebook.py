@@ -24,7 +24,7 @@ def test_scene():
 
 
 def test_simulation_while_it_runs():
-    simulation = Simulation(demo(), tiling="lazy")
+    simulation = Simulation(demo())
     assert groups(simulation._repr_svg_())["tiles"] == len(simulation.snapshot().faces)
     events = simulation.run()
     for _ in range(5):  # the times of events are not rational
@@ -47,7 +47,7 @@ def test_contact():
         "vertex 1 of box on edge 3 of wall",
         "vertex 2 of box on edge 3 of wall",
     ]
-    html = first_contact(demo(), tiling="lazy")._repr_html_()
+    html = first_contact(demo())._repr_html_()
     assert "a root of 1099 t^2 + 6750 t - 141750" in html
     assert "first and second share a point" in first_contact(overlapping())._repr_html_()
 

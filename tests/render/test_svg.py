@@ -62,7 +62,7 @@ def test_bodies_and_tiles_are_where_they_are(scene, tiling, at):
 
 
 def test_everything_is_inside_the_picture():
-    frame, _ = drawn(demo(), QQ(7), tiling="lazy")
+    frame, _ = drawn(demo(), QQ(7))
     for shape in frame.shapes:
         for x, y in (*shape.pixels, shape.label):
             assert 0 < x < frame.window.width
@@ -70,7 +70,7 @@ def test_everything_is_inside_the_picture():
 
 
 def test_a_name_stands_on_its_body():
-    frame, _ = drawn(demo(), QQ(0), tiling="lazy")
+    frame, _ = drawn(demo(), QQ(0))
     harbour = frame.shapes[0]
     x, y = harbour.label
     ring = [*harbour.pixels, harbour.pixels[0]]
@@ -92,7 +92,7 @@ def test_the_contact_is_said_and_marked():
 
 
 def test_the_contact_at_an_irrational_time():
-    frame, root = drawn(demo(), None, tiling="lazy")
+    frame, root = drawn(demo(), None)
     assert frame.news == "vertex 0 of boat on edge 6 of harbour"
     (mark,) = frame.marks
     (x1, y1), (x2, y2) = mark.edge
@@ -145,7 +145,7 @@ def test_no_picture_of_what_is_not_known(at, message):
 
 def test_the_picture_in_the_docs_is_that_of_the_demo():
     kept = Path(__file__).parents[2] / "docs" / "first-contact.svg"
-    fresh = svg_of(frame_of(still(demo(), None, tiling="lazy")))
+    fresh = svg_of(frame_of(still(demo(), None)))
     assert kept.read_text(encoding="utf-8") == fresh, "draw it anew: make pictures"
 
 

@@ -13,16 +13,12 @@ from exactpt.tiling.mesh import INSIDE
 
 def edges(mesh):
     """The diagonals in free space; those inside bodies are not canonical."""
-    return sorted(
-        tuple(sorted(mesh.ends(h))) for h in mesh.diagonals() if mesh.region[h] != INSIDE
-    )
+    return sorted(tuple(sorted(mesh.ends(h))) for h in mesh.diagonals() if mesh.region[h] != INSIDE)
 
 
 def labels(mesh):
     m = mesh.map
-    return {
-        (m.origin[h], m.target(h)): mesh.labels[h] for h in m.half_edges() if mesh.labels[h]
-    }
+    return {(m.origin[h], m.target(h)): mesh.labels[h] for h in m.half_edges() if mesh.labels[h]}
 
 
 def audit_at(kinetic, at):
