@@ -186,7 +186,7 @@ def square_free(f: IntPoly) -> IntPoly:
     if len(f) == 3:
         if f[1] * f[1] != 4 * f[0] * f[2]:
             return f
-        # c2 (t + c1 / 2 c2)^2: the root once, with the sign of c2.
-        return primitive((f[1], 2 * f[2]) if f[2] > 0 else (-f[1], 2 * f[2]))
+        # c2 (t + c1 / 2 c2)^2: half the derivative is c2 (t + c1 / 2 c2).
+        return primitive((f[1], 2 * f[2]))
     common = greatest_common_divisor(f, derivative(f))
     return f if len(common) == 1 else quotient(f, common)
