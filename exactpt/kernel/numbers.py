@@ -145,7 +145,8 @@ def rational(value: Rational) -> QQ:
     try:
         if hasattr(value, "numerator") and hasattr(value, "denominator"):
             return QQ(ZZ(int(value.numerator)), ZZ(int(value.denominator)))
-        return QQ(ZZ(operator.index(value)))  # numpy integers have no denominator
+        # numpy integers have no denominator
+        return QQ(ZZ(operator.index(value)))  # type: ignore[arg-type]
     except TypeError:  # arrays have an __index__, classes a numerator, that is none
         raise InputError(f"not a number: {shorten(value)}") from None
 
