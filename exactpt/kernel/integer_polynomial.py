@@ -30,6 +30,7 @@ __all__ = [
     "quotient",
     "scale",
     "sign_at",
+    "sign_on",
     "square_free",
     "subtract",
     "trimmed",
@@ -124,6 +125,15 @@ def sign_at(f: IntPoly, t: QQ) -> int:
         value = value * p + c * power
         power *= q
     return sign(value)
+
+
+def sign_on(f: IntPoly, low: QQ, high: QQ) -> int:
+    """The sign of f on all of [low, high] if Horner's rule on intervals shows it, else 0."""
+    a = b = QQ(f[-1])
+    for c in f[-2::-1]:
+        products = (a * low, a * high, b * low, b * high)
+        a, b = min(products) + c, max(products) + c
+    return 1 if a > 0 else -1 if b < 0 else 0
 
 
 def primitive(f: IntPoly) -> IntPoly:
