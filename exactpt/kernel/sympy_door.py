@@ -8,6 +8,7 @@ import sympy
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
+from exactpt.kernel.sturm import cauchy_bound, count_roots, sturm_sequence
 
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
@@ -40,13 +41,10 @@ def polynomial_to_sympy(f: Polynomial, variable: sympy.Symbol) -> sympy.Expr:
 
 
 def algebraic_to_sympy(number: AlgebraicNumber) -> sympy.Expr:
-    """A rational, or the real root of the number's polynomial in its interval."""
+    """A rational, or the real root with the same place among those of the polynomial."""
     if number.is_rational:
         return _rational(number.low)
-    t = sympy.Symbol("t")
-    poly = sympy.Poly([int(c) for c in reversed(number.polynomial)], t)
-    low, high = _rational(number.low), _rational(number.high)
-    for root in poly.real_roots(multiple=True):
-        if low < root < high:
-            return root
-    raise AssertionError(f"no root of {poly} in ({low}, {high})")
+    f = number.polynomial
+    place = count_roots(sturm_sequence(f), min(-cauchy_bound(f), number.low), number.low)
+    poly = sympy.Poly([int(c) for c in reversed(f)], sympy.Symbol("t"))
+    return poly.real_roots()[place]

@@ -485,6 +485,15 @@ def test_refining_a_quadratic_doubles_the_digits():
     assert x.high - x.low < QQ(1, 2**2000)
 
 
+def test_bug_sympy_cannot_compare_a_root_with_a_near_rational():
+    """The root was sought by its interval; SymPy gives up where that is 2^-400 wide."""
+    f = as_int_poly([-(2**41), 2**40 + 1, 2**40])
+    x = AlgebraicNumber.root(f, QQ(-3), QQ(-1))
+    x.refine_to(QQ(1, 2**400))
+
+    assert x.to_sympy() == min(sympy.Poly(list(map(int, f[::-1])), sympy.Symbol("t")).real_roots())
+
+
 @given(a=algebraics())
 def test_to_sympy_is_the_number(a):
     x, root = a
