@@ -30,7 +30,7 @@ from exactpt.kernel.isolated_root import IsolatedRoot
 from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, sign
 
 if TYPE_CHECKING:
-    import sympy
+    from exactpt.kernel.sympy_door import Expression
 
 __all__ = ["AlgebraicNumber", "rational_between"]
 
@@ -148,7 +148,7 @@ class AlgebraicNumber(IsolatedRoot):
     def __float__(self) -> float:
         return nearest_double(self)
 
-    def to_sympy(self) -> sympy.Expr:
+    def to_sympy(self) -> Expression:
         """The number as a SymPy expression (a rational, a surd or a ``CRootOf``)."""
         from exactpt.kernel.sympy_door import algebraic_to_sympy
 

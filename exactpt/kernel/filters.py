@@ -143,8 +143,6 @@ def quadratic(
         return UNSURE
     s = 1 if c2 > 0.0 else -1
     if after1:  # both roots are to come
-        if not low2 > now_high:
-            return UNSURE
         return (s, low1, high1) if low1 <= horizon else (s, INFINITY, INFINITY)
     if after2:
         return (-s, low2, high2) if low2 <= horizon else (-s, INFINITY, INFINITY)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import sympy
 
@@ -14,14 +14,23 @@ if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.polynomial import Polynomial
 
-__all__ = ["algebraic_to_sympy", "coefficients_from_sympy", "polynomial_to_sympy"]
+__all__ = [
+    "Expression",
+    "Variable",
+    "algebraic_to_sympy",
+    "coefficients_from_sympy",
+    "polynomial_to_sympy",
+]
+
+Expression: TypeAlias = sympy.Expr
+Variable: TypeAlias = sympy.Symbol
 
 
 def _rational(value: QQ) -> sympy.Rational:
     return sympy.Rational(int(value.numerator), int(value.denominator))
 
 
-def coefficients_from_sympy(expression: sympy.Expr, variable: sympy.Symbol) -> list[QQ]:
+def coefficients_from_sympy(expression: Expression, variable: Variable) -> list[QQ]:
     """The rational coefficients of a polynomial expression, constant term first.
 
     Raises:
@@ -34,13 +43,13 @@ def coefficients_from_sympy(expression: sympy.Expr, variable: sympy.Symbol) -> l
     return [QQ(int(c.p), int(c.q)) for c in reversed(poly.all_coeffs())]
 
 
-def polynomial_to_sympy(f: Polynomial, variable: sympy.Symbol) -> sympy.Expr:
+def polynomial_to_sympy(f: Polynomial, variable: Variable) -> Expression:
     """The expression sum(c[i] * variable**i)."""
     terms = (_rational(c) * variable**i for i, c in enumerate(f.coefficients))
     return sum(terms, start=sympy.Integer(0))
 
 
-def algebraic_to_sympy(number: AlgebraicNumber) -> sympy.Expr:
+def algebraic_to_sympy(number: AlgebraicNumber) -> Expression:
     """A rational, or the real root with the same place among those of the polynomial."""
     if number.is_rational:
         return _rational(number.low)

@@ -307,6 +307,15 @@ def test_bug_float_of_a_hidden_tie_above_half_the_largest_double(monkeypatch):
     assert float(x) == 2.0**1023
 
 
+@pytest.mark.parametrize("side", [-1, 1])
+def test_float_of_a_hidden_tie_with_infinity(side):
+    """The middle between the largest double and what would be the next rounds to infinity."""
+    tie = side * (2**1024 - 2**970)
+    x = AlgebraicNumber.root(as_int_poly(times((-tie, 1), (1, 0, 1))), QQ(tie - 1), QQ(tie + 2))
+
+    assert float(x) == side * math.inf
+
+
 def test_bug_between_wide_intervals_every_integer_is_tried(monkeypatch):
     """`rational_between` walks from the low end by steps of the grid, however far that is."""
     x = AlgebraicNumber.root(as_int_poly([-(10**10) - 1, 0, 1]), QQ(0), QQ(2**40))
