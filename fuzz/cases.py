@@ -73,21 +73,23 @@ def run_case(case: Case, witnesses: Sequence[str], shrink_seconds: float = 60.0)
     failures = []
     for name in witnesses:
         began = clock.perf_counter()
-        failure = failure_of(name, scene)
+        failure = failure_of(name, scene, case.seed)
         seconds[name] = clock.perf_counter() - began
         if failure is not None:
             # What fails at once fails at once when it is smaller, too.
             hangs = seconds[name] >= PATIENCE
             patience = 5.0 if hangs else min(PATIENCE, 2.0 + 4.0 * seconds[name])
-            failures.append(_shrunk(failure, shrink_seconds, patience))
+            failures.append(_shrunk(failure, case.seed, shrink_seconds, patience))
     return Outcome(case, seconds, tuple(failures))
 
 
-def failure_of(name: str, scene: Scene, patience: float = PATIENCE) -> Failure | None:
-    """What a witness objects to in a scene, or None."""
+def failure_of(
+    name: str, scene: Scene, turn: int | None = None, patience: float = PATIENCE
+) -> Failure | None:
+    """What a witness objects to in a scene, or None; for ``turn`` see `Witness`."""
     try:
         with _limit(patience):
-            WITNESSES[name](scene)
+            WITNESSES[name](scene, turn)
     except Difference as found:
         return _failure(name, found.kind, str(found), scene)
     except Exception as error:  # whatever breaks is a finding
@@ -101,7 +103,7 @@ def _failure(name: str, signature: str, why: str, scene: Scene) -> Failure:
     return Failure(name, signature, why, json.dumps(to_json(scene)))
 
 
-def _shrunk(failure: Failure, seconds: float, patience: float) -> Failure:
+def _shrunk(failure: Failure, turn: int, seconds: float, patience: float) -> Failure:
     best = failure
 
     def still_fails(data: object) -> bool:
@@ -110,7 +112,7 @@ def _shrunk(failure: Failure, seconds: float, patience: float) -> Failure:
             scene = loads(json.dumps(data))
         except InputError:
             return False
-        found = failure_of(failure.witness, scene, patience)
+        found = failure_of(failure.witness, scene, turn, patience)
         if found is None or found.signature != failure.signature:
             return False
         best = found

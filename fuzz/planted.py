@@ -225,7 +225,7 @@ def hunt(bug: str, most: int = 150, witnesses: Sequence[str] = WITNESSES, seed: 
         scene = generate(family, seed + number // len(families))
         with PLANTED[bug]():
             for witness in witnesses:
-                failure = failure_of(witness, scene, patience=10.0)
+                failure = failure_of(witness, scene, number, patience=10.0)
                 if failure is not None:
                     return Found(bug, failure, family, number + 1, clock.perf_counter() - began)
     return Found(bug, None, "", most, clock.perf_counter() - began)
