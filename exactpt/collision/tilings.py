@@ -6,15 +6,19 @@ from typing import Final
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.vertices import Vertices
 from exactpt.scene.scene import Scene
 from exactpt.tiling.greedy.greedy import GreedyTiling
-from exactpt.tiling.kinetic import KineticTiling
+from exactpt.tiling.incremental.incremental import IncrementalTiling
 from exactpt.tiling.lazy import LazyTiling
+from exactpt.tiling.tiling import Tiling
 
 __all__ = ["TILINGS", "start_tiling", "tiling_for"]
 
-TILINGS: Final[dict[str, type[KineticTiling]]] = {"greedy": GreedyTiling, "lazy": LazyTiling}
+TILINGS: Final[dict[str, type[Tiling]]] = {
+    "greedy": GreedyTiling,
+    "incremental": IncrementalTiling,
+    "lazy": LazyTiling,
+}
 """The tilings by name."""
 
 
@@ -24,15 +28,16 @@ def tiling_for(scene: Scene, name: str) -> str:
     Raises:
         InputError: if there is no such tiling.
     """
-    del scene
     if name == "auto":
-        return "greedy"
+        points = all(body.size == 1 for body in scene.bodies)
+        return "incremental" if points else "greedy"
     if name not in TILINGS:
         raise InputError(f"no tiling {name!r}; there are: auto, {', '.join(sorted(TILINGS))}")
     return name
 
 
-def start_tiling(scene: Scene, name: str, start: QQ, *, exact_only: bool = False) -> KineticTiling:
+def start_tiling(scene: Scene, name: str, start: QQ, *, exact_only: bool = False) -> Tiling:
     """The tiling of a scene just after a time at which its bodies are disjoint."""
-    vertices = Vertices(scene.bodies, start, scene.end, tile_insides=name != "greedy")
-    return TILINGS[tiling_for(scene, name)](vertices, start, scene.end, exact_only=exact_only)
+    kind = TILINGS[tiling_for(scene, name)]
+    vertices = kind.vertices_of(scene.bodies, start, scene.end)
+    return kind(vertices, start, scene.end, exact_only=exact_only)

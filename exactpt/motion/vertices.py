@@ -86,7 +86,8 @@ class MovingBody:
 class Vertices:
     """The rings of all bodies from a time on.
 
-    With ``tile_insides``, polygons that ever deform are marked as tiled inside.
+    With ``tile_insides``, polygons that ever deform are marked as tiled inside. With
+    ``plain_points``, a point is a single vertex, without an inside or an offset.
 
     Attributes:
         all: the vertices, by id; those of a body are consecutive.
@@ -95,7 +96,13 @@ class Vertices:
     """
 
     def __init__(
-        self, bodies: Sequence[Body], start: QQ, end: QQ, *, tile_insides: bool = False
+        self,
+        bodies: Sequence[Body],
+        start: QQ,
+        end: QQ,
+        *,
+        tile_insides: bool = False,
+        plain_points: bool = False,
     ) -> None:
         positions = [body.at(start) for body in bodies]
         flat = [p for points in positions for p in points]
@@ -105,7 +112,8 @@ class Vertices:
         for i, body in enumerate(bodies):
             moving = MovingBody(body)
             self.bodies.append(moving)
-            for index in _ring_indices(body, positions[i]):
+            plain = plain_points and body.size == 1
+            for index in [0] if plain else _ring_indices(body, positions[i]):
                 vertex = Vertex(len(self.all), i, index, _NO_TRACK, _NO_IMAGE)
                 moving.ring.append(vertex.id)
                 self.all.append(vertex)
@@ -137,7 +145,7 @@ class Vertices:
             vertex = self.all[vertex_id]
             vertex.track = piece.tracks[vertex.index]
             vertex.image = images[vertex.index]
-            vertex.offset = _offset(piece.tracks, copy)
+            vertex.offset = _offset(piece.tracks, copy) if len(moving.ring) > 1 else None
 
     def name(self, vertex_id: int) -> str:
         """The name in event logs: ``"body:vertex"``."""

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from exactpt.collision.contact import Contact
     from exactpt.kernel.numbers import QQ
     from exactpt.scene.scene import Scene
-    from exactpt.tiling.kinetic import KineticTiling
+    from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Run"]
 
@@ -49,7 +49,7 @@ class Run:
     ) -> None:
         self.scene = scene
         self.name = tiling_for(scene, tiling)
-        self.kinetic: KineticTiling | None = None
+        self.kinetic: Tiling | None = None
         self.contact: Contact | None = None
         self._events = 0
         self._max_events = max_events

@@ -16,8 +16,8 @@ from exactpt.kernel.numbers import QQ, Rational, rational
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
 from exactpt.tiling.events import ContactFound, TilingEvent
-from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.snapshot import Snapshot, snapshot
+from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Simulation"]
 
@@ -55,7 +55,7 @@ class Simulation:
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
         self._counted = (counters.exact, counters.filtered)
         self._events = 0
-        self._kinetic: KineticTiling | None = None
+        self._kinetic: Tiling | None = None
         touches, overlaps = initial_touches(scene)
         if overlaps:
             start = AlgebraicNumber(scene.start)
@@ -157,7 +157,7 @@ class Simulation:
             }
         return data
 
-    def _tiling(self) -> KineticTiling:
+    def _tiling(self) -> Tiling:
         if self._kinetic is None:
             raise InputError("the bodies touch at the start: there is no tiling")
         return self._kinetic

@@ -5,7 +5,6 @@ from __future__ import annotations
 from exactpt.collision.tilings import TILINGS, tiling_for
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.vertices import Vertices
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.instant import Instant
@@ -57,5 +56,6 @@ def tile_at(
         )
     if by_running:
         return simulation.snapshot()
-    vertices = Vertices(scene.bodies, at, scene.end)
-    return snapshot(vertices, TILINGS[name].mesh_at(Instant(vertices, at, after=False)), name, at)
+    kind = TILINGS[name]
+    vertices = kind.vertices_of(scene.bodies, at, scene.end)
+    return snapshot(vertices, kind.mesh_at(Instant(vertices, at, after=False)), name, at)
