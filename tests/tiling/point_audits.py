@@ -3,10 +3,10 @@
 from fractions import Fraction
 
 from exactpt.collision.initial import initial_touches
-from exactpt.collision.tilings import start_tiling
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.tiling.events import ContactFound
-from exactpt.tiling.incremental.incremental import sweep_at
+from exactpt.tiling.incremental.incremental import IncrementalTiling
+from exactpt.tiling.incremental.static import sweep_at
 from exactpt.tiling.incremental.structure import LOWER, UPPER
 from exactpt.tiling.instant import Instant
 
@@ -45,27 +45,6 @@ def structure_of(structure):
     return structure.order, structure.trees[UPPER].parent, structure.trees[LOWER].parent
 
 
-def chain(structure, p):
-    """C(p) with its ends, from u(p) to d(p)."""
-    upper, lower = structure.trees
-    above, below = [upper.parent[p]], [lower.parent[p]]
-    for side, tree in ((above, upper), (below, lower)):
-        v = tree.before[p]
-        while v >= 0:
-            side.append(v)
-            v = tree.last[v]
-    assert above[-1] == below[-1], "both sides of a chain end at the point before p"
-    return above + below[-2::-1]
-
-
-def fan_triangulation(structure):
-    """The edges of the structure, and from every p to the inside of C(p)."""
-    edges = set()
-    for p in structure.order[1:]:
-        edges |= {(min(p, z), max(p, z)) for z in chain(structure, p)}
-    return edges
-
-
 def audit_links(structure):
     """Links agree, and the preorder of both trees is the x-order."""
     for tree in structure.trees:
@@ -97,15 +76,16 @@ def audit_at(kinetic, at, scene=None):
         assert structure_of(kinetic.structure) == tangents_by_slope(points_at(scene, at))
 
 
-def run_and_audit(scene, *, exact_only=False, by_slope=False, each=None):
-    """Run a scene, auditing every gap between events; the tiling, the contact, the gaps.
+def run_and_audit(scene, *, exact_only=False, by_slope=False, each=None, **options):
+    """Run a scene, auditing every gap between events: the tiling, the contact, the gaps.
 
     At a rational time near the event just processed, and in the middle of the gap. ``each``
     is called with the tiling after every step. None if points touch at the start.
     """
     if initial_touches(scene)[1]:
         return None
-    kinetic = start_tiling(scene, "incremental", scene.start, exact_only=exact_only)
+    vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
+    kinetic = IncrementalTiling(vertices, scene.start, scene.end, exact_only=exact_only, **options)
     gaps = 0
     try:
         while True:

@@ -4,7 +4,7 @@ from collections import Counter
 from random import Random
 
 import pytest
-from point_audits import chain, run_and_audit, structure_of, tangents_by_slope
+from point_audits import run_and_audit, structure_of, tangents_by_slope
 
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.detector import first_contact
@@ -16,7 +16,9 @@ from exactpt.motion.motions import Translation
 from exactpt.scene.generate import POINTS, generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
-from exactpt.tiling.incremental.incremental import IncrementalTiling, sweep_at
+from exactpt.tiling.incremental.fan import chain, fan_edges
+from exactpt.tiling.incremental.incremental import IncrementalTiling
+from exactpt.tiling.incremental.static import sweep_at
 from exactpt.tiling.instant import Instant
 
 GENERIC = ("linear_points", "ballistic_points", "piecewise_points")
@@ -81,6 +83,42 @@ def test_filter_changes_nothing(family):
             for exact_only in (False, True)
         ]
         assert logs[0] == logs[1]
+
+
+@pytest.mark.parametrize(
+    "count", [3, pytest.param(60, marks=pytest.mark.slow)], ids=["few", "many"]
+)
+@pytest.mark.parametrize("family", sorted(POINTS))
+def test_searchable_chains_equal_linked_ones(family, count):
+    """Paper, Theorem 3.2: the same events, whichever way the chains are kept."""
+    for seed in range(count):
+        scene = generate(family, seed)
+        results = [
+            run_and_audit(scene, chains=chains) for chains in ("linked", "searchable", "auto")
+        ]
+        if results[0] is None:
+            continue
+        assert len({str(kinetic.stats.events) for kinetic, _, _ in results}) == 1
+        assert len({str(structure_of(kinetic.structure)) for kinetic, _, _ in results}) == 1
+
+
+@pytest.mark.parametrize("family", sorted(POINTS))
+def test_fan_changes(family):
+    """Paper, section 3.4: what is counted is how the set of edges changes."""
+    for seed in range(4):
+        sets, counts = [], []
+
+        def note(kinetic, sets=sets, counts=counts):
+            sets.append({frozenset(e) for e in fan_edges(kinetic.structure)})
+            counts.append((kinetic.stats.fan, kinetic.stats.total))
+
+        run_and_audit(generate(family, seed), each=note, fan=True)
+        steps = zip(sets, sets[1:], counts, counts[1:], strict=False)
+        for before, after, (n, events), (m, more) in steps:
+            if more == events + 1:
+                assert m - n == len(before ^ after)
+            else:  # changes at one time that cancel each other count too
+                assert m - n >= len(before ^ after)
 
 
 @pytest.mark.parametrize("size", [3, 6, 50])

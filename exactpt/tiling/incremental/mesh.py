@@ -7,12 +7,11 @@ and of more if the first points are collinear), only the former is there.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import pairwise
 
 from exactpt.planar.halfedge import NOTHING
+from exactpt.tiling.incremental.fan import path
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
-from exactpt.tiling.incremental.tree import TangentTree
 from exactpt.tiling.mesh import OUTER, Mesh
 
 __all__ = ["mesh_of"]
@@ -52,13 +51,6 @@ def _from(structure: IncrementalStructure, side: int, p: int) -> int:
     return 4 * p
 
 
-def _path(tree: TangentTree, v: int) -> Iterator[int]:
-    """From v always to the last child."""
-    while v >= 0:
-        yield v
-        v = tree.last[v]
-
-
 def _sides(structure: IncrementalStructure, upper_top: int, lower_top: int) -> list[int]:
     """The half-edges of a chain from its upper end to its lower one, bulging to the right.
 
@@ -68,8 +60,8 @@ def _sides(structure: IncrementalStructure, upper_top: int, lower_top: int) -> l
         lower_top: the vertex before the lower end, if the lower side has one.
     """
     upper, lower = structure.trees
-    return [_from(structure, UPPER, c) + 1 for c in _path(upper, upper_top)] + [
-        _from(structure, LOWER, c) for c in reversed(list(_path(lower, lower_top)))
+    return [_from(structure, UPPER, c) + 1 for c in path(upper_top, upper)] + [
+        _from(structure, LOWER, c) for c in reversed(list(path(lower_top, lower)))
     ]
 
 

@@ -41,6 +41,7 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple, Protocol, final
 
+from exactpt.tiling.incremental.paths import SearchableTree
 from exactpt.tiling.incremental.tree import NONE, TangentTree
 
 __all__ = ["LOWER", "UPPER", "Exchanged", "IncrementalStructure", "Predicates"]
@@ -67,12 +68,14 @@ class Exchanged(NamedTuple):
     Attributes:
         edges: of each tree, the right ends of the edges that need new certificates.
         side: the tree in which the later point hung on the earlier one.
-        end: the left end of its new tangent there; `NONE` if it is the root now.
+        end: the left end r' of its new tangent there; `NONE` if it is the root now.
+        old: the left end r of the tangent that the earlier point had in the other tree.
     """
 
     edges: tuple[list[int], list[int]]
     side: int
     end: int
+    old: int
 
 
 @final
@@ -92,24 +95,18 @@ class IncrementalStructure:
         self.rank = [0] * len(order)
         for i, p in enumerate(order):
             self.rank[p] = i
-        self.trees = trees
+        self.trees: tuple[TangentTree, TangentTree] = trees
 
     @classmethod
-    def sweep(
-        cls,
-        order: list[int],
-        predicates: Predicates,
-        kind: type[TangentTree] = TangentTree,
-    ) -> IncrementalStructure:
+    def sweep(cls, order: list[int], predicates: Predicates) -> IncrementalStructure:
         """Build the structure from left to right (paper, section 3.1): O(n) after sorting.
 
         Args:
             order: the points, sorted.
             predicates: of the time.
-            kind: of the trees.
         """
         sign = predicates.sign
-        trees = kind(len(order)), kind(len(order))
+        trees = TangentTree(len(order)), TangentTree(len(order))
         for wanted, tree in zip((1, -1), trees, strict=True):
             hull = order[:1]
             for p in order[1:]:
@@ -119,11 +116,10 @@ class IncrementalStructure:
                 hull.append(p)
         return cls(order, trees)
 
-    def same_as(self, other: IncrementalStructure) -> bool:
-        """Whether two structures are equal."""
-        return self.order == other.order and all(
-            s.parent == t.parent for s, t in zip(self.trees, other.trees, strict=True)
-        )
+    def make_searchable(self) -> None:
+        """From now on, search chains in O(log n)."""
+        upper, lower = self.trees
+        self.trees = SearchableTree.of(upper), SearchableTree.of(lower)
 
     def certificate(self, side: int, b: int) -> tuple[int, int, int, bool] | None:
         """What certifies the edge on which b hangs, if anything does.
@@ -186,13 +182,14 @@ class IncrementalStructure:
         side = next((s for s in sides if self._may_exchange(s, p, q)), None)
         if side is None:
             return None
+        old = self.trees[1 - side].parent[p]
         end, changed = self._leave(side, p, q, predicates)
         changed_other = self._hang(self.trees[1 - side], p, q)
         i = self.rank[p]
         self.order[i], self.order[i + 1] = q, p
         self.rank[q], self.rank[p] = i, i + 1
         edges = (changed, changed_other) if side == UPPER else (changed_other, changed)
-        return Exchanged(edges, side, end)
+        return Exchanged(edges, side, end, old)
 
     def _may_exchange(self, side: int, p: int, q: int) -> bool:
         """Whether nothing hangs on q in this tree, and nothing but q on p in the other."""
