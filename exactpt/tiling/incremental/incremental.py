@@ -37,7 +37,7 @@ from exactpt.tiling.tiling import Tiling
 
 __all__ = ["IncrementalTiling"]
 
-PATIENCE: Final = 32
+PATIENCE: Final = 8
 """Steps along chains for each event, and each point, before chains are made searchable."""
 
 
