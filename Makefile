@@ -9,7 +9,7 @@ PACKAGES := g++ cmake libcgal-dev
 JOBS ?= 2
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint quick check-cgal clean
+.PHONY: help demo test lint quick pictures check-cgal clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -28,6 +28,9 @@ lint: $(VENV)/developing ## formatting, rules, types, imports
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+pictures: $(VENV)/installed ## draw docs/first-contact.svg anew, the picture of the README
+	$(BIN)/exactpt draw exactpt/data/demo.json --at contact -o docs/first-contact.svg
 
 check-cgal: cgal_check/build/cgal_check ## build the independent witness
 

@@ -9,7 +9,7 @@ from typing import final
 from exactpt.cgal import BodyShape, CgalCheck, IsolatedRoot
 from exactpt.collision.contact import time_to_json
 from exactpt.collision.initial import initial_touches
-from exactpt.collision.tilings import start_tiling, tiling_for
+from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
@@ -83,15 +83,15 @@ def check_scene(
         InputError: if the program cgal_check is missing.
         BudgetExceeded: if the bounds are reached.
     """
-    name = tiling_for(scene, tiling)
-    report = Report(name)
+    plan = plan_tiling(scene, tiling, scene.start)
+    report = Report(plan.name)
     deadline = None if max_seconds is None else clock.monotonic() + max_seconds
     with CgalCheck() as cgal:
         witness = _Witness(scene, cgal, report)
         if initial_touches(scene)[1]:
             report.contact = time_to_json(AlgebraicNumber(scene.start))
             return report
-        kinetic = start_tiling(scene, name, scene.start)
+        kinetic = plan.start(scene.start)
         try:
             witness.tiling(kinetic, scene.start)
             while True:

@@ -7,7 +7,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
@@ -37,6 +37,18 @@ class _Rational(click.ParamType[QQ]):
             return parse_rational(str(value))
         except InputError as error:
             self.fail(str(error), param, ctx)
+
+
+class _Moment(click.ParamType["QQ | Literal['contact']"]):
+    """A number of the scene format, or the word "contact"."""
+
+    name = "number|contact"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> QQ | Literal["contact"]:
+        """The exact rational that was typed, or "contact"."""
+        return "contact" if value == "contact" else RATIONAL.convert(value, param, ctx)
 
 
 RATIONAL = _Rational()
@@ -86,7 +98,7 @@ def collide(
     max_events: int | None,
     max_seconds: float | None,
 ) -> int:
-    r"""Find the first contact of a scene, exactly.
+    """Find the first contact of a scene, exactly.
 
     \b
     Examples:
@@ -130,7 +142,7 @@ def simulate(
     max_events: int | None,
     max_seconds: float | None,
 ) -> int:
-    r"""Run a scene to the end of its time span or its first contact.
+    """Run a scene to the end of its time span or its first contact.
 
     \b
     Examples:
@@ -170,7 +182,7 @@ def tile(
     max_events: int | None,
     max_seconds: float | None,
 ) -> int:
-    r"""Print the tiling of the free space at a rational time, as JSON.
+    """Print the tiling of the free space at a rational time, as JSON.
 
     It is built at that time, or with --run reached by simulating from the start; for the
     canonical tilings the two are equal.
@@ -213,7 +225,7 @@ def check(
     max_events: int | None,
     max_seconds: float | None,
 ) -> int:
-    r"""Simulate, and have CGAL verify every tiling and every event time.
+    """Simulate, and have CGAL verify every tiling and every event time.
 
     \b
     Examples:
@@ -229,16 +241,78 @@ def check(
 
 
 @cli.command()
+@SCENE
 @click.option(
     "-o",
+    "--out",
     "--output",
+    "output",
+    type=click.Path(path_type=Path),
+    required=True,
+    help="The file: .svg or .png for a picture, .html for an animation.",
+)
+@click.option(
+    "--at",
+    type=_Moment(),
+    help='When: a number, or "contact"; by default at the start.',
+)
+@click.option(
+    "--theme",
+    type=click.Choice(["auto", "light", "dark"]),
+    default="auto",
+    show_default=True,
+    help="Light or dark; auto: as the reader prefers (PNG: light).",
+)
+@TILING
+@_budget
+def draw(
+    scene: Path,
+    output: Path,
+    at: QQ | Literal["contact"] | None,
+    theme: str,
+    tiling: str,
+    max_events: int | None,
+    max_seconds: float | None,
+) -> int:
+    """Draw a scene: a picture of it and its tiling at a time, or an animation.
+
+    An animation runs from the start to the first contact or the end, and is one file that
+    opens in any browser; with --at it begins there. PNG needs: pip install 'exactpt[draw]'.
+
+    \b
+    Examples:
+      exactpt draw scene.json -o start.svg
+      exactpt draw scene.json --at 5/2 -o then.png --theme dark
+      exactpt draw scene.json --at contact -o contact.svg
+      exactpt draw scene.json -o film.html
+    """
+    from exactpt.render.draw import draw as draw_scene
+
+    draw_scene(
+        _load(scene, None),
+        output,
+        at=at,
+        tiling=tiling,
+        theme=theme,
+        max_events=max_events,
+        max_seconds=max_seconds,
+    )
+    return OK
+
+
+@cli.command()
+@click.option(
+    "-o",
+    "--out",
+    "--output",
+    "output",
     type=click.Path(path_type=Path),
     default=Path("exactpt-demo.html"),
     show_default=True,
     help="Where the animation goes.",
 )
 def demo(output: Path) -> int:
-    r"""Run a packaged scene to its first contact and draw an animation of it.
+    """Run a packaged scene to its first contact and draw an animation of it.
 
     \b
     Example:
@@ -246,16 +320,17 @@ def demo(output: Path) -> int:
     """
     from importlib.resources import files
 
-    from exactpt.render.animation import write_animation
-    from exactpt.scene.format import loads
+    from exactpt.render.film import film_of
+    from exactpt.render.page import page_of
+    from exactpt.scene.format import loads, write_atomically
 
     given = loads((files("exactpt") / "data" / "demo.json").read_text(encoding="utf-8"))
-    simulation = _simulation(given, "greedy")
-    events = list(simulation.run())
-    click.echo("\n".join(_in_words(given, simulation.contact)))
-    click.echo("\n".join(_stats_in_words(simulation)))
-    write_animation(given, events, simulation.contact, output)
-    click.echo(f"The animation is in {output}")
+    film = film_of(given, tiling="auto")
+    bodies = ", ".join(body.name for body in given.bodies)
+    click.echo(f"{len(given.bodies)} bodies: {bodies}")
+    click.echo("\n".join(_in_words(given, film.contact)))
+    write_atomically(output, page_of(film, title="exactpt demo"))
+    click.echo(f"the animation is in {output}: open it in a browser")
     return OK
 
 
@@ -300,10 +375,13 @@ def _answer(simulation: Simulation, scene: Scene, contact: Contact | None) -> di
 
 
 def _in_words(scene: Scene, contact: Contact | None) -> list[str]:
+    from exactpt.render.words import polynomial_in_words
+
     if contact is None:
         return [f"no contact from t = {scene.start} to t = {scene.end}"]
     time = contact.time
-    exactly = str(time.low) if time.is_rational else f"root of {_polynomial(time.polynomial)}"
+    root = f"root of {polynomial_in_words(time.polynomial)}"
+    exactly = str(time.low) if time.is_rational else root
     lines = [f"first contact at t = {float(time)!r} ({exactly}), kind {contact.kind}"]
     for pair in contact.pairs:
         feature = f"vertex {pair.other_vertex}" if pair.edge is None else f"edge {pair.edge}"
@@ -313,15 +391,6 @@ def _in_words(scene: Scene, contact: Contact | None) -> list[str]:
         )
     lines += [f"  {a} and {b} share a point" for a, b in contact.overlaps]
     return lines
-
-
-def _polynomial(coefficients: Sequence[object]) -> str:
-    terms = [
-        f"{c}" if i == 0 else f"{c} t" if i == 1 else f"{c} t^{i}"
-        for i, c in enumerate(coefficients)
-        if c != 0
-    ]
-    return " + ".join(reversed(terms)).replace("+ -", "- ")
 
 
 def _stats_in_words(simulation: Simulation) -> list[str]:

@@ -87,6 +87,12 @@ class Contact:
             data["overlaps"] = [list(names) for names in self.overlaps]
         return data
 
+    def _repr_html_(self) -> str:
+        """When and what touches what, for notebooks."""
+        from exactpt.render.notebook import contact_html
+
+        return contact_html(self)
+
 
 def time_to_json(time: AlgebraicNumber) -> dict[str, object]:
     """A time as in the contract; the same on every machine, however it was found."""

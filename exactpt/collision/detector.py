@@ -19,7 +19,7 @@ def first_contact(
 
     Args:
         scene: what moves.
-        tiling: which tiling to keep: "auto", "greedy" or "lazy".
+        tiling: which tiling to keep: "auto" or one of `TILINGS`.
         exact_only: decide everything by exact arithmetic, without the float filters.
     """
     touches, overlaps = initial_touches(scene)

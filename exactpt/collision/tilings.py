@@ -2,42 +2,87 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, NamedTuple
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
+from exactpt.motion.vertices import Vertices
 from exactpt.scene.scene import Scene
-from exactpt.tiling.greedy.greedy import GreedyTiling
-from exactpt.tiling.incremental.incremental import IncrementalTiling
-from exactpt.tiling.lazy import LazyTiling
+from exactpt.tiling.instant import Instant
+from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["TILINGS", "start_tiling", "tiling_for"]
+__all__ = ["TILINGS", "TilingPlan", "plan_tiling", "start_tiling"]
 
-TILINGS: Final[dict[str, type[Tiling]]] = {
-    "greedy": GreedyTiling,
-    "incremental": IncrementalTiling,
-    "lazy": LazyTiling,
-}
+TILINGS: Final = ("incremental", "greedy", "mixed", "lazy")
 """The tilings by name."""
 
 
-def tiling_for(scene: Scene, name: str) -> str:
-    """The name of the tiling to keep; "auto" is resolved by the shapes of the bodies.
+class TilingPlan(NamedTuple):
+    """A tiling chosen, not built yet.
+
+    Attributes:
+        name: one of `TILINGS`.
+        kind: the class that keeps it.
+        vertices: from a time on.
+        end: of the time span.
+    """
+
+    name: str
+    kind: type[Tiling]
+    vertices: Vertices
+    end: QQ
+
+    def start(self, time: QQ, *, exact_only: bool = False) -> Tiling:
+        """The tiling just after a time at which the bodies are disjoint."""
+        return self.kind(self.vertices, time, self.end, exact_only=exact_only)
+
+    def mesh_at(self, time: QQ) -> Mesh:
+        """The tiling at a time."""
+        return self.kind.mesh_at(Instant(self.vertices, time, after=False))
+
+
+def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
+    """Choose the tiling; "auto" by the shapes.
+
+    Points alone: incremental; convex for ever: greedy; else mixed.
 
     Raises:
-        InputError: if there is no such tiling.
+        InputError: if there is no such tiling, or it is not for these bodies.
     """
+    if name != "auto" and name not in TILINGS:
+        raise InputError(f"no tiling {name!r}; there are: auto, {', '.join(TILINGS)}")
+    if name == "incremental" or (name == "auto" and all(b.size == 1 for b in scene.bodies)):
+        from exactpt.tiling.incremental.incremental import IncrementalTiling
+
+        vertices = IncrementalTiling.vertices_of(scene.bodies, start, scene.end)
+        return TilingPlan("incremental", IncrementalTiling, vertices, scene.end)
+    vertices = Vertices(scene.bodies, start, scene.end)
+    convex = name in ("auto", "greedy") and Instant(vertices, start).all_stay_convex()
     if name == "auto":
-        points = all(body.size == 1 for body in scene.bodies)
-        return "incremental" if points else "greedy"
-    if name not in TILINGS:
-        raise InputError(f"no tiling {name!r}; there are: auto, {', '.join(sorted(TILINGS))}")
-    return name
+        name = "greedy" if convex else "mixed"
+    return TilingPlan(name, _kind(name, convex=convex), vertices, scene.end)
+
+
+def _kind(name: str, *, convex: bool) -> type[Tiling]:
+    """The class that keeps a tiling: of the greedy ones, convex bodies have their own."""
+    if name == "lazy":
+        from exactpt.tiling.lazy import LazyTiling
+
+        return LazyTiling
+    if name == "mixed":
+        from exactpt.tiling.mixed.mixed import MixedTiling
+
+        return MixedTiling
+    if convex:
+        from exactpt.tiling.greedy.greedy import GreedyTiling
+
+        return GreedyTiling
+    from exactpt.tiling.greedy.shadowed import ShadowedTiling
+
+    return ShadowedTiling
 
 
 def start_tiling(scene: Scene, name: str, start: QQ, *, exact_only: bool = False) -> Tiling:
     """The tiling of a scene just after a time at which its bodies are disjoint."""
-    kind = TILINGS[tiling_for(scene, name)]
-    vertices = kind.vertices_of(scene.bodies, start, scene.end)
-    return kind(vertices, start, scene.end, exact_only=exact_only)
+    return plan_tiling(scene, name, start).start(start, exact_only=exact_only)

@@ -16,6 +16,7 @@ from exactpt.errors import InputError
 from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.integer_polynomial import IntPoly, multiply, subtract
 from exactpt.kernel.numbers import QQ, ZZ
+from exactpt.motion.convexity import stays_convex
 from exactpt.motion.frame import Frame, Image, frame_for
 from exactpt.motion.track import Track
 
@@ -68,7 +69,8 @@ class MovingBody:
         until: the next rational time at which its tracks change; None if there is none.
         horizon: a double at least ``until`` in the frame; infinite for None.
         deforms: whether distances between its vertices may change, in the current piece.
-        is_tiled: whether its inside is tiled: it deforms at some time, and has a diagonal.
+        is_tiled: whether its inside is tiled: it deforms at some time, has a diagonal, and
+            need not stay convex.
     """
 
     __slots__ = ("body", "deforms", "horizon", "is_tiled", "ring", "until")
@@ -86,8 +88,7 @@ class MovingBody:
 class Vertices:
     """The rings of all bodies from a time on.
 
-    With ``tile_insides``, polygons that ever deform are marked as tiled inside. With
-    ``plain_points``, a point is a single vertex, without an inside or an offset.
+    With ``plain_points`` a point is a single vertex, without an inside or an offset.
 
     Attributes:
         all: the vertices, by id; those of a body are consecutive.
@@ -96,13 +97,7 @@ class Vertices:
     """
 
     def __init__(
-        self,
-        bodies: Sequence[Body],
-        start: QQ,
-        end: QQ,
-        *,
-        tile_insides: bool = False,
-        plain_points: bool = False,
+        self, bodies: Sequence[Body], start: QQ, end: QQ, *, plain_points: bool = False
     ) -> None:
         positions = [body.at(start) for body in bodies]
         flat = [p for points in positions for p in points]
@@ -122,7 +117,9 @@ class Vertices:
                 self.all[here].behind = behind
             self.enter_piece(i, start)
             moving.is_tiled = (
-                tile_insides and len(positions[i]) > 3 and self._ever_deforms(i, start)
+                len(positions[i]) > 3
+                and self._ever_deforms(i, start)
+                and not stays_convex(body, [self.all[v].index for v in moving.ring], start, end)
             )
 
     def _ever_deforms(self, i: int, start: QQ) -> bool:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final
 from exactpt.kernel.numbers import QQ
 from exactpt.render.fixed import BITS, exponent_above, fixed
 from exactpt.render.palette import body_colour
-from exactpt.render.words import pair_in_words, short
+from exactpt.render.words import contact_in_words, pair_in_words, short
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact
@@ -28,7 +28,7 @@ _LONGEST: Final = 1200
 """The most digits of a polynomial whose root a time is that are sent with it."""
 
 
-def data_of(film: Film, *, at: QQ | None = None) -> dict[str, object]:
+def data_of(film: Film, *, at: AlgebraicNumber | QQ | None = None) -> dict[str, object]:
     """What the page needs, as JSON data; ``at`` is the time that is shown first."""
     scene = film.scene
     time_unit = exponent_above(scene.end - scene.start)
@@ -99,8 +99,7 @@ def _step(step: Step, time_bits: int) -> dict[str, object]:
     data: dict[str, object] = {
         "time": _integer(fixed(number, time_bits)),
         "changes": [
-            [c.kind, [list(e) for e in c.removed], [list(e) for e in c.added]]
-            for c in step.changes
+            [c.kind, [list(e) for e in c.removed], [list(e) for e in c.added]] for c in step.changes
         ],
         "certificate": list(step.certificate),
     }
@@ -139,6 +138,7 @@ def _contact(contact: Contact, scene: Scene) -> dict[str, object]:
         )
     return {
         "kind": contact.kind,
+        "words": contact_in_words(contact),
         "pairs": pairs,
         "overlaps": [f"{short(a)} and {short(b)} share a point" for a, b in contact.overlaps],
     }

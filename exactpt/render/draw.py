@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
-import tempfile
-from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal
 
 from exactpt.errors import InputError
@@ -18,9 +14,70 @@ from exactpt.render.svg import svg_of
 from exactpt.scene.format import write_atomically
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
+    from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.numbers import QQ
+    from exactpt.render.film import Film
     from exactpt.scene.scene import Scene
 
 __all__ = ["ENDINGS", "draw"]
 
-ENDINGS: Final = (".svg", ".html", ".png")
+ENDINGS: Final = (".svg", ".png", ".html")
+
+
+def draw(
+    scene: Scene,
+    path: Path,
+    *,
+    at: QQ | Literal["contact"] | None = None,
+    tiling: str = "auto",
+    theme: str = "auto",
+    max_events: int | None = None,
+    max_seconds: float | None = None,
+) -> None:
+    """Draw a scene into a file, whose ending says what: a picture or an animation.
+
+    Args:
+        scene: what moves.
+        path: the file; it is complete or not there.
+        at: when, by default at the start; an animation is shown at that time first.
+        tiling: which tiling to draw.
+        theme: "light", "dark" or "auto" (as the reader prefers; PNG: light).
+        max_events: see `Simulation`.
+        max_seconds: see `Simulation`.
+
+    Raises:
+        InputError: if the ending is none of `ENDINGS`, or there is nothing to draw then.
+        BudgetExceeded: if the bounds are reached.
+    """
+    ending = path.suffix.lower()
+    if ending not in ENDINGS:
+        raise InputError(f"{path}: a drawing ends in one of {', '.join(ENDINGS)}")
+    if ending == ".html":
+        film = film_of(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
+        first = _shown_first(film, at)
+        write_atomically(path, page_of(film, title=path.stem, at=first, theme=theme))
+        return
+    then = None if at == "contact" else scene.start if at is None else at
+    picture = still(scene, then, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
+    if ending == ".svg":
+        write_atomically(path, svg_of(frame_of(picture), theme=theme))
+    else:
+        light = "light" if theme == "auto" else theme
+        write_atomically(path, png_of(svg_of(frame_of(picture), theme=light)))
+
+
+def _shown_first(film: Film, at: QQ | Literal["contact"] | None) -> AlgebraicNumber | QQ | None:
+    if at == "contact":
+        if film.contact is None:
+            raise InputError(
+                f"no contact to draw from t = {film.scene.start} to t = {film.scene.end}"
+            )
+        return film.end
+    if at is not None and (at < film.scene.start or film.end.compare_rational(at) < 0):
+        raise InputError(
+            f"--at: nothing to show at t = {at}: the animation runs from "
+            f"t = {film.scene.start} to t = {float(film.end)!r}"
+        )
+    return at

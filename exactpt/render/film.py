@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, final
 
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.render.run import Run
 from exactpt.render.tracker import EdgeSpan, TileSpan, Tracker
+from exactpt.simulation.simulation import Simulation
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact
     from exactpt.kinetic.queue import EventTime
     from exactpt.scene.scene import Scene
-    from exactpt.tiling.events import TilingEvent
+    from exactpt.simulation.event import Event
 
 __all__ = ["Change", "Film", "Step", "film_of"]
 
@@ -39,7 +40,7 @@ class Step(NamedTuple):
     """
 
     time: AlgebraicNumber
-    changes: tuple[Change, ...]
+    changes: list[Change]
     certificate: tuple[int, ...]
 
 
@@ -84,37 +85,40 @@ def film_of(
     Raises:
         BudgetExceeded: if the bounds are reached.
     """
-    run = Run(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
-    contact_change = Change("contact", (), ())
-    if run.kinetic is None or run.contact is not None:
-        steps = (Step(run.now, (contact_change,), ()),)
-        return Film(scene, run.name, steps, (), (), run.contact)
-    vertices = run.kinetic.vertices
-    first = [0]
-    for body in scene.bodies:
-        first.append(first[-1] + body.size)
-    node = [first[v.body] + v.index for v in vertices.all]
-    tracker = Tracker(run.kinetic, node)
+    simulation = Simulation(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
+    kinetic = simulation.kinetic
+    if kinetic is None:
+        steps = (Step(simulation.now, [Change("contact", (), ())], ()),)
+        return Film(scene, simulation.name, steps, (), (), simulation.contact)
+    first = list(accumulate((body.size for body in scene.bodies), initial=0))
+    node = [first[v.body] + v.index for v in kinetic.vertices.all]
+    node_of = {kinetic.vertices.name(v): n for v, n in enumerate(node)}
+    tracker = Tracker(kinetic, node)
     taken: list[Step] = []
-    while (events := run.advance(scene.end)) is not None:
-        if events:
-            changes = tuple(_change(event, node) for event in events)
-            taken.append(Step(run.now, changes, _certificate(events[0].time, node)))
+    latest: EventTime | None = None
+    for event in simulation.run():
+        now = kinetic.certifier.now
+        change = _change(event, node_of)
+        if now is latest:
+            taken[-1].changes.append(change)
+            continue
+        latest = now
+        certificate = tuple(node[v] for v in (now.a, now.b, now.c) if v >= 0)
+        taken.append(Step(event.time, [change], certificate))
+        if simulation.contact is None:
             tracker.update(len(taken))
-    if run.contact is not None:
-        certificate = _certificate(run.kinetic.certifier.now, node)
-        taken.append(Step(run.contact.time, (contact_change,), certificate))
     return Film(
-        scene, run.name, tuple(taken), tuple(tracker.edges), tuple(tracker.tiles), run.contact
+        scene,
+        simulation.name,
+        tuple(taken),
+        tuple(tracker.edges),
+        tuple(tracker.tiles),
+        simulation.contact,
     )
 
 
-def _change(event: TilingEvent, node: list[int]) -> Change:
+def _change(event: Event, node_of: dict[str, int]) -> Change:
     removed, added = (
-        tuple((node[u], node[v]) for u, v in pairs) for pairs in (event.removed, event.added)
+        tuple((node_of[u], node_of[v]) for u, v in pairs) for pairs in (event.removed, event.added)
     )
     return Change(event.kind, removed, added)
-
-
-def _certificate(time: EventTime, node: list[int]) -> tuple[int, ...]:
-    return tuple(node[v] for v in (time.a, time.b, time.c) if v >= 0)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias, final
 
 from exactpt.render.palette import TINTS, body_colour
 from exactpt.render.window import Window, window_of
-from exactpt.render.words import contact_in_words, pair_in_words, time_in_words
+from exactpt.render.words import contact_in_words, time_in_words
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Pair
@@ -26,23 +26,34 @@ NAMED: Final = 40
 @final
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A body: one pixel, two, a polygon (``closed``) or an open chain."""
+    """A body: one pixel, two, a polygon (``closed``) or an open chain.
+
+    Its name is written around the pixel ``label``; None if there are too many names.
+    """
 
     name: str
     colour: str
     pixels: tuple[Pixel, ...]
     closed: bool
-    labelled: bool
+    label: Pixel | None
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Tile:
-    """A face of the tiling; ``inside`` a body, or in free space. ``tint`` counts from 0."""
+    """A face of the tiling, in a tint (from 0), or in the colour of the body that it belongs to.
+
+    Attributes:
+        pixels: around it.
+        tint: its tint.
+        colour: in F1, of its body; else None.
+        level: in F1, of its geodesic.
+    """
 
     pixels: tuple[Pixel, ...]
     tint: int
-    inside: bool
+    colour: str | None = None
+    level: int = 0
 
 
 @final
@@ -63,16 +74,24 @@ class Mark:
     pixel: Pixel
     normal: Pixel | None
     edge: tuple[Pixel, Pixel] | None
-    label: str
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """A picture; its parts are painted in this order: tiles, shapes, inside, lines, marks."""
+    """A picture; its parts are painted in the order: tiles, shapes, lines, marks.
+
+    Attributes:
+        window: what of the plane is shown.
+        caption: the time.
+        news: the contact in words, if this is its time.
+        note: what is drawn, in words.
+        tiles, shapes, lines, marks: the parts.
+    """
 
     window: Window
     caption: str
+    news: str
     note: str
     tiles: tuple[Tile, ...]
     shapes: tuple[Shape, ...]
@@ -88,30 +107,66 @@ def frame_of(still: Still) -> Frame:
     pixels = {name: tuple(window.pixel(x, y) for x, y in body) for name, body in places.items()}
     named = len(scene.bodies) <= NAMED
     shapes = tuple(
-        Shape(body.name, body_colour(i), pixels[body.name], body.closed, named)
+        Shape(
+            body.name,
+            body_colour(i),
+            pixels[body.name],
+            body.closed,
+            _label(pixels[body.name], closed=body.closed) if named else None,
+        )
         for i, body in enumerate(scene.bodies)
     )
     tiles: tuple[Tile, ...] = ()
     lines: tuple[Line, ...] = ()
     note = f"{len(scene.bodies)} bodies"
     if still.tiling is not None:
-        tiles, lines = _tiling(still.tiling, window)
+        colours = {shape.name: shape.colour for shape in shapes}
+        tiles, lines = _tiling(still.tiling, window, colours)
         note += f" · {still.tiling.tiling} tiling, {len(tiles)} pseudo-triangles"
     marks: tuple[Mark, ...] = ()
-    caption = time_in_words(still.at)
+    caption, news = time_in_words(still.at), ""
     if still.contact is not None:
-        caption = contact_in_words(still.contact)
+        caption = f"first contact at {time_in_words(still.contact.time)}"
+        news = contact_in_words(still.contact)
         marks = tuple(_mark(pair, pixels) for pair in still.contact.pairs)
-        if still.contact.overlaps:
-            pairs = ", ".join(f"{a} and {b}" for a, b in still.contact.overlaps[:3])
-            note = f"{pairs} share a point"
-    return Frame(window, caption, note, tiles, shapes, lines, marks)
+    return Frame(window, caption, news, note, tiles, shapes, lines, marks)
 
 
-def _tiling(tiling: Snapshot, window: Window) -> tuple[tuple[Tile, ...], tuple[Line, ...]]:
+def _label(pixels: Sequence[Pixel], *, closed: bool) -> Pixel:
+    """Where a name stands: in the middle of a body; of a bent one, where it is widest."""
+    x, y = (sum(c) / len(pixels) for c in zip(*pixels, strict=True))
+    if len(pixels) < 3 or not closed:
+        return x, y - 13.0
+    if any(left < x < right for left, right in _inside_at(pixels, y)):
+        return x, y
+    low, high = min(q for _, q in pixels), max(q for _, q in pixels)
+    rows = [low + (high - low) * k / 16 for k in range(1, 16)]
+    spans = [(right - left, left, row) for row in rows for left, right in _inside_at(pixels, row)]
+    width, left, row = max(spans, default=(0.0, x, y))
+    return left + width / 2, row
+
+
+def _inside_at(pixels: Sequence[Pixel], y: float) -> list[tuple[float, float]]:
+    """Where a horizontal line runs inside a polygon."""
+    crossings = sorted(
+        px + (y - py) * (qx - px) / (qy - py)
+        for (px, py), (qx, qy) in zip(pixels, [*pixels[1:], pixels[0]], strict=True)
+        if (py <= y) != (qy <= y)
+    )
+    return list(zip(crossings[::2], crossings[1::2], strict=True))
+
+
+def _tiling(
+    tiling: Snapshot, window: Window, colours: dict[str, str]
+) -> tuple[tuple[Tile, ...], tuple[Line, ...]]:
     pixels = [window.pixel(node.x, node.y) for node in tiling.nodes]
     tiles = tuple(
-        Tile(tuple(pixels[v] for v in face.nodes), tint, face.region not in ("F1", "F2"))
+        Tile(
+            tuple(pixels[v] for v in face.nodes),
+            tint,
+            None if face.body is None else colours[face.body],
+            face.level or 0,
+        )
         for face, tint in zip(tiling.faces, tints(tiling.faces), strict=True)
     )
     lines = tuple(
@@ -142,5 +197,5 @@ def _mark(pair: Pair, pixels: dict[str, tuple[Pixel, ...]]) -> Mark:
     edge = None
     if pair.edge is not None:
         edge = (other[pair.edge], other[(pair.edge + 1) % len(other)])
-    normal = None if pair.normal is None else (pair.normal[0], -pair.normal[1])
-    return Mark(pixels[pair.body][pair.vertex], normal, edge, pair_in_words(pair))
+    normal = None if pair.normal in (None, (0.0, 0.0)) else (pair.normal[0], -pair.normal[1])
+    return Mark(pixels[pair.body][pair.vertex], normal, edge)

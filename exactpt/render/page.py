@@ -12,6 +12,7 @@ from exactpt.render.palette import DARK, LIGHT
 from exactpt.render.words import clean
 
 if TYPE_CHECKING:
+    from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.numbers import QQ
     from exactpt.render.film import Film
 
@@ -35,18 +36,26 @@ SCRIPTS: Final = (
 """The parts of the page's script; each needs only those before it, and `main` starts it."""
 
 
-def page_of(film: Film, *, title: str = "exactpt", at: QQ | None = None) -> str:
+def page_of(
+    film: Film,
+    *,
+    title: str = "exactpt",
+    at: AlgebraicNumber | QQ | None = None,
+    theme: str = "auto",
+) -> str:
     """The animation of a film as an HTML document.
 
     Args:
         film: what happened.
         title: of the page.
         at: the time that is shown first; by default the start.
+        theme: "light", "dark" or "auto" (as the reader prefers).
     """
     data = json.dumps(data_of(film, at=at), separators=(",", ":"))
     parts = {
         "title": escape(clean(title)),
         "summary": escape(_summary(film)),
+        "theme": "" if theme == "auto" else f' data-theme="{theme}"',
         "style": _variables() + _asset("page.css"),
         # Inside a script element nothing but its end is special.
         "data": data.replace("<", "\\u003c"),

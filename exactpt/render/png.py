@@ -20,4 +20,4 @@ def png_of(svg: str, *, zoom: int = 2) -> bytes:
             "PNG needs the library resvg_py, which is not installed: "
             "pip install 'exactpt[draw]' (SVG and HTML need nothing)"
         ) from None
-    return resvg_py.svg_to_bytes(svg_string=svg, zoom=zoom, dpi=96)
+    return bytes(resvg_py.svg_to_bytes(svg_string=svg, zoom=zoom, dpi=96))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, final
 
 from exactpt.errors import InputError
 from exactpt.render.fixed import near
-from exactpt.render.run import Run
+from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.snapshot import Snapshot, snapshot
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from exactpt.kernel.numbers import QQ
     from exactpt.scene.scene import Scene
 
-__all__ = ["Still", "still"]
+__all__ = ["Still", "still", "still_of"]
 
 
 @final
@@ -25,7 +25,7 @@ class Still:
 
     Attributes:
         scene: the scene.
-        at: the time; at a contact that is not rational, a rational just before it.
+        at: the time; of one that is not rational, a rational just before it.
         tiling: the tiling then (at a contact: the one that ends there); None if the bodies
             touch at the start, and there is none.
         contact: the contact, if this is its time.
@@ -56,27 +56,27 @@ def still(
         raise InputError(
             f"--at: t = {at} is outside the time span from {scene.start} to {scene.end}"
         )
-    run = Run(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
-    until = scene.end if at is None else at
-    while run.advance(until) is not None:
+    simulation = Simulation(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
+    for _ in simulation.run(at):
         pass
-    if run.contact is not None:
-        return _at_contact(run, run.contact, at)
-    if at is None or run.kinetic is None:
-        raise InputError(f"--at: no contact from t = {scene.start} to t = {scene.end}")
-    tile = snapshot(run.kinetic.vertices, run.kinetic.mesh_now(at), run.name, at)
-    return Still(scene, at, tile, None)
-
-
-def _at_contact(run: Run, contact: Contact, at: QQ | None) -> Still:
-    if at is not None and contact.time.compare_rational(at) != 0:
+    contact = simulation.contact
+    if at is None and contact is None:
+        raise InputError(f"no contact to draw from t = {scene.start} to t = {scene.end}")
+    if at is not None and contact is not None and contact.time.compare_rational(at) != 0:
         raise InputError(
             f"--at: nothing to draw at t = {at}: "
             f"the first contact is at t = {float(contact.time)!r}"
         )
-    scene, kinetic = run.scene, run.kinetic
-    then = near(contact.time, scene.end - scene.start)
+    return still_of(simulation)
+
+
+def still_of(simulation: Simulation) -> Still:
+    """A simulation at its current time."""
+    scene, kinetic, contact = simulation.scene, simulation.kinetic, simulation.contact
+    now = (simulation.now if contact is None else contact.time).simplified()
+    at = near(now, scene.end - scene.start)
     if kinetic is None:
-        return Still(scene, then, None, contact)
-    tile = snapshot(kinetic.vertices, kinetic.mesh, run.name, then)
-    return Still(scene, then, tile, contact)
+        return Still(scene, at, None, contact)
+    # Where it is not defined, the tiling is the one that ends or has just begun then.
+    mesh = kinetic.mesh_now(at) if contact is None and now.is_rational else kinetic.mesh
+    return Still(scene, at, snapshot(kinetic.vertices, mesh, simulation.name, at), contact)

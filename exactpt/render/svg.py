@@ -18,7 +18,7 @@ __all__ = ["THEMES", "svg_of"]
 THEMES: Final = ("auto", "light", "dark")
 """``auto`` follows the reader's preference where the picture is shown."""
 
-_HEADER: Final = 40
+_HEADER: Final = 60
 _ARROW: Final = 46.0
 _FONT: Final = "ui-sans-serif, system-ui, 'DejaVu Sans', Arial, sans-serif"
 
@@ -27,23 +27,25 @@ def svg_of(frame: Frame, *, theme: str = "auto") -> str:
     """The picture as an SVG document.
 
     Strokes keep their width when the picture is scaled. Pixel (0, 0) of the frame's window
-    is at (0, 40), below the caption.
+    is at (0, 60), below the caption.
     """
     width, height = frame.window.width, frame.window.height + _HEADER
+    size = f'width="{width}" height="{height}"'
+    box = f'viewBox="0 0 {width} {height}"'
     parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" '
-        f'width="{width}" height="{height}" role="img" aria-labelledby="caption note">',
+        f'<svg xmlns="http://www.w3.org/2000/svg" class="exactpt-{theme}" {box} {size} role="img">',
+        f"<title>{_text(frame.caption)}</title>",
         f"<style>{_style(theme)}</style>",
-        f'<rect class="paper" width="{width}" height="{height}"/>',
-        f'<text id="caption" class="caption" x="20" y="27">{_text(frame.caption)}</text>',
-        f'<text id="note" class="note" x="{width - 20}" y="27">{_text(frame.note)}</text>',
+        f'<rect class="paper" {size}/>',
+        f'<text class="caption" x="20" y="27">{_text(frame.caption)}</text>',
+        f'<text class="news" x="20" y="48">{_text(frame.news)}</text>',
+        f'<text class="note" x="20" y="{height - 16}">{_text(frame.note)}</text>',
         f'<g transform="translate(0 {_HEADER})">',
-        *_group("tiles", (_tile(tile) for tile in frame.tiles if not tile.inside)),
+        *_group("tiles", map(_tile, frame.tiles)),
         *_group("bodies", map(_shape, frame.shapes)),
-        *_group("insides", (_tile(tile) for tile in frame.tiles if tile.inside)),
         *_group("lines", map(_line, frame.lines)),
-        *_group("names", (_name(shape) for shape in frame.shapes if shape.labelled)),
-        *_group("contact", (part for mark in frame.marks for part in _mark(mark, width))),
+        *_group("names", (_name(s.name, s.label) for s in frame.shapes if s.label is not None)),
+        *_group("contact", (part for mark in frame.marks for part in _mark(mark))),
         "</g>",
         "</svg>",
     ]
@@ -51,44 +53,52 @@ def svg_of(frame: Frame, *, theme: str = "auto") -> str:
 
 
 def _style(theme: str) -> str:
-    light, dark = _rules(LIGHT), _rules(DARK)
+    """The rules of a theme; they begin with its class, since documents may hold many pictures."""
     if theme == "auto":
-        return f"{light}@media (prefers-color-scheme:dark){{{dark}}}"
-    return dark if theme == "dark" else light
+        dark = _rules(DARK, theme)
+        return f"{_rules(LIGHT, theme)}@media (prefers-color-scheme:dark){{{dark}}}"
+    return _rules(DARK if theme == "dark" else LIGHT, theme)
 
 
-def _rules(colours: dict[str, str]) -> str:
+def _rules(colours: dict[str, str], theme: str) -> str:
     halo = f"paint-order:stroke;stroke:{colours['paper']};stroke-linejoin:round"
     rules = {
         "text": f"font-family:{_FONT};fill:{colours['ink']}",
         "path,line,polygon,polyline,circle": "vector-effect:non-scaling-stroke",
         ".paper": f"fill:{colours['paper']}",
         ".caption": "font-size:16px;font-weight:600",
-        ".note": f"font-size:13px;text-anchor:end;fill:{colours['soft']}",
+        ".news": f"font-size:14px;font-weight:600;fill:{colours['contact']}",
+        ".note": f"font-size:12px;fill:{colours['soft']}",
         **{f".t{i}": f"fill:{colours[f'tint{i}']}" for i in range(TINTS)},
-        "#insides polygon": "fill-opacity:.4",
-        "#bodies *": f"stroke:{colours['outline']};stroke-width:1.2;stroke-linejoin:round",
-        "#bodies .thin": "fill:none;stroke-width:3.4;stroke-linecap:round",
+        ".bodies *": f"stroke:{colours['outline']};stroke-width:1.2;stroke-linejoin:round",
+        ".bodies .thin": "fill:none;stroke-width:3.4;stroke-linecap:round",
         ".diagonal": f"stroke:{colours['diagonal']};stroke-width:1.1",
         ".hull": f"stroke:{colours['hull']};stroke-width:1.7",
-        "#names text": f"font-size:12px;text-anchor:middle;stroke-width:3px;{halo}",
-        "#contact": f"stroke:{colours['contact']};fill:none;stroke-width:2.4",
-        "#contact .dot": f"fill:{colours['contact']};stroke:none",
-        "#contact .touched": "stroke-width:4;stroke-opacity:.55;stroke-linecap:round",
-        "#contact text": f"font-size:14px;font-weight:600;stroke-width:4px;{halo};"
-        f"fill:{colours['contact']}",
+        ".names text": f"font-size:12px;text-anchor:middle;stroke-width:3px;{halo}",
+        ".contact": f"stroke:{colours['contact']};fill:none;stroke-width:2.4",
+        ".contact .dot": f"fill:{colours['contact']};stroke:none",
+        ".contact .touched": "stroke-width:4;stroke-opacity:.55;stroke-linecap:round",
     }
-    return "".join(f"{selector}{{{rule}}}" for selector, rule in rules.items())
+    return "".join(
+        f".exactpt-{theme} {part}{{{rule}}}"
+        for selector, rule in rules.items()
+        for part in selector.split(",")
+    )
 
 
 def _group(name: str, parts: Iterable[str]) -> Iterator[str]:
-    yield f'<g id="{name}">'
+    yield f'<g class="{name}">'
     yield from parts
     yield "</g>"
 
 
 def _tile(tile: Tile) -> str:
-    return f'<polygon class="t{tile.tint}" points="{_points(tile.pixels)}"/>'
+    if tile.colour is None:
+        return f'<polygon class="t{tile.tint}" points="{_points(tile.pixels)}"/>'
+    # By level, from the relative hull inwards, in three strengths.
+    opacity = (0.16, 0.28, 0.4)[tile.level % 3]
+    fill = f'fill="{tile.colour}" fill-opacity="{opacity}"'
+    return f'<polygon {fill} points="{_points(tile.pixels)}"/>'
 
 
 def _shape(shape: Shape) -> str:
@@ -115,15 +125,12 @@ def _line(line: Line) -> str:
     )
 
 
-def _name(shape: Shape) -> str:
-    x = sum(p[0] for p in shape.pixels) / len(shape.pixels)
-    y = sum(p[1] for p in shape.pixels) / len(shape.pixels)
-    below = 4.0 if len(shape.pixels) > 2 else -9.0
-    return f'<text x="{_number(x)}" y="{_number(y + below)}">{_text(short(shape.name))}</text>'
+def _name(name: str, at: Pixel) -> str:
+    return f'<text x="{_number(at[0])}" y="{_number(at[1] + 4)}">{_text(short(name))}</text>'
 
 
-def _mark(mark: Mark, width: int) -> Iterator[str]:
-    """The feature that is touched, a ring around the point, the normal, and the names."""
+def _mark(mark: Mark) -> Iterator[str]:
+    """The feature that is touched, a ring around the point, and the normal."""
     x, y = mark.pixel
     if mark.edge is not None:
         (x1, y1), (x2, y2) = mark.edge
@@ -133,15 +140,8 @@ def _mark(mark: Mark, width: int) -> Iterator[str]:
         )
     yield f'<circle cx="{_number(x)}" cy="{_number(y)}" r="11"/>'
     yield f'<circle class="dot" cx="{_number(x)}" cy="{_number(y)}" r="3.2"/>'
-    if mark.normal is not None and mark.normal != (0.0, 0.0):
+    if mark.normal is not None:
         yield _arrow(mark.pixel, mark.normal)
-    on_left = x < 0.6 * width
-    at = x + 18 if on_left else x - 18
-    anchor = "start" if on_left else "end"
-    yield (
-        f'<text x="{_number(at)}" y="{_number(y - 16)}" text-anchor="{anchor}">'
-        f"{_text(mark.label)}</text>"
-    )
 
 
 def _arrow(tail: Pixel, direction: Pixel) -> str:

@@ -75,7 +75,7 @@ class Tracker:
     def __init__(self, kinetic: Tiling, node: list[int]) -> None:
         self._kinetic = kinetic
         self._node = node
-        self._seen: tuple[list[int], list[int], list[int], list[bool]] = ([], [], [], [])
+        self._seen: list[list[int]] = [[], [], [], []]
         self._tile_of: list[int] = []
         self._tiles: dict[int, _Tile] = {}
         self._made = 0
@@ -105,11 +105,11 @@ class Tracker:
     def update(self, step: int) -> None:
         """Note what has changed; from this step on it is as it is now."""
         mesh = self._kinetic.mesh
-        now = (mesh.map.origin, mesh.map.following, mesh.region, mesh.corner)
+        now = [mesh.map.origin, mesh.map.following, mesh.region, [*map(int, mesh.corner)]]
         changed: set[int] = set()
         for old, new in zip(self._seen, now, strict=True):
             changed.update(_differences(old, new))
-        self._seen = (now[0][:], now[1][:], now[2][:], now[3][:])
+        self._seen = [array[:] for array in now]
         self._tile_of += [-1] * (len(now[0]) - len(self._tile_of))
         ordered = sorted(changed)
         self._update_tiles(ordered, step)

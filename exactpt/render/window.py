@@ -11,9 +11,9 @@ from exactpt.kernel.numbers import QQ, ceil, nearest_float
 __all__ = ["Window", "window_of"]
 
 WIDTH: Final = 960
-HEIGHT: Final = 720
-LEAST: Final = 240
-MARGIN: Final = 56
+HEIGHT: Final = 680
+LEAST: Final = (560, 240)
+MARGIN: Final = 48
 
 
 @final
@@ -45,7 +45,10 @@ def window_of(points: Sequence[tuple[QQ, QQ]]) -> Window:
     across, up = max(xs) - min(xs), max(ys) - min(ys)
     room = ((across, WIDTH - 2 * MARGIN), (up, HEIGHT - 2 * MARGIN))
     scale = min((QQ(pixels) / extent for extent, pixels in room if extent), default=QQ(1))
-    width, height = (max(LEAST, int(ceil(d * scale)) + 2 * MARGIN) for d in (across, up))
+    width, height = (
+        max(least, int(ceil(d * scale)) + 2 * MARGIN)
+        for d, least in zip((across, up), LEAST, strict=True)
+    )
     return Window(
         left=(min(xs) + max(xs)) / 2 - QQ(width) / (2 * scale),
         top=(min(ys) + max(ys)) / 2 + QQ(height) / (2 * scale),

@@ -5,11 +5,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from exactpt.collision.contact import Contact, Pair
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.numbers import QQ
 
-__all__ = ["clean", "contact_in_words", "pair_in_words", "short", "time_in_words"]
+__all__ = [
+    "clean",
+    "contact_in_words",
+    "pair_in_words",
+    "polynomial_in_words",
+    "short",
+    "time_in_words",
+]
 
 
 def clean(text: str) -> str:
@@ -39,13 +48,35 @@ def time_in_words(time: AlgebraicNumber | QQ) -> str:
 
 
 def pair_in_words(pair: Pair) -> str:
-    """Which feature touches which: ``tip:2 on edge 4–5 of box``."""
-    mine = f"{short(pair.body)}:{pair.vertex}"
+    """Which feature touches which: ``vertex 2 of tip on edge 4 of box``."""
+    mine = f"vertex {pair.vertex} of {short(pair.body)}"
     if pair.edge is None:
-        return f"{mine} on {short(pair.other)}:{pair.other_vertex}"
+        return f"{mine} on vertex {pair.other_vertex} of {short(pair.other)}"
     return f"{mine} on edge {pair.edge} of {short(pair.other)}"
 
 
-def contact_in_words(contact: Contact) -> str:
-    """One line: when, and what kind."""
-    return f"first contact ({contact.kind}) at {time_in_words(contact.time)}"
+def polynomial_in_words(coefficients: Sequence[object]) -> str:
+    """An integer polynomial in t, given with the constant first: ``3 t^2 - t + 1``."""
+    terms = []
+    for power, coefficient in enumerate(map(str, coefficients)):
+        size = coefficient.lstrip("-")
+        t = "" if power == 0 else "t" if power == 1 else f"t^{power}"
+        factor = "" if size == "1" and t else size
+        if size != "0":
+            terms.append(("-" if coefficient != size else "+", f"{factor} {t}".strip()))
+    (sign, first), *rest = terms[::-1] or [("+", "0")]
+    return f"{sign.strip('+')}{first}" + "".join(f" {sign} {term}" for sign, term in rest)
+
+
+def incidences_in_words(contact: Contact) -> list[str]:
+    """Every vertex that touches something, and every two bodies that share a point."""
+    return [pair_in_words(pair) for pair in contact.pairs] + [
+        f"{short(a)} and {short(b)} share a point" for a, b in contact.overlaps
+    ]
+
+
+def contact_in_words(contact: Contact, *, limit: int = 2) -> str:
+    """One line: what touches what; of more than ``limit`` incidences only how many more."""
+    found = incidences_in_words(contact)
+    more = [f"{len(found) - limit} more"] if len(found) > limit else []
+    return ", ".join(found[:limit] + more)

@@ -325,8 +325,8 @@ def save(scene: Scene, path: Path) -> None:
     write_atomically(path, json.dumps(to_json(scene), indent=1) + "\n")
 
 
-def write_atomically(path: Path, text: str) -> None:
-    """Write a text file by way of a temporary neighbour, so that no half of it is ever seen.
+def write_atomically(path: Path, content: str | bytes) -> None:
+    """Write a file by way of a temporary neighbour, so that no half of it is ever seen.
 
     Raises:
         InputError: if the file cannot be written.
@@ -336,8 +336,8 @@ def write_atomically(path: Path, text: str) -> None:
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror}") from None
     try:
-        with os.fdopen(descriptor, "w", encoding="utf-8") as file:
-            file.write(text)
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(content.encode() if isinstance(content, str) else content)
         umask = os.umask(0)
         os.umask(umask)
         os.chmod(name, 0o666 & ~umask)

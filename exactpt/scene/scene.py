@@ -102,6 +102,12 @@ class Scene:
         """The number of vertices of all bodies."""
         return sum(body.size for body in self.bodies)
 
+    def _repr_svg_(self) -> str:
+        """The bodies at the start, for notebooks."""
+        from exactpt.render.notebook import scene_svg
+
+        return scene_svg(self)
+
     def __repr__(self) -> str:
         return (
             f"<Scene: {len(self.bodies)} bodies, {self.vertex_count} vertices, "

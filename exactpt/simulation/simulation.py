@@ -8,7 +8,7 @@ from typing import final
 
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
-from exactpt.collision.tilings import start_tiling, tiling_for
+from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import counters
@@ -28,7 +28,7 @@ class Simulation:
 
     Args:
         scene: what moves.
-        tiling: which tiling to keep: "auto", "greedy" or "lazy".
+        tiling: which tiling to keep: "auto" or one of `TILINGS`.
         exact_only: decide everything by exact arithmetic, without the float filters.
         max_events: raise `BudgetExceeded` before one more event than these.
         max_seconds: raise `BudgetExceeded` after this time.
@@ -49,7 +49,8 @@ class Simulation:
         max_seconds: float | None = None,
     ) -> None:
         self.scene = scene
-        self.name = tiling_for(scene, tiling)
+        plan = plan_tiling(scene, tiling, scene.start)
+        self.name = plan.name
         self.contact: Contact | None = None
         self._max_events = max_events
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
@@ -61,7 +62,7 @@ class Simulation:
             start = AlgebraicNumber(scene.start)
             self.contact = contact_of(scene, start, touches, overlaps)
         else:
-            self._kinetic = start_tiling(scene, self.name, scene.start, exact_only=exact_only)
+            self._kinetic = plan.start(scene.start, exact_only=exact_only)
 
     @property
     def now(self) -> AlgebraicNumber:
@@ -69,6 +70,14 @@ class Simulation:
         if self._kinetic is None:
             return AlgebraicNumber(self.scene.start)
         return self._kinetic.now
+
+    @property
+    def kinetic(self) -> Tiling | None:
+        """The tiling that is kept (None if bodies touch at the start); for `exactpt.render`.
+
+        At a contact it is the one just before.
+        """
+        return self._kinetic
 
     def run(self, until: Rational | None = None) -> Iterator[Event]:
         """Process the events up to and including a time, by default the end of the span.
@@ -156,6 +165,12 @@ class Simulation:
                 "flips": stats.flips,
             }
         return data
+
+    def _repr_svg_(self) -> str:
+        """The tiling at the current time, or the contact, for notebooks."""
+        from exactpt.render.notebook import simulation_svg
+
+        return simulation_svg(self)
 
     def _tiling(self) -> Tiling:
         if self._kinetic is None:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from exactpt.collision.tilings import TILINGS, tiling_for
+from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
-from exactpt.tiling.instant import Instant
 from exactpt.tiling.snapshot import Snapshot, snapshot
 
 __all__ = ["tile_at"]
@@ -40,10 +39,10 @@ def tile_at(
         raise InputError(
             f"--at: t = {at} is outside the time span from {scene.start} to {scene.end}"
         )
-    name = tiling_for(scene, tiling)
+    plan = plan_tiling(scene, plan_tiling(scene, tiling, scene.start).name, at)
     simulation = Simulation(
         scene,
-        tiling=name if by_running else "auto",
+        tiling=tiling if by_running else "lazy",
         max_events=max_events,
         max_seconds=max_seconds,
     )
@@ -56,6 +55,4 @@ def tile_at(
         )
     if by_running:
         return simulation.snapshot()
-    kind = TILINGS[name]
-    vertices = kind.vertices_of(scene.bodies, at, scene.end)
-    return snapshot(vertices, kind.mesh_at(Instant(vertices, at, after=False)), name, at)
+    return snapshot(plan.vertices, plan.mesh_at(at), plan.name, at)

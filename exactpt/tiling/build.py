@@ -12,19 +12,21 @@ from exactpt.tiling.mesh import FREE, INSIDE, OUTER, SOLID, Diagonal, Mesh
 __all__ = ["build_mesh"]
 
 
-def build_mesh(instant: Instant, diagonals: Iterable[Diagonal]) -> Mesh:
+def build_mesh(instant: Instant, diagonals: Iterable[Diagonal], mesh: Mesh | None = None) -> Mesh:
     """The mesh of all body edges and these diagonals, with its marks.
 
     Args:
         instant: the predicates.
         diagonals: pairwise without crossings; a pseudo-triangulation together with the
             body edges.
+        mesh: an empty one to fill.
 
     Raises:
         AuditError: if a tile has not three corners.
     """
     vertices = instant.vertices.all
-    mesh = Mesh(len(vertices))
+    if mesh is None:
+        mesh = Mesh(len(vertices))
     around: list[list[int]] = [[] for _ in vertices]
     inside: list[list[int]] = [[] for _ in vertices]
     for body in instant.vertices.bodies:

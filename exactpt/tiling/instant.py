@@ -87,6 +87,14 @@ class Instant:
         v = self.vertices.all
         return self.first_sign((orientation(v[a], v[b], v[c]),))
 
+    def all_stay_convex(self) -> bool:
+        """Whether all bodies are convex and stay so; at a vertex, an angle of pi will do."""
+        v = self.vertices.all
+        return all(
+            not body.is_tiled and all(self.sign(v[p].ahead, p, v[p].behind) <= 0 for p in body.ring)
+            for body in self.vertices.bodies
+        )
+
     def first_sign(self, terms: Iterable[IntPoly]) -> int:
         """The sign of the first term that is not zero: for ever, or at the time."""
         for f in terms:

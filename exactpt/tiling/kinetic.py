@@ -182,8 +182,8 @@ class KineticTiling(Tiling):
         slots = [slot for slot, _ in entries]
         self._touched.clear()
         try:
-            if len(slots) == 1 and slots[0] % KINDS == ANGLE and time.crossing and not self._flat:
-                h = slots[0] // KINDS
+            h, kind = divmod(slots[0], KINDS)
+            if len(slots) == 1 and kind == ANGLE and time.crossing and not self._has_flats(h):
                 if self._may_touch(h):
                     self._report_touches(self._angle(h))
                 self._due.add(h)
@@ -273,15 +273,26 @@ class KineticTiling(Tiling):
         """The vertices of an angle, and on along chains that are straight for ever."""
         m = self.mesh.map
         run = set(self._angle(h))
-        g = m.following[h]
-        while g in self._flat and g != h:
-            g = m.following[g]
-            run.add(m.origin[g])
-        g = m.previous[h]
-        while g in self._flat and g != h:
-            g = m.previous[g]
-            run.add(m.origin[g])
+        for step in (m.following, m.previous):
+            g = step[h]
+            while g != h and self._is_flat(g):
+                g = step[g]
+                run.add(m.origin[g])
         return run
+
+    def _has_flats(self, h: int) -> bool:
+        """Whether a chain that is straight for ever may be next to an angle."""
+        m = self.mesh.map
+        return bool(self._flat) or self._is_flat(m.following[h]) or self._is_flat(m.previous[h])
+
+    def _is_flat(self, h: int) -> bool:
+        """Whether the angle of h is straight for ever; of one body it has no certificate."""
+        a, p, b = self._angle(h)
+        return h in self._flat or (
+            a != b
+            and self.certifier.rigid(a, p, b)
+            and Moment(self.certifier, before=False).sign(a, p, b) == 0
+        )
 
     def _report_touches(self, candidates: Iterable[int]) -> None:
         found = touches(self.certifier, self.vertices, candidates)
@@ -411,8 +422,8 @@ class KineticTiling(Tiling):
         a, p, b = self._angle(h)
         before = m.previous[h]
         kind = "hull" if mesh.region[h] == OUTER else "reflex"
-        fixed_before, fixed_after = mesh.is_boundary(before), mesh.is_boundary(h)
-        if fixed_before and fixed_after:
+        stays_before, stays_after = mesh.stays(h)
+        if stays_before and stays_after:
             self._repair_convex_vertex(h, kind)
             return
         # Of two diagonals that become one line the one before the bend gives way: the one
@@ -420,7 +431,7 @@ class KineticTiling(Tiling):
         # passed the segment from a (before) to b (after) to its right. If a is left of b,
         # p is below it and a p falls more steeply, so theta(a p) is larger; if a is right
         # of b, p is above and again theta(p a) is larger.
-        origin_moves = fixed_before
+        origin_moves = stays_before
         mesh.straighten(h, origin_moves=origin_moves)
         ends = (p, b, a) if origin_moves else (p, a, b)
         self._slid(h, before, kind, ends, origin_moves=origin_moves)

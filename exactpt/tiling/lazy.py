@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import final
 
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.vertices import MovingBody
 from exactpt.tiling.build import build_mesh
 from exactpt.tiling.greedy.greedy import greedy_mesh
 from exactpt.tiling.greedy.vertical import VerticalDecomposition
@@ -29,16 +28,8 @@ class LazyTiling(KineticTiling):
     @classmethod
     def mesh_at(cls, instant: Instant) -> Mesh:
         """A tiling of an instant: of convex bodies by rotation, else by a plane sweep."""
-        if all(is_convex(instant, body) for body in instant.vertices.bodies):
+        if instant.all_stay_convex():
             return greedy_mesh(instant, VerticalDecomposition.at(instant))[0]
         mesh = build_mesh(instant, sweep_diagonals(instant))
         make_pointed(mesh, instant)
         return mesh
-
-
-def is_convex(instant: Instant, body: MovingBody) -> bool:
-    """Whether a body is convex and not tiled inside."""
-    vertices = instant.vertices.all
-    return not body.is_tiled and all(
-        instant.sign(vertices[v].ahead, v, vertices[v].behind) <= 0 for v in body.ring
-    )

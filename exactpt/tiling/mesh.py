@@ -7,12 +7,13 @@ in the face on the left.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Final, NamedTuple, final
+from copy import copy
+from typing import Final, NamedTuple, Self
 
 from exactpt.errors import AuditError
 from exactpt.planar.halfedge import PlanarMap
 
-__all__ = ["FREE", "INSIDE", "OUTER", "SOLID", "Diagonal", "Mesh"]
+__all__ = ["F2", "FREE", "INSIDE", "OUTER", "SOLID", "Diagonal", "Mesh", "Tile"]
 
 FREE: Final = 0
 OUTER: Final = 1
@@ -28,9 +29,20 @@ class Diagonal(NamedTuple):
     region: int = FREE
 
 
-@final
+class Tile(NamedTuple):
+    """Where a tile is: inside the relative hull of a body, at a level; body -1 outside all."""
+
+    body: int
+    level: int
+
+
+F2: Final = Tile(-1, 0)
+
+
 class Mesh:
     """A planar map of body edges and diagonals, with marks that the repairs keep right.
+
+    `exactpt.tiling.mixed.labels` adds labels, and the rules for them.
 
     Attributes:
         map: the half-edges.
@@ -73,6 +85,26 @@ class Mesh:
     def is_hull(self, h: int) -> bool:
         """Whether an edge is on the convex hull of everything."""
         return OUTER in (self.region[h], self.region[h ^ 1])
+
+    def is_fixed(self, h: int) -> bool:
+        """Whether an edge is there whatever the diagonals around it."""
+        return self.boundary[h >> 1]
+
+    def is_flippable(self, h: int) -> bool:
+        """Whether a half-edge is of a diagonal between two tiles of free space."""
+        return self.region[h] == self.region[h ^ 1] == FREE and not self.is_fixed(h)
+
+    def flippable(self) -> list[int]:
+        """The diagonals (even half-edges) that may be flipped."""
+        return [h for h in self.diagonals() if self.is_flippable(h)]
+
+    def stays(self, h: int) -> tuple[bool, bool]:
+        """Whether the edge before h and that of h stay once the bend between them is straight."""
+        return self.is_boundary(self.map.previous[h]), self.is_boundary(h)
+
+    def tile(self, h: int) -> Tile:  # noqa: ARG002 - there is but one without labels
+        """Where the tile on the left of a half-edge of free space is."""
+        return F2
 
     def ends(self, h: int) -> tuple[int, int]:
         """The origin and the target of a half-edge."""
@@ -191,9 +223,9 @@ class Mesh:
         self.region[e] = self.region[e ^ 1] = self.region[h]
         return e
 
-    def copy(self) -> Mesh:
+    def copy(self) -> Self:
         """An independent copy."""
-        other = Mesh(0)
+        other = copy(self)
         other.map = self.map.copy()
         other.region, other.corner = self.region[:], self.corner[:]
         other.boundary, other.ring_edge = self.boundary[:], self.ring_edge[:]

@@ -15,17 +15,13 @@ face has at least three, just one at the other).
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from exactpt.errors import AuditError
 from exactpt.tiling.greedy.shadow import Predicates, flip, shadow
 from exactpt.tiling.mesh import OUTER, Mesh
 
-__all__ = ["Change", "MayGo", "make_pointed", "point_vertex"]
-
-MayGo: TypeAlias = Callable[[int], bool]
-"""Whether the diagonal of a half-edge may be removed or flipped."""
+__all__ = ["Change", "make_pointed", "point_vertex"]
 
 
 class Change(NamedTuple):
@@ -44,39 +40,28 @@ class Change(NamedTuple):
     angles: list[int]
 
 
-def make_pointed(mesh: Mesh, predicates: Predicates, may_go: MayGo | None = None) -> None:
+def make_pointed(mesh: Mesh, predicates: Predicates) -> None:
     """Remove and flip diagonals, in place, until every vertex is pointed that can be.
 
     Args:
         mesh: a pseudo-triangulation.
         predicates: of the time.
-        may_go: which half-edges belong to a diagonal that may be removed or flipped; the
-            others count like edges of bodies. By default all diagonals.
 
     Raises:
         AuditError: if the mesh is no pseudo-triangulation.
     """
-    if may_go is None:
-        may_go = _any_diagonal(mesh)
-    _remove(mesh, predicates, mesh.diagonals(), may_go)
+    _remove(mesh, predicates, mesh.diagonals())
     for first in mesh.ring_edge:
-        point_vertex(mesh, first, predicates, may_go)
+        point_vertex(mesh, first, predicates)
 
 
-def _any_diagonal(mesh: Mesh) -> MayGo:
-    return lambda h: not mesh.is_boundary(h)
-
-
-def point_vertex(
-    mesh: Mesh, first: int, predicates: Predicates, may_go: MayGo | None = None
-) -> list[Change]:
+def point_vertex(mesh: Mesh, first: int, predicates: Predicates) -> list[Change]:
     """Make one vertex pointed, by flips and removals of its diagonals.
 
     Args:
         mesh: a pseudo-triangulation, in which no diagonal can be removed.
         first: the half-edge of the ring that starts at the vertex.
         predicates: of the time.
-        may_go: as of `make_pointed`.
 
     Returns:
         What was done, in order; nothing if the vertex is pointed or need not be.
@@ -85,11 +70,9 @@ def point_vertex(
         AuditError: if the mesh is no pseudo-triangulation.
     """
     m = mesh.map
-    if may_go is None:
-        may_go = _any_diagonal(mesh)
     changes: list[Change] = []
-    while diagonals := _needless_diagonals(mesh, first, predicates, may_go):
-        removed = _remove(mesh, predicates, diagonals, may_go)
+    while diagonals := _needless_diagonals(mesh, first, predicates):
+        removed = _remove(mesh, predicates, diagonals)
         changes += removed
         if removed:
             continue
@@ -103,7 +86,7 @@ def point_vertex(
     return changes
 
 
-def _remove(mesh: Mesh, predicates: Predicates, todo: list[int], may_go: MayGo) -> list[Change]:
+def _remove(mesh: Mesh, predicates: Predicates, todo: list[int]) -> list[Change]:
     """Take out every diagonal whose two tiles are one with three corners together."""
     m = mesh.map
     changes = []
@@ -111,7 +94,7 @@ def _remove(mesh: Mesh, predicates: Predicates, todo: list[int], may_go: MayGo) 
     while pending:
         h = next(iter(pending))
         del pending[h]
-        if m.origin[h] < 0 or mesh.is_hull(h) or not may_go(h):
+        if m.origin[h] < 0 or mesh.is_hull(h) or mesh.is_fixed(h):
             continue
         corners = _corners_after_removal(mesh, h, predicates)
         if corners is None:
@@ -142,7 +125,7 @@ def _corners_after_removal(mesh: Mesh, h: int, predicates: Predicates) -> tuple[
     return (marks[0], marks[1]) if lost == 3 else None
 
 
-def _needless_diagonals(mesh: Mesh, first: int, predicates: Predicates, may_go: MayGo) -> list[int]:
+def _needless_diagonals(mesh: Mesh, first: int, predicates: Predicates) -> list[int]:
     """The diagonals in a sector of a vertex whose angles are all below pi but need not be.
 
     A sector is between two edges that stay; it needs an angle above pi if it has one.
@@ -151,7 +134,7 @@ def _needless_diagonals(mesh: Mesh, first: int, predicates: Predicates, may_go: 
     v = m.origin[first]
     sector: list[int] = []  # from an edge that stays on, the half-edges of its angles
     for h in [*m.fan(first), first]:
-        if sector and not may_go(h):
+        if sector and mesh.is_fixed(h):
             diagonals = sector[1:]
             if (
                 diagonals

@@ -13,9 +13,6 @@ from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.events import Stats, TilingEvent
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from exactpt.motion.body import Body
     from exactpt.tiling.instant import Instant
     from exactpt.tiling.mesh import Mesh
 
@@ -47,15 +44,6 @@ class Tiling:
         @property
         def mesh(self) -> Mesh:
             """The tiling just after the current time."""
-
-    @classmethod
-    def vertices_of(cls, bodies: Sequence[Body], start: QQ, end: QQ) -> Vertices:
-        """The vertices that a tiling of this kind is built on.
-
-        Raises:
-            InputError: if it is not for such bodies.
-        """
-        return Vertices(bodies, start, end, tile_insides=True)
 
     @classmethod
     def mesh_at(cls, instant: Instant) -> Mesh:

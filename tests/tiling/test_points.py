@@ -8,7 +8,7 @@ from point_audits import run_and_audit, structure_of, tangents_by_slope
 
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.detector import first_contact
-from exactpt.collision.tilings import start_tiling, tiling_for
+from exactpt.collision.tilings import plan_tiling, start_tiling
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -164,11 +164,21 @@ def test_collinear_points_are_a_path():
 
 def test_auto_is_incremental_for_points():
     points = at_rest([(0, 0), (1, 1)])
-    assert tiling_for(points, "auto") == "incremental"
+    assert plan_tiling(points, "auto", points.start).name == "incremental"
     mixed = Scene([Body("p", [(0, 0)]), Body("s", [(1, 0), (2, 0)])])
-    assert tiling_for(mixed, "auto") != "incremental"
+    assert plan_tiling(mixed, "auto", mixed.start).name != "incremental"
     with pytest.raises(InputError, match=r"body 's': has 2 vertices: the incremental tiling"):
         start_tiling(mixed, "incremental", mixed.start)
+
+
+@pytest.mark.parametrize("points", [[], [(1, 2)], [(1, 2), (1, 3)]])
+def test_hardly_any_points(points):
+    scene = at_rest(points)
+    simulation = Simulation(scene)
+    assert list(simulation.run()) == []
+    tile = simulation.snapshot().to_json()
+    assert (simulation.name, tile["faces"]) == ("incremental", [])
+    assert len(tile["edges"]) == (len(points) == 2)
 
 
 def test_audit_notices_a_wrong_tree():
@@ -190,6 +200,7 @@ def test_level_points_touch_without_passing():
         [("b", (0, 0), Translation())],
         [("b", (0, 3), Translation()), ("c", (0, 0), Translation())],
         [("b", (0, -1), Translation()), ("c", (0, 1), Translation([0], [0, -1]))],
+        [("b", (0, 1), Translation([0], [0, 1])), ("c", (0, 0), Translation())],
     ):
         scene = Scene([apex, *(Body(n, [p], m) for n, p, m in others)], (0, 3))
         expected = first_contact_allpairs(scene)

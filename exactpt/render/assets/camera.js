@@ -1,5 +1,8 @@
 // The camera: the place in the middle of the picture, exactly, and pixels for a unit of length.
 
+/** The room that the clock takes above the picture, in pixels. */
+const CLOCK = 64;
+
 class Camera {
   constructor(film) {
     this.place = film.origin.slice();
@@ -32,8 +35,10 @@ class Camera {
   /** The camera that shows a box [left, bottom, right, top], seen from a chart's place. */
   framing(chart, [left, bottom, right, top]) {
     const margin = Math.min(this.width, this.height) * 0.08;
-    const room = (pixels, extent) => (pixels - 2 * margin) / Math.max(extent, 1e-300);
-    const scale = Math.min(room(this.width, right - left), room(this.height, top - bottom));
+    const room = (pixels, extent) => pixels / Math.max(extent, 1e-300);
+    const scale = Math.min(
+      room(this.width - 2 * margin, right - left),
+      room(this.height - 2 * Math.max(margin, CLOCK), top - bottom));
     return {
       place: [
         chart.place[0] + fromDouble((left + right) / 2, BITS),

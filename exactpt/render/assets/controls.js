@@ -152,6 +152,7 @@ class Controls {
       : `t = ${film.timeText(player.time, digits)}`);
     const count = film.steps.length;
     this.put("where", this.whereText(isAtStep, count));
+    byId("where").classList.toggle("hit", film.isContact(player.step, player.time));
     const share = span > 0n ? toDouble(((player.time - film.start) << 52n) / span, -52) : 0;
     const scrub = byId("scrub");
     if (document.activeElement !== scrub || Number(scrub.value) !== share) scrub.value = share;
@@ -171,7 +172,7 @@ class Controls {
 
   whereText(isAtStep, count) {
     const { film, player } = this;
-    if (film.isContact(player.step, player.time)) return `first contact, ${film.contact.kind}`;
+    if (film.isContact(player.step, player.time)) return `first contact: ${film.contact.words}`;
     if (!count) return "no events";
     if (player.step === 0) return `before the first of ${count} event times`;
     const kinds = [...new Set(film.steps[player.step - 1].changes.map(([kind]) => kind))];

@@ -67,10 +67,11 @@ class Painter {
   tiles(tiles, alpha) {
     const { context, colours, pen } = this;
     context.globalAlpha = alpha;
-    for (let tint = 0; tint < 6; tint += 1) {
+    // One path a tile: a canvas fills many small paths faster than few of many polygons.
+    for (const tile of tiles) {
       context.beginPath();
-      for (const tile of tiles) if (tile.tint === tint) pen.polygon(tile.nodes);
-      context.fillStyle = colours[`tint${tint}`];
+      pen.polygon(tile.nodes);
+      context.fillStyle = colours[`tint${tile.tint}`];
       context.fill();
     }
     context.globalAlpha = 1;
@@ -188,27 +189,24 @@ class Painter {
   }
 
   names() {
+    const { context, colours } = this;
+    context.font = "12px ui-sans-serif, system-ui, sans-serif";
+    context.textAlign = "center";
+    context.lineWidth = 3;
+    context.strokeStyle = colours.paper;
+    context.fillStyle = colours.ink;
     for (const body of this.film.bodies) {
-      const [x, y] = middle(this.pen, ring(body));
+      const pixels = ring(body).map((v) => this.pen.pixel(v));
+      const [x, y] = label(pixels, body.closed);
       if (Math.abs(x) > NEAR || Math.abs(y) > NEAR) continue;
-      this.text(body.name, x, y + (body.size > 2 ? 4 : -11), "12px", this.colours.ink, "center");
+      context.strokeText(body.name, x, y + 4);
+      context.fillText(body.name, x, y + 4);
     }
-  }
-
-  text(text, x, y, size, colour, align) {
-    const { context } = this;
-    context.font = `600 ${size} ui-sans-serif, system-ui, sans-serif`;
-    context.textAlign = align;
-    context.lineWidth = 3.5;
-    context.strokeStyle = this.colours.paper;
-    context.strokeText(text, x, y);
-    context.fillStyle = colour;
-    context.fillText(text, x, y);
   }
 
   contact(pulse) {
     const { context, colours, film, pen } = this;
-    film.contact.pairs.forEach(({ node, edge, normal, words }, i) => {
+    film.contact.pairs.forEach(({ node, edge, normal }) => {
       if (!pen.isNear(node)) return;
       const [x, y] = pen.pixel(node);
       context.beginPath();
@@ -225,9 +223,6 @@ class Painter {
       this.stroke(colours.contact, 2.4);
       this.dot(node, 3.6, colours.contact);
       if (normal) this.arrow(x, y, normal[0], -normal[1]);
-      const align = x < 0.6 * this.pen.camera.width ? "left" : "right";
-      const row = normal && normal[1] > 0 ? 30 + 18 * i : -18 - 18 * i;
-      this.text(words, x + (align === "left" ? 16 : -16), y + row, "14px", colours.contact, align);
     });
   }
 
@@ -250,10 +245,30 @@ function ring(body) {
   return Array.from({ length: body.size }, (_, i) => body.first + i);
 }
 
-/** The middle of some vertices on the canvas. */
-function middle(pen, nodes) {
-  const [x, y] = nodes.map((v) => pen.pixel(v)).reduce(([a, b], [c, d]) => [a + c, b + d]);
-  return [x / nodes.length, y / nodes.length];
+/** Where a name stands: in the middle of a body; of a bent one, where it is widest. */
+function label(pixels, isClosed) {
+  const [x, y] = [0, 1].map((i) => pixels.reduce((sum, p) => sum + p[i], 0) / pixels.length);
+  if (pixels.length < 3 || !isClosed) return [x, y - 13];
+  if (insideAt(pixels, y).some(([left, right]) => left < x && x < right)) return [x, y];
+  const heights = pixels.map((p) => p[1]);
+  const [low, high] = [Math.min(...heights), Math.max(...heights)];
+  let [best, place] = [0, [x, y]];
+  for (let k = 1; k < 16; k += 1) {
+    const row = low + ((high - low) * k) / 16;
+    for (const [left, right] of insideAt(pixels, row)) {
+      if (right - left > best) [best, place] = [right - left, [(left + right) / 2, row]];
+    }
+  }
+  return place;
+}
+
+/** Where a horizontal line runs inside a polygon. */
+function insideAt(pixels, y) {
+  const crossings = pixels.flatMap(([px, py], i) => {
+    const [qx, qy] = pixels[(i + 1) % pixels.length];
+    return py <= y !== qy <= y ? [px + ((y - py) * (qx - px)) / (qy - py)] : [];
+  }).sort((a, b) => a - b);
+  return crossings.flatMap((left, i) => (i % 2 ? [] : [[left, crossings[i + 1]]]));
 }
 
 /** The two of some vertices that are farthest from one another. */

@@ -10,7 +10,7 @@ class Stage {
     this.chart = new Chart(film);
     this.camera = new Camera(film);
     this.painter = new Painter(canvas, film);
-    this.layers = { tiles: true, edges: true, next: true, names: false };
+    this.layers = { tiles: true, edges: true, next: true, names: film.bodies.length <= 12 };
     this.hovered = null;
     this.follow = false;
     this.flight = null;

@@ -7,13 +7,10 @@ that do and so become the smallest of all, are found by the vertical decompositi
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import final
 
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.vertices import Vertices
 from exactpt.tiling.build import build_mesh
 from exactpt.tiling.greedy.shadow import facing_visit, flip, flip_until_greedy, shadow
 from exactpt.tiling.greedy.sweep import greedy_diagonals
@@ -49,11 +46,6 @@ class GreedyTiling(KineticTiling):
 
     name = "greedy"
     cells: VerticalDecomposition
-
-    @classmethod
-    def vertices_of(cls, bodies: Sequence[Body], start: QQ, end: QQ) -> Vertices:
-        """The rings of the bodies; what is inside stays as it is, convex."""
-        return Vertices(bodies, start, end)
 
     def _build(self, time: QQ) -> None:
         instant = Instant(self.vertices, time, exact_only=self.certifier.exact_only)

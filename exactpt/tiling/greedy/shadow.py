@@ -9,7 +9,7 @@ twice, so everything here is about visits, that is half-edges.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import Protocol
 
 from exactpt.errors import AuditError
@@ -179,7 +179,6 @@ def flip_until_greedy(
     mesh: Mesh,
     predicates: Predicates,
     candidates: Iterable[int],
-    may_go: Callable[[int], bool] | None = None,
 ) -> list[tuple[tuple[int, int], tuple[int, int], list[int]]]:
     """Flip every diagonal whose shadow has smaller theta, until there is none.
 
@@ -190,7 +189,6 @@ def flip_until_greedy(
         mesh: a pseudo-triangulation just after the time of the predicates.
         predicates: of that time.
         candidates: half-edges of the diagonals to look at first.
-        may_go: whether the diagonal of a half-edge takes part; by default all do.
 
     Returns:
         For each flip the old edge, the new edge, and the half-edges of changed angles.
@@ -203,9 +201,7 @@ def flip_until_greedy(
     while todo:
         h = next(iter(todo))
         del todo[h]
-        if mesh.is_boundary(h) or mesh.map.origin[h] < 0 or mesh.is_hull(h):
-            continue
-        if may_go is not None and not may_go(h):
+        if mesh.is_fixed(h) or mesh.map.origin[h] < 0 or mesh.is_hull(h):
             continue
         visits = shadow(mesh, h, predicates)
         if visits is None:

@@ -61,6 +61,7 @@ def _is_level(certifier: Certifier, p: int, q: int) -> bool:
     if certifier.vanishes_now(p, q, X_ORDER):
         return True
     a, b = certifier.vertex(p), certifier.vertex(q)
-    if not (a.image.ws or b.image.ws) and a.image.xs != b.image.xs:
-        return False
+    f, g = a.image, b.image
+    if not (f.ws or g.ws) and (f.x0 < g.x0 or f.x0 > g.x0 or f.x1 < g.x1 or f.x1 > g.x1):
+        return False  # equal coefficients have equal images
     return not difference(a.track.x, a.track.w, b.track.x, b.track.w)

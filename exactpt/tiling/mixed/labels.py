@@ -1,4 +1,4 @@
-"""Labels: which geodesics run along a half-edge.
+"""Labels: which geodesics run along a half-edge, and how repairs change that.
 
 The label of a half-edge h is the set of tree nodes whose geodesic traverses h in its
 direction. All belong to one polygon, the one on the left, and they are a path in its tree
@@ -10,31 +10,33 @@ edge share it with all in between.) The tiling of F1 is told by its labels alone
 * Left of an unlabelled half-edge whose twin is labelled is the tile of the parent of the
   twin's top; if top is the unpinned cycle, what is outside all relative hulls: F2.
 * If neither is labelled, it is an edge of F2 (or of the convex hull there).
+
+Three vertices become collinear, the middle one m. If they were a corner with the edge xy,
+m has come to lie on that edge, and its geodesics now run along xm and my. If they were a
+bend at m, the geodesics through both edges lose their bend there and run along xy from now
+on; but those that end at m keep it. (They are the nodes pinned at m, of which only the
+root, a loop, runs through m too.) An edge that no geodesic needs any more gives way.
+
+Source: the paper, section 5.2, worked out for all cases: shared edges, tails, and bends
+of which neither edge or both edges give way.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Final, NamedTuple, TypeAlias, final
 
+from exactpt.errors import AuditError
 from exactpt.motion.vertices import Vertices
+from exactpt.tiling.mesh import F2, FREE, INSIDE, Mesh, Tile
 from exactpt.tiling.mixed.tree import GeodesicTree, tree_of_size
 
-__all__ = ["NO_LABEL", "BodyTree", "Forest", "Label", "TileOf"]
+__all__ = ["NO_LABEL", "BodyTree", "Forest", "Label", "LabelledMesh"]
 
 Label: TypeAlias = frozenset[int]
 """Nodes, numbered through all bodies."""
 
 NO_LABEL: Final[Label] = frozenset()
-
-
-class TileOf(NamedTuple):
-    """Where a tile is: in F1, the body and the depth of its node; body -1 in F2."""
-
-    body: int
-    depth: int
-
-
-F2: Final = TileOf(-1, 0)
 
 
 class BodyTree(NamedTuple):
@@ -43,8 +45,7 @@ class BodyTree(NamedTuple):
     Attributes:
         tree: its shape; shared by all polygons of one size.
         first: the number of its `TOP` among the nodes of all bodies.
-        chain: the ring from the vertex that is vertex 0 of the tree on, which is again the
-            last: n + 1 vertices.
+        chain: the ring, and its first vertex again: the vertices 0 to n of the tree.
     """
 
     tree: GeodesicTree
@@ -61,28 +62,26 @@ class Forest:
         parent, depth: of each node; the parent of a `TOP` is -1.
         body: of each node, whose it is.
         leaves: the nodes that are leaves.
-        pinned: of each vertex, the nodes whose geodesic ends there and may run through it
-            all the same: the root, at vertex 0, if the unpinned cycle does not end there.
+        pinned: of each vertex 0, the root, whose loop runs through it and is pinned there.
     """
 
-    def __init__(self, vertices: Vertices, starts: list[int]) -> None:
+    def __init__(self, vertices: Vertices) -> None:
         self.bodies: list[BodyTree] = []
         self.parent: list[int] = []
         self.depth: list[int] = []
         self.body: list[int] = []
         self.leaves: set[int] = set()
-        self.pinned: dict[int, int] = {}
+        self.pinned: dict[int, Label] = {}
         for i, moving in enumerate(vertices.bodies):
-            ring, n = moving.ring, len(moving.ring)
-            tree = tree_of_size(n)
+            tree = tree_of_size(len(moving.ring))
             first = len(self.parent)
-            chain = [ring[(starts[i] + j) % n] for j in range(n + 1)]
+            chain = [*moving.ring, moving.ring[0]]
             self.bodies.append(BodyTree(tree, first, chain))
             self.parent += [p + first if p >= 0 else -1 for p in tree.parent]
             self.depth += tree.depth
             self.body += [i] * len(tree)
             self.leaves.update(first + leaf for leaf in tree.leaf)
-            self.pinned[chain[0]] = first + 1
+            self.pinned[chain[0]] = frozenset((first + 1,))
 
     def bot(self, label: Label) -> int:
         """The deepest node of a label."""
@@ -92,12 +91,132 @@ class Forest:
         """The highest node of a label."""
         return min(label, key=self.depth.__getitem__)
 
-    def tile(self, label: Label, twin: Label) -> TileOf | None:
-        """What is on the left of a half-edge with these labels; None inside a body."""
+    def is_path(self, label: Label) -> bool:
+        """Whether a label is a path of ancestors."""
+        return not label or (
+            self.depth[self.bot(label)] - self.depth[self.top(label)] + 1 == len(label)
+            and all(self.parent[v] in label for v in label if v != self.top(label))
+        )
+
+    def node(self, label: Label, twin: Label) -> int:
+        """The node whose tile is on the left of a half-edge with these labels; -1 in F2."""
         if label:
-            node = self.bot(label)
-            return None if node in self.leaves else TileOf(self.body[node], self.depth[node])
-        if twin:
-            node = self.parent[self.top(twin)]
-            return F2 if node < 0 else TileOf(self.body[node], self.depth[node])
-        return F2
+            return self.bot(label)
+        return self.parent[self.top(twin)] if twin else -1
+
+
+@final
+class LabelledMesh(Mesh):
+    """A mesh with labels.
+
+    Attributes:
+        forest: the trees.
+        labels: of each half-edge.
+    """
+
+    def __init__(self, vertices: int, forest: Forest) -> None:
+        super().__init__(vertices)
+        self.forest = forest
+        self.labels: list[Label] = []
+
+    def _mark(self, h: int, *, boundary: bool) -> None:
+        super()._mark(h, boundary=boundary)
+        if h == len(self.labels):
+            self.labels += (NO_LABEL, NO_LABEL)
+        else:
+            self.labels[h] = self.labels[h + 1] = NO_LABEL
+
+    def is_fixed(self, h: int) -> bool:
+        """Whether an edge is no diagonal of F2 (or inside a body)."""
+        return super().is_fixed(h) or bool(self.labels[h] or self.labels[h ^ 1])
+
+    def tile(self, h: int) -> Tile:
+        """The body and the level of the node that the tile on the left of h belongs to."""
+        node = self.forest.node(self.labels[h], self.labels[h ^ 1])
+        return F2 if node < 0 else Tile(self.forest.body[node], self.forest.depth[node])
+
+    def stays(self, h: int) -> tuple[bool, bool]:
+        """Whether an edge of a body, or one that is labelled still, is at either side."""
+        if self.region[h] == INSIDE:
+            return super().stays(h)
+        before = self.map.previous[h]
+        along, back = self._straightened(h)
+        first, second = super().stays(h)
+        return (
+            first or self.labels[before] != along or self.labels[before ^ 1] != back,
+            second or self.labels[h] != along or self.labels[h ^ 1] != back,
+        )
+
+    def _straightened(self, h: int) -> tuple[Label, Label]:
+        """The geodesics, either way, that lose their bend at the origin of h."""
+        before, pinned = self.map.previous[h], self.forest.pinned
+        kept = pinned.get(self.map.origin[h], NO_LABEL)
+        return (
+            (self.labels[before] & self.labels[h]) - kept,
+            (self.labels[before ^ 1] & self.labels[h ^ 1]) - kept,
+        )
+
+    def _take_out(self, h: int) -> tuple[Label, Label]:
+        along, back = self._straightened(h)
+        for g in (self.map.previous[h], h):
+            self.labels[g] -= along
+            self.labels[g ^ 1] -= back
+        return along, back
+
+    def collapse_corner(self, h: int, *, origin_moves: bool) -> None:
+        """As `Mesh.collapse_corner`; the labels of the longer edge go to the shorter one too."""
+        before = self.map.previous[h]
+        long, short = (h, before ^ 1) if origin_moves else (before ^ 1, h)
+        self.labels[short] |= self.labels[long]
+        self.labels[short ^ 1] |= self.labels[long ^ 1]
+        super().collapse_corner(h, origin_moves=origin_moves)
+
+    def dissolve_triangle(self, h: int) -> None:
+        """As `Mesh.dissolve_triangle`; the labels go to the two edges in its place."""
+        m, labels = self.map, self.labels
+        for g in (m.following[h], m.previous[h]):
+            labels[g ^ 1] |= labels[h]
+            labels[g] |= labels[h ^ 1]
+        super().dissolve_triangle(h)
+
+    def straighten(self, h: int, *, origin_moves: bool) -> None:
+        """As `Mesh.straighten`; geodesics without a bend any more go along the new edge."""
+        slid = h if origin_moves else self.map.previous[h]
+        if self.region[h] != INSIDE:
+            along, back = self._take_out(h)
+            self.labels[slid], self.labels[slid ^ 1] = along, back
+        super().straighten(h, origin_moves=origin_moves)
+
+    def cut_off(self, h: int) -> int:
+        """As `Mesh.cut_off`; geodesics without a bend any more go along the new edge."""
+        if self.region[h] == INSIDE:
+            return super().cut_off(h)
+        along, back = self._take_out(h)
+        e = super().cut_off(h)
+        self.labels[e], self.labels[e ^ 1] = along, back
+        return e
+
+    def copy(self) -> LabelledMesh:
+        """An independent copy, of the same trees."""
+        other = super().copy()
+        other.labels = self.labels[:]
+        return other
+
+    def audit_faces(self, half_edges: Iterable[int]) -> None:
+        """Check corners, that labels are paths, and that the edges of a tile agree on its node.
+
+        Raises:
+            AuditError: if that is not so.
+        """
+        todo = list(half_edges)
+        super().audit_faces(todo)
+        for h in todo:
+            if self.map.origin[h] < 0:
+                continue
+            if not self.forest.is_path(self.labels[h]):
+                raise AuditError(f"label {sorted(self.labels[h])} is no path of ancestors")
+            if self.region[h] == FREE and self._node(h) != self._node(self.map.following[h]):
+                raise AuditError(f"half-edge {h} and the next one are of different nodes")
+
+    def _node(self, h: int) -> int:
+        return self.forest.node(self.labels[h], self.labels[h ^ 1])

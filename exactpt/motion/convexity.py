@@ -1,0 +1,43 @@
+"""Whether a deforming polygon is convex all the time: then its inside needs no tiling."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ
+from exactpt.kernel.roots import roots_after
+from exactpt.motion.incidence import orientation
+
+if TYPE_CHECKING:
+    from exactpt.motion.body import Body
+
+__all__ = ["stays_convex"]
+
+
+def stays_convex(body: Body, ring: Sequence[int], start: QQ, end: QQ) -> bool:
+    """Whether a polygon turns left at every vertex, strictly, from a time on.
+
+    A polygon that turns left everywhere at the start and at each vertex for ever after
+    goes on turning around once: it stays convex, and no two of its vertices ever meet.
+
+    Args:
+        body: the polygon.
+        ring: the indices of its vertices, counter-clockwise at the start.
+        start: the first time, just after which it must be simple.
+        end: the last time.
+    """
+    triples = list(zip(ring, [*ring[1:], ring[0]], [*ring[2:], *ring[:2]], strict=True))
+    time = start
+    while True:
+        piece = body.piece_after(time)
+        until = end if piece.until is None else min(piece.until, end)
+        now = AlgebraicNumber(time)
+        for a, b, c in triples:
+            f = orientation(*(piece.tracks[i] for i in (a, b, c)))
+            if not f or now.sign_after(f) < 0 or any(roots_after(f, now, until)):
+                return False
+        if until == end:
+            return True
+        time = until

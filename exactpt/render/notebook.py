@@ -1,0 +1,39 @@
+"""What values show of themselves in a notebook: pictures and words."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING
+
+from exactpt.render.frame import frame_of
+from exactpt.render.still import Still, still_of
+from exactpt.render.svg import svg_of
+from exactpt.render.words import clean, incidences_in_words, polynomial_in_words, time_in_words
+
+if TYPE_CHECKING:
+    from exactpt.collision.contact import Contact
+    from exactpt.scene.scene import Scene
+    from exactpt.simulation.simulation import Simulation
+
+__all__ = ["contact_html", "scene_svg", "simulation_svg"]
+
+
+def scene_svg(scene: Scene) -> str:
+    """The bodies of a scene at its start."""
+    return svg_of(frame_of(Still(scene, scene.start, None, None)))
+
+
+def simulation_svg(simulation: Simulation) -> str:
+    """The bodies and the tiling at the current time, or the contact."""
+    return svg_of(frame_of(still_of(simulation)))
+
+
+def contact_html(contact: Contact) -> str:
+    """When, exactly, and what touches what."""
+    number = contact.time.simplified()
+    heading = f"First contact at {time_in_words(number)} ({contact.kind})"
+    lines = incidences_in_words(contact)
+    if not number.is_rational:
+        lines.insert(0, f"the time is a root of {polynomial_in_words(number.polynomial)}")
+    items = "".join(f"<li>{escape(clean(line))}</li>" for line in lines)
+    return f"<div><b>{escape(heading)}</b><ul>{items}</ul></div>"

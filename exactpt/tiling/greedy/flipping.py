@@ -1,0 +1,137 @@
+"""Kinetic tilings whose diagonals are flipped: certified shadow edges.
+
+Every diagonal s between two tiles has a shadow edge s' (paper, section 2.2), and the
+tiling is greedy if and only if theta(s) < theta(s') for each (Lemma 4.2, the local
+property). s and s' cross, so their order changes only when one of them becomes vertical:
+s from the smallest theta to the largest, or s' the other way. The shadow itself stays
+while it is tangent at both ends. So for every diagonal there are six certificates: the
+x-order of s and of s', and four orientations.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from exactpt.errors import AuditError
+from exactpt.tiling.greedy.shadow import flip_until_greedy, shadow, tangency
+from exactpt.tiling.instant import Instant
+from exactpt.tiling.kinetic import KINDS, KineticTiling, RebuildNeeded
+from exactpt.tiling.mesh import Mesh
+from exactpt.tiling.moment import Moment
+
+__all__ = ["FlippingTiling"]
+
+SHADOW: Final = 8
+"""Kinds SHADOW to SHADOW + 5: the x-order of a diagonal and of its shadow, four tangencies."""
+
+
+class FlippingTiling(KineticTiling):
+    """A tiling that is greedy wherever its diagonals may be flipped."""
+
+    def _close(self, mesh: Mesh, instant: Instant) -> None:
+        super()._close(mesh, instant)
+        flip_until_greedy(mesh, instant, mesh.flippable())
+
+    def _certify_everything(self) -> None:
+        self._stale: set[int] = set()
+        super()._certify_everything()
+        self._stale.clear()
+        after = Moment(self.certifier, before=False)
+        for h in self.mesh.flippable():
+            self._certify_shadow(h, after)
+
+    def _recertify(self, slots: tuple[int, ...]) -> None:
+        super()._recertify(slots)
+        self._stale.update(slots)
+
+    def _certify_body(self, i: int) -> list[int]:
+        vanishing = super()._certify_body(i)
+        m = self.mesh.map
+        for v in self.vertices.bodies[i].ring:
+            self._stale.update(m.fan(self.mesh.ring_edge[v]))
+        return vanishing
+
+    def _recheck(self, slots: list[int]) -> None:
+        self._stale.update(slot // KINDS for slot in slots)
+
+    def _settle(self) -> None:
+        super()._settle()
+        self._restore_greedy(Moment(self.certifier, before=False))
+
+    def _restore_greedy(self, after: Moment) -> None:
+        """Flip what is no longer greedy, and certify the shadows of all that has changed."""
+        m = self.mesh.map
+        nearby = {
+            min(g, g ^ 1)
+            for h in self._stale
+            if m.origin[h] >= 0
+            for side in (h, h ^ 1)
+            for g in m.face(side)
+        }
+        self._stale.clear()
+        candidates = [h for h in sorted(nearby) if self.mesh.is_flippable(h)]
+        changed = self._flip(candidates, after)
+        for h in sorted(nearby | changed):
+            if m.origin[h] >= 0 and self.mesh.is_flippable(h):
+                self._certify_shadow(h, after)
+            else:
+                self._cancel_shadow(h)
+
+    def _flip(self, candidates: list[int], after: Moment) -> set[int]:
+        """Flip until the tiling is greedy again; the diagonals next to what changed."""
+        m = self.mesh.map
+        try:
+            flips = flip_until_greedy(self.mesh, after, candidates)
+        except AuditError:
+            raise RebuildNeeded from None
+        nearby: set[int] = set()
+        for old, new, changed in flips:
+            self._record("diagonal", (old,), (new,))
+            super()._recertify(tuple(h for h in changed if m.origin[h] >= 0))
+            for h in changed:
+                if m.origin[h] >= 0:
+                    nearby.update(min(g, g ^ 1) for side in (h, h ^ 1) for g in m.face(side))
+        if self._due:
+            raise RebuildNeeded
+        return nearby
+
+    def _cancel_edge(self, h: int) -> None:
+        super()._cancel_edge(h)
+        self._cancel_shadow(min(h, h ^ 1))
+
+    def _certify_shadow(self, h: int, after: Moment) -> None:
+        """Certify that a diagonal has smaller theta than its shadow, and what the shadow is."""
+        visits = shadow(self.mesh, h, after)
+        if visits is None:
+            raise RebuildNeeded
+        m = self.mesh.map
+        x, y = m.origin[visits[0]], m.origin[visits[1]]
+        slot = KINDS * h + SHADOW
+        self._certify_spin(slot, *self.mesh.ends(h), after)
+        self._certify_spin(slot + 1, x, y, after)
+        for i, triple in enumerate(tangency(self.mesh, h, visits)):
+            self._certify_tangency(slot + 2 + i, triple)
+
+    def _certify_spin(self, slot: int, u: int, v: int, after: Moment) -> None:
+        a, b = (u, v) if after.left_of(u, v) else (v, u)
+        time = None
+        if not self.certifier.keeps_x_order(a, b):
+            _, time = self.certifier.x_order(a, b)
+        if time is None:
+            self.queue.cancel(slot)
+        else:
+            self.queue.schedule(slot, time)
+
+    def _certify_tangency(self, slot: int, triple: tuple[int, int, int]) -> None:
+        a, b, c = triple
+        time = None
+        if len({a, b, c}) == 3 and not self.certifier.rigid(a, b, c):
+            _, time = self.certifier.orientation(a, b, c)
+        if time is None:
+            self.queue.cancel(slot)
+        else:
+            self.queue.schedule(slot, time)
+
+    def _cancel_shadow(self, h: int) -> None:
+        for i in range(6):
+            self.queue.cancel(KINDS * h + SHADOW + i)

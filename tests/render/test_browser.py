@@ -1,0 +1,303 @@
+"""The animation in a real browser: Debian's Chromium, headless."""
+
+import math
+import shutil
+import time
+import warnings
+
+import pytest
+from render_scenes import demo
+
+from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
+from exactpt.render.film import film_of
+from exactpt.render.fixed import near
+from exactpt.render.frame import frame_of
+from exactpt.render.page import page_of
+from exactpt.render.still import still
+from exactpt.simulation.simulation import Simulation
+
+pytestmark = pytest.mark.browser
+
+webdriver = pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
+
+FLAGS = (
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+    "--window-size=1280,800",
+)
+
+
+@pytest.fixture(scope="module")
+def browser():
+    chromium, chromedriver = shutil.which("chromium"), shutil.which("chromedriver")
+    if chromium is None or chromedriver is None:
+        pytest.skip("Chromium is not installed (Debian: chromium, chromium-driver)")
+    options = webdriver.ChromeOptions()
+    options.binary_location = chromium
+    for flag in FLAGS:
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    driver = webdriver.Chrome(options=options, service=webdriver.ChromeService(chromedriver))
+    yield driver
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ResourceWarning)
+        driver.quit()
+
+
+@pytest.fixture
+def page(browser, tmp_path_factory):
+    """The demo, freshly loaded; it must not have said anything on the console in the end."""
+    path = tmp_path_factory.mktemp("page") / "demo.html"
+    path.write_text(page_of(film_of(demo())), encoding="utf-8")
+    browser.get(path.as_uri())
+    yield browser
+    assert browser.get_log("browser") == []
+
+
+def state(page):
+    return page.execute_script("return exactpt.state()")
+
+
+def click(page, name):
+    page.find_element("id", name).click()
+    return state(page)
+
+
+def press(page, key):
+    page.find_element("tag name", "body").send_keys(key)
+    return state(page)
+
+
+def pressed(page, name):
+    return page.find_element("id", name).get_attribute("aria-pressed") == "true"
+
+
+def test_it_loads_at_the_start(page):
+    shown = state(page)
+    assert shown["time"] == "0"
+    assert shown["step"] == 0
+    assert not shown["isPlaying"]
+    assert page.title == "exactpt"
+    assert "vertex 0 of boat on edge 6 of harbour" in page.find_element("id", "contact").text
+
+
+def test_play_and_pause(page):
+    assert click(page, "play")["isPlaying"]
+    time.sleep(0.6)
+    later = click(page, "play")
+    assert not later["isPlaying"]
+    assert 0 < float(later["time"]) < 8
+    assert state(page)["time"] == later["time"]
+
+
+def test_playing_ends_at_the_contact(page):
+    page.execute_script("exactpt.seek('86/10')")
+    click(page, "play")
+    time.sleep(0.6)
+    shown = state(page)
+    assert not shown["isPlaying"]
+    assert shown["time"].startswith("8.6938795804043")
+    clock = page.find_element("class name", "clock").text
+    assert "first contact: vertex 0 of boat on edge 6 of harbour" in clock
+
+
+def test_stepping(page):
+    film = film_of(demo())
+    assert click(page, "next")["step"] == 1
+    assert click(page, "next")["step"] == 2
+    shown = press(page, "\ue014")  # arrow right
+    assert shown["step"] == 3
+    assert float(shown["time"]) == pytest.approx(float(film.steps[2].time), abs=1e-15)
+    assert click(page, "previous")["step"] == 2
+    assert press(page, "\ue010")["step"] == len(film.steps)  # end
+    assert press(page, "\ue011")["step"] == 0  # home
+    page.find_elements("class name", "row")[3].click()
+    assert state(page)["step"] == 4
+
+
+def test_scrubbing_and_speed(page):
+    page.execute_script(
+        "const scrub = document.getElementById('scrub'); scrub.value = 0.5;"
+        "scrub.dispatchEvent(new Event('input'));"
+    )
+    assert float(state(page)["time"]) == pytest.approx(8.693879580404362 / 2, rel=1e-12)
+    page.execute_script(
+        "const speed = document.getElementById('speed'); speed.value = '0.001';"
+        "speed.dispatchEvent(new Event('change'));"
+    )
+    before = float(click(page, "play")["time"])
+    time.sleep(0.4)
+    assert 0 < float(click(page, "play")["time"]) - before < 0.01
+
+
+@pytest.mark.parametrize("layer", ["tiles", "edges", "next", "names"])
+def test_layers(page, layer):
+    assert pressed(page, f"layer-{layer}")
+    before = pixels(page)
+    click(page, f"layer-{layer}")
+    assert not pressed(page, f"layer-{layer}")
+    assert pixels(page) != before
+
+
+def pixels(page):
+    return page.execute_script("return document.getElementById('canvas').toDataURL()")
+
+
+def test_zoom_and_pan(page):
+    before = state(page)["camera"]
+    assert click(page, "closer")["camera"]["scale"] == pytest.approx(1.6 * before["scale"])
+    assert click(page, "wider")["camera"]["scale"] == pytest.approx(before["scale"])
+    canvas = page.find_element("id", "canvas")
+    actions = webdriver.ActionChains(page)
+    actions.drag_and_drop_by_offset(canvas, 100, 50).perform()
+    shown = state(page)
+    old, new = (shown_x(camera) for camera in (before, shown["camera"]))
+    assert old - new == pytest.approx(100 / before["scale"], rel=1e-9)
+    click(page, "fit")
+    time.sleep(1.2)
+    assert state(page)["camera"] == before
+
+
+def shown_x(camera):
+    return float(QQ(int(camera["place"][0])) * power_of_two(-192))
+
+
+def test_hover_tells_names_and_places(page):
+    click(page, "next")
+    x, y = state(page)["pixels"][10]  # the bow of the boat
+    canvas = page.find_element("id", "canvas")
+    size = canvas.size
+    webdriver.ActionChains(page).move_to_element_with_offset(
+        canvas, round(x - size["width"] / 2), round(y - size["height"] / 2)
+    ).perform()
+    tip = page.find_element("id", "tip")
+    assert tip.is_displayed()
+    assert tip.text.splitlines()[0] == "boat:0"
+    assert tip.text.splitlines()[1].startswith("x = 3.")
+
+
+def test_light_and_dark(page):
+    before = pixels(page)
+    click(page, "theme")
+    assert pixels(page) != before
+    assert page.execute_script("return document.documentElement.dataset.theme") in {"light", "dark"}
+
+
+@pytest.mark.parametrize("width, height", [(390, 844), (844, 390)])
+def test_it_fits_a_phone(page, width, height):
+    emulated = {"width": width, "height": height, "deviceScaleFactor": 2, "mobile": True}
+    page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", emulated)
+    page.refresh()
+    wide = page.execute_script(
+        "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]"
+    )
+    boxes = [
+        page.execute_script(
+            "return document.querySelector(arguments[0]).getBoundingClientRect().toJSON()", name
+        )
+        for name in (".clock", ".layers")
+    ]
+    page.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    assert wide[0] <= wide[1]
+    assert boxes[0]["bottom"] <= boxes[1]["top"]
+
+
+@pytest.mark.parametrize("at", ["0", "5/2", "31/7", "8", "contact"])
+def test_the_picture_at_a_time_is_the_svg_of_that_time(page, at):
+    if at == "contact":
+        shown = page.execute_script(
+            "exactpt.goTo(exactpt.film.steps.length); return exactpt.state()"
+        )
+        picture = still(demo(), None)
+    else:
+        shown = page.execute_script("exactpt.seek(arguments[0]); return exactpt.state()", at)
+        picture = still(demo(), QQ(at))
+    frame = frame_of(picture)
+    svg = [pixel for shape in frame.shapes for pixel in shape.pixels]
+    canvas = shown["pixels"]
+    # Both are the plane, scaled and moved; the canvas by this much from the SVG.
+    unit = QQ(2) ** page.execute_script("return exactpt.film.lengthUnit")
+    scale = shown["camera"]["scale"] / float(unit * frame.window.scale)
+    dx, dy = canvas[0][0] - scale * svg[0][0], canvas[0][1] - scale * svg[0][1]
+    for (x, y), (u, v) in zip(svg, canvas, strict=True):
+        assert (scale * x + dx, scale * y + dy) == pytest.approx((u, v), abs=1e-6)
+    tiles = [
+        tuple(nodes)
+        for nodes, inside in zip(shown["tiles"], insides(page), strict=True)
+        if (not inside)
+    ]
+    assert {frozenset(t) for t in tiles} == {frozenset(f.nodes) for f in picture.tiling.faces}
+    edges = {(u, v) for u, v, _ in shown["edges"]}
+    assert edges == {(e.u, e.v) for e in picture.tiling.edges if e.hull or e.kind == "diagonal"}
+
+
+def insides(page):
+    return page.execute_script(
+        "return exactpt.film.after(exactpt.state().step).tiles.map((tile) => tile.inside)"
+    )
+
+
+def test_colours_are_where_the_bodies_are(page):
+    page.execute_script(
+        "for (const k of ['names', 'next', 'edges']) "
+        "document.getElementById(`layer-${k}`).click(); exactpt.seek('5/2')"
+    )
+    shown = state(page)["pixels"]
+    frame = frame_of(still(demo(), QQ(5, 2)))
+    first = 0
+    for shape in frame.shapes:
+        own = shown[first : first + len(shape.pixels)]
+        first += len(shape.pixels)
+        if shape.name in {"boat", "buoy", "wheel", "ball", "raft"}:
+            x, y = (sum(c) / len(own) for c in zip(*own, strict=True))
+            assert colour(page, x, y) == shape.colour
+
+
+def colour(page, x, y):
+    """The colour of the canvas at a pixel."""
+    found = page.execute_script(
+        """
+        const [x, y] = arguments;
+        const one = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
+        one.drawImage(document.getElementById("canvas"),
+          x * devicePixelRatio, y * devicePixelRatio, 1, 1, 0, 0, 1, 1);
+        return [...one.getImageData(0, 0, 1, 1).data];
+        """,
+        x,
+        y,
+    )
+    return "#" + "".join(f"{c:02x}" for c in found[:3])
+
+
+@pytest.mark.parametrize("digits", [10, 40, 100])
+def test_zoomed_in_near_the_contact_it_stays_true(page, digits):
+    """The gap between the bow and the quay, 2**-digits before the contact, in pixels."""
+    scene = demo()
+    simulation = Simulation(scene)
+    contact = simulation.run_to_contact()
+    at = near(contact.time, QQ(10)) - power_of_two(-digits)
+    places = [place for body in scene.bodies for place in body.at(at)]
+    bow, a, b = places[10], places[6], places[7]
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    cross = dx * (bow[1] - a[1]) - dy * (bow[0] - a[0])
+    gap = abs(nearest_float(cross * power_of_two(digits))) / math.hypot(float(dx), float(dy))
+    magnification = 2.0 ** (digits - 3)
+    page.execute_script(
+        "exactpt.seek(arguments[0]); exactpt.look(arguments[1], arguments[2])",
+        str(at),
+        [str(c) for c in bow],
+        magnification,
+    )
+    shown = state(page)
+    unit = 2.0 ** page.execute_script("return exactpt.film.lengthUnit")
+    expected = gap * shown["camera"]["scale"] / unit * 2.0**-digits
+    (x1, y1), (x2, y2) = page.execute_script("return exactpt.segment(6, 7)")
+    x, y = shown["pixels"][10]
+    found = abs((x2 - x1) * (y - y1) - (y2 - y1) * (x - x1)) / math.hypot(x2 - x1, y2 - y1)
+    assert 1 < expected < 1000
+    assert found == pytest.approx(expected, abs=0.01)

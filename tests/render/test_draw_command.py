@@ -1,0 +1,66 @@
+"""`exactpt draw` and `exactpt demo` as a user meets them."""
+
+import pytest
+from click.testing import CliRunner
+from render_scenes import demo, small
+
+from exactpt.cli import cli, main
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli, list(map(str, arguments)), catch_exceptions=False)
+
+
+@pytest.fixture
+def scene(tmp_path):
+    small().save(tmp_path / "scene.json")
+    return tmp_path / "scene.json"
+
+
+def test_demo(tmp_path):
+    page = tmp_path / "demo.html"
+    result = run("demo", "--out", page)
+    assert result.exit_code == 0
+    assert "first contact at t = 8.693879580404362" in result.output
+    assert "root of 1099 t^2 + 6750 t - 141750" in result.output
+    assert "vertex 0 of boat on edge 6 of harbour" in result.output
+    assert str(page) in result.output
+    assert page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+
+
+def test_simulate_says_what_the_film_shows(tmp_path):
+    demo().save(tmp_path / "demo.json")
+    result = run("simulate", tmp_path / "demo.json", "--tiling", "lazy")
+    assert "vertex 0 of boat on edge 6 of harbour at (14.349458584473656, 5.2021" in result.output
+
+
+@pytest.mark.parametrize("at", ["0", "5/2", "2.5", "contact"])
+@pytest.mark.parametrize("ending", ["svg", "html"])
+def test_draw(scene, at, ending):
+    picture = scene.with_name(f"picture.{ending}")
+    assert run("draw", scene, "--at", at, "-o", picture).exit_code == 0
+    assert picture.stat().st_size > 1000
+
+
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        (["-o", "x.gif"], "ends in one of .svg, .png, .html"),
+        (["-o", "x.svg", "--at", "4"], "the first contact is at t = 3.0"),
+        (["-o", "x.html", "--at", "4"], "the animation runs from t = 0 to t = 3.0"),
+        (["-o", "x.svg", "--at", "soon"], "not a number: 'soon'"),
+        (["-o", "nowhere/x.svg"], "cannot be written"),
+        ([], "Missing option '-o'"),
+    ],
+)
+def test_bad_calls(scene, monkeypatch, capsys, arguments, message):
+    monkeypatch.chdir(scene.parent)
+    with pytest.raises(SystemExit) as left:
+        main(["draw", str(scene), *arguments])
+    assert left.value.code == 2
+    assert message in capsys.readouterr().err
+    assert [path.name for path in scene.parent.iterdir()] == ["scene.json"]
+
+
+def test_help_has_examples():
+    assert "exactpt draw scene.json --at contact -o contact.svg" in run("draw", "--help").output
