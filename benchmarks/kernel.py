@@ -5,7 +5,8 @@
 Every row is one degree and one coefficient size. Each program is asked for the first
 root in (0, 2] of the same random polynomials (those that have one), in microseconds a
 polynomial; then for the order of neighbouring pairs of these roots. The filter gets
-doubles with error bounds, and its share of decided questions is shown. Machines differ
+doubles with error bounds, and its share of decided questions is shown. A second table
+sets the filters of degree 1 and 2 beside their batch, by the size of the batch. Machines differ
 and other programs run beside: the ratios last, the times do not.
 """
 
@@ -25,11 +26,12 @@ from typing import TypeAlias, TypeVar
 
 import flint
 import gmpy2
+import numpy as np
 import sympy
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from exactpt.kernel import filters
+from exactpt.kernel import batch, filters
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, ZZ
@@ -37,6 +39,7 @@ from exactpt.kernel.roots import roots_after
 
 DEGREES = [1, 2, 4, 6, 12]
 BITS = [32, 64, 256, 2048]
+BATCHES = [10, 30, 100, 1000, 10_000]
 END = 2
 T = sympy.Symbol("t")
 
@@ -141,6 +144,25 @@ def row(rng: random.Random, degree: int, bits: int, count: int) -> tuple[dict[st
     return times, decided
 
 
+def batch_row(rng: random.Random, degree: int, count: int) -> tuple[float, float]:
+    """Microseconds a polynomial: the scalar filter, and the batch of so many."""
+    ask, ask_all = {
+        1: (filters.linear, batch.linears),
+        2: (filters.quadratic, batch.quadratics),
+    }[degree]
+    rows = []
+    for _ in range(count):
+        c = [rng.uniform(-1, 1) for _ in range(degree + 1)]
+        rows.append((*c, *(abs(x) * 2.0**-50 for x in c), 0.0, 0.0, float(END), False))
+    columns = [np.array(column) for column in zip(*rows, strict=True)]
+    one, answers = microseconds(lambda row: ask(*row), rows)
+    calls = max(1, 2000 // count)
+    together, results = microseconds(lambda c: ask_all(*c), [columns] * calls)
+    if [s for s, _, _ in answers] != results[0].signs.tolist():
+        raise AssertionError("the batch and the scalar filter disagree")
+    return one, together / count
+
+
 def processor() -> str:
     """The name of the processor, as far as it is known."""
     try:
@@ -182,6 +204,11 @@ def main() -> None:
                 f"{t['cmp flint'] / t['cmp exact']:7.2f}\n"
             )
             sys.stdout.flush()
+    say(f"\n{'deg':>4}{'batch':>7} |{'scalar':>8}{'batch':>8}{'s/b':>6}\n")
+    for degree in (1, 2):
+        for count in BATCHES:
+            one, together = batch_row(rng, degree, count)
+            say(f"{degree:4}{count:7} |{one:8.2f}{together:8.3f}{one / together:6.1f}\n")
 
 
 if __name__ == "__main__":

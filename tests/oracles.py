@@ -54,6 +54,15 @@ def _sign(x):
     return (x > 0) - (x < 0)
 
 
+def _sign_at(f, t):
+    """The sign of f(t), in integers: the sum of c[i] p^i q^(n-i)."""
+    p, q, result, power = t.numerator, t.denominator, 0, 1
+    for c in reversed(f):
+        result = result * p + c * power
+        power *= q
+    return _sign(result)
+
+
 @dataclass(eq=False)
 class RealRoot:
     """The ``index``-th real root of an irreducible polynomial, inside [low, high]."""
@@ -72,7 +81,7 @@ class RealRoot:
         if self.is_rational:
             return
         middle = (self.low + self.high) / 2
-        if _sign(value(self.factor, middle)) == _sign(value(self.factor, self.low)):
+        if _sign_at(self.factor, middle) == _sign_at(self.factor, self.low):
             self.low = middle
         else:
             self.high = middle

@@ -19,13 +19,15 @@ def first_contact(
 
     Args:
         scene: what moves.
-        tiling: which tiling to keep: "auto" or one of `TILINGS`.
+        tiling: which tiling to keep, one of `TILINGS`; "auto" is "lazy", which has the
+            fewest events.
         exact_only: decide everything by exact arithmetic, without the float filters.
     """
     touches, overlaps = initial_touches(scene)
     if overlaps:
         return contact_of(scene, AlgebraicNumber(scene.start), touches, overlaps)
-    kinetic = start_tiling(scene, tiling, scene.start, exact_only=exact_only)
+    name = "lazy" if tiling == "auto" else tiling
+    kinetic = start_tiling(scene, name, scene.start, exact_only=exact_only)
     try:
         for _ in kinetic.run():
             pass

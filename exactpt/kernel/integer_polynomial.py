@@ -30,6 +30,7 @@ __all__ = [
     "quotient",
     "scale",
     "sign_at",
+    "sign_on",
     "square_free",
     "subtract",
     "trimmed",
@@ -126,6 +127,15 @@ def sign_at(f: IntPoly, t: QQ) -> int:
     return sign(value)
 
 
+def sign_on(f: IntPoly, low: QQ, high: QQ) -> int:
+    """The sign of f on all of [low, high] if Horner's rule on intervals shows it, else 0."""
+    a = b = QQ(f[-1])
+    for c in f[-2::-1]:
+        products = (a * low, a * high, b * low, b * high)
+        a, b = min(products) + c, max(products) + c
+    return 1 if a > 0 else -1 if b < 0 else 0
+
+
 def primitive(f: IntPoly) -> IntPoly:
     """f divided by the positive gcd of its coefficients."""
     content = gcd(*f) if f else ZZ(1)
@@ -186,7 +196,7 @@ def square_free(f: IntPoly) -> IntPoly:
     if len(f) == 3:
         if f[1] * f[1] != 4 * f[0] * f[2]:
             return f
-        # c2 (t + c1 / 2 c2)^2: the root once, with the sign of c2.
-        return primitive((f[1], 2 * f[2]) if f[2] > 0 else (-f[1], 2 * f[2]))
+        # c2 (t + c1 / 2 c2)^2: half the derivative is c2 (t + c1 / 2 c2).
+        return primitive((f[1], 2 * f[2]))
     common = greatest_common_divisor(f, derivative(f))
     return f if len(common) == 1 else quotient(f, common)

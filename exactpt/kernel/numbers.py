@@ -9,6 +9,7 @@ number is a type error (at run time gmpy2 would silently answer with an inexact
 from __future__ import annotations
 
 import math
+import operator
 import re
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final, TypeAlias
@@ -58,8 +59,8 @@ Rational: TypeAlias = "int | Fraction | QQ | float | str"
 """What a caller may pass as a number; see `rational`."""
 
 _NUMBER: Final = re.compile(
-    r"([+-]?\d+)(?:/(\d+))?\Z|([+-]?)(\d*)\.?(\d*)(?:[eE]([+-]?\d{1,6}))?\Z", re.ASCII
-)
+    r"([+-]?\d++)(?:/(\d++))?\Z|([+-]?)(\d*+)\.?(\d*+)(?:[eE]([+-]?\d{1,6}))?\Z", re.ASCII
+)  # possessive: digits are never given back, so a long refused text takes linear time
 _EXPONENT_LIMIT: Final = 100_000
 _EXACT: Final[type[QQ]] = type(QQ())
 
@@ -118,7 +119,7 @@ def parse_rational(text: str) -> QQ:
 
 def shorten(text: object, limit: int = 60) -> str:
     """The text of a value, cut so that a message stays one readable line."""
-    shown = repr(text)
+    shown = " ".join(repr(text).splitlines())
     return shown if len(shown) <= limit else f"{shown[: limit - 12]}...{shown[-8:]}"
 
 
@@ -141,11 +142,13 @@ def rational(value: Rational) -> QQ:
         return QQ(*value.as_integer_ratio())
     if isinstance(value, bool) or type(value).__name__ == "mpfr":
         raise InputError(f"not an exact number: {value!r}")
-    if hasattr(value, "numerator") and hasattr(value, "denominator"):
-        return QQ(ZZ(int(value.numerator)), ZZ(int(value.denominator)))
-    if hasattr(value, "__index__"):  # numpy integers have no denominator
-        return QQ(ZZ(value.__index__()))
-    raise InputError(f"not a number: {shorten(value)}")
+    try:
+        if hasattr(value, "numerator") and hasattr(value, "denominator"):
+            return QQ(ZZ(int(value.numerator)), ZZ(int(value.denominator)))
+        # numpy integers have no denominator
+        return QQ(ZZ(operator.index(value)))  # type: ignore[arg-type]
+    except TypeError:  # arrays have an __index__, classes a numerator, that is none
+        raise InputError(f"not a number: {shorten(value)}") from None
 
 
 def nearest_float(value: QQ) -> float:

@@ -9,7 +9,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, rational
 
 if TYPE_CHECKING:
-    import sympy
+    from exactpt.kernel.sympy_door import Expression, Variable
 
 __all__ = ["ONE", "ZERO", "Polynomial", "polynomial"]
 
@@ -51,7 +51,7 @@ class Polynomial:
         return self
 
     @classmethod
-    def from_sympy(cls, expression: sympy.Expr, variable: sympy.Symbol) -> Polynomial:
+    def from_sympy(cls, expression: Expression, variable: Variable) -> Polynomial:
         """The polynomial that a SymPy expression is in ``variable``.
 
         Raises:
@@ -61,7 +61,7 @@ class Polynomial:
 
         return cls(coefficients_from_sympy(expression, variable))
 
-    def to_sympy(self, variable: sympy.Symbol) -> sympy.Expr:
+    def to_sympy(self, variable: Variable) -> Expression:
         """The polynomial as a SymPy expression in ``variable``."""
         from exactpt.kernel.sympy_door import polynomial_to_sympy
 

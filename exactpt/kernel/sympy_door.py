@@ -2,25 +2,35 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import sympy
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
+from exactpt.kernel.sturm import cauchy_bound, count_roots, sturm_sequence
 
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.polynomial import Polynomial
 
-__all__ = ["algebraic_to_sympy", "coefficients_from_sympy", "polynomial_to_sympy"]
+__all__ = [
+    "Expression",
+    "Variable",
+    "algebraic_to_sympy",
+    "coefficients_from_sympy",
+    "polynomial_to_sympy",
+]
+
+Expression: TypeAlias = sympy.Expr
+Variable: TypeAlias = sympy.Symbol
 
 
 def _rational(value: QQ) -> sympy.Rational:
     return sympy.Rational(int(value.numerator), int(value.denominator))
 
 
-def coefficients_from_sympy(expression: sympy.Expr, variable: sympy.Symbol) -> list[QQ]:
+def coefficients_from_sympy(expression: Expression, variable: Variable) -> list[QQ]:
     """The rational coefficients of a polynomial expression, constant term first.
 
     Raises:
@@ -33,20 +43,17 @@ def coefficients_from_sympy(expression: sympy.Expr, variable: sympy.Symbol) -> l
     return [QQ(int(c.p), int(c.q)) for c in reversed(poly.all_coeffs())]
 
 
-def polynomial_to_sympy(f: Polynomial, variable: sympy.Symbol) -> sympy.Expr:
+def polynomial_to_sympy(f: Polynomial, variable: Variable) -> Expression:
     """The expression sum(c[i] * variable**i)."""
     terms = (_rational(c) * variable**i for i, c in enumerate(f.coefficients))
     return sum(terms, start=sympy.Integer(0))
 
 
-def algebraic_to_sympy(number: AlgebraicNumber) -> sympy.Expr:
-    """A rational, or the real root of the number's polynomial in its interval."""
+def algebraic_to_sympy(number: AlgebraicNumber) -> Expression:
+    """A rational, or the real root with the same place among those of the polynomial."""
     if number.is_rational:
         return _rational(number.low)
-    t = sympy.Symbol("t")
-    poly = sympy.Poly([int(c) for c in reversed(number.polynomial)], t)
-    low, high = _rational(number.low), _rational(number.high)
-    for root in poly.real_roots(multiple=True):
-        if low < root < high:
-            return root
-    raise AssertionError(f"no root of {poly} in ({low}, {high})")
+    f = number.polynomial
+    place = count_roots(sturm_sequence(f), min(-cauchy_bound(f), number.low), number.low)
+    poly = sympy.Poly([int(c) for c in reversed(f)], sympy.Symbol("t"))
+    return poly.real_roots()[place]

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, final
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.kernel.numbers import QQ, Rational, rational, shorten
 from exactpt.kernel.polynomial import Polynomial, polynomial
 from exactpt.motion.motions import REST, Coefficients, Motion, Pieces, Position, SimpleMotion
 from exactpt.motion.track import Track
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 __all__ = ["Body", "BodyPiece", "Keyframe", "VertexLike"]
 
@@ -83,8 +80,7 @@ class Body:
             self.keyframes = _read_keyframes(name, keyframes)
         else:
             self.vertices = tuple(
-                _read_vertex(name, i, v)
-                for i, v in enumerate(vertices if vertices is not None else ())
+                _read_vertex(name, i, v) for i, v in enumerate(_listed(name, "vertices", vertices))
             )
         self._shapes = self._shape_pieces()
         if not self._shapes[0][1]:
@@ -162,6 +158,19 @@ def _show(position: tuple[QQ, QQ]) -> str:
     return f"({position[0]}, {position[1]})"
 
 
+def _listed(name: str, what: str, values: object) -> list[Any]:
+    if isinstance(values, Iterable) and not isinstance(values, (str, Mapping)):
+        return list(values)
+    raise InputError(f"body {name!r}: {what}: not a list: {shorten(values)}")
+
+
+def _pair(point: object) -> tuple[Any, Any]:
+    coordinates = list(point) if isinstance(point, Iterable) else []
+    if isinstance(point, str) or len(coordinates) != 2:
+        raise InputError(f"a vertex has two coordinates: {shorten(point)}")
+    return coordinates[0], coordinates[1]
+
+
 def _read_vertex(name: str, index: int, vertex: VertexLike) -> Position:
     try:
         if isinstance(vertex, Mapping):
@@ -169,9 +178,8 @@ def _read_vertex(name: str, index: int, vertex: VertexLike) -> Position:
             if unknown:
                 raise InputError(f"unknown key {min(unknown)!r}")
             return polynomial(vertex.get("x", ())), polynomial(vertex.get("y", ()))
-        if isinstance(vertex, str) or len(vertex) != 2:
-            raise InputError(f"a vertex has two coordinates: {vertex!r}")
-        return polynomial(vertex[0]), polynomial(vertex[1])
+        x, y = _pair(vertex)
+        return polynomial(x), polynomial(y)
     except InputError as error:
         raise InputError(f"body {name!r}: vertex {index}: {error}") from None
 
@@ -180,9 +188,13 @@ def _read_keyframes(
     name: str, keyframes: Sequence[tuple[Rational, Sequence[Sequence[Rational]]]]
 ) -> tuple[Keyframe, ...]:
     frames: list[Keyframe] = []
-    for i, (t, vertices) in enumerate(keyframes):
+    for i, keyframe in enumerate(_listed(name, "keyframes", keyframes)):
+        if not isinstance(keyframe, Sequence) or len(keyframe) != 2:
+            raise InputError(f"body {name!r}: keyframe {i}: not (t, vertices): {shorten(keyframe)}")
+        t, vertices = keyframe
+        pairs = map(_pair, _listed(name, f"keyframe {i}", vertices))
         try:
-            points = tuple((rational(v[0]), rational(v[1])) for v in vertices)
+            points = tuple((rational(x), rational(y)) for x, y in pairs)
             frame = Keyframe(rational(t), points)
         except InputError as error:
             raise InputError(f"body {name!r}: keyframe {i}: {error}") from None

@@ -120,11 +120,11 @@ class Frame:
         else:
             ws, divisor = [], QQ(w[0])
         xs, ys = _floats(x, divisor, size), _floats(y, divisor, size)
+        self.errors += [0.0] * (size - len(self.errors))
         if not (_moderate(xs) and _moderate(ys) and _moderate(ws)):
             nan = [math.nan] * size
             return Image(nan, nan, nan if ws else [], motion)
         if not ws:
-            self.errors += [0.0] * (size - len(self.errors))
             self._note_errors(x, xs, divisor)
             self._note_errors(y, ys, divisor)
         return Image(xs, ys, ws, motion)
@@ -149,7 +149,10 @@ class Frame:
 
 def _floats(coefficients: Iterable[QQ], divisor: QQ, size: int) -> list[float]:
     one = divisor == 1
-    values = [nearest_float(c if one else c / divisor) for c in coefficients]
+    # Only 0 itself is 0.0: what is too small for a double becomes NaN, as if immoderate.
+    values = [
+        nearest_float(c if one else c / divisor) or (math.nan if c else 0.0) for c in coefficients
+    ]
     return values + [0.0] * (size - len(values))
 
 

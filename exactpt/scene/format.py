@@ -12,7 +12,7 @@ import os
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Final, NoReturn, TypeAlias
+from typing import Final, TypeAlias
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, parse_rational, shorten
@@ -73,19 +73,15 @@ def loads(text: str) -> Scene:
             text,
             parse_int=_Number,
             parse_float=_Number,
-            parse_constant=_refuse_constant,
+            parse_constant=_Number,  # NaN and the infinities: refused where they stand
             object_pairs_hook=_unique_keys,
         )
+        return _scene(data)
     except json.JSONDecodeError as error:
         where = f"line {error.lineno}, column {error.colno}"
         raise InputError(f"not JSON: {error.msg} at {where}") from None
     except RecursionError:
         raise InputError("not a scene: nested too deeply") from None
-    return _scene(data)
-
-
-def _refuse_constant(text: str) -> NoReturn:
-    raise InputError(f"not a number: {text}")
 
 
 def _unique_keys(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
@@ -98,7 +94,7 @@ def _unique_keys(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
 
 
 def _scene(data: Json) -> Scene:
-    top = _object(data, "scene", required={"exactpt", "time", "bodies"})
+    top = _object(data, "scene", required=["exactpt", "time", "bodies"])
     if top["exactpt"] != _Number(VERSION) or not isinstance(top["exactpt"], _Number):
         raise InputError(
             f'"exactpt": this version reads format {VERSION}, not {_show(top["exactpt"])}'
@@ -114,7 +110,7 @@ def _body(data: Json, index: int) -> Body:
     if isinstance(data, dict) and isinstance(data.get("name"), str):
         where = f"body {data['name']!r}"
     allowed = {"vertices", "motion", "closed", "keyframes"}
-    body = _object(data, where, required={"name"}, optional=allowed)
+    body = _object(data, where, required=["name"], optional=allowed)
     name = body["name"]
     if not isinstance(name, str) or isinstance(name, _Number) or not name:
         raise InputError(f'{where}: "name": not a text: {_show(name)}')
@@ -149,7 +145,7 @@ def _keyframes(data: Json, where: str) -> list[tuple[QQ, list[tuple[QQ, QQ]]]]:
     frames = []
     for i, row in enumerate(rows):
         at = f"{where}[{i}]"
-        frame = _object(row, at, required={"t", "vertices"})
+        frame = _object(row, at, required=["t", "vertices"])
         points = []
         for j, point in enumerate(_list(frame["vertices"], f'{at}: "vertices"')):
             x, y = _list(point, f"{at}: vertex {j}", length=2)
@@ -162,12 +158,12 @@ def _keyframes(data: Json, where: str) -> list[tuple[QQ, list[tuple[QQ, QQ]]]]:
 
 def _motion(data: Json, where: str) -> Motion:
     if isinstance(data, dict) and "pieces" in data:
-        _object(data, where, required={"pieces"})
+        _object(data, where, required=["pieces"])
         pieces: list[tuple[QQ | None, SimpleMotion]] = []
         rows = _list(data["pieces"], f'{where}: "pieces"')
         for i, row in enumerate(rows):
             at = f'{where}: "pieces"[{i}]'
-            piece = _object(row, at, required={"motion"}, optional={"until"})
+            piece = _object(row, at, required=["motion"], optional={"until"})
             until = _number(piece["until"], f'{at}: "until"') if "until" in piece else None
             if (until is None) != (i == len(rows) - 1):
                 raise InputError(f'{at}: "until" belongs to every piece but the last')
@@ -181,9 +177,9 @@ def _motion(data: Json, where: str) -> Motion:
 
 def _simple_motion(data: Json, where: str) -> SimpleMotion:
     if isinstance(data, dict) and "rigid" in data:
-        _object(data, where, required={"rigid"})
+        _object(data, where, required=["rigid"])
         at = f'{where}: "rigid"'
-        rigid = _object(data["rigid"], at, required={"half_turn"}, optional={"pivot", "x", "y"})
+        rigid = _object(data["rigid"], at, required=["half_turn"], optional={"pivot", "x", "y"})
         pivot = _list(rigid.get("pivot", [_Number("0"), _Number("0")]), f'{at}: "pivot"', length=2)
         return Rigid(
             _coordinate(rigid, "half_turn", at),
@@ -192,9 +188,9 @@ def _simple_motion(data: Json, where: str) -> SimpleMotion:
             y=_coordinate(rigid, "y", at),
         )
     if isinstance(data, dict) and "affine" in data:
-        _object(data, where, required={"affine"})
+        _object(data, where, required=["affine"])
         at = f'{where}: "affine"'
-        affine = _object(data["affine"], at, required={"matrix"}, optional={"x", "y"})
+        affine = _object(data["affine"], at, required=["matrix"], optional={"x", "y"})
         rows = _list(affine["matrix"], f'{at}: "matrix"', length=2)
         matrix = [
             [_polynomial(p, f'{at}: "matrix"') for p in _list(row, f'{at}: "matrix"', length=2)]
@@ -328,13 +324,22 @@ def save(scene: Scene, path: Path) -> None:
 def write_atomically(path: Path, content: str | bytes) -> None:
     """Write a file by way of a temporary neighbour, so that no half of it is ever seen.
 
+    A pipe or a device is written to as it is, never replaced.
+
     Raises:
         InputError: if the file cannot be written.
     """
     try:
-        descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        if path.exists() and not path.is_file():
+            path.write_text(text, encoding="utf-8")
+        else:
+            _replace(path, text)
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror}") from None
+
+
+def _replace(path: Path, text: str) -> None:
+    descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     try:
         with os.fdopen(descriptor, "wb") as file:
             file.write(content.encode() if isinstance(content, str) else content)

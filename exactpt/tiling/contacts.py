@@ -17,17 +17,26 @@ every contact.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator
+from itertools import combinations, product
+from typing import TYPE_CHECKING, Final, TypeAlias
 
+import numpy as np
+
+from exactpt.geometry.boxes import Boxes, overlapping_pairs
 from exactpt.motion.incidence import Touch
-from exactpt.tiling.placement import coincide, lies_on
+from exactpt.tiling.placement import boxes_now, coincide, lies_on
 
 if TYPE_CHECKING:
     from exactpt.motion.vertices import Vertex, Vertices
     from exactpt.tiling.certificates import Certifier
 
 __all__ = ["touches"]
+
+FEW: Final = 24
+"""With so many points or fewer, all pairs are faster than boxes."""
+
+_Edge: TypeAlias = "tuple[Vertex, int, Vertex]"
 
 
 def touches(certifier: Certifier, vertices: Vertices, candidates: Iterable[int]) -> list[Touch]:
@@ -41,34 +50,61 @@ def touches(certifier: Certifier, vertices: Vertices, candidates: Iterable[int])
         vertex = vertices.all[vertex_id]
         chosen.setdefault((vertex.body, vertex.index), vertex)
     points = [chosen[key] for key in sorted(chosen)]
+    edges = [(a, *e) for a in points for e in _edges(vertices, chosen, a)]
+    boxes = boxes_now(certifier, points) if len(points) > FEW else None
     found: set[Touch] = set()
     meeting: set[tuple[int, int, int, int]] = set()
-    for i, a in enumerate(points):
-        for b in points[:i]:
-            if coincide(certifier, a, b):
-                found.add(Touch(b.body, b.index, a.body, -1, a.index))
-                meeting.add((a.body, a.index, b.body, b.index))
-                meeting.add((b.body, b.index, a.body, a.index))
-    for a in points:
-        size = vertices.bodies[a.body].body.size
-        for edge, b in _edges(vertices, chosen, a, size):
-            for v in points:
-                if v.body == a.body and v.index in (a.index, b.index):
-                    continue
-                if (v.body, v.index, a.body, a.index) in meeting:
-                    continue
-                if (v.body, v.index, b.body, b.index) in meeting:
-                    continue
-                if lies_on(certifier, v, a, b):
-                    found.add(Touch(v.body, v.index, a.body, edge, -1))
+    for a, b in _pairs(points, boxes):
+        if coincide(certifier, a, b):
+            found.add(Touch(a.body, a.index, b.body, -1, b.index))
+            meeting.add((a.body, a.index, b.body, b.index))
+            meeting.add((b.body, b.index, a.body, a.index))
+    for v, (a, edge, b) in _near(points, edges, boxes):
+        if v.body == a.body and v.index in (a.index, b.index):
+            continue
+        if (v.body, v.index, a.body, a.index) in meeting:
+            continue
+        if (v.body, v.index, b.body, b.index) in meeting:
+            continue
+        if lies_on(certifier, v, a, b):
+            found.add(Touch(v.body, v.index, a.body, edge, -1))
     return sorted(found)
 
 
+def _pairs(points: list[Vertex], boxes: Boxes | None) -> Iterator[tuple[Vertex, Vertex]]:
+    """The pairs of points, in order; with boxes, only those that may coincide."""
+    if boxes is None:
+        yield from combinations(points, 2)
+    else:
+        for first, second in overlapping_pairs(boxes):
+            for i, j in zip(first.tolist(), second.tolist(), strict=True):
+                yield points[i], points[j]
+
+
+def _near(
+    points: list[Vertex], edges: list[_Edge], boxes: Boxes | None
+) -> Iterator[tuple[Vertex, _Edge]]:
+    """Points and edges; with boxes, only those that may touch."""
+    if boxes is None or not edges:
+        yield from product(points, edges)
+        return
+    position = {v.id: i for i, v in enumerate(points)}
+    ends = boxes[[[position[a.id], position[b.id]] for a, _, b in edges]]
+    low, high = ends.min(axis=1), ends.max(axis=1)
+    of_edges = np.stack((low[:, 0], high[:, 1], low[:, 2], high[:, 3]), axis=1)
+    n = len(points)
+    for first, second in overlapping_pairs(np.concatenate((boxes, of_edges))):
+        mixed = (first < n) & (second >= n)
+        for i, j in zip(first[mixed].tolist(), second[mixed].tolist(), strict=True):
+            yield points[i], edges[j - n]
+
+
 def _edges(
-    vertices: Vertices, chosen: dict[tuple[int, int], Vertex], a: Vertex, size: int
+    vertices: Vertices, chosen: dict[tuple[int, int], Vertex], a: Vertex
 ) -> list[tuple[int, Vertex]]:
     """The body edge that starts at a, as (number, other end), if its end is chosen too."""
     body = vertices.bodies[a.body].body
+    size = body.size
     if size == 1 or (a.index == size - 1 and (size == 2 or not body.closed)):
         return []
     other = chosen.get((a.body, (a.index + 1) % size))

@@ -31,7 +31,8 @@ class Change(NamedTuple):
         handle: the half-edge that was removed.
         old: its ends.
         new: the ends of the diagonal in its place, or None.
-        angles: the half-edges whose angles have changed.
+        angles: the half-edges whose angles have changed; all of a tile where there was a
+            triangle, whose angles shared a certificate.
     """
 
     handle: int
@@ -100,11 +101,12 @@ def _remove(mesh: Mesh, predicates: Predicates, todo: list[int]) -> list[Change]
         if corners is None:
             continue
         old = mesh.ends(h)
+        was_triangle = any(len(m.face(g)) == 3 for g in (h, h ^ 1))
         joined = mesh.flip_out(h)
         for g, is_corner in zip(joined, corners, strict=True):
             mesh.corner[g] = is_corner
         face = m.face(joined[0])
-        changes.append(Change(h, old, None, face if len(face) < 5 else list(joined)))
+        changes.append(Change(h, old, None, face if was_triangle else list(joined)))
         for g in face:
             pending[min(g, g ^ 1)] = None
     return changes

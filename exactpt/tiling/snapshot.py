@@ -162,15 +162,20 @@ class _Contraction:
         for face in self.mesh.faces(FREE):
             nodes, corners = self._contracted(face)
             if self._has_area(corners):
-                whole.append((nodes, corners))
+                whole.append((nodes, corners, self.mesh.tile(face[0])))
             else:
                 self._cut_along(nodes)
         edges = self._edges()
         faces = []
-        for nodes, corners in whole:
+        for nodes, corners, tile in whole:
             cycle = self._expanded(nodes)
             least = cycle.index(min(cycle))
-            faces.append(Face(tuple(cycle[least:] + cycle[:least]), tuple(sorted(corners))))
+            around, ends = tuple(cycle[least:] + cycle[:least]), tuple(sorted(corners))
+            if tile.body < 0:
+                faces.append(Face(around, ends))
+            else:
+                name_of_body = self.vertices.bodies[tile.body].body.name
+                faces.append(Face(around, ends, "F1", name_of_body, tile.level))
         faces.sort(key=lambda f: f.nodes)
         return Snapshot(self.at, name, tuple(self.nodes), tuple(edges), tuple(faces))
 

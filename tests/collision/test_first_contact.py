@@ -8,6 +8,7 @@ import pytest
 
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.detector import first_contact
+from exactpt.collision.tilings import TILINGS
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, Translation
@@ -39,7 +40,7 @@ def test_first_contact_equals_reference(family, count):
     for seed in range(count):
         scene = generate(family, seed)
         expected = first_contact_allpairs(scene)
-        for tiling in ("greedy", "lazy"):
+        for tiling in TILINGS:
             assert_same(first_contact(scene, tiling=tiling), expected)
         kinds[expected.kind if expected else "none"] += 1
     print(family, dict(kinds))  # noqa: T201 - shown with -s

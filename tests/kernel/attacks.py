@@ -19,7 +19,7 @@ from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of
 from exactpt.kernel.roots import roots_after
 from exactpt.kernel.sturm import cauchy_bound
 
-__all__ = ["Case", "answer", "certificate", "generic", "hostile", "judge", "variants"]
+__all__ = ["Case", "answer", "certificate", "extreme", "generic", "hostile", "judge", "variants"]
 
 SMALLEST, LARGEST = 2.0**-460, 2.0**460
 ULP = 2.0**-52
@@ -302,6 +302,44 @@ def _horizon(rng, number, now_low, now_high, roots):
         ]
     )
     return x if number <= x else math.nextafter(now_high, math.inf)
+
+
+# Extreme cases: any doubles at all
+
+
+def extreme(rng: random.Random, degree: int) -> Case:
+    """Coefficients, bounds and times of any size, subnormal to nearly infinite."""
+    spread = rng.choice([4, 60, 300, 1073])
+    centres = [rng.randint(-1073, 1022) for _ in range(3)]
+
+    def double(centre):
+        exponent = max(-1074, min(1023, centre + rng.randint(-spread, spread)))
+        return math.ldexp(
+            rng.choice([1.0, -1.0]) * rng.uniform(1, 2), exponent - (exponent == 1023)
+        )
+
+    step = centres[1] if rng.random() < 0.7 else rng.randint(-5, 5)  # time's scale
+    c = [double(centres[0] - i * step) * (rng.random() < 0.9) for i in range(degree + 1)]
+    e = [
+        0.0 if rng.random() < 0.5 else abs(double(centres[0] - i * step - 52))
+        for i in range(degree + 1)
+    ]
+    if rng.random() < 0.5:
+        e = [min(b, abs(a) * 2.0 ** -rng.randint(1, 50)) for a, b in zip(c, e, strict=True)]
+    true = [rational(a) + rational(b) * rng.choice([-1, 0, 1]) for a, b in zip(c, e, strict=True)]
+    now = rng.choice([0.0, double(step), double(step), double(centres[2])])
+    if degree == 1 and true[1] and rng.random() < 0.3:
+        now = nearest_float(-true[0] / true[1])
+        now = now if math.isfinite(now) else 0.0
+    now_low, now_high = now, now
+    for _ in range(rng.choice([0, 0, 1, 2])):
+        now_low = math.nextafter(now_low, -math.inf)
+        now_high = math.nextafter(now_high, math.inf)
+    horizon = max(now_high, rng.choice([double(step), double(step), double(centres[2]), 1.0]))
+    vanishes = any(true) and sum(q * rational(now) ** i for i, q in enumerate(true)) == 0
+    return Case(
+        tuple(true), tuple(c), tuple(e), rational(now), now_low, now_high, horizon, vanishes
+    )
 
 
 # Generic cases: what a simulation asks

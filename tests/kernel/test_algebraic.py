@@ -307,6 +307,15 @@ def test_bug_float_of_a_hidden_tie_above_half_the_largest_double(monkeypatch):
     assert float(x) == 2.0**1023
 
 
+@pytest.mark.parametrize("side", [-1, 1])
+def test_float_of_a_hidden_tie_with_infinity(side):
+    """The middle between the largest double and what would be the next rounds to infinity."""
+    tie = side * (2**1024 - 2**970)
+    x = AlgebraicNumber.root(as_int_poly(times((-tie, 1), (1, 0, 1))), QQ(tie - 1), QQ(tie + 2))
+
+    assert float(x) == side * math.inf
+
+
 def test_bug_between_wide_intervals_every_integer_is_tried(monkeypatch):
     """`rational_between` walks from the low end by steps of the grid, however far that is."""
     x = AlgebraicNumber.root(as_int_poly([-(10**10) - 1, 0, 1]), QQ(0), QQ(2**40))
@@ -483,6 +492,15 @@ def test_refining_a_quadratic_doubles_the_digits():
         x.refine()
 
     assert x.high - x.low < QQ(1, 2**2000)
+
+
+def test_bug_sympy_cannot_compare_a_root_with_a_near_rational():
+    """The root was sought by its interval; SymPy gives up where that is 2^-400 wide."""
+    f = as_int_poly([-(2**41), 2**40 + 1, 2**40])
+    x = AlgebraicNumber.root(f, QQ(-3), QQ(-1))
+    x.refine_to(QQ(1, 2**400))
+
+    assert x.to_sympy() == min(sympy.Poly(list(map(int, f[::-1])), sympy.Symbol("t")).real_roots())
 
 
 @given(a=algebraics())

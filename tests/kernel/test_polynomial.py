@@ -155,7 +155,20 @@ def test_what_a_caller_may_write_for_a_polynomial(value, expected):
 
 
 @pytest.mark.parametrize(
-    "value", [None, object(), math.nan, math.inf, True, [True], [None], ["x"], "x", [[1]]], ids=repr
+    "value",
+    [
+        None,
+        pytest.param(object(), id="object"),
+        math.nan,
+        math.inf,
+        True,
+        [True],
+        [None],
+        ["x"],
+        "x",
+        [[1]],
+    ],
+    ids=repr,
 )
 def test_what_is_no_polynomial_is_refused(value):
     with pytest.raises(InputError):

@@ -1,0 +1,99 @@
+"""Doubles and dyadic rationals near an algebraic number.
+
+What is found here depends on the number alone (and its polynomial where that is said),
+never on how far it has been refined: so that what is printed is the same in every run.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from exactpt.kernel.integer_polynomial import sign_at
+from exactpt.kernel.numbers import QQ, ZZ, enclosing_floats, floor, nearest_float, power_of_two
+from exactpt.kernel.sturm import count_roots, sturm_sequence
+
+if TYPE_CHECKING:
+    from exactpt.kernel.isolated_root import IsolatedRoot
+
+__all__ = ["canonical_interval", "enclosing_doubles", "nearest_double", "rational_between"]
+
+
+def nearest_double(x: IsolatedRoot) -> float:
+    """The nearest double (ties, which only a rational can have, to even); ±inf beyond all."""
+    while True:
+        low, high = nearest_float(x.low), nearest_float(x.high)
+        if low == high:
+            return low + 0.0  # never -0.0
+        if high == math.nextafter(low, math.inf):
+            # Rounding changes at the middle between two neighbours.
+            middle = (_exact(low) + _exact(high)) / 2
+            side = x.compare_rational(middle)
+            return nearest_float(middle) if side == 0 else high if side > 0 else low
+        x.refine()
+
+
+def _exact(x: float) -> QQ:
+    """The value of a double; of an infinity, what would be the next double."""
+    if math.isinf(x):
+        return power_of_two(1024) if x > 0 else -power_of_two(1024)
+    return QQ(*x.as_integer_ratio())
+
+
+def enclosing_doubles(x: IsolatedRoot) -> tuple[float, float]:
+    """Doubles lo <= x <= hi: equal if x is a double, else neighbours."""
+    while True:
+        lo, hi = enclosing_floats(x.low)[0], enclosing_floats(x.high)[1]
+        between = math.nextafter(lo, math.inf)
+        if hi <= between:
+            return lo, hi
+        if hi == math.nextafter(between, math.inf):
+            x.compare_rational(_exact(between))
+        else:
+            x.refine()
+
+
+def canonical_interval(x: IsolatedRoot) -> tuple[QQ, QQ]:
+    """See `AlgebraicNumber.canonical_interval`."""
+    if x.simplified().is_rational:
+        return x.low, x.high
+    bits = 64
+    while True:
+        grid = power_of_two(-bits)
+        m = _floor_on_grid(x, grid)
+        low, high = m * grid, (m + 1) * grid
+        if _is_alone_in(x, low, high):
+            return low, high
+        bits *= 2
+
+
+def _is_alone_in(x: IsolatedRoot, low: QQ, high: QQ) -> bool:
+    if x.low <= low and high <= x.high:
+        return True
+    return (
+        sign_at(x.polynomial, low) != 0
+        and count_roots(sturm_sequence(x.polynomial), low, high) == 1
+    )
+
+
+def rational_between(x: IsolatedRoot, y: IsolatedRoot) -> QQ:
+    """The dyadic rational of least denominator strictly between x and y, x < y.
+
+    (The least such in size of the exponent; the leftmost if there are several.)
+    """
+    bits = 0
+    while True:
+        grid = power_of_two(-bits)
+        candidate = (_floor_on_grid(x, grid) + 1) * grid
+        if y.compare_rational(candidate) > 0:
+            return candidate
+        bits += 1
+
+
+def _floor_on_grid(x: IsolatedRoot, grid: QQ) -> ZZ:
+    """The largest integer m with m * grid <= x."""
+    x.refine_to(grid)
+    m = floor(x.low / grid)
+    while x.compare_rational((m + 1) * grid) >= 0:
+        m += 1
+    return m

@@ -1,0 +1,169 @@
+"""One real root of an integer polynomial, held in a rational interval that can be narrowed.
+
+The polynomial is square-free, so it changes its sign at the root: a rational lies below
+the root if and only if the polynomial has there the sign that it has at the low end.
+
+Source: S. Basu, R. Pollack, M.-F. Roy, *Algorithms in Real Algebraic Geometry*,
+2nd ed., section 10.4 (real roots by isolating intervals).
+"""
+
+from __future__ import annotations
+
+from typing import Self
+
+from exactpt.kernel.integer_polynomial import (
+    IntPoly,
+    derivative,
+    negate,
+    primitive,
+    sign_at,
+)
+from exactpt.kernel.numbers import QQ, ZZ, Rational, floor, is_square, isqrt, rational
+
+__all__ = ["IsolatedRoot"]
+
+
+class IsolatedRoot:
+    """A real root of an integer polynomial, or a rational; narrowed in place.
+
+    Narrowing changes what is known of the number, not the number.
+
+    Attributes:
+        polynomial: square-free, integer, primitive, leading coefficient positive,
+            constant term first; of a rational p/q it is ``(-p, q)``.
+        low: a rational at most the number.
+        high: a rational at least the number; no other real root of ``polynomial``
+            lies in [low, high], and ``low == high`` if and only if the number is
+            known to be rational. Where ``low < high``, neither end is a root.
+    """
+
+    __slots__ = ("_below", "high", "low", "polynomial")
+
+    def __init__(self, value: Rational) -> None:
+        self.polynomial: IntPoly
+        self.low: QQ
+        self.high: QQ
+        self._below: int  # the sign of the polynomial at low
+        self._become(rational(value))
+
+    @classmethod
+    def root(cls, polynomial: IntPoly, low: QQ, high: QQ) -> Self:
+        """The root of a square-free polynomial in (low, high], where it has exactly one.
+
+        ``low`` itself may be another root; ``low == high`` says that it is the root.
+        """
+        self = cls.__new__(cls)
+        if low == high:
+            self._become(high)
+            return self
+        polynomial = primitive(polynomial)
+        if polynomial[-1] < 0:
+            polynomial = negate(polynomial)
+        if len(polynomial) == 3 and is_square(d := _discriminant(polynomial)):
+            c1, c2 = polynomial[1], polynomial[2]
+            smaller = QQ(-c1 - isqrt(d), 2 * c2)
+            value = smaller if low < smaller <= high else QQ(-c1 + isqrt(d), 2 * c2)
+            self._become(value)
+            return self
+        if len(polynomial) == 2:
+            self._become(QQ(-polynomial[0], polynomial[1]))
+            return self
+        self.polynomial, self.low, self.high = polynomial, low, high
+        self._below = sign_at(polynomial, low)
+        if sign_at(polynomial, high) == 0:
+            self._become(high)
+        elif self._below == 0:
+            self._leave_low_end()
+        return self
+
+    def _leave_low_end(self) -> None:
+        # The root is inside (low, high), and low is a (simple) root as well: the sign
+        # just right of it is that of the derivative. Halve until low is no root.
+        self._below = sign_at(derivative(self.polynomial), self.low)
+        while True:
+            middle = (self.low + self.high) / 2
+            s = sign_at(self.polynomial, middle)
+            if s == 0:
+                self._become(middle)
+                return
+            if s == self._below:
+                self.low = middle
+                return
+            self.high = middle
+
+    def _become(self, value: QQ) -> None:
+        self.polynomial = (-ZZ(value.numerator), ZZ(value.denominator))
+        self.low = self.high = value
+        self._below = 0
+
+    @property
+    def is_rational(self) -> bool:
+        """Whether the number is known to be rational (a root of degree 3 or more may hide one)."""
+        return self.low == self.high
+
+    def refine(self) -> None:
+        """Shrink the interval: to about the square of its width for degree 2, else to a half.
+
+        (An interval around 0 is cut there: so 0 is found, and tiny numbers know their sign.)
+        """
+        if self.low == self.high:
+            return
+        if len(self.polynomial) == 3:
+            self._refine_quadratic()
+            return
+        self.compare_rational(QQ(0) if self.low < 0 < self.high else (self.low + self.high) / 2)
+
+    def _refine_quadratic(self) -> None:
+        # (-c1 ± sqrt(d)) / 2 c2, the square root to as many bits as double the precision.
+        c0, c1, c2 = self.polynomial
+        width = self.high - self.low
+        bits = 2 * max(8, width.denominator.bit_length() - width.numerator.bit_length()) + 8
+        root = isqrt(_discriminant((c0, c1, c2)) << 2 * bits)
+        centre = QQ(-c1, 2 * c2)
+        unit = QQ(ZZ(1), 2 * c2 << bits)
+        # c2 > 0, so the polynomial is positive left of the smaller root.
+        if self._below > 0:
+            low, high = centre - (root + 1) * unit, centre - root * unit
+        else:
+            low, high = centre + root * unit, centre + (root + 1) * unit
+        self.low, self.high = max(self.low, low), min(self.high, high)
+
+    def refine_to(self, width: QQ) -> None:
+        """Refine until ``high - low <= width`` (positive)."""
+        while self.high - self.low > width:
+            self.refine()
+
+    def compare_rational(self, q: QQ) -> int:
+        """-1, 0 or 1 as this number is smaller than, equal to, or larger than ``q``."""
+        if self.high < q:
+            return -1
+        if self.low > q:
+            return 1
+        if self.low == self.high:
+            return 0
+        s = sign_at(self.polynomial, q)
+        if s == 0:
+            self._become(q)
+            return 0
+        if s == self._below:
+            self.low = q
+            return 1
+        self.high = q
+        return -1
+
+    def simplified(self) -> Self:
+        """This number, recognised in place if it is rational, whatever its polynomial.
+
+        A rational root p/q of an integer polynomial has q dividing the leading
+        coefficient c (Gauss), so c * root is an integer: one candidate is left once
+        the interval is narrower than 1/c.
+        """
+        if self.low < self.high and len(self.polynomial) > 3:
+            lead = self.polynomial[-1]
+            self.refine_to(QQ(ZZ(1), 2 * lead))
+            self.compare_rational(QQ(floor(self.high * lead), lead))
+        return self
+
+
+def _discriminant(f: IntPoly) -> ZZ:
+    return f[1] * f[1] - 4 * f[0] * f[2]

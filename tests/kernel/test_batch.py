@@ -1,0 +1,72 @@
+"""The batch filters against the scalar ones: the same answers, bit for bit."""
+
+import math
+import random
+
+import numpy as np
+import pytest
+from attacks import answer, extreme, generic, hostile
+
+from exactpt.kernel import batch
+
+
+def answers(cases):
+    """What the batch filter of the cases' degree says, one case a row."""
+    columns = [
+        np.array(column) for column in zip(*(case.c + case.e for case in cases), strict=True)
+    ]
+    times = [
+        np.array([getattr(q, name) for q in cases]) for name in ("now_low", "now_high", "horizon")
+    ]
+    ask = batch.linears if len(columns) == 4 else batch.quadratics
+    said = ask(*columns, *times, np.array([case.at_root for case in cases]))
+    return [tuple(row) for row in zip(*(column.tolist() for column in said), strict=True)]
+
+
+@pytest.mark.parametrize("degree", [1, 2])
+@pytest.mark.parametrize("make", [hostile, extreme])
+def test_answers_are_those_of_the_scalar_filter(make, degree):
+    rng = random.Random(degree)
+    cases = [make(rng, degree) for _ in range(2_000)]
+
+    said = answers(cases)
+
+    assert said == [answer(case) for case in cases]
+    assert {s for s, _, _ in said} == {-1, 0, 1}
+    assert any(math.isfinite(low) and s for s, low, _ in said)
+
+
+def test_generic_certificates_are_decided():
+    rng = random.Random(0)
+    said = answers([generic(rng, 1) for _ in range(500)])
+
+    assert sum(s != 0 for s, _, _ in said) > 495
+
+
+def test_one_now_for_all():
+    c0, c1, c2 = np.array([[-4.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]).T
+    none = np.zeros(3)
+
+    said = batch.quadratics(c0, c1, c2, none, none, none, 0.5, 0.5, 10.0, none > 0.0)
+
+    assert said.signs.tolist() == [-1, 1, 1]
+    assert said.lows[0] <= 2.0 <= said.highs[0] < 2.0 + 1e-12
+    assert said.lows[1:].tolist() == [math.inf, math.inf]
+
+
+def test_none_at_all():
+    none = np.zeros(0)
+
+    assert [
+        len(column) for column in batch.linears(none, none, none, none, 0.0, 0.0, 1.0, none > 0.0)
+    ] == [0] * 3
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_nan_and_infinity_end_as_unsure(bad):
+    for i in range(3):
+        c = [np.array([x]) for x in (1.0, -3.0, 1.5)]
+        c[i] = np.array([bad])
+        none = np.zeros(1)
+
+        assert batch.quadratics(*c, none, none, none, 0.0, 0.0, 10.0, none > 0.0).signs[0] == 0
