@@ -4,7 +4,7 @@ from collections import Counter
 from random import Random
 
 import pytest
-from point_audits import run_and_audit, structure_of, tangents_by_slope
+from point_audits import points_at, run_and_audit, structure_of, tangents_by_slope
 
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.detector import first_contact
@@ -218,3 +218,95 @@ def test_many_meet_at_one_time():
     assert found.time == 2
     assert len(found.pairs) == 3 + 1 + 1
     assert found.to_json() == first_contact_allpairs(scene).to_json()
+
+
+def changes_of_tangents(scene):
+    """How often u(p) and d(p) of each point change, by the trees; the tiling at the end."""
+    kinetic = start_tiling(scene, "incremental", scene.start)
+    before = [tree.parent[:] for tree in kinetic.structure.trees]
+    counts = [[0] * len(parents) for parents in before]
+    for _ in kinetic.run():
+        for tree, parents, count in zip(kinetic.structure.trees, before, counts, strict=True):
+            for p, z in enumerate(tree.parent):
+                if z != parents[p]:
+                    parents[p] = z
+                    count[p] += 1
+    return counts, kinetic
+
+
+def spread(n, seed, degree=1):
+    """Random points in general position, with motions of a degree."""
+    rng = Random(f"{n} {seed} {degree}")
+
+    def coordinate():
+        return [rng.randint(-(10**6), 10**6) // (i + 1) for i in range(degree + 1)]
+
+    bodies = [Body(f"p{i}", [{"x": coordinate(), "y": coordinate()}]) for i in range(n)]
+    return Scene(bodies, (0, 3))
+
+
+@pytest.mark.parametrize("degree", [1, 2])
+def test_theorem_3_2(degree):
+    """Every event moves one edge or two, takes O(1) certificates, and 3n - 5 are enough.
+
+    The edges stay as they are only when two of the first three points change places.
+    """
+    for seed in range(4):
+        scene = spread(24, seed, degree)
+        kinetic = start_tiling(scene, "incremental", scene.start)
+        n, made = len(scene.bodies), kinetic.certifier.made
+        assert made == 3 * n - 5
+        while (step := kinetic.advance(scene.end)) is not None:
+            for event in step:
+                assert len(event.removed) <= 2
+                assert len(event.added) <= 2
+                if not event.removed + event.added:
+                    assert event.kind == "x-order"
+                    first = kinetic.structure.order[:3]
+                    assert {event.time.a, event.time.b} <= set(first)
+        assert kinetic.certifier.made - made <= 8 * kinetic.stats.total
+        assert kinetic.stats.most <= 3 * n - 5
+        assert kinetic.stats.rebuilds == 0
+
+
+def test_theorem_3_3():
+    """u(p) changes as often as an envelope of n partial functions: lambda_4(n), nearly n.
+
+    In linear motion a slope to p is a fraction of linear functions: two are equal twice at
+    most, and each is defined until or from one time on.
+    """
+    for seed in range(3):
+        scene = spread(40, seed)
+        counts, kinetic = changes_of_tangents(scene)
+        assert kinetic.stats.total > 200
+        assert max(map(max, counts)) < 2 * len(scene.bodies)
+
+
+def test_theorem_3_4():
+    """The fan changes at most n^(4/3) lambda_s(n) times, here with the constant 1."""
+    for seed in range(3):
+        scene = spread(40, seed)
+        vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
+        kinetic = IncrementalTiling(vertices, scene.start, scene.end, fan=True)
+        for _ in kinetic.run():
+            pass
+        assert kinetic.stats.total < kinetic.stats.fan < 40 ** (7 / 3)
+
+
+def test_tangents_change_when_slopes_are_equal():
+    """Paper, section 3.3: u(p) and d(p) are envelopes; they change at no other times."""
+    for seed in range(3):
+        scene = spread(9, seed)
+        kinetic = start_tiling(scene, "incremental", scene.start)
+        times = [float(scene.start)]
+        while kinetic.advance(scene.end) is not None:
+            times.append(float(kinetic.now))
+        rng = Random(seed)
+        for _ in range(40):
+            i = rng.randrange(len(times) - 1)
+            low, high = QQ(times[i]), QQ(times[i + 1])
+            margin = (high - low) / 100
+            early, late = low + margin, high - margin
+            assert tangents_by_slope(points_at(scene, early)) == tangents_by_slope(
+                points_at(scene, late)
+            )
