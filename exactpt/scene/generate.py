@@ -49,6 +49,7 @@ POINTS: Final[dict[str, Family]] = {
     "linear_points": points.linear_points,
     "ballistic_points": points.ballistic_points,
     "piecewise_points": points.piecewise_points,
+    "turning_points": points.turning_points,
     "grid_points": points.grid_points,
     "point_convoy": points.point_convoy,
     "points_in_line": points.points_in_line,

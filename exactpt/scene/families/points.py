@@ -7,7 +7,7 @@ from random import Random
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
-from exactpt.motion.motions import Pieces, SimpleMotion, Translation
+from exactpt.motion.motions import Pieces, Rigid, SimpleMotion, Translation
 from exactpt.scene.families.shapes import poly, velocity
 from exactpt.scene.scene import Scene
 
@@ -21,6 +21,7 @@ __all__ = [
     "point_convoy",
     "points_in_line",
     "simultaneous_swaps",
+    "turning_points",
 ]
 
 
@@ -73,6 +74,21 @@ def piecewise_points(rng: Random) -> Scene:
         for i, (p, motion) in enumerate(zip(_distinct(rng, n, 1000), motions, strict=True))
     ]
     return Scene(bodies, (0, 3))
+
+
+def turning_points(rng: Random) -> Scene:
+    """Points on circles, some in step about one pivot, and others that pass."""
+    n = rng.randint(2, 7)
+    in_step = Rigid(poly(0, rng.choice([QQ(1), QQ(-1, 2)])), pivot=(QQ(3), QQ(3)))
+    motions: list[SimpleMotion] = []
+    for _ in range(n):
+        own = Rigid(
+            poly(0, QQ(rng.choice([-2, -1, 1, 2]), 2)),
+            x=[0, rng.randint(-1, 1)],
+            pivot=(QQ(rng.randint(0, 6)), QQ(rng.randint(0, 6))),
+        )
+        motions.append(rng.choice([in_step, in_step, own, velocity(rng, 2)]))
+    return Scene(_points(_distinct(rng, n, 7), motions), (0, 2))
 
 
 def grid_points(rng: Random) -> Scene:

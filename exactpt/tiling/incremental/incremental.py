@@ -70,6 +70,7 @@ class IncrementalTiling(Tiling):
         super().__init__(vertices, start, end, exact_only=exact_only)
         self._chains = chains
         self._fan = fan
+        self._mesh: Mesh | None = None
         self._allowed: int = PATIENCE * len(vertices.all)
         structure = sweep_at(Instant(vertices, start, exact_only=exact_only))
         if chains == "searchable":
@@ -108,8 +109,10 @@ class IncrementalTiling(Tiling):
 
     @property
     def mesh(self) -> Mesh:
-        """The tiling just after the current time."""
-        return mesh_of(self.structure)
+        """The tiling just after the current time; made anew after every event."""
+        if self._mesh is None:
+            self._mesh = mesh_of(self.structure)
+        return self._mesh
 
     def mesh_now(self, time: QQ) -> Mesh:
         """The tiling at a rational time: the current one, or one before the next event.
@@ -139,6 +142,7 @@ class IncrementalTiling(Tiling):
 
     def _process(self, time: EventTime, entries: list[tuple[int, EventTime]]) -> None:
         self.certifier.move_to(time, [(t.a, t.b, t.c) for _, t in entries])
+        self._mesh = None
         slots = [slot for slot, _ in entries]
         level = [slot // KINDS for slot in slots if slot % KINDS == ORDER]
         if level and (touches := coinciding(self.certifier, self.structure, level)):
