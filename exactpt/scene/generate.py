@@ -52,6 +52,7 @@ POINTS: Final[dict[str, Family]] = {
     "turning_points": points.turning_points,
     "grid_points": points.grid_points,
     "point_convoy": points.point_convoy,
+    "point_grids_passing": points.point_grids_passing,
     "points_in_line": points.points_in_line,
     "crossing_lines": points.crossing_lines,
     "parabola_points": points.parabola_points,

@@ -121,6 +121,28 @@ def test_fan_changes(family):
                 assert m - n >= len(before ^ after)
 
 
+@pytest.mark.parametrize(
+    ("velocity", "offset"),
+    [
+        ((1, 0), (-5, QQ(1, 2))),
+        ((0, 1), (QQ(1, 2), QQ(-11, 2))),
+        ((1, 1), (-5, QQ(-14, 3))),
+        ((2, 1), (-10, QQ(-34, 7))),
+    ],
+)
+def test_two_grids_pass_through_each_other(velocity, offset):
+    """Two rigid 5 x 5 grids of points: whole columns change places at one time."""
+    (dx, dy), (x, y) = velocity, offset
+    cells = [(i, j) for i in range(5) for j in range(5)]
+    bodies = [Body(f"s{i}.{j}", [(i, j)]) for i, j in cells]
+    motion = Translation([0, dx], [0, dy])
+    bodies += [Body(f"m{i}.{j}", [(i + x, j + y)], motion) for i, j in cells]
+    kinetic, contact, gaps = run_and_audit(Scene(bodies, (0, 20)), by_slope=True)
+    assert contact is None
+    assert gaps > 8
+    assert kinetic.stats.total > 50
+
+
 @pytest.mark.parametrize("size", [3, 6, 50])
 @pytest.mark.parametrize("count", [1, 2, 3, 8, 30])
 def test_sweep_is_the_definition(size, count):

@@ -19,6 +19,7 @@ __all__ = [
     "parabola_points",
     "piecewise_points",
     "point_convoy",
+    "point_grids_passing",
     "points_in_line",
     "simultaneous_swaps",
     "turning_points",
@@ -87,7 +88,8 @@ def turning_points(rng: Random) -> Scene:
             x=[0, rng.randint(-1, 1)],
             pivot=(QQ(rng.randint(0, 6)), QQ(rng.randint(0, 6))),
         )
-        motions.append(rng.choice([in_step, in_step, own, velocity(rng, 2)]))
+        choices: list[SimpleMotion] = [in_step, in_step, own, velocity(rng, 2)]
+        motions.append(rng.choice(choices))
     return Scene(_points(_distinct(rng, n, 7), motions), (0, 2))
 
 
@@ -108,6 +110,25 @@ def point_convoy(rng: Random) -> Scene:
     choices: list[SimpleMotion] = [velocity(rng, 2) for _ in range(rng.randint(1, 3))]
     motions = [rng.choice(choices) for _ in range(n)]
     return Scene(_points(_distinct(rng, n, size), motions), (0, 6))
+
+
+def point_grids_passing(rng: Random) -> Scene:
+    """Two grids, one passing through the gaps of the other: whole columns at one time."""
+    n = rng.randint(2, 4)
+    dx, dy = rng.choice([(1, 0), (0, 1), (1, 1), (2, 1)])
+    gap = rng.choice([QQ(1, 2), QQ(1, 3), QQ(0)])
+    far = n * max(dx, dy)
+    bodies = [Body(f"s{i}.{j}", [(i, j)]) for i in range(n) for j in range(n)]
+    bodies += [
+        Body(
+            f"m{i}.{j}",
+            [(i - far * dx + gap * dy, j - far * dy + gap)],
+            Translation([0, dx], [0, dy]),
+        )
+        for i in range(n)
+        for j in range(n)
+    ]
+    return Scene(bodies, (0, 3 * n))
 
 
 def points_in_line(rng: Random) -> Scene:
