@@ -19,14 +19,15 @@ def first_contact(
 
     Args:
         scene: what moves.
-        tiling: which tiling to keep, one of `TILINGS`; "auto" is "lazy", which has the
-            fewest events.
+        tiling: which tiling to keep, one of `TILINGS`; "auto" is "incremental" for points
+            alone, else "lazy", which has the fewest events.
         exact_only: decide everything by exact arithmetic, without the float filters.
     """
     touches, overlaps = initial_touches(scene)
     if overlaps:
         return contact_of(scene, AlgebraicNumber(scene.start), touches, overlaps)
-    name = "lazy" if tiling == "auto" else tiling
+    points = all(body.size == 1 for body in scene.bodies)
+    name = "lazy" if tiling == "auto" and not points else tiling
     kinetic = start_tiling(scene, name, scene.start, exact_only=exact_only)
     try:
         for _ in kinetic.run():
