@@ -12,17 +12,20 @@ from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["TILINGS", "TilingPlan", "plan_tiling", "start_tiling"]
+__all__ = ["POINT_TILING", "TILINGS", "TilingPlan", "plan_tiling", "start_tiling"]
 
-TILINGS: Final = ("incremental", "greedy", "mixed", "lazy")
-"""The tilings by name."""
+TILINGS: Final = ("greedy", "mixed", "lazy")
+"""The tilings of any bodies, by name."""
+
+POINT_TILING: Final = "incremental"
+"""The tiling of points alone."""
 
 
 class TilingPlan(NamedTuple):
     """A tiling chosen, not built yet.
 
     Attributes:
-        name: one of `TILINGS`.
+        name: one of `TILINGS`, or `POINT_TILING`.
         kind: the class that keeps it.
         vertices: from a time on.
         end: of the time span.
@@ -50,13 +53,15 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
     Raises:
         InputError: if there is no such tiling, or it is not for these bodies.
     """
-    if name != "auto" and name not in TILINGS:
-        raise InputError(f"no tiling {name!r}; there are: auto, {', '.join(TILINGS)}")
-    if name == "incremental" or (name == "auto" and all(b.size == 1 for b in scene.bodies)):
+    names = ("auto", POINT_TILING, *TILINGS)
+    if name not in names:
+        raise InputError(f"no tiling {name!r}; there are: {', '.join(names)}")
+    points = all(body.size == 1 for body in scene.bodies)
+    if name == POINT_TILING or (name == "auto" and points):
         from exactpt.tiling.incremental.incremental import IncrementalTiling
 
         vertices = IncrementalTiling.vertices_of(scene.bodies, start, scene.end)
-        return TilingPlan("incremental", IncrementalTiling, vertices, scene.end)
+        return TilingPlan(POINT_TILING, IncrementalTiling, vertices, scene.end)
     vertices = Vertices(scene.bodies, start, scene.end)
     convex = name in ("auto", "greedy") and Instant(vertices, start).all_stay_convex()
     if name == "auto":
