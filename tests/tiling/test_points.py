@@ -332,3 +332,33 @@ def test_tangents_change_when_slopes_are_equal():
             assert tangents_by_slope(points_at(scene, early)) == tangents_by_slope(
                 points_at(scene, late)
             )
+
+
+@pytest.mark.parametrize("factor", [QQ(10**40), QQ(1, 10**40), QQ(1, 3)])
+@pytest.mark.parametrize("family", ["linear_points", "grid_points", "points_in_line"])
+def test_scale_and_place_change_nothing(family, factor):
+    """Far beyond doubles, or moved by a third: the same events."""
+    for seed in range(3):
+        scene = generate(family, seed)
+        moved = [
+            Body(
+                body.name,
+                [{"x": [c * factor for c in x], "y": [c * factor for c in y]}],
+            )
+            for body in scene.bodies
+            for x, y in [coordinates(body)]
+        ]
+        runs = [
+            [(event.kind, event.removed, event.added) for event in Simulation(each).run()]
+            for each in (scene, Scene(moved, (scene.start, scene.end)))
+        ]
+        assert runs[0] == runs[1]
+
+
+def coordinates(body):
+    """The polynomials x and y of a point that translates."""
+    track = body.piece_after(QQ(0)).tracks[0]
+    return (
+        [QQ(c) / track.w[0] + QQ(1, 7) * (i == 0) for i, c in enumerate(f)] or [QQ(1, 7)]
+        for f in (track.x, track.y)
+    )
