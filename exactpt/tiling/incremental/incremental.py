@@ -207,8 +207,8 @@ class IncrementalTiling(Tiling):
         kind = self._kind(side, b)
         p, old, new, changed = structure.repair(side, b)
         there = structure.trees[1 - side].parent[p]
-        removed = () if there == old else ((p, old),)
-        added = () if there == new else ((p, new),)
+        removed = () if there == old else (_edge(p, old),)
+        added = () if there == new else (_edge(p, new),)
         self._record(kind, removed, added)
         if self._fan:
             # The edge past the middle point goes or comes; and so, if a tile lies beyond
@@ -251,7 +251,7 @@ class IncrementalTiling(Tiling):
     def _edges_of(self, *points: int) -> set[tuple[int, int]]:
         """The edges from some points to the left."""
         return {
-            (p, tree.parent[p]) if p > tree.parent[p] else (tree.parent[p], p)
+            _edge(p, tree.parent[p])
             for tree in self.structure.trees
             for p in points
             if tree.parent[p] >= 0
@@ -289,3 +289,7 @@ class IncrementalTiling(Tiling):
 
     def _x_comparison(self, p: int, q: int) -> int:
         return 0 if p == q else -1 if self._certified.after.left_of(p, q) else 1
+
+
+def _edge(u: int, v: int) -> tuple[int, int]:
+    return (u, v) if u < v else (v, u)
