@@ -137,7 +137,7 @@ def test_two_grids_pass_through_each_other(velocity, offset):
     bodies = [Body(f"s{i}.{j}", [(i, j)]) for i, j in cells]
     motion = Translation([0, dx], [0, dy])
     bodies += [Body(f"m{i}.{j}", [(i + x, j + y)], motion) for i, j in cells]
-    kinetic, contact, gaps = run_and_audit(Scene(bodies, (0, 20)), by_slope=True)
+    kinetic, contact, gaps = run_and_audit(Scene(bodies, (0, 20)))
     assert contact is None
     assert gaps > 8
     assert kinetic.stats.total > 50
