@@ -1,10 +1,8 @@
 """The moving vertices of a scene: what every tiling is built on.
 
 Each body becomes a ring of vertices, counter-clockwise, with the body on the left of
-its edges. So that every ring turns around an inside, thin bodies get an infinitesimal
-one: a point becomes a triangle and a segment a rectangle, whose vertices are several
-copies of one vertex of the scene. A copy carries the direction of its offset, which says
-only in which directions a line may touch it. Contacts are decided without the offsets.
+its edges. So that every ring turns around an inside, thin bodies get an infinitesimal one
+(`exactpt.motion.thin`). Contacts are decided without it.
 """
 
 from __future__ import annotations
@@ -12,12 +10,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final, final
 
-from exactpt.errors import InputError
 from exactpt.geometry.polygon import signed_area2
-from exactpt.kernel.integer_polynomial import IntPoly, multiply, subtract
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.motion.convexity import stays_convex
 from exactpt.motion.frame import Frame, Image, frame_for
+from exactpt.motion.thin import Offset, thin_offsets, thin_ring
 from exactpt.motion.track import Track
 
 if TYPE_CHECKING:
@@ -27,9 +24,6 @@ __all__ = ["MovingBody", "Vertex", "Vertices"]
 
 _NO_TRACK: Final = Track((), (), (ZZ(1),), None)
 _NO_IMAGE: Final = Image([0.0], [0.0], [], -1)
-
-# A triangle with no side in a direction that rows and columns of points have.
-_POINT_OFFSETS: Final = ((-3, 1), (1, -4), (2, 3))
 
 
 @final
@@ -42,8 +36,7 @@ class Vertex:
         index: the vertex of the scene that it is (the copies of a thin body share it).
         track: its path until the body's next breakpoint.
         image: the track in doubles.
-        offset: the direction (dx, dy) of its infinitesimal offset, polynomials in t; None
-            unless the body is thin.
+        offset: the direction of its infinitesimal offset; None unless the body is thin.
         ahead, behind: the ids of its neighbours on the ring.
     """
 
@@ -55,7 +48,7 @@ class Vertex:
         self.index: int = index
         self.track: Track = track
         self.image: Image = image
-        self.offset: tuple[IntPoly, IntPoly] | None = None
+        self.offset: Offset | None = None
         self.ahead: int = -1
         self.behind: int = -1
 
@@ -66,7 +59,8 @@ class MovingBody:
 
     Attributes:
         ring: vertex ids, counter-clockwise.
-        until: the next rational time at which its tracks change; None if there is none.
+        until: the next rational time at which its tracks, or offsets, change; None if
+            there is none.
         horizon: a double at least ``until`` in the frame; infinite for None.
         deforms: whether distances between its vertices may change, in the current piece.
         is_tiled: whether its inside is tiled: it deforms at some time, has a diagonal, and
@@ -102,6 +96,7 @@ class Vertices:
         positions = [body.at(start) for body in bodies]
         flat = [p for points in positions for p in points]
         self.frame: Frame = frame_for(flat or [(QQ(0), QQ(0))], start, end)
+        self._end = end
         self.all: list[Vertex] = []
         self.bodies: list[MovingBody] = []
         for i, body in enumerate(bodies):
@@ -118,6 +113,7 @@ class Vertices:
             self.enter_piece(i, start)
             moving.is_tiled = (
                 len(positions[i]) > 3
+                and body.closed
                 and self._ever_deforms(i, start)
                 and not stays_convex(body, [self.all[v].index for v in moving.ring], start, end)
             )
@@ -134,15 +130,24 @@ class Vertices:
         """Give the vertices of a body the tracks that hold just after a rational time."""
         moving = self.bodies[i]
         piece = moving.body.piece_after(t)
-        moving.until = piece.until
-        moving.horizon = float("inf") if piece.until is None else self.frame.time(piece.until)[1]
+        self._set_until(moving, piece.until)
         images = [self.frame.image(track) for track in piece.tracks]
         moving.deforms = _deforms(images)
-        for copy, vertex_id in enumerate(moving.ring):
+        for vertex_id in moving.ring:
             vertex = self.all[vertex_id]
             vertex.track = piece.tracks[vertex.index]
             vertex.image = images[vertex.index]
-            vertex.offset = _offset(piece.tracks, copy) if len(moving.ring) > 1 else None
+        if _is_thin(moving.body) and len(moving.ring) > 1:
+            end = self._end if piece.until is None else min(piece.until, self._end)
+            offsets = thin_offsets(piece.tracks, t, end)
+            for vertex_id, offset in zip(moving.ring, offsets.directions, strict=True):
+                self.all[vertex_id].offset = offset
+            if offsets.until is not None and offsets.until < end:
+                self._set_until(moving, offsets.until)
+
+    def _set_until(self, moving: MovingBody, until: QQ | None) -> None:
+        moving.until = until
+        moving.horizon = float("inf") if until is None else self.frame.time(until)[1]
 
     def name(self, vertex_id: int) -> str:
         """The name in event logs: ``"body:vertex"``."""
@@ -156,30 +161,11 @@ def _deforms(images: Sequence[Image]) -> bool:
 
 
 def _ring_indices(body: Body, positions: list[tuple[QQ, QQ]]) -> list[int]:
-    size = len(positions)
-    if size == 1:
-        return [0, 0, 0]
-    if size == 2:
-        return [0, 0, 1, 1]
-    if not body.closed:
-        raise InputError(f"body {body.name!r}: open chains have no tiling yet")
-    ring = list(range(size))
+    if _is_thin(body):
+        return thin_ring(body.size)
+    ring = list(range(body.size))
     return ring if signed_area2(positions) > 0 else ring[::-1]
 
 
-def _offset(tracks: Sequence[Track], copy: int) -> tuple[IntPoly, IntPoly] | None:
-    """The offset of the copy-th ring vertex of a thin body.
-
-    A segment from a to b has the ring a-left, a-right, b-right, b-left; "left" is the
-    direction (-dy, dx) for (dx, dy) = b - a, whatever its length.
-    """
-    if len(tracks) == 1:
-        right, up = _POINT_OFFSETS[copy]
-        return (ZZ(right),), (ZZ(up),)
-    if len(tracks) == 2:
-        a, b = tracks
-        dx = subtract(multiply(b.x, a.w), multiply(a.x, b.w))
-        dy = subtract(multiply(b.y, a.w), multiply(a.y, b.w))
-        left = copy in (0, 3)
-        return (subtract((), dy), dx) if left else (dy, subtract((), dx))
-    return None
+def _is_thin(body: Body) -> bool:
+    return body.size < 3 or not body.closed

@@ -39,6 +39,7 @@ SIMPLE: Final[dict[str, Family]] = {
     "spirals": simple.spirals,
     "clamps": simple.clamps,
     "letters": simple.letters,
+    "chains": simple.chains,
 }
 """Families with simple polygons of any shape."""
 

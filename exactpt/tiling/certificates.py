@@ -100,7 +100,11 @@ class Certifier:
         motion = va.image.motion
         if motion >= 0 and motion == vb.image.motion and motion == vc.image.motion:
             return True
-        return va.offset is not None and va.body == vb.body and va.body == vc.body
+        return (
+            va.offset is not None
+            and va.body == vb.body == vc.body
+            and self._vertices.bodies[va.body].body.size < 3
+        )
 
     def keeps_x_order(self, a: int, b: int) -> bool:
         """Whether two vertices keep the difference of their x coordinates for ever."""

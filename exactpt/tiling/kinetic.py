@@ -226,9 +226,11 @@ class KineticTiling(Tiling):
         moving = self.vertices.bodies[i]
         if moving.until is None:
             raise AuditError(f"body {i} has no next piece")
+        changes = moving.until in moving.body.breakpoints  # else only its offsets do
         self.vertices.enter_piece(i, moving.until)
         self._schedule_piece(i)
-        self._record("motion", (), ())
+        if changes:
+            self._record("motion", (), ())
         return self._certify_body(i)
 
     def _certify_body(self, i: int) -> list[int]:

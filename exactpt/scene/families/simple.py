@@ -13,7 +13,17 @@ from exactpt.motion.motions import Motion, Rigid, Translation
 from exactpt.scene.families.shapes import box, cells, poly, shape, velocity
 from exactpt.scene.scene import Scene
 
-__all__ = ["blobs", "clamps", "combs", "letters", "spirals", "star", "stars", "turning_stars"]
+__all__ = [
+    "blobs",
+    "chains",
+    "clamps",
+    "combs",
+    "letters",
+    "spirals",
+    "star",
+    "stars",
+    "turning_stars",
+]
 
 # Directions around a circle, in order; exact, of about equal length.
 _CIRCLE = [
@@ -69,6 +79,33 @@ def blobs(rng: Random) -> Scene:
             for x, y in outline
         ]
         bodies.append(_body(f"b{i}", vertices, Translation()))
+    return Scene([b for b in bodies if b is not None], (0, rng.choice([1, 2])))
+
+
+def chains(rng: Random) -> Scene:
+    """Open chains that translate, turn or bend, among other bodies."""
+    k = rng.randint(2, 6)
+    bodies = []
+    for i, c in enumerate(cells(rng, k, 100)):
+        move = velocity(rng, 40)
+        if rng.random() < 0.3:
+            bodies.append(_body(f"b{i}", shape(rng, c, 40), move))
+            continue
+        line = star(rng, c, 45, rng.randint(4, 9))
+        if rng.random() < 0.3:  # straight on at one vertex
+            line.insert(1, ((line[0][0] + line[1][0]) / 2, (line[0][1] + line[1][1]) / 2))
+        kind = rng.randrange(3)
+        if kind == 0:
+            bodies.append(Body(f"b{i}", line, move, closed=False))
+        elif kind == 1:
+            turn = Rigid(poly(0, QQ(rng.randint(-3, 3), 4)), pivot=c, x=move.x, y=move.y)
+            bodies.append(Body(f"b{i}", line, turn, closed=False))
+        else:
+            paths = [
+                (Polynomial([x, rng.randint(-8, 8)]), Polynomial([y, rng.randint(-8, 8)]))
+                for x, y in line
+            ]
+            bodies.append(Body(f"b{i}", paths, move, closed=False))
     return Scene([b for b in bodies if b is not None], (0, rng.choice([1, 2])))
 
 

@@ -73,7 +73,7 @@ class ShadowedTiling(FlippingTiling):
         vertex = self.vertices.all[v]
         slot = KINDS * v + TURN
         self.queue.cancel(slot)
-        if self.vertices.bodies[vertex.body].is_tiled:
+        if not self.certifier.rigid(vertex.ahead, v, vertex.behind):
             s, time = self.certifier.orientation(vertex.ahead, v, vertex.behind)
             if s > 0 and time is not None:
                 self.queue.schedule(slot, time)
