@@ -220,12 +220,13 @@ def _row(name: str, sizes: Sequence[int], costs: Sequence[float]) -> None:
     say(f"{name:24}" + "".join(f"{c:>9.1f}" for c in costs) + f"{p:>8.2f}")
 
 
-def chains(sizes: Sequence[int], seed: int) -> None:
-    """Chains walked along, and searched."""
-    for title, family in (
-        ("short chains: random, linear", random_linear),
-        ("long chains: an exchange beside an arc, with two new plans of motion", swaps_beside_arc),
+def chains(_sizes: Sequence[int], seed: int) -> None:
+    """Chains walked along, and searched; of the same sizes always."""
+    for title, family, largest in (
+        ("short chains: random, linear", random_linear, 500),
+        ("long: an exchange beside an arc, with two new plans of motion", swaps_beside_arc, 2000),
     ):
+        sizes = [n for n in SIZES if n <= largest]
         say(f"\nMicroseconds an event ({title}); p: exponent from n = 500 on")
         say(f"{'':24}" + "".join(f"{n:>9}" for n in sizes) + f"{'p':>8}")
         kinds: tuple[Chains, ...] = ("linked", "searchable", "auto")

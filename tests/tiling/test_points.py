@@ -1,5 +1,6 @@
 """The incremental pseudo-triangulation of points: kinetic, static, by definition, by counts."""
 
+import math
 from collections import Counter
 from random import Random
 
@@ -18,7 +19,9 @@ from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.incremental.fan import chain, fan_edges
 from exactpt.tiling.incremental.incremental import IncrementalTiling
+from exactpt.tiling.incremental.paths import SearchableTree
 from exactpt.tiling.incremental.static import sweep_at
+from exactpt.tiling.incremental.structure import UPPER
 from exactpt.tiling.instant import Instant
 
 GENERIC = ("linear_points", "ballistic_points", "piecewise_points")
@@ -100,6 +103,37 @@ def test_searchable_chains_equal_linked_ones(family, count):
             continue
         assert len({str(kinetic.stats.events) for kinetic, _, _ in results}) == 1
         assert len({str(structure_of(kinetic.structure)) for kinetic, _, _ in results}) == 1
+
+
+def test_long_chains_are_searched():
+    """Two points change places beside an arc: walked along it is n steps, searched log n."""
+    n, swaps = 400, 100
+    arc = [Body(f"a{y}", [(-y * y, 2 * y)]) for y in range(-n + 1, n, 2)]
+    scene = Scene(
+        [
+            *arc,
+            *(
+                Body(name, keyframes=[(t, [(n * n + s * (-1) ** t, y)]) for t in range(swaps + 1)])
+                for name, s, y in (("p", 1, 3 * n), ("q", -1, -3 * n))
+            ),
+        ],
+        (0, swaps),
+    )
+    steps, ends = {}, set()
+    for chains in ("linked", "searchable", "auto"):
+        vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
+        kinetic = IncrementalTiling(vertices, scene.start, scene.end, chains=chains)
+        for _ in kinetic.run():
+            pass
+        trees = kinetic.structure.trees
+        ends.add(str(structure_of(kinetic.structure)))
+        assert kinetic.stats.events["x-order"] == swaps
+        assert isinstance(trees[UPPER], SearchableTree) == (chains != "linked")
+        steps[chains] = sum(tree.steps for tree in trees)
+    assert len(ends) == 1
+    assert steps["linked"] > n // 4 * swaps
+    assert steps["searchable"] < n + 4 * math.log2(n) * swaps
+    assert steps["searchable"] < steps["auto"] < steps["linked"]
 
 
 @pytest.mark.parametrize("family", sorted(POINTS))
