@@ -140,7 +140,7 @@ def parabola_on_line(n: int, seed: int) -> Scene:
         at = (-1000 * y * y + rng.randint(0, 999), 1000 * y + rng.randint(0, 9))
         bodies.append(Body(f"a{i}", [at], Translation([0, 1000 * m])))
     for i in range(n - m):
-        at = (rng.randint(1000, 2000) * (i + 1), 1000 * (2 * i - m) + rng.randint(0, 999))
+        at = (rng.randint(1000, 2000) * (i + 1), 1000 * (2 * i - m) + rng.randint(10, 999))
         bodies.append(Body(f"b{i}", [at], Translation([0, rng.randint(-30, 30)])))
     return Scene(bodies, (0, 2 * m))
 
@@ -158,7 +158,7 @@ def turns_beside_arc(n: int, seed: int) -> Scene:
         y = 2 * i - m
         bodies.append(Body(f"a{i}", [(-1000 * y * y, 8000 * y + rng.randint(0, 99))]))
     for k in range(n - m):
-        y = (1 if k % 2 else -1) * (40000 * m + rng.randint(0, 9999))
+        y = (1 if k % 2 else -1) * (40000 * m + 20 * k + rng.randint(0, 9))
         x = [1000 * (4 * m * m + k * k) + rng.randint(0, 99), -2000 * k - rng.randint(0, 9)]
         bodies.append(Body(f"b{k}", [{"x": x, "y": [y]}]))
     return Scene(bodies, (0, n - m))
