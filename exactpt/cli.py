@@ -373,11 +373,12 @@ def _search(
         from exactpt.collision.pairs import PairsSearch
 
         return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds)
+    from exactpt.collision.tilings import tiling_for_contact
     from exactpt.simulation.simulation import Simulation
 
     return Simulation(
         scene,
-        tiling="lazy" if tiling == "auto" else tiling,
+        tiling=tiling_for_contact(scene, tiling),
         exact_only=exact_only,
         max_events=max_events,
         max_seconds=max_seconds,

@@ -6,7 +6,7 @@ from typing import Final
 
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
-from exactpt.collision.tilings import start_tiling
+from exactpt.collision.tilings import start_tiling, tiling_for_contact
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.scene.scene import Scene
@@ -27,8 +27,8 @@ def first_contact(
         scene: what moves.
         method: "kinetic", by a tiling; "pairs", by a search over pairs of features without
             one; "auto", whichever is expected to be faster.
-        tiling: which tiling to keep, one of `TILINGS`; "auto" is "lazy", which has the
-            fewest events.
+        tiling: which tiling to keep, one of `TILINGS`; "auto" is "incremental" for points
+            alone, else "lazy", which has the fewest events.
         exact_only: decide everything by exact arithmetic, without the float filters.
     """
     if method not in METHODS:
@@ -40,7 +40,7 @@ def first_contact(
     touches, overlaps = initial_touches(scene)
     if overlaps:
         return contact_of(scene, AlgebraicNumber(scene.start), touches, overlaps)
-    name = "lazy" if tiling == "auto" else tiling
+    name = tiling_for_contact(scene, tiling)
     kinetic = start_tiling(scene, name, scene.start, exact_only=exact_only)
     try:
         for _ in kinetic.run():

@@ -151,7 +151,10 @@ class Certifier:
 
     def vanishes_now(self, a: int, b: int, c: int) -> bool:
         """Whether the function of these vertices is known to be zero now."""
-        return any(a in key and b in key and c in key for key in self.roots_now)
+        for key in self.roots_now:  # noqa: SIM110 - half the time of any()
+            if a in key and b in key and c in key:
+                return True
+        return False
 
     def _until(self, *vertices: Vertex) -> QQ:
         until = self.end
@@ -213,12 +216,15 @@ class Certifier:
         low, high = self._vertices.frame.enclosure(number)
         return EventTime(low, high, *key, number, crossing)
 
-    def x_order(self, a: int, b: int) -> tuple[int, EventTime | None]:
-        """Whether a is left of b just after now (1, else -1), and when that ends."""
+    def x_order(self, a: int, b: int, *, touching: bool = False) -> tuple[int, EventTime | None]:
+        """Whether a is left of b just after now (1, else -1), and when that ends.
+
+        With ``touching``, a time at which the two are level without passing counts too.
+        """
         self.made += 1
         va, vb = self._all[a], self._all[b]
         if self.exact_only or va.track is vb.track:
-            return self._exact_x_order(va, vb)
+            return self._exact_x_order(va, vb, touching=touching)
         bodies = self._vertices.bodies
         horizon = min(self._end_high, bodies[va.body].horizon, bodies[vb.body].horizon)
         s, low, high = coefficients.x_difference(
@@ -231,19 +237,22 @@ class Certifier:
             bool(self.roots_now) and self.vanishes_now(a, b, X_ORDER),
         )
         if s == 0:
-            return self._exact_x_order(va, vb)
+            return self._exact_x_order(va, vb, touching=touching)
         counters.filtered += 1
         if low > horizon:
             return s, None
         return s, EventTime(low, high, a, b, X_ORDER)
 
-    def _exact_x_order(self, a: Vertex, b: Vertex) -> tuple[int, EventTime | None]:
+    def _exact_x_order(
+        self, a: Vertex, b: Vertex, *, touching: bool
+    ) -> tuple[int, EventTime | None]:
         counters.exact += 1
         f, now = x_order(a, b), self.exact_now
-        root = next((r for r in roots_after(f, now, self._until(a, b)) if r.crossing), None)
+        roots = roots_after(f, now, self._until(a, b))
+        root = next((r for r in roots if touching or r.crossing), None)
         time = (
             None
             if root is None
-            else self._event_time(root.time, (a.id, b.id, X_ORDER), crossing=True)
+            else self._event_time(root.time, (a.id, b.id, X_ORDER), crossing=root.crossing)
         )
         return now.sign_after(f), time

@@ -223,6 +223,13 @@ def x_difference(
         values, sizes = _minor(b.xs, a.ws or ONE, a.xs, b.ws or ONE)
         unit = (4 * len(values) + 8) * U
         return _answer(values, [unit * s for s in sizes], now_low, now_high, horizon, at_root)
+    if a.degree <= 1 and b.degree <= 1:
+        c0, e0, c1, e1 = b.x0 - a.x0, 2.0 * errors[0], 0.0, 0.0
+        if not (a.motion == b.motion and a.motion >= 0):
+            c1 = b.x1 - a.x1
+            e1 = K * abs(c1) + 2.0 * errors[1]
+        e0 += K * abs(c0)
+        return filters.linear(c0, c1, e0, e1, now_low, now_high, horizon, at_root)
     values = _differences(a.xs, b.xs, a, b)
     bounds = [K * abs(v) + 2.0 * errors[i] for i, v in enumerate(values)]
     return _answer(values, bounds, now_low, now_high, horizon, at_root)
