@@ -33,6 +33,10 @@ from exactpt.scene.scene import Scene
 __all__ = ["load", "loads", "save", "to_json", "write_atomically"]
 
 VERSION: Final = 1
+MOST_DIGITS: Final = 10_000
+"""Numerators and denominators have no more: exact arithmetic would not end with many more."""
+MOST_BITS: Final = 33_220
+"""The length of the largest number with so many digits."""
 
 
 class _Number(str):
@@ -51,15 +55,16 @@ def load(path: Path) -> Scene:
     Raises:
         InputError: one line that names the file, the body, the key and the value.
     """
+    shown = path if str(path).isprintable() else repr(str(path))
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
-        raise InputError(f"{path}: cannot be read: {reason}") from None
+        raise InputError(f"{shown}: cannot be read: {reason}") from None
     try:
         return loads(text)
     except InputError as error:
-        raise InputError(f"{path}: {error}") from None
+        raise InputError(f"{shown}: {error}") from None
 
 
 def loads(text: str) -> Scene:
@@ -108,11 +113,11 @@ def _scene(data: Json) -> Scene:
 def _body(data: Json, index: int) -> Body:
     where = f"body {index}"
     if isinstance(data, dict) and isinstance(data.get("name"), str):
-        where = f"body {data['name']!r}"
+        where = f"body {shorten(str(data['name']))}"
     allowed = {"vertices", "motion", "closed", "keyframes"}
     body = _object(data, where, required=["name"], optional=allowed)
     name = body["name"]
-    if not isinstance(name, str) or isinstance(name, _Number) or not name:
+    if not isinstance(name, str) or isinstance(name, _Number) or not _is_text(name):
         raise InputError(f'{where}: "name": not a text: {_show(name)}')
     if ("vertices" in body) == ("keyframes" in body):
         raise InputError(f'{where}: needs either "vertices" or "keyframes"')
@@ -128,6 +133,14 @@ def _body(data: Json, index: int) -> Body:
         raise InputError(f'{where}: "vertices": at least one is needed')
     vertices = [_vertex(row, f"{where}: vertex {i}") for i, row in enumerate(rows)]
     return Body(name, vertices, motion, closed=closed)
+
+
+def _is_text(name: str) -> bool:
+    """Whether a name is not empty, and can be printed: no half of a surrogate pair."""
+    try:
+        return bool(name.encode())
+    except UnicodeEncodeError:
+        return False
 
 
 def _vertex(data: Json, where: str) -> Position:
@@ -213,9 +226,13 @@ def _number(data: Json, where: str) -> QQ:
     if not isinstance(data, str):
         raise InputError(f"{where}: not a number: {_show(data)}")
     try:
-        return parse_rational(data)
+        value = QQ(0) if len(data) > 3 * MOST_DIGITS else parse_rational(data)
     except InputError as error:
         raise InputError(f"{where}: {error}") from None
+    bits = max(value.numerator.bit_length(), value.denominator.bit_length())
+    if len(data) > 3 * MOST_DIGITS or bits > MOST_BITS:
+        raise InputError(f"{where}: more than {MOST_DIGITS} digits: {shorten(str(data))}")
+    return value
 
 
 def _list(data: Json, where: str, length: int | None = None) -> list[Json]:

@@ -28,6 +28,8 @@ CONVEX: Final[dict[str, Family]] = {
     "mirrored": degenerate.mirrored,
     "polygons_in_step": degenerate.polygons_in_step,
     "grazing": degenerate.grazing,
+    "concentric": degenerate.concentric,
+    "sweeping": degenerate.sweeping,
 }
 """Families of convex bodies that stay convex (points and segments included)."""
 
@@ -40,6 +42,8 @@ SIMPLE: Final[dict[str, Family]] = {
     "clamps": simple.clamps,
     "letters": simple.letters,
     "chains": simple.chains,
+    "flat": simple.flat,
+    "nested": simple.nested,
 }
 """Families with simple polygons of any shape."""
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, final
 
 from exactpt.geometry.predicates import side
 from exactpt.kernel.numbers import QQ
-from exactpt.tiling.mesh import FREE
+from exactpt.tiling.mesh import FREE, INSIDE
 
 if TYPE_CHECKING:
     from exactpt.motion.vertices import Vertices
@@ -179,6 +179,10 @@ class _Contraction:
         faces.sort(key=lambda f: f.nodes)
         return Snapshot(self.at, name, tuple(self.nodes), tuple(edges), tuple(faces))
 
+    def _is_inside(self, h: int) -> bool:
+        """Whether an edge is a diagonal within a body, which is no part of the free space."""
+        return self.mesh.region[h] == INSIDE and not self.mesh.is_boundary(h)
+
     def _contracted(self, face: Sequence[int]) -> tuple[list[int], list[int]]:
         """The nodes around a face, runs of copies as one; and the nodes of its corners."""
         ids = [self.node[self.mesh.map.origin[h]] for h in face]
@@ -219,7 +223,7 @@ class _Contraction:
         found: dict[tuple[int, int], Edge] = {}
         m = self.mesh.map
         for h in range(0, len(m.origin), 2):
-            if m.origin[h] < 0:
+            if m.origin[h] < 0 or self._is_inside(h):
                 continue
             u, v = (self.node[w] for w in self.mesh.ends(h))
             if u == v:

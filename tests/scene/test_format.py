@@ -446,7 +446,7 @@ def test_huge_numbers_are_read_or_refused_at_once():
         assert len(outcome(text)[1]) < 300
 
 
-@pytest.mark.parametrize("name", ["a\nb", "\u2028", "\ud800", "\x00", "é", "'", "x" * 5])
+@pytest.mark.parametrize("name", ["a\nb", "\u2028", "\x00", "é", "'", "x" * 5])
 def test_a_strange_name_stays_one_line(name):
     data = changed((b, BOX, "name"), name)
     data[b][BOX]["vertices"] = []

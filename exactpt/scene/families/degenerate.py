@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from random import Random
+from typing import Final
 
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
@@ -12,13 +14,17 @@ from exactpt.scene.families.shapes import box, cells, poly, shape, velocity
 from exactpt.scene.scene import Scene
 
 __all__ = [
+    "concentric",
     "convoy",
     "grazing",
+    "grids",
     "grids_passing",
     "mirrored",
     "polygons_in_step",
+    "rings",
     "row",
     "small_grid",
+    "sweeping",
 ]
 
 
@@ -36,8 +42,16 @@ def grids_passing(rng: Random) -> Scene:
     n = rng.randint(2, 4)
     pitch = rng.choice([5, 6])
     offset = rng.choice([QQ(2), QQ(3), QQ(5, 2)])
-    still = [Body(f"s{i}.{j}", box(pitch * i, pitch * j)) for i in range(n) for j in range(n)]
     velocity = rng.choice([Translation([0, 1]), Translation([0, -1]), Translation([0], [0, 1])])
+    return grids(n, pitch, offset, velocity)
+
+
+def grids(n: int, pitch: int, offset: QQ, velocity: Translation) -> Scene:
+    """A grid of n x n boxes of width 2, and one of width 1 that starts next to it.
+
+    The offset, across the velocity, is in (2, pitch - 1) if the boxes pass through gaps.
+    """
+    still = [Body(f"s{i}.{j}", box(pitch * i, pitch * j)) for i in range(n) for j in range(n)]
     far = QQ(-pitch * n)
     dx, dy = (far, offset) if velocity.x.degree == 1 else (offset, far)
     moving = [
@@ -120,3 +134,55 @@ def grazing(rng: Random) -> Scene:
         y = poly(0, rise, -rise / 4)
         bodies.append(Body(f"b{i}", outline, Translation([0, rng.randint(-1, 1)], y)))
     return Scene(bodies, (0, 4))
+
+
+def concentric(rng: Random) -> Scene:
+    """Rings of equal bodies that turn about one center, or grow from it."""
+    counts = [rng.choice([2, 4, 8]) for _ in range(rng.randint(1, 3))]
+    turns = [rng.choice([QQ(0), QQ(1, 2), QQ(1, 2), QQ(-1), QQ(1, 4)]) for _ in counts]
+    reach = rng.choice([2, 3, 4])
+    return rings(counts, turns, reach, (0, rng.choice([1, 4])))
+
+
+def rings(counts: Sequence[int], turns: Sequence[QQ], reach: int, time: tuple[int, int]) -> Scene:
+    """Around a square: rings of 2, 4 or 8 diamonds, each ring turning in step.
+
+    Args:
+        counts: how many bodies, ring by ring.
+        turns: of each ring, the tangent of half its angle at t = 1.
+        reach: half the width of a diamond; rings are 7 apart.
+        time: the span.
+    """
+    bodies = [Body("center", [(2, 0), (0, 2), (-2, 0), (0, -2)])]
+    for ring, (count, turn) in enumerate(zip(counts, turns, strict=True), start=1):
+        for i in range(0, 8, 8 // count):
+            # Points of equal distance: (4, 3), (3, 4), ... on a circle of radius 5.
+            x, y = (QQ(c * 7 * ring, 5) for c in _COMPASS[i])
+            half = QQ(reach)
+            diamond = [(x + half, y), (x, y + half), (x - half, y), (x, y - half)]
+            bodies.append(Body(f"r{ring}.{i}", diamond, Rigid(poly(0, turn))))
+    return Scene(bodies, time)
+
+
+_COMPASS: Final = ((5, 0), (4, 3), (0, 5), (-3, 4), (-5, 0), (-4, -3), (0, -5), (3, -4))
+
+
+def sweeping(rng: Random) -> Scene:
+    """Bodies that slide along the line of another's edge, on it, or a little off it."""
+    k = rng.randint(1, 4)
+    tiny = QQ(1, 10 ** rng.choice([1, 12, 40]))
+    bodies = [Body("table", box(0, -3, 6 * k, 3))]
+    for i in range(k):
+        gap = rng.choice([QQ(0), tiny, tiny, -tiny, QQ(1)])
+        size = rng.randint(1, 3)
+        left = rng.random() < 0.5
+        x = QQ(-6 * (i // 2) - 5) if left else QQ(6 * k + 2 + 6 * (i // 2))
+        above = rng.random() < 0.5
+        y = gap if above else -3 - gap - size
+        speed = QQ(rng.choice([1, 2, 2, 3]))
+        outline = box(x, y, size, size)
+        if rng.random() < 0.3:
+            edge = outline[:2] if above else outline[2:]
+            outline = edge[: rng.choice([1, 2])]
+        bodies.append(Body(f"b{i}", outline, Translation([0, speed if left else -speed])))
+    return Scene(bodies, (0, rng.choice([4, 20])))

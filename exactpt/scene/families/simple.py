@@ -18,7 +18,9 @@ __all__ = [
     "chains",
     "clamps",
     "combs",
+    "flat",
     "letters",
+    "nested",
     "spirals",
     "star",
     "stars",
@@ -239,3 +241,48 @@ def letters(rng: Random) -> Scene:
             )
         )
     return Scene(bodies, (0, rng.choice([1, 4])))
+
+
+def flat(rng: Random) -> Scene:
+    """Shapes with straight angles, of one body and between bodies that move together."""
+    k = rng.randint(1, 4)
+    bodies = []
+    for i, (x, y) in enumerate(cells(rng, k, 8)):
+        outline = [(x + a, y + b) for a, b in _LETTERS[rng.choice(sorted(_LETTERS))]]
+        split: list[Point] = []
+        for (a, b), (c, d) in zip(outline, [*outline[1:], outline[0]], strict=True):
+            split.append((a, b))
+            cuts = rng.choice([0, 0, 1, 2, 4])
+            split += [
+                (a + (c - a) * j / (cuts + 1), b + (d - b) * j / (cuts + 1))
+                for j in range(1, cuts + 1)
+            ]
+        bodies.append(Body(f"b{i}", split, velocity(rng, 1)))
+        if rng.random() < 0.5:
+            drop = box(x + QQ(rng.randint(0, 6), 2), y + 4, rng.randint(1, 2), rng.randint(1, 2))
+            size = rng.choice([1, 2, 4])
+            bodies.append(Body(f"d{i}", drop[:size], Translation([], [0, -1])))
+    return Scene(bodies, (0, rng.choice([2, 6])))
+
+
+def nested(rng: Random) -> Scene:
+    """Square brackets around each other and around a box, that slide through their openings."""
+    k = rng.randint(1, 4)
+    bodies = [Body("core", box(-1, -1), velocity(rng, 1))]
+    for i in range(1, k + 1):
+        outer, inner = QQ(3 * i + 1), QQ(3 * i)
+        gap = rng.choice([QQ(1), QQ(2), inner])
+        outline: list[Point] = [
+            (outer, gap), (outer, outer), (-outer, outer), (-outer, -outer), (outer, -outer),
+            (outer, -gap), (inner, -gap), (inner, -inner), (-inner, -inner), (-inner, inner),
+            (inner, inner), (inner, gap),
+        ]  # fmt: skip
+        outline = list(dict.fromkeys(outline))
+        if rng.random() < 0.5:
+            outline = [(-x, -y) for x, y in outline]
+        if rng.random() < 0.5:
+            outline = [(-y, x) for x, y in outline]
+        body = _body(f"ring{i}", outline, velocity(rng, 1))
+        if body is not None:
+            bodies.append(body)
+    return Scene(bodies, (0, rng.choice([1, 8])))

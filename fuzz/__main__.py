@@ -1,0 +1,148 @@
+"""The command line of the fuzzer."""
+
+from __future__ import annotations
+
+import sys
+
+import click
+
+from exactpt.cgal import find_program
+from exactpt.errors import InputError
+from exactpt.scene.generate import FAMILIES
+from fuzz import battery, corpus, planted
+from fuzz.campaign import Campaign, run
+from fuzz.cases import Outcome
+from fuzz.witnesses import WITNESSES
+
+FAILED, INTERRUPTED = 1, 130
+
+
+HELP = {"help_option_names": ["-h", "--help"]}
+
+
+@click.command("fuzz", context_settings=HELP)
+@click.argument("families", nargs=-1, type=click.Choice(sorted(FAMILIES)), metavar="[FAMILY]...")
+@click.option("--family", "more", multiple=True, type=click.Choice(sorted(FAMILIES)))
+@click.option("--witness", "witnesses", multiple=True, type=click.Choice(list(WITNESSES)))
+@click.option("--cases", "--count", "count", type=click.IntRange(min=1), help="How many scenes.")
+@click.option("--seconds", type=click.FloatRange(min=0), help="For how long.")
+@click.option("--minutes", type=click.FloatRange(min=0), help="For how long.")
+@click.option("--seed", type=int, default=0, show_default=True, help="Of the first scenes.")
+@click.option("--start", type=click.IntRange(min=0), default=0, help="Go on with this case.")
+@click.option("--jobs", type=click.IntRange(min=1), default=1, help="How many processes.")
+@click.option("--scheduler", help="The address of a Dask scheduler, instead of --jobs.")
+@click.option("--shrink", default=60.0, show_default=True, help="Seconds for each failure.")
+def fuzz(
+    families: tuple[str, ...],
+    more: tuple[str, ...],
+    witnesses: tuple[str, ...],
+    count: int | None,
+    seconds: float | None,
+    minutes: float | None,
+    seed: int,
+    start: int,
+    jobs: int,
+    scheduler: str | None,
+    shrink: float,
+) -> None:
+    r"""Look for scenes on which the witnesses disagree, by default 200 of all families.
+
+    \b
+    Examples:
+      python -m fuzz --cases 1000 --jobs 2
+      python -m fuzz row grazing --witness reference --minutes 5
+      python -m fuzz battery
+      python -m fuzz planted
+    """
+    if minutes is not None:
+        seconds = 60 * minutes
+    if count is None and seconds is None:
+        count = 200
+    campaign = Campaign(
+        families=(*families, *more) or tuple(FAMILIES),
+        witnesses=witnesses or tuple(WITNESSES),
+        seed=seed,
+        start=start,
+        count=count,
+        seconds=seconds,
+        shrink_seconds=shrink,
+    )
+    if "cgal" in campaign.witnesses:
+        _require_cgal()
+    click.echo(f"seed {seed}, from case {start} on, witnesses {', '.join(campaign.witnesses)}")
+    summary = run(campaign, _report, jobs=jobs, scheduler=scheduler)
+    click.echo("\n".join(summary.table()))
+    rate = len(summary.outcomes) / summary.seconds if summary.seconds else 0.0
+    click.echo(f"{len(summary.outcomes)} cases in {summary.seconds:.0f} s, {rate:.1f} a second")
+    if not summary.finished:
+        resume = summary.next_start(start)
+        click.echo(f"interrupted; to go on: --seed {seed} --start {resume}", err=True)
+        sys.exit(INTERRUPTED)
+    sys.exit(FAILED if summary.failed else 0)
+
+
+def _report(outcome: Outcome) -> None:
+    for failure in outcome.failures:
+        path = corpus.save(failure, outcome.case)
+        case = outcome.case
+        click.echo(f"case {case.number}, {case.family} {case.seed}: {failure.why}")
+        click.echo(f"  shrunk: {path}")
+
+
+def _require_cgal() -> None:
+    try:
+        find_program()
+    except InputError as error:
+        raise click.UsageError(f"{error}; or choose among the others with --witness") from None
+
+
+@click.command("battery", context_settings=HELP)
+@click.argument("words", nargs=-1, metavar="[WORD]...")
+@click.option("--large", is_flag=True, help="The largest scenes too (minutes).")
+@click.option("--samples", type=click.IntRange(min=0), default=5, show_default=True)
+def run_battery(words: tuple[str, ...], large: bool, samples: int) -> None:  # noqa: FBT001
+    """Run the scenes in which everything coincides (those with a WORD in their names)."""
+    _require_cgal()
+    click.echo(battery.table([])[0])
+    differences = 0
+    for name, trial in battery.BATTERY.items():
+        if (trial.large and not large) or (words and not any(word in name for word in words)):
+            continue
+        for row in battery.play(name, samples=samples):
+            differences += len(row.differences)
+            click.echo("\n".join(battery.table([row])[1:]))
+    click.echo(f"{differences} differences")
+    sys.exit(FAILED if differences else 0)
+
+
+@click.command("planted", context_settings=HELP)
+@click.argument("words", nargs=-1, metavar="[WORD]...")
+@click.option("--cases", "most", type=click.IntRange(min=1), default=150, show_default=True)
+@click.option("--seed", type=int, default=0, show_default=True)
+def find_planted(words: tuple[str, ...], most: int, seed: int) -> None:
+    """Plant classic mistakes one at a time, and see how soon the fuzzer finds them."""
+    click.echo(planted.table([])[0])
+    escaped = 0
+    for bug in planted.PLANTED:
+        if not words or any(word in bug for word in words):
+            found = planted.hunt(bug, most, seed=seed)
+            escaped += found.failure is None
+            click.echo(planted.table([found])[1])
+    click.echo(f"{escaped} escaped")
+    sys.exit(FAILED if escaped else 0)
+
+
+COMMANDS = {"battery": run_battery, "planted": find_planted}
+
+
+def main() -> None:
+    """Run one of the commands; without the name of one, a campaign."""
+    name, *rest = [*sys.argv[1:], ""]
+    if name in COMMANDS:
+        COMMANDS[name](rest[:-1], prog_name=f"python -m fuzz {name}")
+    else:
+        fuzz(prog_name="python -m fuzz")
+
+
+if __name__ == "__main__":
+    main()

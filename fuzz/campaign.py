@@ -1,0 +1,174 @@
+"""A campaign: many cases, here, on the cores of this machine, or on a Dask cluster."""
+
+from __future__ import annotations
+
+import itertools
+import time as clock
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from dataclasses import dataclass, field
+from functools import partial
+from multiprocessing import get_context
+from typing import TypeAlias, TypeVar
+
+from fuzz.cases import Case, Outcome, run_case
+
+__all__ = ["Campaign", "Summary", "cases", "run"]
+
+Job: TypeAlias = Callable[[Case], Outcome]
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Campaign:
+    """What is to be done.
+
+    Attributes:
+        families: taken in turn.
+        witnesses: who look at every case.
+        seed: the seed of the first scene of each family.
+        start: the number of the first case, to go on where another campaign stopped.
+        count: how many cases; None for as many as there is time for.
+        seconds: stop after this time; None for never.
+        shrink_seconds: how long each failure is shrunk.
+    """
+
+    families: Sequence[str]
+    witnesses: Sequence[str]
+    seed: int = 0
+    start: int = 0
+    count: int | None = None
+    seconds: float | None = None
+    shrink_seconds: float = 60.0
+
+
+@dataclass(slots=True)
+class Summary:
+    """What came of a campaign.
+
+    Attributes:
+        outcomes: by the number of the case.
+        seconds: how long it took.
+        finished: whether it was not interrupted.
+    """
+
+    outcomes: dict[int, Outcome] = field(default_factory=dict)
+    seconds: float = 0.0
+    finished: bool = True
+
+    @property
+    def failed(self) -> bool:
+        """Whether a witness objected to a case."""
+        return any(outcome.failures for outcome in self.outcomes.values())
+
+    def next_start(self, start: int) -> int:
+        """The number of the first case that has not been run."""
+        return next(i for i in itertools.count(start) if i not in self.outcomes)
+
+    def table(self) -> list[str]:
+        """A line for each family: cases, cases a second, failures, seconds by witness."""
+        rows = sorted({outcome.case.family for outcome in self.outcomes.values()})
+        witnesses = list(dict.fromkeys(w for o in self.outcomes.values() for w in o.seconds))
+        head = ("family", "cases", "a second", "failures", *witnesses)
+        lines = [
+            "{:20}{:>8}{:>10}{:>10}".format(*head[:4]) + "".join(map("{:>11}".format, head[4:]))
+        ]
+        for name in [*rows, "all"]:
+            chosen = [o for o in self.outcomes.values() if name in (o.case.family, "all")]
+            times = Counter[str]()
+            for outcome in chosen:
+                times.update(outcome.seconds)
+            total = sum(times.values())
+            rate = len(chosen) / total if total else 0.0
+            failures = sum(len(o.failures) for o in chosen)
+            line = f"{name:20}{len(chosen):>8}{rate:>10.1f}{failures:>10}"
+            lines.append(line + "".join(f"{times[w]:>9.1f} s" for w in witnesses))
+        return lines
+
+
+def cases(campaign: Campaign) -> Iterator[Case]:
+    """The cases of a campaign in order."""
+    families = campaign.families
+    stop = None if campaign.count is None else campaign.start + campaign.count
+    for i in itertools.count(campaign.start):
+        if i == stop:
+            return
+        yield Case(i, families[i % len(families)], campaign.seed + i // len(families))
+
+
+def run(
+    campaign: Campaign,
+    report: Callable[[Outcome], None],
+    *,
+    jobs: int = 1,
+    scheduler: str | None = None,
+) -> Summary:
+    """Run a campaign; every case counts once.
+
+    Args:
+        campaign: what to do.
+        report: called with every outcome as it comes.
+        jobs: how many processes.
+        scheduler: the address of a Dask scheduler; its workers must find this checkout.
+    """
+    summary = Summary()
+    began = clock.monotonic()
+    job: Job = partial(
+        run_case, witnesses=campaign.witnesses, shrink_seconds=campaign.shrink_seconds
+    )
+    todo = _until(cases(campaign), campaign.seconds)
+    if scheduler is not None:
+        outcomes = _on_cluster(job, todo, scheduler)
+    else:
+        outcomes = map(job, todo) if jobs == 1 else _on_cores(job, todo, jobs)
+    try:
+        for outcome in outcomes:
+            if outcome.case.number not in summary.outcomes:
+                summary.outcomes[outcome.case.number] = outcome
+                report(outcome)
+    except KeyboardInterrupt:
+        summary.finished = False
+    finally:
+        summary.seconds = clock.monotonic() - began
+    return summary
+
+
+def _until(items: Iterable[T], seconds: float | None) -> Iterator[T]:
+    """The items, until the time is up."""
+    deadline = None if seconds is None else clock.monotonic() + seconds
+    for item in items:
+        if deadline is not None and clock.monotonic() > deadline:
+            return
+        yield item
+
+
+def _on_cores(job: Job, todo: Iterator[Case], jobs: int) -> Iterator[Outcome]:
+    """Outcomes as they come; a few cases are ahead of those at work."""
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        pending: set[Future[Outcome]] = set()
+        try:
+            while True:
+                for case in itertools.islice(todo, 2 * jobs - len(pending)):
+                    pending.add(pool.submit(job, case))
+                if not pending:
+                    return
+                done, pending = wait(pending, return_when=FIRST_COMPLETED)
+                for future in done:
+                    yield future.result()
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _on_cluster(job: Job, todo: Iterator[Case], scheduler: str) -> Iterator[Outcome]:
+    """The same on a Dask cluster, which runs the cases of a lost worker elsewhere."""
+    from distributed import Client, as_completed
+
+    with Client(scheduler) as client:
+        ahead = 4 * max(1, sum(client.nthreads().values()))
+        submitted = (client.submit(job, case, pure=False) for case in todo)
+        running = as_completed(list(itertools.islice(submitted, ahead)))
+        for future in running:
+            yield future.result()
+            for following in itertools.islice(submitted, 1):
+                running.add(following)

@@ -1,0 +1,145 @@
+"""Cases: a scene of a family by its seed, what the witnesses say of it, and how long it took."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import signal
+import threading
+import time as clock
+import traceback
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from types import FrameType
+from typing import Final, NamedTuple, NoReturn
+
+from exactpt.errors import InputError
+from exactpt.scene.format import loads, to_json
+from exactpt.scene.generate import generate
+from exactpt.scene.scene import Scene
+from fuzz.shrink import shrink
+from fuzz.witnesses import WITNESSES, Difference
+
+__all__ = ["Case", "Failure", "Outcome", "failure_of", "run_case"]
+
+PATIENCE: Final = 60.0
+"""A witness that takes more seconds than this hangs."""
+
+
+class Case(NamedTuple):
+    """A scene to be looked at: the ``number``-th of its campaign."""
+
+    number: int
+    family: str
+    seed: int
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """What a witness objects to.
+
+    Attributes:
+        witness: its name.
+        signature: how it failed, the same for the same fault in another scene.
+        why: how it failed, in words.
+        scene: the scene, as JSON; shrunk if there was time.
+    """
+
+    witness: str
+    signature: str
+    why: str
+    scene: str
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What came of a case.
+
+    Attributes:
+        case: the case.
+        seconds: how long each witness took, by name.
+        failures: what they objected to.
+    """
+
+    case: Case
+    seconds: dict[str, float]
+    failures: tuple[Failure, ...]
+
+
+def run_case(case: Case, witnesses: Sequence[str], shrink_seconds: float = 60.0) -> Outcome:
+    """Let witnesses look at a case; what they object to is shrunk for so long each."""
+    scene = generate(case.family, case.seed)
+    seconds: dict[str, float] = {}
+    failures = []
+    for name in witnesses:
+        began = clock.perf_counter()
+        failure = failure_of(name, scene, case.seed)
+        seconds[name] = clock.perf_counter() - began
+        if failure is not None:
+            # What fails at once fails at once when it is smaller, too.
+            hangs = seconds[name] >= PATIENCE
+            patience = 5.0 if hangs else min(PATIENCE, 2.0 + 4.0 * seconds[name])
+            failures.append(_shrunk(failure, case.seed, shrink_seconds, patience))
+    return Outcome(case, seconds, tuple(failures))
+
+
+def failure_of(
+    name: str, scene: Scene, turn: int | None = None, patience: float = PATIENCE
+) -> Failure | None:
+    """What a witness objects to in a scene, or None; for ``turn`` see `Witness`."""
+    try:
+        with _limit(patience):
+            WITNESSES[name](scene, turn)
+    except Difference as found:
+        return _failure(name, found.kind, str(found), scene)
+    except Exception as error:  # whatever breaks is a finding
+        where = traceback.extract_tb(error.__traceback__)[-1]
+        signature = f"{type(error).__name__} in {where.name}"
+        return _failure(name, signature, f"{signature}: {error}", scene)
+    return None
+
+
+def _failure(name: str, signature: str, why: str, scene: Scene) -> Failure:
+    return Failure(name, signature, why, json.dumps(to_json(scene)))
+
+
+def _shrunk(failure: Failure, turn: int, seconds: float, patience: float) -> Failure:
+    best = failure
+
+    def still_fails(data: object) -> bool:
+        nonlocal best
+        try:
+            scene = loads(json.dumps(data))
+        except InputError:
+            return False
+        found = failure_of(failure.witness, scene, turn, patience)
+        if found is None or found.signature != failure.signature:
+            return False
+        best = found
+        return True
+
+    shrink(json.loads(failure.scene), still_fails, seconds)
+    return best
+
+
+class _TooSlow(Difference):
+    pass
+
+
+@contextlib.contextmanager
+def _limit(seconds: float) -> Iterator[None]:
+    """Interrupt what takes longer; only in a main thread, elsewhere signals cannot."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def interrupt(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001
+        raise _TooSlow("hangs", f"no answer within {seconds:.0f} s")
+
+    old = signal.signal(signal.SIGALRM, interrupt)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, old)

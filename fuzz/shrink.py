@@ -1,0 +1,201 @@
+"""Shrinking: a smaller scene that still fails, by delta debugging on its JSON data.
+
+Source: A. Zeller and R. Hildebrandt, *Simplifying and isolating failure-inducing input*,
+IEEE Transactions on Software Engineering 28 (2002) 183-200: first leave out halves, then
+quarters, and so on.
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+import time as clock
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+from typing import Any, Final, TypeAlias
+
+__all__ = ["shrink"]
+
+Data: TypeAlias = Any
+"""A scene as JSON data; candidates may be no scene at all, whoever judges them sees to it."""
+
+Path: TypeAlias = tuple[str | int, ...]
+
+
+def shrink(data: Data, fails: Callable[[Data], bool], seconds: float) -> Data:
+    """The smallest scene found in this time for which ``fails`` holds, as it does for data."""
+    deadline = clock.monotonic() + seconds
+    best, size = data, _size(data)
+    improved = True
+    while improved:
+        improved = False
+        for step in _STEPS:
+            candidates = step(best)
+            while (candidate := next(candidates, None)) is not None:
+                if clock.monotonic() > deadline:
+                    return best
+                its_size = _size(candidate)
+                if its_size < size and fails(candidate):
+                    best, size, improved = candidate, its_size, True
+                    candidates = step(best)
+    return best
+
+
+def _size(data: Data) -> tuple[int, int, int, int]:
+    """Bodies, vertices, then how long the numbers are, and the text."""
+    bodies = data["bodies"]
+    vertices = sum(
+        len(body.get("vertices", ())) + sum(len(f["vertices"]) for f in body.get("keyframes", ()))
+        for body in bodies
+    )
+    numbers = sum(_weight(_at(data, path)) for path in _numbers(data))
+    return len(bodies), vertices, numbers, len(json.dumps(data))
+
+
+def _weight(text: str) -> int:
+    """0 for 0, and more the more complicated the number is."""
+    q = Fraction(text)
+    bits = 4 * (q.numerator.bit_length() + q.denominator.bit_length() - 1)
+    return bits + (q < 0) + min(abs(q.numerator), 3)
+
+
+def _without(items: Sequence[Data]) -> Iterator[list[Data]]:
+    """The items without a half of them, a quarter, ..., a single one."""
+    width = len(items) // 2
+    while width:
+        for start in range(0, len(items), width):
+            yield [*items[:start], *items[start + width :]]
+        width //= 2
+
+
+def _changed(data: Data, path: Path, value: Data) -> Data:
+    """A copy with another value at a path."""
+    result = copy.deepcopy(data)
+    _at(result, path[:-1])[path[-1]] = value
+    return result
+
+
+def _at(data: Data, path: Path) -> Data:
+    for key in path:
+        data = data[key]
+    return data
+
+
+def _fewer_bodies(data: Data) -> Iterator[Data]:
+    for bodies in _without(data["bodies"]):
+        yield _changed(data, ("bodies",), bodies)
+
+
+def _shorter_span(data: Data) -> Iterator[Data]:
+    start, end = (Fraction(t) for t in data["time"])
+    for share in (Fraction(1, 8), Fraction(1, 4), Fraction(1, 2), Fraction(3, 4)):
+        yield _changed(data, ("time", 1), str(start + share * (end - start)))
+
+
+def _fewer_vertices(data: Data) -> Iterator[Data]:
+    for i, body in enumerate(data["bodies"]):
+        if "vertices" in body:
+            for vertices in _without(body["vertices"]):
+                yield _changed(data, ("bodies", i, "vertices"), vertices)
+        elif "keyframes" in body:
+            frames = body["keyframes"]
+            for kept in _without(range(len(frames[0]["vertices"]))):
+                thinner = [{**f, "vertices": [f["vertices"][v] for v in kept]} for f in frames]
+                yield _changed(data, ("bodies", i, "keyframes"), thinner)
+
+
+def _simpler_motions(data: Data) -> Iterator[Data]:
+    for i, body in enumerate(data["bodies"]):
+        rest = {key: value for key, value in body.items() if key != "motion"}
+        if "motion" in body:
+            yield _changed(data, ("bodies", i), rest)
+            for motion in _parts(body["motion"]):
+                yield _changed(data, ("bodies", i, "motion"), motion)
+        for frames in _without(body.get("keyframes", ())):
+            yield _changed(data, ("bodies", i, "keyframes"), frames)
+        for frame in body.get("keyframes", ()):
+            del rest["keyframes"]
+            yield _changed(data, ("bodies", i), {**rest, "vertices": frame["vertices"]})
+            rest["keyframes"] = body["keyframes"]
+
+
+def _parts(motion: Data) -> Iterator[Data]:
+    if "pieces" in motion:
+        yield from (piece["motion"] for piece in motion["pieces"])
+        for pieces in _without(motion["pieces"]):
+            if pieces:
+                yield {"pieces": [*pieces[:-1], {"motion": pieces[-1]["motion"]}]}
+    for kind in ("rigid", "affine"):
+        if kind in motion:
+            yield {key: motion[kind][key] for key in ("x", "y") if key in motion[kind]}
+            for key in ("x", "y"):
+                if key in motion[kind]:
+                    yield {kind: {k: v for k, v in motion[kind].items() if k != key}}
+    for key in ("x", "y"):
+        if key in motion:
+            yield {k: v for k, v in motion.items() if k != key}
+
+
+def _lower_degrees(data: Data) -> Iterator[Data]:
+    for path in _paths(data):
+        value = _at(data, path)
+        if isinstance(value, list) and len(value) > 1 and isinstance(value[0], str):
+            yield _changed(data, path, value[:-1])
+        if isinstance(value, dict) and set(value) == {"x", "y"} and path[-2] == "vertices":
+            yield _changed(data, path, [value["x"][0], value["y"][0]])
+
+
+def _coarser_numbers(data: Data) -> Iterator[Data]:
+    """All numbers at once: smaller, rounded to integers or halves."""
+    for divisor in (1000, 100, 10, 5, 2, 1):
+        for unit in (1, 2):
+            result = copy.deepcopy(data)
+            for path in _numbers(data):
+                if path[0] == "bodies":
+                    value = Fraction(_at(data, path)) * unit / divisor
+                    _at(result, path[:-1])[path[-1]] = str(Fraction(round(value), unit))
+            yield result
+
+
+def _simpler_numbers(data: Data) -> Iterator[Data]:
+    for path in _numbers(data):
+        q = Fraction(_at(data, path))
+        simpler: list[Fraction | int] = [0, 1, -1, int(q), round(q), q.limit_denominator(10)]
+        simpler += [round(q / 2), round(q / 10), abs(q), q - (1 if q > 0 else -1)]
+        for value in dict.fromkeys(simpler):
+            if value != q:
+                yield _changed(data, path, str(value))
+
+
+def _simpler_names(data: Data) -> Iterator[Data]:
+    result = copy.deepcopy(data)
+    for i, body in enumerate(result["bodies"]):
+        body["name"] = chr(ord("a") + i) if i < 26 else f"b{i}"
+    yield result
+
+
+_STEPS: Final = (
+    _fewer_bodies,
+    _shorter_span,
+    _fewer_vertices,
+    _simpler_motions,
+    _coarser_numbers,
+    _lower_degrees,
+    _simpler_numbers,
+    _simpler_names,
+)
+
+
+def _numbers(data: Data) -> Iterator[Path]:
+    """Where the numbers are: all texts but the names."""
+    for path in _paths(data):
+        if isinstance(_at(data, path), str) and path[-1] != "name":
+            yield path
+
+
+def _paths(data: Data, path: Path = ()) -> Iterator[Path]:
+    if path:
+        yield path
+    if isinstance(data, (dict, list)):
+        for key in data if isinstance(data, dict) else range(len(data)):
+            yield from _paths(data[key], (*path, key))

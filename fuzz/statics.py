@@ -1,0 +1,121 @@
+"""Kinetic equals static: between any two events the tiling is the one that is built there."""
+
+from __future__ import annotations
+
+from typing import Final, NamedTuple
+
+from exactpt.collision.initial import initial_touches
+from exactpt.collision.tilings import start_tiling
+from exactpt.errors import AuditError
+from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt.kernel.numbers import QQ
+from exactpt.scene.scene import Scene
+from exactpt.tiling.audit import audit_angles
+from exactpt.tiling.events import ContactFound
+from exactpt.tiling.greedy.greedy import GreedyTiling
+from exactpt.tiling.greedy.vertical import VerticalDecomposition
+from exactpt.tiling.instant import Instant
+from exactpt.tiling.kinetic import KineticTiling
+from exactpt.tiling.mesh import INSIDE, Mesh
+from exactpt.tiling.mixed.labels import LabelledMesh
+
+__all__ = ["FREE_TO_DIFFER", "Audited", "audit_at", "run_and_audit"]
+
+FREE_TO_DIFFER: Final = frozenset({"lazy"})
+"""The tilings that depend on what happened before; all others are canonical."""
+
+
+class Audited(NamedTuple):
+    """A run that passed all audits.
+
+    Attributes:
+        kinetic: the tiling at its end.
+        contact: whether it ended with a contact.
+        gaps: how many times were audited, between two events each.
+    """
+
+    kinetic: KineticTiling
+    contact: bool
+    gaps: int
+
+
+def run_and_audit(
+    scene: Scene, tiling: str, *, exact_only: bool = False, middle: bool = True
+) -> Audited | None:
+    """Run a scene, auditing every gap between events.
+
+    At a rational time within the gap, and (``middle``) at one nearer to its start.
+
+    Returns:
+        What was run; None if bodies touch at the start.
+
+    Raises:
+        AuditError: at the first fault.
+        InputError: if the tiling is not for such scenes.
+    """
+    if initial_touches(scene)[1]:
+        return None
+    kinetic = start_tiling(scene, tiling, scene.start, exact_only=exact_only)
+    gaps = 0
+    try:
+        while True:
+            end = _end_of_gap(kinetic, scene)
+            if kinetic.now.compare(end) < 0:
+                at = rational_between(kinetic.now, end)
+                audit_at(kinetic, at)
+                if middle:
+                    audit_at(kinetic, rational_between(kinetic.now, AlgebraicNumber(at)))
+                gaps += 1
+            if kinetic.advance(scene.end) is None:
+                return Audited(kinetic, contact=False, gaps=gaps)
+    except ContactFound:
+        return Audited(kinetic, contact=True, gaps=gaps)
+
+
+def _end_of_gap(kinetic: KineticTiling, scene: Scene) -> AlgebraicNumber:
+    following = kinetic.next_time()
+    if following is None:
+        return AlgebraicNumber(scene.end)
+    return following.exact or kinetic.certifier.resolve(following)
+
+
+def audit_at(kinetic: KineticTiling, at: QQ) -> None:
+    """Compare a tiling with the static one, at a rational time before its next event.
+
+    Raises:
+        AuditError: if an angle is not as marked, or the tilings differ.
+    """
+    instant = Instant(kinetic.vertices, at)
+    audit_angles(kinetic.mesh, instant)
+    if kinetic.name in FREE_TO_DIFFER:
+        return
+    if isinstance(kinetic, GreedyTiling):
+        _audit_cells(kinetic.cells, VerticalDecomposition.at(instant), at)
+    mesh, name = type(kinetic).mesh_at(instant), kinetic.vertices.name
+    static, kept = _diagonals(mesh), _diagonals(kinetic.mesh)
+    if static != kept:
+        missing = [f"{name(u)} {name(v)}" for u, v in static if (u, v) not in kept]
+        raise AuditError(f"t = {at}: kinetic is not static; missing: {', '.join(missing)}")
+    if _labels(mesh) != _labels(kinetic.mesh):
+        raise AuditError(f"t = {at}: other labels than the static ones")
+
+
+def _audit_cells(kept: VerticalDecomposition, static: VerticalDecomposition, at: QQ) -> None:
+    if static.vertex != kept.vertex:
+        raise AuditError(f"t = {at}: other extreme vertices than the static ones")
+    pairs = [sorted(zip(cells.left, cells.right, strict=True)) for cells in (kept, static)]
+    if pairs[0] != pairs[1]:
+        raise AuditError(f"t = {at}: another vertical decomposition than the static one")
+
+
+def _diagonals(mesh: Mesh) -> list[tuple[int, int]]:
+    """Those in free space; those inside bodies are not canonical."""
+    pairs = (mesh.ends(h) for h in mesh.diagonals() if mesh.region[h] != INSIDE)
+    return sorted((u, v) if u < v else (v, u) for u, v in pairs)
+
+
+def _labels(mesh: Mesh) -> dict[tuple[int, int], object]:
+    """The labels of the mixed tiling; no other has any."""
+    if not isinstance(mesh, LabelledMesh):
+        return {}
+    return {mesh.ends(h): mesh.labels[h] for h in mesh.map.half_edges() if mesh.labels[h]}

@@ -1,0 +1,159 @@
+"""The witnesses: each looks at a scene in its own way, and says what contradicts what."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final, TypeAlias
+
+from exactpt.check import check_scene
+from exactpt.collision.allpairs import first_contact_allpairs
+from exactpt.collision.contact import Contact
+from exactpt.collision.detector import first_contact
+from exactpt.collision.tilings import TILINGS
+from exactpt.errors import InputError
+from exactpt.scene.scene import Scene
+from exactpt.simulation.simulation import Simulation
+from fuzz.statics import run_and_audit
+from fuzz.variants import VARIANTS, difference
+
+__all__ = ["PARTICULAR", "WITNESSES", "Difference", "Witness", "contrast"]
+
+Witness: TypeAlias = Callable[[Scene, int | None], None]
+"""Raises `Difference`, or whatever broke, if something is wrong with a scene.
+
+Takes the scene, and whose turn it is: a number that chooses one tiling, and some of the
+variants, so that a campaign sees more scenes in its time. None: all of them.
+"""
+
+
+class Difference(Exception):  # noqa: N818 - what was found, the purpose of it all
+    """Two ways to the same answer have led to two answers.
+
+    Attributes:
+        kind: what differs, in a few words that do not depend on the scene's numbers.
+    """
+
+    def __init__(self, kind: str, detail: str = "") -> None:
+        super().__init__(f"{kind}: {detail}" if detail else kind)
+        self.kind = kind
+
+
+def reference(scene: Scene, turn: int | None) -> None:  # noqa: ARG001 - always all
+    """The first contact by every tiling is that of the all-pairs reference."""
+    expected = first_contact_allpairs(scene)
+
+    def compare(name: str) -> None:
+        found = first_contact(scene, tiling=name)
+        if kind := contrast(expected, found):
+            said = f"{_in_words(found)}, but the reference {_in_words(expected)}"
+            raise Difference(f"{name}: {kind}", said)
+
+    _with_tilings(compare, None)
+
+
+def static(scene: Scene, turn: int | None) -> None:
+    """Between any two events the kinetic tiling is the static one."""
+
+    def audit(name: str) -> None:
+        run_and_audit(scene, name, middle=False)
+
+    _with_tilings(audit, turn)
+
+
+def filters(scene: Scene, turn: int | None) -> None:
+    """The event log is the same, byte for byte, with and without the float filters."""
+
+    def compare(name: str) -> None:
+        logs = [
+            [event.to_json() for event in Simulation(scene, tiling=name, exact_only=exact).run()]
+            for exact in (False, True)
+        ]
+        for i, (a, b) in enumerate(zip(*logs, strict=False)):
+            if a != b:
+                raise Difference(f"{name}: event", f"event {i}: {a}, exactly {b}")
+        if len(logs[0]) != len(logs[1]):
+            raise Difference(f"{name}: length", f"{len(logs[0])}, exactly {len(logs[1])} events")
+
+    _with_tilings(compare, turn)
+
+
+def symmetry(scene: Scene, turn: int | None) -> None:
+    """Symmetric variants of a scene have the same first contact, mapped."""
+    contact = first_contact(scene)
+    tilings = [name for name in TILINGS if name not in PARTICULAR]
+    stride = 1 if turn is None else 5
+    for i, (name, variant) in enumerate(VARIANTS.items()):
+        if turn is not None and i % stride != turn % stride:
+            continue
+        if name == "backwards" and contact is not None:
+            continue
+        found = first_contact(
+            variant.scene(scene), tiling=tilings[(i + (turn or 0)) % len(tilings)]
+        )
+        if kind := difference(variant, scene, contact, found):
+            said = f"{_in_words(found)}, but the original {_in_words(contact)}"
+            raise Difference(f"{name}: {kind}", said)
+
+
+def cgal(scene: Scene, turn: int | None) -> None:
+    """CGAL accepts every tiling and every event time."""
+
+    def check(name: str) -> None:
+        report = check_scene(scene, tiling=name)
+        if not report.ok:
+            raise Difference(f"{name}: cgal", report.failures[0])
+
+    _with_tilings(check, turn)
+
+
+PARTICULAR: Final = frozenset({"incremental"})
+"""The tilings that are not for all scenes."""
+
+WITNESSES: Final[dict[str, Witness]] = {
+    "reference": reference,
+    "static": static,
+    "filters": filters,
+    "symmetry": symmetry,
+    "cgal": cgal,
+}
+"""The witnesses by name."""
+
+
+def _with_tilings(check: Callable[[str], None], turn: int | None) -> None:
+    """Check with each tiling, or with that whose turn it is.
+
+    A refusal is a failure, but not of a particular one.
+    """
+    names = list(TILINGS)
+    for name in names if turn is None else [names[turn % len(names)]]:
+        try:
+            check(name)
+        except InputError:
+            if name not in PARTICULAR:
+                raise
+
+
+def contrast(expected: Contact | None, found: Contact | None) -> str | None:
+    """What differs between two contacts of one scene; None: nothing."""
+    if expected is None or found is None:
+        if (expected is None) == (found is None):
+            return None
+        return "found" if expected is None else "missed"
+    if found.time.compare(expected.time) != 0:
+        return "time"
+    for what in ("kind", "pairs", "overlaps"):
+        if getattr(found, what) != getattr(expected, what):
+            return what
+    return None
+
+
+def _in_words(contact: Contact | None) -> str:
+    if contact is None:
+        return "finds no contact"
+    pairs = ", ".join(
+        f"{p.body}:{p.vertex} on "
+        + (f"{p.other}:{p.other_vertex}" if p.edge is None else f"edge {p.edge} of {p.other}")
+        for p in contact.pairs[:4]
+    )
+    more = f" and {len(contact.pairs) - 4} more" if len(contact.pairs) > 4 else ""
+    return f"finds t = {float(contact.time)!r}, {contact.kind}: {pairs}{more}"

@@ -1,0 +1,65 @@
+"""Contacts in the middle of chains that are straight for ever, on one body or on several."""
+
+import pytest
+
+from exactpt.collision.allpairs import first_contact_allpairs
+from exactpt.collision.detector import first_contact
+from exactpt.collision.tilings import TILINGS
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.scene.scene import Scene
+from fuzz.variants import VARIANTS
+
+FALL = Translation([], [0, -1])
+FLAT = [(0, 0), (10, 0), (10, 5), (8, 5), (6, 5), (4, 5), (2, 5), (0, 5)]
+U = [(-20, 0), (-17, 0), (-18, 3), (-19, 1), (-19, 3), (-20, 3)]
+SCENES = {
+    "a point on an edge with flat vertices": [
+        Body("plate", FLAT),
+        Body("drop", [(5, 9)], FALL),
+    ],
+    "a segment on an edge with flat vertices": [
+        Body("plate", FLAT),
+        Body("stick", [("9/2", 9), ("11/2", 9)], FALL),
+    ],
+    "a long segment on an edge with flat vertices": [
+        Body("plate", FLAT),
+        Body("stick", [(-5, 9), (15, 9)], FALL),
+    ],
+    "a box on an edge with flat vertices": [
+        Body("plate", FLAT),
+        Body("box", [(1, 9), (9, 9), (9, 10), (7, 10), (3, 10), (1, 10)], FALL),
+    ],
+    "a box on a row of boxes": [
+        *(Body(f"b{i}", [(3 * i, 0), (3 * i + 2, 0), (3 * i + 1, 2)]) for i in range(5)),
+        Body("box", [(3, 9), (9, 9), (9, 10), (3, 10)], FALL),
+    ],
+    "a segment on the tops of a U": [
+        Body("u", U),
+        Body("key", [("-75/4", 6), ("-71/4", 6)], FALL),
+    ],
+    "a stick on a comb": [
+        Body("comb", [(0, 0), (9, 0), (8, 3), (7, 1), (6, 3), (5, 1), (4, 3), (3, 1), (2, 3)]),
+        Body("stick", [(3, 9), (5, 9)], FALL),
+    ],
+}
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+@pytest.mark.parametrize("name", SCENES)
+def test_bug_a_straight_angle_of_one_body_ended_the_search_for_touches(name, variant):
+    """fuzz symmetry, letters 7: a contact was missed behind a rigid straight angle."""
+    if variant == "backwards":
+        return
+    scene = VARIANTS[variant].scene(Scene(SCENES[name], (0, 9)))
+    expected = first_contact_allpairs(scene)
+    assert expected is not None
+
+    for tiling in TILINGS:
+        found = first_contact(scene, tiling=tiling)
+        assert found is not None
+        assert (found.time, found.kind, found.pairs) == (
+            expected.time,
+            expected.kind,
+            expected.pairs,
+        )
