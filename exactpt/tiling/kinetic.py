@@ -96,9 +96,17 @@ class KineticTiling(Tiling):
         for slot in self.queue.slots():
             if slot % KINDS not in (MOTION, SHRINK):
                 self.queue.cancel(slot)
+        watched = []
         for h in self.mesh.map.half_edges():
             if self.mesh.region[h] != SOLID:
-                self._certify(h)
+                if self._cannot_fail(h):
+                    self._certify(h)
+                else:
+                    watched.append(h)
+        answers = self.certifier.orientations([self._angle(h) for h in watched])
+        for h, (s, time) in zip(watched, answers, strict=True):
+            self._due.discard(h)
+            self._keep(h, s, time)
         self.stats.most = max(self.stats.most, len(self.queue))
 
     def _schedule_piece(self, i: int) -> None:
@@ -124,26 +132,37 @@ class KineticTiling(Tiling):
     def _certify(self, h: int) -> None:
         """Certify the angle of h; note it as due if it is violated just after now."""
         mesh = self.mesh
-        m, slot = mesh.map, KINDS * h + ANGLE
         self._due.discard(h)
         self._flat.discard(h)
-        before = m.previous[h]
-        a, p, b = m.origin[before], m.origin[h], m.origin[h ^ 1]
-        rigid = self.certifier.rigid(a, p, b)
-        if rigid or mesh.region[h] == SOLID or a == b or self._is_copy(h):
+        a, p, b = self._angle(h)
+        if self._cannot_fail(h):
             self.certifier.skipped += 1
-            self.queue.cancel(slot)
+            self.queue.cancel(KINDS * h + ANGLE)
             # A rigid angle keeps its sign. One that is new may have the wrong mark only in
             # the midst of simultaneous events.
-            if rigid and self._careful and mesh.region[h] != SOLID:
+            if self._careful and mesh.region[h] != SOLID and self.certifier.rigid(a, p, b):
                 after = Moment(self.certifier, before=False)
                 if (after.sign(a, p, b) > 0) != mesh.corner[h]:
                     self._due.add(h)
             return
-        s, time = self.certifier.orientation(a, p, b)
+        self._keep(h, *self.certifier.orientation(a, p, b))
+
+    def _cannot_fail(self, h: int) -> bool:
+        """Whether the angle of h needs no certificate of its own."""
+        a, p, b = self._angle(h)
+        return (
+            self.certifier.rigid(a, p, b)
+            or self.mesh.region[h] == SOLID
+            or a == b
+            or self._is_copy(h)
+        )
+
+    def _keep(self, h: int, s: int, time: EventTime | None) -> None:
+        """Schedule the failure of an angle; note it as due if it is violated just after now."""
+        slot = KINDS * h + ANGLE
         if s == 0:
             self._flat.add(h)
-        if (s > 0) != mesh.corner[h]:
+        if (s > 0) != self.mesh.corner[h]:
             self.queue.cancel(slot)
             self._due.add(h)
         elif time is None:
