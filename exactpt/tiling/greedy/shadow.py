@@ -9,6 +9,7 @@ twice, so everything here is about visits, that is half-edges.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterable
 from typing import NamedTuple, Protocol
 
@@ -213,11 +214,12 @@ def flip_until_greedy(
     Raises:
         AuditError: if a diagonal has no shadow: the mesh is no pseudo-triangulation.
     """
-    todo = dict.fromkeys(min(h, h ^ 1) for h in candidates)
+    todo = deque(dict.fromkeys(min(h, h ^ 1) for h in candidates))
+    waiting = set(todo)
     flips = []
     while todo:
-        h = next(iter(todo))
-        del todo[h]
+        h = todo.popleft()
+        waiting.discard(h)
         if mesh.is_fixed(h) or mesh.map.origin[h] < 0 or mesh.is_hull(h):
             continue
         visits = shadow(mesh, h, predicates)
@@ -229,7 +231,9 @@ def flip_until_greedy(
             flips.append(Flip(old, new, changed))
             e = changed[0]
             for g in (*mesh.map.face(e), *mesh.map.face(e ^ 1)):
-                todo[min(g, g ^ 1)] = None
+                if (even := min(g, g ^ 1)) not in waiting:
+                    waiting.add(even)
+                    todo.append(even)
         elif shadows is not None:
             shadows[h] = visits
     return flips
