@@ -20,10 +20,11 @@ from exactpt.scene.scene import Scene
 from fuzz.shrink import shrink
 from fuzz.witnesses import WITNESSES, Difference
 
-__all__ = ["Case", "Failure", "Outcome", "failure_of", "run_case"]
+__all__ = ["HANGS", "Case", "Failure", "Outcome", "failure_of", "run_case"]
 
+HANGS: Final = "hangs"
 PATIENCE: Final = 60.0
-"""A witness that takes more seconds than this hangs."""
+"""A witness that takes more seconds than this, of processor time, hangs."""
 
 
 class Case(NamedTuple):
@@ -77,8 +78,8 @@ def run_case(case: Case, witnesses: Sequence[str], shrink_seconds: float = 60.0)
         seconds[name] = clock.perf_counter() - began
         if failure is not None:
             # What fails at once fails at once when it is smaller, too.
-            hangs = seconds[name] >= PATIENCE
-            patience = 5.0 if hangs else min(PATIENCE, 2.0 + 4.0 * seconds[name])
+            hangs = failure.signature == HANGS
+            patience = 15.0 if hangs else min(PATIENCE, 2.0 + 4.0 * seconds[name])
             failures.append(_shrunk(failure, case.seed, shrink_seconds, patience))
     return Outcome(case, seconds, tuple(failures))
 
@@ -134,12 +135,12 @@ def _limit(seconds: float) -> Iterator[None]:
         return
 
     def interrupt(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001
-        raise _TooSlow("hangs", f"no answer within {seconds:.0f} s")
+        raise _TooSlow(HANGS, f"no answer within {seconds:.0f} s")
 
-    old = signal.signal(signal.SIGALRM, interrupt)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    old = signal.signal(signal.SIGPROF, interrupt)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, old)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, old)

@@ -138,10 +138,10 @@ def grazing(rng: Random) -> Scene:
 
 def concentric(rng: Random) -> Scene:
     """Rings of equal bodies that turn about one center, or grow from it."""
-    counts = [rng.choice([2, 4, 8]) for _ in range(rng.randint(1, 3))]
+    counts = [rng.choice([2, 2, 4, 8]) for _ in range(rng.randint(1, 2))]
     turns = [rng.choice([QQ(0), QQ(1, 2), QQ(1, 2), QQ(-1), QQ(1, 4)]) for _ in counts]
     reach = rng.choice([2, 3, 4])
-    return rings(counts, turns, reach, (0, rng.choice([1, 4])))
+    return rings(counts, turns, reach, (0, rng.choice([1, 2])))
 
 
 def rings(counts: Sequence[int], turns: Sequence[QQ], reach: int, time: tuple[int, int]) -> Scene:

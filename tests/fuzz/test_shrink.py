@@ -1,0 +1,70 @@
+"""Shrinking: what is left is as small as it can be, and still fails."""
+
+import json
+
+from exactpt.scene.format import loads, to_json
+from exactpt.scene.generate import FAMILIES, generate
+from fuzz.shrink import shrink
+
+
+def shrunk(data, fails):
+    def judged(candidate):
+        try:
+            loads(json.dumps(candidate))
+        except ValueError:
+            return False
+        return fails(candidate)
+
+    return shrink(data, judged, seconds=30.0)
+
+
+def test_one_guilty_body_is_left_alone_and_at_rest():
+    data = to_json(generate("convex", 1))
+    guilty = data["bodies"][3]["name"]
+
+    smallest = shrunk(data, lambda d: any(b["name"] == guilty for b in d["bodies"]))
+
+    assert smallest["bodies"] == [{"name": guilty, "vertices": [["0", "0"]]}]
+
+
+def test_numbers_get_simple():
+    data = to_json(generate("mixed_shapes", 0))
+
+    def fails(d):
+        return any(c not in ("0", "1", "-1") for b in d["bodies"] for v in b["vertices"] for c in v)
+
+    (body,) = shrunk(data, fails)["bodies"]
+    assert sorted(body["vertices"][0]) in (["0", "1/2"], ["-1/2", "0"])
+
+
+def test_a_needed_velocity_stays():
+    data = to_json(generate("convex", 1))
+
+    def fails(d):
+        return any(b.get("motion", {}).get("x", ["0"])[-1] != "0" for b in d["bodies"])
+
+    (body,) = shrunk(data, fails)["bodies"]
+    assert body["motion"]["x"] in (["0", "1"], ["0", "-1"])
+    assert len(body["vertices"]) == 1
+
+
+def test_what_is_left_is_a_scene_of_every_kind():
+    for family in FAMILIES:
+        data = to_json(generate(family, 0))
+        smallest = shrunk(data, lambda d: bool(d["bodies"]))
+
+        assert len(smallest["bodies"]) == 1
+        assert "motion" not in smallest["bodies"][0]
+        assert "keyframes" not in smallest["bodies"][0]
+
+
+def test_what_never_fails_again_is_left_as_it_is():
+    data = to_json(generate("row", 0))
+
+    assert shrunk(data, lambda _: False) == data
+
+
+def test_time_runs_out():
+    data = to_json(generate("convex", 1))
+
+    assert shrink(data, lambda _: True, seconds=0.0) == data
