@@ -9,7 +9,7 @@ PACKAGES := g++ cmake libcgal-dev
 JOBS ?= 2
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint quick pictures check-cgal clean
+.PHONY: help demo test test-exact test-browser coverage lint quick pictures check-cgal clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -18,10 +18,20 @@ demo: $(VENV)/installed ## set up, run the packaged scene to its first contact, 
 	$(BIN)/exactpt demo
 
 test: $(VENV)/developing cgal_check/build/cgal_check lint ## set up (CGAL included), pass all tests
-	$(BIN)/python -m pytest -m "" --cov=exactpt --cov-report=term:skip-covered
+	$(BIN)/python -m pytest -n $(JOBS) -m "not browser"
 
 quick: $(VENV)/developing ## the tests that take seconds
 	$(BIN)/python -m pytest
+
+test-exact: $(VENV)/developing ## the quick tests with the float filters switched off
+	$(BIN)/python -m pytest -n $(JOBS) --exact-only
+
+test-browser: $(VENV)/developing ## the animation in a real browser (installs chromium)
+	@.ci/apt-install chromium chromium-driver
+	$(BIN)/python -m pytest -m browser
+
+coverage: $(VENV)/developing cgal_check/build/cgal_check ## branches covered by the tests
+	$(BIN)/python -m pytest -n $(JOBS) -m "not browser" --cov=exactpt --cov-report=term:skip-covered
 
 lint: $(VENV)/developing ## formatting, rules, types, imports
 	$(BIN)/ruff format --check .

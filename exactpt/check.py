@@ -15,8 +15,8 @@ from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
-from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.snapshot import snapshot
+from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Report", "check_scene"]
 
@@ -121,7 +121,7 @@ class _Witness:
         self._report = report
         self._before: IsolatedRoot | None = None
 
-    def between(self, kinetic: KineticTiling) -> None:
+    def between(self, kinetic: Tiling) -> None:
         """Verify the tiling between now and the next event, if there is time between."""
         following = kinetic.next_time()
         if following is None:
@@ -130,7 +130,7 @@ class _Witness:
         if kinetic.now.compare(number) < 0:
             self.tiling(kinetic, rational_between(kinetic.now, number))
 
-    def tiling(self, kinetic: KineticTiling, at: QQ) -> None:
+    def tiling(self, kinetic: Tiling, at: QQ) -> None:
         """Verify the tiling at a time at which it holds."""
         mesh = kinetic.mesh_now(at)
         tile = snapshot(kinetic.vertices, mesh, self._report.tiling, at).to_json()

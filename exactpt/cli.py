@@ -16,6 +16,7 @@ from exactpt.kernel.numbers import QQ, parse_rational
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact
+    from exactpt.collision.pairs import PairsSearch
     from exactpt.scene.scene import Scene
     from exactpt.simulation.simulation import Simulation
 
@@ -83,6 +84,13 @@ def cli() -> None:
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 @click.option("--until", type=RATIONAL, help="Look no further than this time.")
 @TILING
+@click.option(
+    "--method",
+    default="kinetic",
+    show_default=True,
+    type=click.Choice(["kinetic", "pairs", "auto"]),
+    help="By a tiling, by a search over pairs, or whichever is expected to be faster.",
+)
 @click.option("--stats", is_flag=True, help="Print counts of events, certificates, decisions.")
 @click.option("--exit-code", is_flag=True, help="Return 1 if there is a contact.")
 @click.option("--exact-only", is_flag=True, help="Switch the float filters off.")
@@ -92,6 +100,7 @@ def collide(
     as_json: bool,
     until: QQ | None,
     tiling: str,
+    method: str,
     stats: bool,
     exit_code: bool,
     exact_only: bool,
@@ -107,24 +116,26 @@ def collide(
       exactpt collide scene.json --until 7/2 --exit-code && echo "no contact"
     """
     given = _load(scene, until)
-    simulation = _simulation(
-        given, tiling, exact_only=exact_only, max_events=max_events, max_seconds=max_seconds
+    search = _search(
+        given, method, tiling, exact_only=exact_only, max_events=max_events, max_seconds=max_seconds
     )
+    answer: dict[str, object] = {"contact": None, "until": str(given.end), "tiling": search.name}
     try:
-        contact = simulation.run_to_contact()
+        contact = search.run_to_contact()
     except BudgetExceeded as spent:
         if as_json:
-            answer = _answer(simulation, given, None) | {"reached": str(spent.reached)}
+            answer |= {"stats": search.stats, "reached": str(spent.reached)}
             click.echo(json.dumps(answer, indent=1))
         else:
             click.echo(f"no contact up to t = {spent.reached}")
         raise
     if as_json:
-        click.echo(json.dumps(_answer(simulation, given, contact), indent=1))
+        answer |= {"contact": contact and contact.to_json(), "stats": search.stats}
+        click.echo(json.dumps(answer, indent=1))
     else:
         click.echo("\n".join(_in_words(given, contact)))
         if stats:
-            click.echo("\n".join(_stats_in_words(simulation)))
+            click.echo("\n".join(_stats_in_words(search.stats)))
     return FAILED if exit_code and contact is not None else OK
 
 
@@ -152,7 +163,7 @@ def simulate(
     from exactpt.scene.format import write_atomically
 
     given = _load(scene, until)
-    simulation = _simulation(given, tiling, max_events=max_events, max_seconds=max_seconds)
+    simulation = Simulation(given, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
     lines: list[str] = []
     try:
         for event in simulation.run():
@@ -162,7 +173,7 @@ def simulate(
         if events is not None and not isinstance(sys.exception(), KeyboardInterrupt):
             write_atomically(events, "".join(f"{line}\n" for line in lines))
     click.echo("\n".join(_in_words(given, simulation.contact)))
-    click.echo("\n".join(_stats_in_words(simulation)))
+    click.echo("\n".join(_stats_in_words(simulation.stats)))
     return OK
 
 
@@ -346,32 +357,32 @@ def _load(path: Path, until: QQ | None) -> Scene:
         raise InputError(f"--until: {error}") from None
 
 
-def _simulation(
+def _search(
     scene: Scene,
+    method: str,
     tiling: str,
     *,
-    exact_only: bool = False,
-    max_events: int | None = None,
-    max_seconds: float | None = None,
-) -> Simulation:
+    exact_only: bool,
+    max_events: int | None,
+    max_seconds: float | None,
+) -> Simulation | PairsSearch:
+    """What finds the first contact."""
+    from exactpt.collision.detector import prefers_pairs
+
+    if method == "pairs" or (method == "auto" and prefers_pairs(scene)):
+        from exactpt.collision.pairs import PairsSearch
+
+        return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds)
+    from exactpt.collision.tilings import tiling_for_contact
     from exactpt.simulation.simulation import Simulation
 
     return Simulation(
         scene,
-        tiling=tiling,
+        tiling=tiling_for_contact(scene, tiling),
         exact_only=exact_only,
         max_events=max_events,
         max_seconds=max_seconds,
     )
-
-
-def _answer(simulation: Simulation, scene: Scene, contact: Contact | None) -> dict[str, object]:
-    return {
-        "contact": None if contact is None else contact.to_json(),
-        "until": str(scene.end),
-        "tiling": simulation.name,
-        "stats": simulation.stats,
-    }
 
 
 def _in_words(scene: Scene, contact: Contact | None) -> list[str]:
@@ -393,12 +404,12 @@ def _in_words(scene: Scene, contact: Contact | None) -> list[str]:
     return lines
 
 
-def _stats_in_words(simulation: Simulation) -> list[str]:
+def _stats_in_words(stats: dict[str, object]) -> list[str]:
     return [
         f"  {key}: {', '.join(f'{k} {v}' for k, v in value.items()) or 'none'}"
         if isinstance(value, dict)
         else f"  {key}: {value}"
-        for key, value in simulation.stats.items()
+        for key, value in stats.items()
     ]
 
 

@@ -18,6 +18,7 @@ from exactpt.tiling.instant import Instant
 from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.mesh import INSIDE, Mesh
 from exactpt.tiling.mixed.labels import LabelledMesh
+from exactpt.tiling.tiling import Tiling
 
 __all__ = ["FREE_TO_DIFFER", "Audited", "audit_at", "run_and_audit"]
 
@@ -34,7 +35,7 @@ class Audited(NamedTuple):
         gaps: how many times were audited, between two events each.
     """
 
-    kinetic: KineticTiling
+    kinetic: Tiling
     contact: bool
     gaps: int
 
@@ -72,19 +73,24 @@ def run_and_audit(
         return Audited(kinetic, contact=True, gaps=gaps)
 
 
-def _end_of_gap(kinetic: KineticTiling, scene: Scene) -> AlgebraicNumber:
+def _end_of_gap(kinetic: Tiling, scene: Scene) -> AlgebraicNumber:
     following = kinetic.next_time()
     if following is None:
         return AlgebraicNumber(scene.end)
     return following.exact or kinetic.certifier.resolve(following)
 
 
-def audit_at(kinetic: KineticTiling, at: QQ) -> None:
+def audit_at(kinetic: Tiling, at: QQ) -> None:
     """Compare a tiling with the static one, at a rational time before its next event.
 
     Raises:
         AuditError: if an angle is not as marked, or the tilings differ.
     """
+    if not isinstance(kinetic, KineticTiling):  # of points: a mesh is made when asked for
+        mesh = type(kinetic).mesh_at(Instant(kinetic.vertices, at, after=False))
+        if _diagonals(mesh) != _diagonals(kinetic.mesh_now(at)):
+            raise AuditError(f"t = {at}: kinetic is not static")
+        return
     instant = Instant(kinetic.vertices, at)
     audit_angles(kinetic.mesh, instant)
     if kinetic.name in FREE_TO_DIFFER:

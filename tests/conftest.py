@@ -1,4 +1,4 @@
-"""Hypothesis profiles, a limit on refinement, and the CGAL witness as a fixture.
+"""Hypothesis profiles, a limit on refinement, a switch, and the CGAL witness as a fixture.
 
 ``dev`` (random, short) is the default; HYPOTHESIS_PROFILE=ci is derandomized and longer.
 """
@@ -11,6 +11,9 @@ from hypothesis import HealthCheck, settings
 from exactpt.cgal import CgalCheck, find_program
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.tiling.certificates import Certifier
+from exactpt.tiling.instant import Instant
+from exactpt.tiling.tiling import Tiling
 
 settings.register_profile(
     "dev", max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow]
@@ -25,6 +28,31 @@ settings.register_profile(
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "dev"))
 
 MOST_BITS = 100_000
+
+
+def pytest_addoption(parser):
+    parser.addoption(
+        "--exact-only", action="store_true", help="switch the float filters off in every test"
+    )
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _switch(request):
+    """With --exact-only, every certificate, static predicate and queue is exact."""
+    if not request.config.getoption("--exact-only"):
+        yield
+        return
+
+    def switched_off(init):
+        def exact(self, *args, **options):
+            init(self, *args, **(options | {"exact_only": True}))
+
+        return exact
+
+    with pytest.MonkeyPatch.context() as patch:
+        for kind in (Certifier, Instant, Tiling):
+            patch.setattr(kind, "__init__", switched_off(kind.__init__))
+        yield
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -133,7 +133,8 @@ def contact_of(
     number = time.simplified()
     tracks = tracks_before(scene, number)
     touches = sorted(touches)
-    pairs = tuple(_pair(scene, tracks, touch, number) for touch in touches)
+    outward = {i: _outward(scene, i) for i in {touch.other for touch in touches}}
+    pairs = tuple(_pair(scene, tracks, touch, number, outward[touch.other]) for touch in touches)
     names = tuple((scene.bodies[i].name, scene.bodies[j].name) for i, j in overlaps)
     return Contact(number, _kind(scene, number, pairs), pairs, names)
 
@@ -148,14 +149,18 @@ def _kind(scene: Scene, time: AlgebraicNumber, pairs: Sequence[Pair]) -> str:
 
 
 def _pair(
-    scene: Scene, tracks: list[tuple[Track, ...]], touch: Touch, time: AlgebraicNumber
+    scene: Scene,
+    tracks: list[tuple[Track, ...]],
+    touch: Touch,
+    time: AlgebraicNumber,
+    outward: int,
 ) -> Pair:
     v = tracks[touch.body][touch.vertex]
     normal = None
     if touch.edge >= 0:
         other = tracks[touch.other]
         a, b = other[touch.edge], other[(touch.edge + 1) % len(other)]
-        normal = _normal(scene, touch, v, a, b, time)
+        normal = _normal(outward, v, a, b, time)
     return Pair(
         kind="vertex-edge" if touch.edge >= 0 else "vertex-vertex",
         body=scene.bodies[touch.body].name,
@@ -168,18 +173,23 @@ def _pair(
     )
 
 
+def _outward(scene: Scene, i: int) -> int:
+    """On which side of its edges the outside of a body is: 1 right, -1 left, 0 both."""
+    body = scene.bodies[i]
+    if not body.closed or body.size < 3:
+        return 0
+    return 1 if signed_area2(body.at(scene.start)) > 0 else -1
+
+
 def _normal(
-    scene: Scene, touch: Touch, v: Track, a: Track, b: Track, time: AlgebraicNumber
+    outward: int, v: Track, a: Track, b: Track, time: AlgebraicNumber
 ) -> tuple[float, float]:
     w = multiply(a.w, b.w)
     dx = nearest_value(difference(a.x, a.w, b.x, b.w), w, time)
     dy = nearest_value(difference(a.y, a.w, b.y, b.w), w, time)
-    body = scene.bodies[touch.other]
-    if body.closed and body.size > 2:
-        out = 1 if signed_area2(body.at(scene.start)) > 0 else -1
-    else:
-        # Towards the side that the vertex came from; the right one if it came along the line.
-        out = -time.sign_before(orientation(a, b, v)) or 1
+    # Of a thin body towards the side that the vertex came from; the right one if it came
+    # along the line.
+    out = outward or -time.sign_before(orientation(a, b, v)) or 1
     length = math.hypot(dx, dy)
     if length == 0.0 or not math.isfinite(length):
         return (0.0, 0.0)

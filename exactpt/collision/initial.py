@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.geometry.polygon import contains, edges, segments_meet
@@ -20,40 +21,67 @@ def initial_touches(scene: Scene) -> tuple[list[Touch], list[tuple[int, int]]]:
     body there is none: a scene whose polygons are not simple at the start is refused.)
     """
     points = [body.at(scene.start) for body in scene.bodies]
-    touches: list[Touch] = []
-    pairs: list[tuple[int, int]] = []
-    for first, second in overlapping_pairs(boxes_of_points(points)):
-        for i, j in zip(first.tolist(), second.tolist(), strict=True):
-            found = _incidences(scene, i, j, points) + _incidences(scene, j, i, points)
-            if found or _overlap(scene, i, j, points):
-                touches += found
-                pairs.append((i, j))
-    return sorted(set(touches)), sorted(pairs)
+    near = [
+        (i, j)
+        for first, second in overlapping_pairs(boxes_of_points(points))
+        for i, j in zip(first.tolist(), second.tolist(), strict=True)
+    ]
+    touches: set[Touch] = set()
+    pairs: set[tuple[int, int]] = set()
+    for e, f in _near_edges(scene, points, {i for pair in near for i in pair}):
+        if segments_meet(e.a, e.b, f.a, f.b):
+            pairs.add((e.body, f.body))
+            touches.update(_incidences(e, f))
+            touches.update(_incidences(f, e))
+    for i, j in near:
+        if (i, j) not in pairs and _one_is_inside(scene, i, j, points):
+            pairs.add((i, j))
+    return sorted(touches), sorted(pairs)
 
 
-def _incidences(scene: Scene, i: int, j: int, points: Sequence[Sequence[Point]]) -> list[Touch]:
-    """The vertices of body i on edges and vertices of body j."""
+class _Edge(NamedTuple):
+    """An edge of a body, or a point as the edge -1 from itself to itself."""
+
+    body: int
+    number: int
+    a: Point
+    b: Point
+    ends: tuple[int, int]
+
+
+def _near_edges(
+    scene: Scene, points: Sequence[Sequence[Point]], bodies: set[int]
+) -> Iterator[tuple[_Edge, _Edge]]:
+    """The pairs of edges of different bodies whose boxes meet, the first body's first."""
     found = []
-    vertices = {p: k for k, p in enumerate(points[j])}
-    for v, p in enumerate(points[i]):
-        if p in vertices:
-            if i < j:  # vertex on vertex counts once
-                found.append(Touch(i, v, j, -1, vertices[p]))
-            continue
-        for e, (a, b) in enumerate(edges(scene.bodies[j].size, closed=scene.bodies[j].closed)):
-            u, w = points[j][a], points[j][b]
-            if side(u, w, p) == 0 and between(u, w, p):
-                found.append(Touch(i, v, j, e, -1))
-    return found
+    for i in sorted(bodies):
+        body, at = scene.bodies[i], points[i]
+        pairs = edges(body.size, closed=body.closed)
+        found += [_Edge(i, k, at[u], at[v], (u, v)) for k, (u, v) in enumerate(pairs)]
+        if not pairs:
+            found.append(_Edge(i, -1, at[0], at[0], (0, 0)))
+    if not found:
+        return
+    for first, second in overlapping_pairs(boxes_of_points([(e.a, e.b) for e in found])):
+        for i, j in zip(first.tolist(), second.tolist(), strict=True):
+            if found[i].body != found[j].body:
+                yield found[i], found[j]
 
 
-def _overlap(scene: Scene, i: int, j: int, points: Sequence[Sequence[Point]]) -> bool:
-    """Whether edges cross or one body is inside the other."""
+def _incidences(e: _Edge, f: _Edge) -> Iterator[Touch]:
+    """The ends of edge e on edge f or at its ends."""
+    for v, p in zip(e.ends, (e.a, e.b), strict=True):
+        meeting = [w for w, q in zip(f.ends, (f.a, f.b), strict=True) if p == q]
+        for w in meeting:
+            if e.body < f.body:  # vertex on vertex counts once
+                yield Touch(e.body, v, f.body, -1, w)
+        if not meeting and side(f.a, f.b, p) == 0 and between(f.a, f.b, p):
+            yield Touch(e.body, v, f.body, f.number, -1)
+
+
+def _one_is_inside(scene: Scene, i: int, j: int, points: Sequence[Sequence[Point]]) -> bool:
+    """Whether one of two bodies whose edges do not meet contains the other."""
     a, b = scene.bodies[i], scene.bodies[j]
-    for u, v in edges(a.size, closed=a.closed):
-        for x, y in edges(b.size, closed=b.closed):
-            if segments_meet(points[i][u], points[i][v], points[j][x], points[j][y]):
-                return True
     return (a.closed and a.size > 2 and contains(points[i], points[j][0])) or (
         b.closed and b.size > 2 and contains(points[j], points[i][0])
     )

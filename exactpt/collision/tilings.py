@@ -9,31 +9,41 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.scene.scene import Scene
 from exactpt.tiling.instant import Instant
-from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.mesh import Mesh
+from exactpt.tiling.tiling import Tiling
 
-__all__ = ["TILINGS", "TilingPlan", "plan_tiling", "start_tiling"]
+__all__ = [
+    "POINT_TILING",
+    "TILINGS",
+    "TilingPlan",
+    "plan_tiling",
+    "start_tiling",
+    "tiling_for_contact",
+]
 
 TILINGS: Final = ("greedy", "mixed", "lazy")
-"""The tilings by name."""
+"""The tilings of any bodies, by name."""
+
+POINT_TILING: Final = "incremental"
+"""The tiling of points alone."""
 
 
 class TilingPlan(NamedTuple):
     """A tiling chosen, not built yet.
 
     Attributes:
-        name: one of `TILINGS`.
+        name: one of `TILINGS`, or `POINT_TILING`.
         kind: the class that keeps it.
         vertices: from a time on.
         end: of the time span.
     """
 
     name: str
-    kind: type[KineticTiling]
+    kind: type[Tiling]
     vertices: Vertices
     end: QQ
 
-    def start(self, time: QQ, *, exact_only: bool = False) -> KineticTiling:
+    def start(self, time: QQ, *, exact_only: bool = False) -> Tiling:
         """The tiling just after a time at which the bodies are disjoint."""
         return self.kind(self.vertices, time, self.end, exact_only=exact_only)
 
@@ -43,13 +53,22 @@ class TilingPlan(NamedTuple):
 
 
 def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
-    """Choose the tiling; "auto" by the shapes: convex for ever greedy, else mixed.
+    """Choose the tiling; "auto" by the shapes.
+
+    Points alone: incremental; convex for ever: greedy; else mixed.
 
     Raises:
-        InputError: if there is no such tiling.
+        InputError: if there is no such tiling, or it is not for these bodies.
     """
-    if name != "auto" and name not in TILINGS:
-        raise InputError(f"no tiling {name!r}; there are: auto, {', '.join(TILINGS)}")
+    names = ("auto", POINT_TILING, *TILINGS)
+    if name not in names:
+        raise InputError(f"no tiling {name!r}; there are: {', '.join(names)}")
+    points = all(body.size == 1 for body in scene.bodies)
+    if name == POINT_TILING or (name == "auto" and points):
+        from exactpt.tiling.incremental.incremental import IncrementalTiling
+
+        vertices = IncrementalTiling.vertices_of(scene.bodies, start, scene.end)
+        return TilingPlan(POINT_TILING, IncrementalTiling, vertices, scene.end)
     vertices = Vertices(scene.bodies, start, scene.end)
     convex = name in ("auto", "greedy") and Instant(vertices, start).all_stay_convex()
     if name == "auto":
@@ -57,7 +76,14 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
     return TilingPlan(name, _kind(name, convex=convex), vertices, scene.end)
 
 
-def _kind(name: str, *, convex: bool) -> type[KineticTiling]:
+def tiling_for_contact(scene: Scene, name: str) -> str:
+    """The tiling with the fewest events, if "auto" is asked for."""
+    if name != "auto":
+        return name
+    return POINT_TILING if all(body.size == 1 for body in scene.bodies) else "lazy"
+
+
+def _kind(name: str, *, convex: bool) -> type[Tiling]:
     """The class that keeps a tiling: of the greedy ones, convex bodies have their own."""
     if name == "lazy":
         from exactpt.tiling.lazy import LazyTiling
@@ -76,6 +102,6 @@ def _kind(name: str, *, convex: bool) -> type[KineticTiling]:
     return ShadowedTiling
 
 
-def start_tiling(scene: Scene, name: str, start: QQ, *, exact_only: bool = False) -> KineticTiling:
+def start_tiling(scene: Scene, name: str, start: QQ, *, exact_only: bool = False) -> Tiling:
     """The tiling of a scene just after a time at which its bodies are disjoint."""
     return plan_tiling(scene, name, start).start(start, exact_only=exact_only)

@@ -56,7 +56,7 @@ class Body:
         InputError: if the arguments do not describe a body, or the motion jumps.
     """
 
-    __slots__ = ("_shapes", "closed", "keyframes", "motion", "name", "vertices")
+    __slots__ = ("_pieces", "_shapes", "closed", "keyframes", "motion", "name", "vertices")
 
     def __init__(
         self,
@@ -83,6 +83,7 @@ class Body:
                 _read_vertex(name, i, v) for i, v in enumerate(_listed(name, "vertices", vertices))
             )
         self._shapes = self._shape_pieces()
+        self._pieces: dict[QQ | None, BodyPiece] = {}
         if not self._shapes[0][1]:
             raise InputError(f"body {name!r}: at least one vertex is needed")
         self._check_continuity()
@@ -103,7 +104,10 @@ class Body:
     def piece_after(self, t: QQ) -> BodyPiece:
         """What the body does just after a rational time."""
         end = next((b for b in self.breakpoints if b > t), None)
-        return BodyPiece(end, self._tracks(self._shape_after(t), self._motion_after(t)))
+        if end not in self._pieces:
+            tracks = self._tracks(self._shape_after(t), self._motion_after(t))
+            self._pieces[end] = BodyPiece(end, tracks)
+        return self._pieces[end]
 
     def at(self, t: Rational) -> list[tuple[QQ, QQ]]:
         """The exact positions of the vertices at a rational time."""

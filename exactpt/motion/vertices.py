@@ -82,13 +82,17 @@ class MovingBody:
 class Vertices:
     """The rings of all bodies from a time on.
 
+    With ``plain_points`` a point is a single vertex, without an inside or an offset.
+
     Attributes:
         all: the vertices, by id; those of a body are consecutive.
         bodies: in the order of the scene.
         frame: in which the images are.
     """
 
-    def __init__(self, bodies: Sequence[Body], start: QQ, end: QQ) -> None:
+    def __init__(
+        self, bodies: Sequence[Body], start: QQ, end: QQ, *, plain_points: bool = False
+    ) -> None:
         positions = [body.at(start) for body in bodies]
         flat = [p for points in positions for p in points]
         self.frame: Frame = frame_for(flat or [(QQ(0), QQ(0))], start, end)
@@ -98,7 +102,8 @@ class Vertices:
         for i, body in enumerate(bodies):
             moving = MovingBody(body)
             self.bodies.append(moving)
-            for index in _ring_indices(body, positions[i]):
+            plain = plain_points and body.size == 1
+            for index in [0] if plain else _ring_indices(body, positions[i]):
                 vertex = Vertex(len(self.all), i, index, _NO_TRACK, _NO_IMAGE)
                 moving.ring.append(vertex.id)
                 self.all.append(vertex)
@@ -132,7 +137,7 @@ class Vertices:
             vertex = self.all[vertex_id]
             vertex.track = piece.tracks[vertex.index]
             vertex.image = images[vertex.index]
-        if _is_thin(moving.body):
+        if _is_thin(moving.body) and len(moving.ring) > 1:
             end = self._end if piece.until is None else min(piece.until, self._end)
             offsets = thin_offsets(piece.tracks, t, end)
             for vertex_id, offset in zip(moving.ring, offsets.directions, strict=True):

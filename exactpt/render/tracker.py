@@ -17,7 +17,7 @@ from exactpt.render.palette import TINTS
 from exactpt.tiling.mesh import FREE, OUTER, SOLID
 
 if TYPE_CHECKING:
-    from exactpt.tiling.kinetic import KineticTiling
+    from exactpt.tiling.tiling import Tiling
 
 __all__ = ["EdgeSpan", "TileSpan", "Tracker"]
 
@@ -72,7 +72,7 @@ class Tracker:
         node: of every moving vertex, the vertex of the scene that it is.
     """
 
-    def __init__(self, kinetic: KineticTiling, node: list[int]) -> None:
+    def __init__(self, kinetic: Tiling, node: list[int]) -> None:
         self._kinetic = kinetic
         self._node = node
         self._seen: list[list[int]] = [[], [], [], []]

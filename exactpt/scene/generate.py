@@ -6,10 +6,10 @@ from collections.abc import Callable
 from random import Random
 from typing import Final, TypeAlias
 
-from exactpt.scene.families import convex, degenerate, simple
+from exactpt.scene.families import convex, degenerate, points, simple
 from exactpt.scene.scene import Scene
 
-__all__ = ["CONVEX", "FAMILIES", "SIMPLE", "Family", "generate"]
+__all__ = ["CONVEX", "FAMILIES", "POINTS", "SIMPLE", "Family", "generate"]
 
 Family: TypeAlias = Callable[[Random], Scene]
 
@@ -48,9 +48,24 @@ SIMPLE: Final[dict[str, Family]] = {
 """Families with simple polygons of any shape."""
 
 FAMILIES: Final[dict[str, Family]] = {**CONVEX, **SIMPLE}
-"""All families by name; each makes a scene from a random generator."""
+"""All families of bodies of any kind; each makes a scene from a random generator."""
+
+POINTS: Final[dict[str, Family]] = {
+    "linear_points": points.linear_points,
+    "ballistic_points": points.ballistic_points,
+    "piecewise_points": points.piecewise_points,
+    "turning_points": points.turning_points,
+    "grid_points": points.grid_points,
+    "point_convoy": points.point_convoy,
+    "point_grids_passing": points.point_grids_passing,
+    "points_in_line": points.points_in_line,
+    "crossing_lines": points.crossing_lines,
+    "parabola_points": points.parabola_points,
+    "simultaneous_swaps": points.simultaneous_swaps,
+}
+"""Families of points alone."""
 
 
 def generate(family: str, seed: int) -> Scene:
     """The scene of a family with this seed."""
-    return FAMILIES[family](Random(f"{family}:{seed}"))
+    return {**FAMILIES, **POINTS}[family](Random(f"{family}:{seed}"))

@@ -16,8 +16,8 @@ from exactpt.kernel.numbers import QQ, Rational, rational
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
 from exactpt.tiling.events import ContactFound, TilingEvent
-from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.snapshot import Snapshot, snapshot
+from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Simulation"]
 
@@ -56,7 +56,7 @@ class Simulation:
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
         self._counted = (counters.exact, counters.filtered)
         self._events = 0
-        self._kinetic: KineticTiling | None = None
+        self._kinetic: Tiling | None = None
         touches, overlaps = initial_touches(scene)
         if overlaps:
             start = AlgebraicNumber(scene.start)
@@ -72,7 +72,7 @@ class Simulation:
         return self._kinetic.now
 
     @property
-    def kinetic(self) -> KineticTiling | None:
+    def kinetic(self) -> Tiling | None:
         """The tiling that is kept (None if bodies touch at the start); for `exactpt.render`.
 
         At a contact it is the one just before.
@@ -172,7 +172,7 @@ class Simulation:
 
         return simulation_svg(self)
 
-    def _tiling(self) -> KineticTiling:
+    def _tiling(self) -> Tiling:
         if self._kinetic is None:
             raise InputError("the bodies touch at the start: there is no tiling")
         return self._kinetic

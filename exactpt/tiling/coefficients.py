@@ -8,12 +8,17 @@ constant, exactly: their higher coefficients are not formed at all.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Final
 
+import numpy as np
+from numpy.typing import NDArray
+
 from exactpt.kernel import filters
+from exactpt.kernel.batch import Answers, quadratics
 from exactpt.motion.frame import Image
 
-__all__ = ["orientation", "x_difference"]
+__all__ = ["linear_orientations", "orientation", "x_difference"]
 
 U: Final = 2.0**-53
 K: Final = 8.0 * U
@@ -110,6 +115,48 @@ def _three(
         e1 = (e1 + d1 * t0 + d0 * (t1 + 4.0 * d1)) * filters.SLACK
         e2 = (e2 + d1 * (t1 + 2.0 * d1)) * filters.SLACK
     return filters.quadratic(c0, c1, c2, e0, e1, e2, now_low, now_high, horizon, at_root)
+
+
+@np.errstate(all="ignore")
+def linear_orientations(
+    images: Sequence[Image],
+    triples: NDArray[np.int64],
+    errors: list[float],
+    now_low: float,
+    now_high: float,
+    horizon: NDArray[np.float64],
+) -> Answers:
+    """The filter's answers for many triples (rows of positions), none at a root now.
+
+    Only those of linear motions mean anything.
+
+    As `_three`; where two of a triple translate together they are made a and b, and the
+    higher coefficient of their difference is 0 without error, as in `_pair`.
+    """
+    motions = np.array([i.motion for i in images])[triples]
+    values = np.array([(i.x0, i.y0, i.x1, i.y1) for i in images])[triples]
+    rows = np.arange(len(triples))
+    together = (motions == np.roll(motions, -1, axis=1)) & (motions >= 0)
+    first = np.where(together.any(axis=1), together.argmax(axis=1), 0)
+    a, b, c = (values[rows, (first + i) % 3] for i in range(3))
+    ux0, uy0, ux1, uy1 = (b - a).T
+    vx0, vy0, vx1, vy1 = (c - a).T
+    linear = together.any(axis=1)
+    ux1, uy1 = np.where(linear, 0.0, ux1), np.where(linear, 0.0, uy1)
+    p, q = ux0 * vy0, uy0 * vx0
+    c0, e0 = p - q, K * (abs(p) + abs(q))
+    p, q, r, s = ux0 * vy1, uy0 * vx1, ux1 * vy0, uy1 * vx0
+    c1, e1 = p - q + r - s, K * (abs(p) + abs(q) + abs(r) + abs(s))
+    p, q = ux1 * vy1, uy1 * vx1
+    c2, e2 = p - q, K * (abs(p) + abs(q))
+    d0, d1 = 2.0 * errors[0], 2.0 * errors[1]
+    t0 = abs(ux0) + abs(uy0) + abs(vx0) + abs(vy0)
+    t1 = abs(ux1) + abs(uy1) + abs(vx1) + abs(vy1)
+    e0 = (e0 + d0 * (t0 + 2.0 * d0)) * filters.SLACK
+    e1 = (e1 + d1 * t0 + d0 * (t1 + 4.0 * d1)) * filters.SLACK
+    e2 = np.where(linear, 0.0, (e2 + d1 * (t1 + 2.0 * d1)) * filters.SLACK)
+    at_root = np.zeros(len(triples), dtype=np.bool_)
+    return quadratics(c0, c1, c2, e0, e1, e2, now_low, now_high, horizon, at_root)
 
 
 def _any_degree(
@@ -223,6 +270,13 @@ def x_difference(
         values, sizes = _minor(b.xs, a.ws or ONE, a.xs, b.ws or ONE)
         unit = (4 * len(values) + 8) * U
         return _answer(values, [unit * s for s in sizes], now_low, now_high, horizon, at_root)
+    if a.degree <= 1 and b.degree <= 1:
+        c0, e0, c1, e1 = b.x0 - a.x0, 2.0 * errors[0], 0.0, 0.0
+        if not (a.motion == b.motion and a.motion >= 0):
+            c1 = b.x1 - a.x1
+            e1 = K * abs(c1) + 2.0 * errors[1]
+        e0 += K * abs(c0)
+        return filters.linear(c0, c1, e0, e1, now_low, now_high, horizon, at_root)
     values = _differences(a.xs, b.xs, a, b)
     bounds = [K * abs(v) + 2.0 * errors[i] for i, v in enumerate(values)]
     return _answer(values, bounds, now_low, now_high, horizon, at_root)

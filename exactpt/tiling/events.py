@@ -48,6 +48,7 @@ class Stats:
         rebuilds: how often a batch had to be settled by building the tiling anew.
         flips: repair flips after a batch, towards the canonical tiling.
         most: the largest number of certificates with a pending failure.
+        fan: edges that have come or gone in the fan triangulation of points, if it is kept.
     """
 
     def __init__(self) -> None:
@@ -56,6 +57,7 @@ class Stats:
         self.rebuilds: int = 0
         self.flips: int = 0
         self.most: int = 0
+        self.fan: int = 0
 
     def count(self, kind: str) -> None:
         """Note an event."""

@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from functools import cmp_to_key
 from typing import Final, final
 
-from exactpt.geometry.predicates import Point
+from exactpt.geometry.predicates import Point, side
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import counters
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
@@ -84,8 +84,13 @@ class Instant:
                 counters.filtered += 1
                 return -1
         counters.exact += 1
-        v = self.vertices.all
-        return self.first_sign((orientation(v[a], v[b], v[c]),))
+        u, v, w = (self.vertices.all[i] for i in (a, b, c))
+        if u.track is not v.track and v.track is not w.track and w.track is not u.track:
+            s = side(*(self.positions[i] for i in (a, b, c)))
+            together = u.image.motion == v.image.motion == w.image.motion >= 0
+            if s or together or not self.after:
+                return s
+        return self.first_sign((orientation(u, v, w),))
 
     def all_stay_convex(self) -> bool:
         """Whether all bodies are convex and stay so; at a vertex, an angle of pi will do."""

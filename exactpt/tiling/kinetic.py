@@ -15,24 +15,24 @@ building the tiling anew.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Final
 
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
-from exactpt.kinetic.queue import EventQueue, EventTime, ExactQueue
+from exactpt.kinetic.queue import EventTime
 from exactpt.motion.vertices import Vertex, Vertices
 from exactpt.tiling.audit import audit_fan
-from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.closing import close_at
 from exactpt.tiling.contacts import touches
-from exactpt.tiling.events import ContactFound, Stats, TilingEvent
+from exactpt.tiling.events import ContactFound, TilingEvent
 from exactpt.tiling.exact import comes_first
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import OUTER, SOLID, Mesh
 from exactpt.tiling.moment import Moment
 from exactpt.tiling.placement import nearer, nearer_copy, strictly_between
+from exactpt.tiling.tiling import Tiling
 
 __all__ = ["KineticTiling", "RebuildNeeded"]
 
@@ -49,33 +49,25 @@ class RebuildNeeded(Exception):  # noqa: N818 - a turn of the control flow, no e
     """The events of one time could not be repaired one by one."""
 
 
-class KineticTiling:
+class KineticTiling(Tiling):
     """A pseudo-triangulation of the free space that is kept up to date as time goes on.
 
     This class keeps any pointed pseudo-triangulation (`exactpt.tiling.lazy`); the
     canonical ones refine its rules.
 
     Attributes:
-        vertices: the moving vertices.
         mesh: the tiling just after the current time.
-        certifier: certificates and the current time.
-        queue: pending failures.
-        stats: counts.
     """
 
     name = "lazy"
+    mesh: Mesh
 
     def __init__(self, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool = False) -> None:
-        self.vertices = vertices
-        self.certifier = Certifier(vertices, start, end, exact_only=exact_only)
-        self.queue = ExactQueue(self.certifier) if exact_only else EventQueue(self.certifier)
-        self.stats = Stats()
-        self.mesh: Mesh = Mesh(0)
+        super().__init__(vertices, start, end, exact_only=exact_only)
         self._flat: set[int] = set()
         self._due: set[int] = set()
         self._touched: set[int] = set()
         self._careful: bool = False
-        self._events: list[TilingEvent] = []
         self._build(start)
         self._certify_everything()
         if self._due:
@@ -87,11 +79,6 @@ class KineticTiling:
 
     def _build(self, time: QQ) -> None:
         """Make the tiling that holds just after a rational time."""
-        raise NotImplementedError
-
-    @classmethod
-    def mesh_at(cls, instant: Instant) -> Mesh:
-        """The tiling of an instant."""
         raise NotImplementedError
 
     def mesh_now(self, time: QQ) -> Mesh:
@@ -109,9 +96,17 @@ class KineticTiling:
         for slot in self.queue.slots():
             if slot % KINDS not in (MOTION, SHRINK):
                 self.queue.cancel(slot)
+        watched = []
         for h in self.mesh.map.half_edges():
             if self.mesh.region[h] != SOLID:
-                self._certify(h)
+                if self._cannot_fail(h):
+                    self._certify(h)
+                else:
+                    watched.append(h)
+        answers = self.certifier.orientations([self._angle(h) for h in watched])
+        for h, (s, time) in zip(watched, answers, strict=True):
+            self._due.discard(h)
+            self._keep(h, s, time)
         self.stats.most = max(self.stats.most, len(self.queue))
 
     def _schedule_piece(self, i: int) -> None:
@@ -137,26 +132,37 @@ class KineticTiling:
     def _certify(self, h: int) -> None:
         """Certify the angle of h; note it as due if it is violated just after now."""
         mesh = self.mesh
-        m, slot = mesh.map, KINDS * h + ANGLE
         self._due.discard(h)
         self._flat.discard(h)
-        before = m.previous[h]
-        a, p, b = m.origin[before], m.origin[h], m.origin[h ^ 1]
-        rigid = self.certifier.rigid(a, p, b)
-        if rigid or mesh.region[h] == SOLID or a == b or self._is_copy(h):
+        a, p, b = self._angle(h)
+        if self._cannot_fail(h):
             self.certifier.skipped += 1
-            self.queue.cancel(slot)
+            self.queue.cancel(KINDS * h + ANGLE)
             # A rigid angle keeps its sign. One that is new may have the wrong mark only in
             # the midst of simultaneous events.
-            if rigid and self._careful and mesh.region[h] != SOLID:
+            if self._careful and mesh.region[h] != SOLID and self.certifier.rigid(a, p, b):
                 after = Moment(self.certifier, before=False)
                 if (after.sign(a, p, b) > 0) != mesh.corner[h]:
                     self._due.add(h)
             return
-        s, time = self.certifier.orientation(a, p, b)
+        self._keep(h, *self.certifier.orientation(a, p, b))
+
+    def _cannot_fail(self, h: int) -> bool:
+        """Whether the angle of h needs no certificate of its own."""
+        a, p, b = self._angle(h)
+        return (
+            self.certifier.rigid(a, p, b)
+            or self.mesh.region[h] == SOLID
+            or a == b
+            or self._is_copy(h)
+        )
+
+    def _keep(self, h: int, s: int, time: EventTime | None) -> None:
+        """Schedule the failure of an angle; note it as due if it is violated just after now."""
+        slot = KINDS * h + ANGLE
         if s == 0:
             self._flat.add(h)
-        if (s > 0) != mesh.corner[h]:
+        if (s > 0) != self.mesh.corner[h]:
             self.queue.cancel(slot)
             self._due.add(h)
         elif time is None:
@@ -187,60 +193,6 @@ class KineticTiling:
         return m.following[m.following[m.following[h]]] == h
 
     # Time
-
-    @property
-    def now(self) -> AlgebraicNumber:
-        """The current time."""
-        return self.certifier.exact_now
-
-    def next_time(self) -> EventTime | None:
-        """When the next certificates fail; the queue keeps them."""
-        popped = self.queue.pop()
-        if popped is None:
-            return None
-        time, entries = popped
-        for slot, its_time in entries:
-            self.queue.schedule(slot, its_time)
-        return time
-
-    def run(self, until: QQ | None = None) -> Iterator[TilingEvent]:
-        """Process all events up to and including a time (default: the end of the span).
-
-        Raises:
-            ContactFound: at the first contact.
-        """
-        end = self.certifier.end if until is None else min(until, self.certifier.end)
-        while (events := self.advance(end)) is not None:
-            yield from events
-
-    def advance(self, until: QQ) -> list[TilingEvent] | None:
-        """Process the events of the next time, if that is not after ``until``.
-
-        Returns:
-            The events (perhaps none that matter outside); None if there are no more, and
-            then the current time is ``until``.
-
-        Raises:
-            ContactFound: if there is a contact at that time.
-        """
-        until_low, until_high = self.vertices.frame.time(until)
-        popped = self.queue.pop()
-        if popped is not None:
-            time, entries = popped
-            if time.high > until_low:
-                number = time.exact or self.certifier.resolve(time)
-                if number.compare_rational(until) > 0:
-                    for slot, its_time in entries:
-                        self.queue.schedule(slot, its_time)
-                    popped = None
-        if popped is None:
-            exact = AlgebraicNumber(until)
-            self.certifier.move_to(EventTime(until_low, until_high, -1, -1, -1, exact), [])
-            return None
-        self._process(*popped)
-        events = self._events
-        self._events = []
-        return events
 
     def _process(self, time: EventTime, entries: list[tuple[int, EventTime]]) -> None:
         """Let all events of one time happen."""

@@ -15,6 +15,7 @@ face has at least three, just one at the other).
 
 from __future__ import annotations
 
+from collections import deque
 from typing import NamedTuple
 
 from exactpt.errors import AuditError
@@ -91,24 +92,29 @@ def _remove(mesh: Mesh, predicates: Predicates, todo: list[int]) -> list[Change]
     """Take out every diagonal whose two tiles are one with three corners together."""
     m = mesh.map
     changes = []
-    pending = dict.fromkeys(todo)
+    pending = deque(dict.fromkeys(todo))
+    waiting = set(pending)
     while pending:
-        h = next(iter(pending))
-        del pending[h]
+        h = pending.popleft()
+        waiting.discard(h)
         if m.origin[h] < 0 or mesh.is_hull(h) or mesh.is_fixed(h):
             continue
         corners = _corners_after_removal(mesh, h, predicates)
         if corners is None:
             continue
         old = mesh.ends(h)
-        was_triangle = any(len(m.face(g)) == 3 for g in (h, h ^ 1))
+        was_triangle = any(m.following[m.following[m.following[g]]] == g for g in (h, h ^ 1))
         joined = mesh.flip_out(h)
         for g, is_corner in zip(joined, corners, strict=True):
             mesh.corner[g] = is_corner
-        face = m.face(joined[0])
-        changes.append(Change(h, old, None, face if was_triangle else list(joined)))
-        for g in face:
-            pending[min(g, g ^ 1)] = None
+        angles = m.face(joined[0]) if was_triangle else list(joined)
+        changes.append(Change(h, old, None, angles))
+        # Whether a diagonal can go is told by the four angles at its ends: two are new.
+        for g in joined:
+            for e in (g, m.previous[g]):
+                if (even := min(e, e ^ 1)) not in waiting:
+                    waiting.add(even)
+                    pending.append(even)
     return changes
 
 

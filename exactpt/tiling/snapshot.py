@@ -90,6 +90,18 @@ class Snapshot:
         """The edges that no body has."""
         return tuple(e for e in self.edges if e.kind == "diagonal")
 
+    @property
+    def fan(self) -> tuple[tuple[int, int], ...]:
+        """Of an incremental tiling, what makes it the fan triangulation (paper, section 3.4).
+
+        From the last corner of every face in x-order to the vertices that are no corners.
+        """
+        edges = []
+        for face in self.faces:
+            tip = max(face.corners, key=lambda v: (self.nodes[v].x, -self.nodes[v].y))
+            edges += [(min(tip, v), max(tip, v)) for v in face.nodes if v not in face.corners]
+        return tuple(sorted(edges))
+
     def to_json(self) -> dict[str, object]:
         """The snapshot as in the contract (command ``tile``)."""
         faces = []
@@ -102,7 +114,7 @@ class Snapshot:
             if f.body is not None:
                 face |= {"body": f.body, "level": f.level}
             faces.append(face)
-        return {
+        data: dict[str, object] = {
             "at": str(self.at),
             "tiling": self.tiling,
             "vertices": [
@@ -112,6 +124,9 @@ class Snapshot:
             "edges": [{"u": e.u, "v": e.v, "kind": e.kind, "hull": e.hull} for e in self.edges],
             "faces": faces,
         }
+        if self.tiling == "incremental":
+            data["fan"] = [list(edge) for edge in self.fan]
+        return data
 
 
 def snapshot(vertices: Vertices, mesh: Mesh, name: str, at: QQ) -> Snapshot:

@@ -42,6 +42,7 @@ def test_first_contact_equals_reference(family, count):
         expected = first_contact_allpairs(scene)
         for tiling in TILINGS:
             assert_same(first_contact(scene, tiling=tiling), expected)
+        assert_same(first_contact(scene, method="pairs"), expected)
         kinds[expected.kind if expected else "none"] += 1
     print(family, dict(kinds))  # noqa: T201 - shown with -s
 

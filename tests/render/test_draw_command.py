@@ -30,7 +30,7 @@ def test_demo(tmp_path):
 
 def test_simulate_says_what_the_film_shows(tmp_path):
     demo().save(tmp_path / "demo.json")
-    result = run("simulate", tmp_path / "demo.json", "--tiling", "lazy")
+    result = run("simulate", tmp_path / "demo.json")
     assert "vertex 0 of boat on edge 6 of harbour at (14.349458584473656, 5.2021" in result.output
 
 

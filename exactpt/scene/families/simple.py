@@ -126,7 +126,7 @@ def _body(
 def combs(rng: Random) -> Scene:
     """Two combs that mesh; one moves along the teeth, across them, or both."""
     teeth = rng.randint(2, 5)
-    gap, width, depth = 6, rng.choice([2, 3]), rng.randint(4, 9)
+    gap, width, depth = 8, rng.choice([2, 3]), rng.randint(4, 9)
     lower: list[Point] = [(QQ(-2), QQ(-2)), (QQ(gap * teeth), QQ(-2))]
     for i in reversed(range(teeth)):
         x = QQ(gap * i)
@@ -134,11 +134,14 @@ def combs(rng: Random) -> Scene:
     lower[2:2] = [(QQ(gap * teeth), QQ(0))]
     lower.append((QQ(-2), QQ(0)))
     top = QQ(depth + rng.randint(1, 3))
-    shift = (
-        QQ(rng.randint(width + 1, 2 * gap - width), 2) if rng.random() < 0.5 else QQ(gap + width, 2)
-    )
+    shift = QQ(gap, 2)  # each tooth in the middle between two
+    if rng.random() < 0.5:
+        shift = QQ(rng.randint(3 * width + 1, 3 * (gap - width) - 1), 3)
     upper = [(x + shift, top - y) for x, y in reversed(lower)]
-    motion = Translation([0, rng.randint(-1, 1)], [0, rng.choice([QQ(-1), QQ(0), QQ(1, 3)])])
+    motion = Translation(
+        [0, rng.choice([QQ(-1), QQ(0), QQ(0), QQ(1, 8)])],
+        [0, rng.choice([QQ(-1, 3), QQ(0), QQ(1, 3), QQ(2)])],
+    )
     bodies = [_body("lower", lower, Translation()), _body("upper", upper, motion)]
     return Scene([b for b in bodies if b is not None], (0, rng.choice([2, 5])))
 

@@ -10,10 +10,11 @@ x-order of s and of s', and four orientations.
 
 from __future__ import annotations
 
-from typing import Final
+from collections.abc import Iterable
+from typing import Final, NamedTuple
 
 from exactpt.errors import AuditError
-from exactpt.tiling.greedy.shadow import flip_until_greedy, shadow, tangency
+from exactpt.tiling.greedy.shadow import flip_until_greedy, tangency
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.kinetic import KINDS, KineticTiling, RebuildNeeded
 from exactpt.tiling.mesh import Mesh
@@ -25,6 +26,14 @@ SHADOW: Final = 8
 """Kinds SHADOW to SHADOW + 5: the x-order of a diagonal and of its shadow, four tangencies."""
 
 
+class _Shadow(NamedTuple):
+    """What is certified of a diagonal: its ends, those of its shadow, the tangencies there."""
+
+    diagonal: tuple[int, int]
+    crossing: tuple[int, int]
+    tangencies: list[tuple[int, int, int]]
+
+
 class FlippingTiling(KineticTiling):
     """A tiling that is greedy wherever its diagonals may be flipped."""
 
@@ -34,11 +43,11 @@ class FlippingTiling(KineticTiling):
 
     def _certify_everything(self) -> None:
         self._stale: set[int] = set()
+        self._moved: set[int] = set()
+        self._shadows: dict[int, _Shadow] = {}
         super()._certify_everything()
         self._stale.clear()
-        after = Moment(self.certifier, before=False)
-        for h in self.mesh.flippable():
-            self._certify_shadow(h, after)
+        self._restore_greedy(Moment(self.certifier, before=False), self.mesh.flippable())
 
     def _recertify(self, slots: tuple[int, ...]) -> None:
         super()._recertify(slots)
@@ -49,67 +58,75 @@ class FlippingTiling(KineticTiling):
         m = self.mesh.map
         for v in self.vertices.bodies[i].ring:
             self._stale.update(m.fan(self.mesh.ring_edge[v]))
+        self._moved.update(self._near(self._stale))
         return vanishing
 
     def _recheck(self, slots: list[int]) -> None:
-        self._stale.update(slot // KINDS for slot in slots)
+        self._moved.update(slot // KINDS for slot in slots)
 
     def _settle(self) -> None:
         super()._settle()
         self._restore_greedy(Moment(self.certifier, before=False))
 
-    def _restore_greedy(self, after: Moment) -> None:
-        """Flip what is no longer greedy, and certify the shadows of all that has changed."""
+    def _restore_greedy(self, after: Moment, diagonals: Iterable[int] = ()) -> None:
+        """Flip what is no longer greedy, and certify the shadows of all that may have changed.
+
+        That is every diagonal of a tile that has changed, and those whose own certificates
+        have failed.
+        """
         m = self.mesh.map
-        nearby = {
+        nearby = self._near(self._stale)
+        nearby.update(min(h, h ^ 1) for h in self._moved)
+        nearby.update(diagonals)
+        self._stale.clear()
+        shadows: dict[int, tuple[int, int]] = {}
+        candidates = [h for h in sorted(nearby) if m.origin[h] >= 0 and self.mesh.is_flippable(h)]
+        try:
+            flips = flip_until_greedy(self.mesh, after, candidates, shadows)
+        except AuditError:
+            raise RebuildNeeded from None
+        for old, new, changed in flips:
+            self._record("diagonal", (old,), (new,))
+            super()._recertify(tuple(h for h in changed if m.origin[h] >= 0))
+        if self._due:
+            raise RebuildNeeded
+        for h in sorted(nearby | shadows.keys()):
+            if m.origin[h] >= 0 and self.mesh.is_flippable(h):
+                self._certify_shadow(h, shadows[h], after)
+            else:
+                self._cancel_shadow(h)
+        self._moved.clear()
+
+    def _near(self, half_edges: Iterable[int]) -> set[int]:
+        """The edges of the tiles on both sides of these."""
+        m = self.mesh.map
+        return {
             min(g, g ^ 1)
-            for h in self._stale
+            for h in half_edges
             if m.origin[h] >= 0
             for side in (h, h ^ 1)
             for g in m.face(side)
         }
-        self._stale.clear()
-        candidates = [h for h in sorted(nearby) if self.mesh.is_flippable(h)]
-        changed = self._flip(candidates, after)
-        for h in sorted(nearby | changed):
-            if m.origin[h] >= 0 and self.mesh.is_flippable(h):
-                self._certify_shadow(h, after)
-            else:
-                self._cancel_shadow(h)
-
-    def _flip(self, candidates: list[int], after: Moment) -> set[int]:
-        """Flip until the tiling is greedy again; the diagonals next to what changed."""
-        m = self.mesh.map
-        try:
-            flips = flip_until_greedy(self.mesh, after, candidates)
-        except AuditError:
-            raise RebuildNeeded from None
-        nearby: set[int] = set()
-        for old, new, changed in flips:
-            self._record("diagonal", (old,), (new,))
-            super()._recertify(tuple(h for h in changed if m.origin[h] >= 0))
-            for h in changed:
-                if m.origin[h] >= 0:
-                    nearby.update(min(g, g ^ 1) for side in (h, h ^ 1) for g in m.face(side))
-        if self._due:
-            raise RebuildNeeded
-        return nearby
 
     def _cancel_edge(self, h: int) -> None:
         super()._cancel_edge(h)
         self._cancel_shadow(min(h, h ^ 1))
 
-    def _certify_shadow(self, h: int, after: Moment) -> None:
-        """Certify that a diagonal has smaller theta than its shadow, and what the shadow is."""
-        visits = shadow(self.mesh, h, after)
-        if visits is None:
-            raise RebuildNeeded
+    def _certify_shadow(self, h: int, visits: tuple[int, int], after: Moment) -> None:
+        """Certify that a diagonal has smaller theta than its shadow, and what the shadow is.
+
+        Certificates that are the same as before are pending still.
+        """
         m = self.mesh.map
-        x, y = m.origin[visits[0]], m.origin[visits[1]]
+        crossing = m.origin[visits[0]], m.origin[visits[1]]
+        new = _Shadow(self.mesh.ends(h), crossing, tangency(self.mesh, h, visits))
+        if self._shadows.get(h) == new and h not in self._moved:
+            return
+        self._shadows[h] = new
         slot = KINDS * h + SHADOW
-        self._certify_spin(slot, *self.mesh.ends(h), after)
-        self._certify_spin(slot + 1, x, y, after)
-        for i, triple in enumerate(tangency(self.mesh, h, visits)):
+        self._certify_spin(slot, *new.diagonal, after)
+        self._certify_spin(slot + 1, *new.crossing, after)
+        for i, triple in enumerate(new.tangencies):
             self._certify_tangency(slot + 2 + i, triple)
 
     def _certify_spin(self, slot: int, u: int, v: int, after: Moment) -> None:
@@ -133,5 +150,6 @@ class FlippingTiling(KineticTiling):
             self.queue.schedule(slot, time)
 
     def _cancel_shadow(self, h: int) -> None:
+        self._shadows.pop(h, None)
         for i in range(6):
             self.queue.cancel(KINDS * h + SHADOW + i)

@@ -9,13 +9,15 @@ twice, so everything here is about visits, that is half-edges.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterable
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from exactpt.errors import AuditError
 from exactpt.tiling.mesh import FREE, Mesh
 
 __all__ = [
+    "Flip",
     "Predicates",
     "facing_visit",
     "flip",
@@ -175,11 +177,25 @@ def flip(mesh: Mesh, h: int, visits: tuple[int, int], predicates: Predicates) ->
     return list(changed)
 
 
+class Flip(NamedTuple):
+    """A diagonal replaced by its shadow.
+
+    Attributes:
+        old, new: the ends of the two.
+        changed: the half-edges of changed angles.
+    """
+
+    old: tuple[int, int]
+    new: tuple[int, int]
+    changed: list[int]
+
+
 def flip_until_greedy(
     mesh: Mesh,
     predicates: Predicates,
     candidates: Iterable[int],
-) -> list[tuple[tuple[int, int], tuple[int, int], list[int]]]:
+    shadows: dict[int, tuple[int, int]] | None = None,
+) -> list[Flip]:
     """Flip every diagonal whose shadow has smaller theta, until there is none.
 
     Each flip lowers the multiset of angles, so it ends; a pseudo-triangulation in which
@@ -189,18 +205,21 @@ def flip_until_greedy(
         mesh: a pseudo-triangulation just after the time of the predicates.
         predicates: of that time.
         candidates: half-edges of the diagonals to look at first.
+        shadows: gets the visits of the shadow of each diagonal that was looked at and is
+            still there.
 
     Returns:
-        For each flip the old edge, the new edge, and the half-edges of changed angles.
+        The flips, in order.
 
     Raises:
         AuditError: if a diagonal has no shadow: the mesh is no pseudo-triangulation.
     """
-    todo = dict.fromkeys(min(h, h ^ 1) for h in candidates)
+    todo = deque(dict.fromkeys(min(h, h ^ 1) for h in candidates))
+    waiting = set(todo)
     flips = []
     while todo:
-        h = next(iter(todo))
-        del todo[h]
+        h = todo.popleft()
+        waiting.discard(h)
         if mesh.is_fixed(h) or mesh.map.origin[h] < 0 or mesh.is_hull(h):
             continue
         visits = shadow(mesh, h, predicates)
@@ -209,10 +228,14 @@ def flip_until_greedy(
         old, new = mesh.ends(h), (mesh.map.origin[visits[0]], mesh.map.origin[visits[1]])
         if _theta_is_smaller(mesh, new, old, predicates):
             changed = flip(mesh, h, visits, predicates)
-            flips.append((old, new, changed))
+            flips.append(Flip(old, new, changed))
             e = changed[0]
             for g in (*mesh.map.face(e), *mesh.map.face(e ^ 1)):
-                todo[min(g, g ^ 1)] = None
+                if (even := min(g, g ^ 1)) not in waiting:
+                    waiting.add(even)
+                    todo.append(even)
+        elif shadows is not None:
+            shadows[h] = visits
     return flips
 
 

@@ -9,6 +9,7 @@ certificates and without shadow events.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Final, final
 
 from exactpt.errors import AuditError
@@ -63,10 +64,10 @@ class ShadowedTiling(FlippingTiling):
         self._turned.add(self.mesh.map.origin[h])
         super()._repair_convex_vertex(h, kind)
 
-    def _restore_greedy(self, after: Moment) -> None:
+    def _restore_greedy(self, after: Moment, diagonals: Iterable[int] = ()) -> None:
         if self._turned:
             self._point_turned(after)
-        super()._restore_greedy(after)
+        super()._restore_greedy(after, diagonals)
 
     def _certify_turn(self, v: int) -> None:
         """Certify that a vertex of a deforming polygon stays reflex, if it is."""

@@ -14,14 +14,18 @@ length paths of a given homotopy class*, CGTA 4 (1994).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import final
+from typing import Final, final
 
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import OUTER, Mesh
 
 __all__ = ["Geodesics"]
+
+LEFT: Final = 1
+RIGHT: Final = -1
 
 
 @final
@@ -72,33 +76,13 @@ class Geodesics:
 
     def _funnel(self, start: int, goal: int, sleeve: Sequence[int]) -> list[int]:
         """The shortest path from start to goal through a sleeve of triangles."""
-        portals = [*self._portals(sleeve), (goal, goal)]
-        path = [start]
-        apex = left = right = start
-        left_at = right_at = -1
-        i = 0
-        while i < len(portals):
-            l, r = portals[i]
-            # The right end of the portal narrows the funnel, if it is not right of it.
-            if apex == right or self._turn(apex, right, -1, r, -1) >= 0:
-                if apex in (right, left) or self._turn(apex, left, 1, r, -1) < 0:
-                    right, right_at = r, i
-                else:  # it has passed the left side: the path bends there
-                    path.append(left)
-                    apex = right = left
-                    i, right_at = left_at + 1, left_at
-                    continue
-            if apex == left or self._turn(apex, left, 1, l, 1) <= 0:
-                if apex in (left, right) or self._turn(apex, right, -1, l, 1) > 0:
-                    left, left_at = l, i
-                else:
-                    path.append(right)
-                    apex = left = right
-                    i, left_at = right_at + 1, right_at
-                    continue
-            i += 1
-        path.append(goal)
-        return [v for i, v in enumerate(path) if i == 0 or v != path[i - 1]]
+        funnel = _Funnel(start, self._turn)
+        for l, r in self._portals(sleeve):
+            funnel.extend(r, RIGHT)
+            funnel.extend(l, LEFT)
+        funnel.extend(goal, LEFT)
+        path = [*funnel.path, *funnel.chain[LEFT]]
+        return path if path[-1] == goal else [*path, goal]
 
     def _turn(self, apex: int, p: int, side_p: int, q: int, side_q: int) -> int:
         """The orientation of apex, p, q, for obstacles p and q on given sides of the path.
@@ -133,3 +117,38 @@ def _extend(sleeve: list[int], fan: Sequence[int]) -> None:
             sleeve.pop()
         else:
             sleeve.append(t)
+
+
+@final
+class _Funnel:
+    """The shortest paths from a start to both ends of the last portal.
+
+    They share a path up to the apex and then part, into a chain that turns left and one
+    that turns right: the sides of the funnel. A new end of a portal shortens its own side
+    from behind, or, if that is used up, moves the apex along the other.
+
+    Attributes:
+        path: from the start to the apex.
+        chain: of each side, the vertices after the apex.
+    """
+
+    def __init__(self, start: int, turn: Callable[[int, int, int, int, int], int]) -> None:
+        self.path = [start]
+        self.chain: dict[int, deque[int]] = {LEFT: deque(), RIGHT: deque()}
+        self._turn = turn
+
+    def extend(self, v: int, side: int) -> None:
+        """Move the end of one side to v."""
+        own, other = self.chain[side], self.chain[-side]
+        if v == (own[-1] if own else self.path[-1]):
+            return
+        while own:
+            before = own[-2] if len(own) > 1 else self.path[-1]
+            if self._turn(before, own[-1], side, v, side) * side > 0:
+                own.append(v)
+                return
+            own.pop()
+        while other and self._turn(self.path[-1], other[0], -side, v, side) * side <= 0:
+            self.path.append(other.popleft())
+        if v != self.path[-1]:
+            own.append(v)

@@ -1,0 +1,218 @@
+"""The first contact without a tiling: swept boxes over one slab of time after the other.
+
+In a slab, only a vertex and an edge whose swept boxes meet can touch. The first zero of
+their orientation is asked for by the float filter, exact arithmetic decides what that
+leaves open, and whether the vertex is on the edge then. Slabs grow and shrink with the
+number of pairs, so that little is looked at twice.
+
+No certificate is kept from one slab to the next, and nothing is known of the free space:
+for one first contact in a sparse crowd that is all that is needed.
+"""
+
+from __future__ import annotations
+
+import heapq
+import time as clock
+from typing import Final, TypeAlias, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exactpt.collision.contact import Contact, contact_of
+from exactpt.collision.initial import initial_touches
+from exactpt.errors import BudgetExceeded
+from exactpt.geometry.boxes import overlapping_pairs
+from exactpt.geometry.polygon import edges
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.counters import counters
+from exactpt.kernel.numbers import QQ
+from exactpt.kinetic.queue import EventTime
+from exactpt.motion.swept import SweptBoxes
+from exactpt.motion.vertices import Vertices
+from exactpt.scene.scene import Scene
+from exactpt.tiling.certificates import Certifier
+from exactpt.tiling.contacts import touches
+from exactpt.tiling.placement import lies_on
+
+__all__ = ["PairsSearch"]
+
+Indices: TypeAlias = NDArray[np.int64]
+
+SLABS: Final = 32
+"""The time span is this many of the first slab."""
+
+SMALLEST_SLAB: Final = 1 << 40
+
+
+@final
+class PairsSearch:
+    """A search for the first contact.
+
+    Args:
+        scene: what moves.
+        exact_only: decide everything by exact arithmetic, without the float filters.
+        max_seconds: give up after this time.
+
+    Attributes:
+        name: of the tiling: there is none.
+        certificates: how many orientations have been asked for their first zero.
+    """
+
+    name = None
+
+    def __init__(
+        self, scene: Scene, *, exact_only: bool = False, max_seconds: float | None = None
+    ) -> None:
+        self._scene = scene
+        self._exact_only = exact_only
+        self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
+        self._counted = (counters.exact, counters.filtered)
+        self.certificates = 0
+
+    @property
+    def stats(self) -> dict[str, object]:
+        """Counts, as in the contract."""
+        return {
+            "bodies": len(self._scene.bodies),
+            "vertices": self._scene.vertex_count,
+            "events": 0,
+            "certificates": self.certificates,
+            "skipped": 0,
+            "exact": counters.exact - self._counted[0],
+            "filtered": counters.filtered - self._counted[1],
+        }
+
+    def run_to_contact(self) -> Contact | None:
+        """The first contact in the closed time span of the scene, or None.
+
+        Raises:
+            BudgetExceeded: after the given time; it tells up to when there is no contact.
+        """
+        scene = self._scene
+        initial, overlaps = initial_touches(scene)
+        if overlaps:
+            return contact_of(scene, AlgebraicNumber(scene.start), initial, overlaps)
+        if not scene.bodies:
+            return None
+        self._prepare()
+        return self._run()
+
+    def _prepare(self) -> None:
+        """Number the vertices and edges, and read the first tracks."""
+        scene = self._scene
+        self._vertices = Vertices(scene.bodies, scene.start, scene.end)
+        ids: list[int] = []
+        first_edge: list[tuple[int, int]] = []
+        for moving, body in zip(self._vertices.bodies, scene.bodies, strict=True):
+            # Of the copies of a thin vertex, any one will do.
+            of = {self._vertices.all[v].index: v for v in moving.ring}
+            base = len(ids)
+            ids += [of[i] for i in range(body.size)]
+            pairs = edges(body.size, closed=body.closed) or [(0, 0)]
+            first_edge += [(base + a, base + b) for a, b in pairs]
+        self._ids = ids
+        self._edges: Indices = np.array(first_edge)
+        self._body: Indices = np.array([self._vertices.all[v].body for v in ids])
+        self._read_tracks()
+
+    def _read_tracks(self) -> None:
+        """Take over the tracks of the pieces that begin."""
+        all_vertices, bodies = self._vertices.all, self._vertices.bodies
+        images = [all_vertices[v].image for v in self._ids]
+        self._swept = SweptBoxes(images, self._vertices.frame.errors)
+        self._motion: Indices = np.array([image.motion for image in images])
+        self._deforms = np.array([moving.deforms for moving in bodies])
+
+    def _run(self) -> Contact | None:
+        """Search slab by slab."""
+        now, end = self._scene.start, self._scene.end
+        step = (end - now) / SLABS
+        least = (end - now) / SMALLEST_SLAB
+        while now < end:
+            if self._deadline is not None and clock.monotonic() > self._deadline:
+                raise BudgetExceeded(f"the time is used up at t = {float(now)!r}", now)
+            until = min([end, *(m.until for m in self._vertices.bodies if m.until is not None)])
+            later = min(now + step, until)
+            near = self._near(now, later)
+            many = 2 * len(self._ids) + 64
+            while len(near[0]) > many and step > least:
+                shorter = min(now + step / 4, until)
+                fewer = self._near(now, shorter)
+                if 2 * len(fewer[0]) > len(near[0]):
+                    break  # they are near each other all the time
+                step, later, near = step / 4, shorter, fewer
+            contact = self._search(now, later, near)
+            if contact is not None:
+                return contact
+            if later == now + step and 4 * len(near[0]) < many:
+                step *= 2
+            now = later
+            self._enter_pieces(now)
+        return None
+
+    def _enter_pieces(self, now: QQ) -> None:
+        ended = [i for i, m in enumerate(self._vertices.bodies) if m.until == now]
+        for i in ended:
+            self._vertices.enter_piece(i, now)
+        if ended:
+            self._read_tracks()
+
+    def _near(self, now: QQ, later: QQ) -> tuple[Indices, Indices]:
+        """Vertices and edges (numbers) whose boxes meet in a slab, and that may touch."""
+        frame = self._vertices.frame
+        boxes = self._swept.during(frame.time(now)[0], frame.time(later)[1])
+        a, b = self._edges[:, 0], self._edges[:, 1]
+        low, high = np.minimum(boxes[a], boxes[b]), np.maximum(boxes[a], boxes[b])
+        of_edges = np.stack((low[:, 0], high[:, 1], low[:, 2], high[:, 3]), axis=1)
+        n = len(self._ids)
+        vs, es = [], []
+        for first, second in overlapping_pairs(np.concatenate((boxes, of_edges))):
+            crossed = (first < n) & (second >= n)
+            v, e = first[crossed], second[crossed] - n
+            may = self._may_touch(v, e)
+            vs.append(v[may])
+            es.append(e[may])
+        return np.concatenate(vs), np.concatenate(es)
+
+    def _may_touch(self, v: Indices, e: Indices) -> NDArray[np.bool_]:
+        """Not if they move together; on one body, not an edge that ends there."""
+        a, b = self._edges[e, 0], self._edges[e, 1]
+        motion = self._motion[v]
+        together = (motion >= 0) & (motion == self._motion[a]) & (motion == self._motion[b])
+        rigid = (self._body[v] == self._body[a]) & ~self._deforms[self._body[v]]
+        # The start of an edge stands for the edge itself, which may shrink to a point.
+        may: NDArray[np.bool_] = ~(together | rigid | (v == b))
+        return may
+
+    def _search(self, now: QQ, later: QQ, near: tuple[Indices, Indices]) -> Contact | None:
+        """The first contact in (now, later]."""
+        certifier = Certifier(self._vertices, now, later, exact_only=self._exact_only)
+        ids = self._ids
+        pending: list[tuple[float, int, EventTime, tuple[int, int, int]]] = []
+        for k, (v, e) in enumerate(zip(near[0].tolist(), near[1].tolist(), strict=True)):
+            a, b = self._edges[e].tolist()
+            triple = (ids[b], ids[v], ids[b]) if v == a else (ids[a], ids[v], ids[b])
+            _, time = certifier.orientation(*triple)
+            self.certificates += 1
+            if time is not None:
+                pending.append((time.low, k, time, triple))
+        heapq.heapify(pending)
+        best: AlgebraicNumber | None = None
+        best_high = float("inf")
+        while pending and pending[0][0] <= best_high:
+            _, k, time, triple = heapq.heappop(pending)
+            certifier.move_to(time, [triple])
+            a, v, b = (self._vertices.all[i] for i in triple)
+            if not lies_on(certifier, v, a, b):
+                _, following = certifier.orientation(*triple)
+                if following is not None:
+                    heapq.heappush(pending, (following.low, k, following, triple))
+                continue
+            number = certifier.exact_now
+            if number.compare_rational(later) <= 0 and (best is None or number.compare(best) < 0):
+                best, best_high = number, time.high
+        if best is None:
+            return None
+        certifier.move_to(EventTime(*self._vertices.frame.enclosure(best), -1, -1, -1, best), [])
+        found = touches(certifier, self._vertices, range(len(self._vertices.all)))
+        return contact_of(self._scene, best, found)

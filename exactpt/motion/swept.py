@@ -1,0 +1,86 @@
+"""Boxes that contain moving vertices during a time interval: proven, in doubles, in numpy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Final, TypeAlias, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from exactpt.geometry.boxes import Boxes
+    from exactpt.motion.frame import Image
+
+__all__ = ["SweptBoxes"]
+
+Floats: TypeAlias = NDArray[np.float64]
+
+U: Final = 2.0**-53
+
+
+@final
+class SweptBoxes:
+    """The images of some tracks as arrays.
+
+    Args:
+        images: of the tracks.
+        errors: of the frame, see `exactpt.motion.frame.Frame`.
+    """
+
+    def __init__(self, images: Sequence[Image], errors: Sequence[float]) -> None:
+        size = max(len(image.xs) for image in images)
+        self._xs, self._ys, self._ws = (np.zeros((len(images), size)) for _ in range(3))
+        for i, image in enumerate(images):
+            self._xs[i, : len(image.xs)] = image.xs
+            self._ys[i, : len(image.ys)] = image.ys
+            self._ws[i, : len(image.ws)] = image.ws
+        self._turning = np.array([bool(image.ws) for image in images])
+        self._errors = np.array([*errors, *[0.0] * size][:size])
+
+    @np.errstate(all="ignore")
+    def during(self, low: float, high: float) -> Boxes:
+        """A box for each track, in the frame, while low <= t <= high.
+
+        Around the middle m of the interval, r its half-width, a polynomial is
+        c'_0 + c'_1 (t - m) + ..., so it is off c'_0 by at most sum |c'_i| r^i. Computing
+        the c'_i by Horner's rule takes at most 2 n operations each; their errors times
+        r^i add up to at most 4 n u sum |c_i| (|m| + r)^i, and the coefficients
+        themselves are off by ``errors[i]`` (of turning tracks: by 2 u |c_i|). Whatever
+        is not a number has the whole plane.
+        """
+        x_low, x_high = self._range(self._xs, low, high)
+        y_low, y_high = self._range(self._ys, low, high)
+        if self._turning.any():
+            w_low, w_high = self._range(self._ws, low, high)
+            x = _quotient(x_low, x_high, w_low, w_high)
+            y = _quotient(y_low, y_high, w_low, w_high)
+            x_low, x_high = np.where(self._turning, x, (x_low, x_high))
+            y_low, y_high = np.where(self._turning, y, (y_low, y_high))
+        boxes = np.stack((x_low, x_high, y_low, y_high), axis=1)
+        unknown = np.isnan(boxes).any(axis=1)
+        boxes[unknown] = (-np.inf, np.inf, -np.inf, np.inf)
+        return boxes
+
+    def _range(self, cs: Floats, low: float, high: float) -> tuple[Floats, Floats]:
+        n = cs.shape[1]
+        m = 0.5 * (low + high)
+        r = max(high - m, m - low) * (1.0 + 4.0 * U)
+        shifted = cs.copy()
+        for i in range(n - 1):
+            for j in range(n - 2, i - 1, -1):
+                shifted[:, j] += m * shifted[:, j + 1]
+        powers = r ** np.arange(n)
+        spread = np.abs(shifted[:, 1:]) @ powers[1:]
+        reach = (abs(m) + r) ** np.arange(n)
+        rounding = (np.abs(cs) @ reach) * (16.0 * n * U) + self._errors @ reach
+        radius = (spread + rounding) * (1.0 + 1e-10) + 4.0 * U * np.abs(shifted[:, 0])
+        return shifted[:, 0] - radius, shifted[:, 0] + radius
+
+
+def _quotient(low: Floats, high: Floats, w_low: Floats, w_high: Floats) -> tuple[Floats, Floats]:
+    """The range of a quotient whose denominator is positive; not a number if it may not be."""
+    w_low = np.where(w_low > 0.0, w_low, np.nan)
+    quotients = np.stack((low / w_low, low / w_high, high / w_low, high / w_high))
+    least, most = quotients.min(axis=0), quotients.max(axis=0)
+    return least - 2.0 * U * np.abs(least), most + 2.0 * U * np.abs(most)

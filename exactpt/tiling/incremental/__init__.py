@@ -1,0 +1,1 @@
+"""The incremental pseudo-triangulation of moving points (paper, section 3)."""

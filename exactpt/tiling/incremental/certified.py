@@ -1,0 +1,127 @@
+"""A structure with its certificates: what is pending in the queue, what is violated now.
+
+A slot of the queue is ``KINDS * point + kind``. Kinds `UPPER` and `LOWER` are the edges on
+which the point hangs, `ORDER` is the point and the next one in x-order, `MOTION` the end of
+its piece of motion.
+"""
+
+from __future__ import annotations
+
+from typing import Final, final
+
+from exactpt.kinetic.queue import EventQueue
+from exactpt.tiling.certificates import Certifier
+from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
+from exactpt.tiling.moment import Moment
+
+__all__ = ["KINDS", "MOTION", "ORDER", "CertifiedStructure"]
+
+ORDER: Final = 2
+MOTION: Final = 3
+KINDS: Final = 4
+
+
+@final
+class CertifiedStructure:
+    """The certificates of a structure at the current time.
+
+    Attributes:
+        now: the structure.
+        after: signs just after the current time.
+        due: of each kind, the points whose certificate is violated just after now.
+    """
+
+    __slots__ = ("_certifier", "_queue", "after", "due", "now")
+
+    def __init__(
+        self, structure: IncrementalStructure, certifier: Certifier, queue: EventQueue
+    ) -> None:
+        self.now = structure
+        self._certifier = certifier
+        self._queue = queue
+        self.after = Moment(certifier, before=False)
+        self.due: tuple[set[int], set[int], set[int]] = (set(), set(), set())
+        for p in structure.order:
+            self.certify_edge(UPPER, p)
+            self.certify_edge(LOWER, p)
+            self.certify_order(p)
+
+    def certify_edge(self, side: int, b: int) -> None:
+        """Certify the edge on which b hangs."""
+        slot = KINDS * b + side
+        due = self.due[side]
+        due.discard(b)
+        certificate = self.now.certificate(side, b)
+        if certificate is None:
+            self._queue.cancel(slot)
+            return
+        lo, mid, hi, bends = certificate
+        certifier = self._certifier
+        if certifier.rigid(lo, mid, hi):
+            # What never changes may still be wrong in the midst of simultaneous events.
+            certifier.skipped += 1
+            s, time = self.after.sign(lo, mid, hi), None
+        else:
+            s, time = certifier.orientation(lo, mid, hi)
+        if (s == (1 if side == UPPER else -1)) != bends:
+            due.add(b)
+            time = None
+        if time is None:
+            self._queue.cancel(slot)
+        else:
+            self._queue.schedule(slot, time)
+
+    def certify_order(self, p: int) -> None:
+        """Certify that p is left of the next point."""
+        slot = KINDS * p + ORDER
+        due = self.due[ORDER]
+        due.discard(p)
+        order = self.now.order
+        i = self.now.rank[p] + 1
+        if i == len(order):
+            self._queue.cancel(slot)
+            return
+        q = order[i]
+        certifier = self._certifier
+        time = None
+        if certifier.keeps_x_order(p, q):
+            certifier.skipped += 1
+            is_left = self.after.left_of(p, q)
+        else:
+            s, time = certifier.x_order(p, q, touching=True)
+            is_left = s > 0
+        if not is_left:
+            due.add(p)
+            time = None
+        if time is None:
+            self._queue.cancel(slot)
+        else:
+            self._queue.schedule(slot, time)
+
+    def certify_point(self, p: int) -> None:
+        """Certify anew whatever depends on the motion of a point."""
+        i = self.now.rank[p]
+        for q in self.now.order[max(i - 1, 0) : i + 1]:
+            self.certify_order(q)
+        for side in (UPPER, LOWER):
+            tree = self.now.trees[side]
+            edges = {p, tree.before[p]}
+            c = tree.first[p]
+            while c >= 0:
+                edges |= {c, tree.last[c]}
+                c = tree.after[c]
+            for b in sorted(edges):
+                if b >= 0:
+                    self.certify_edge(side, b)
+
+    def replace(self, new: IncrementalStructure) -> None:
+        """Put another structure in place; the certificates that both have are kept."""
+        old, self.now = self.now, new
+        for side in (UPPER, LOWER):
+            for b in new.order:
+                if b in self.due[side] or new.certificate(side, b) != old.certificate(side, b):
+                    self.certify_edge(side, b)
+        for i, p in enumerate(new.order):
+            j = old.rank[p]
+            if p in self.due[ORDER] or new.order[i + 1 : i + 2] != old.order[j + 1 : j + 2]:
+                self.certify_order(p)

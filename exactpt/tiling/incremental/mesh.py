@@ -1,0 +1,70 @@
+"""The faces of an incremental pseudo-triangulation, as half-edges for the outside.
+
+The edge on which p hangs in the upper tree has the handles 4 p (from p) and 4 p + 1, the
+one in the lower tree 4 p + 2 and 4 p + 3. If the two are one edge (of the second point,
+and of more if the first points are collinear), only the former is there.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from exactpt.planar.halfedge import NOTHING
+from exactpt.tiling.incremental.fan import path
+from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
+from exactpt.tiling.mesh import OUTER, Mesh
+
+__all__ = ["mesh_of"]
+
+
+def mesh_of(structure: IncrementalStructure) -> Mesh:
+    """The tiles Delta(p), p from the third point on, and the outer face."""
+    upper, lower = structure.trees
+    mesh = Mesh(len(structure.order))
+    for p in range(len(structure.order)):
+        for tree in structure.trees:
+            z = tree.parent[p]
+            h = mesh.add_edge(p, z, boundary=False)
+            if z < 0 or (tree is lower and z == upper.parent[p]):
+                mesh.map.origin[h] = mesh.map.origin[h + 1] = NOTHING
+    for p in structure.order[1:]:
+        if upper.parent[p] != lower.parent[p]:
+            down, up = _from(structure, UPPER, p), _from(structure, LOWER, p) + 1
+            face = [down, *_sides(structure, upper.before[p], lower.before[p]), up]
+            _close(mesh, face)
+            for h in (face[0], face[1], face[-1]):
+                mesh.corner[h] = True
+    first = structure.order[0] if structure.order else -1
+    if len(structure.order) > 1:
+        hull = _sides(structure, upper.last[first], lower.last[first])
+        _close(mesh, hull)
+        for h in hull:
+            mesh.region[h] = OUTER
+    return mesh
+
+
+def _from(structure: IncrementalStructure, side: int, p: int) -> int:
+    """The half-edge from p to where it hangs in a tree."""
+    upper, lower = structure.trees
+    if side == LOWER and upper.parent[p] != lower.parent[p]:
+        return 4 * p + 2
+    return 4 * p
+
+
+def _sides(structure: IncrementalStructure, upper_top: int, lower_top: int) -> list[int]:
+    """The half-edges of a chain from its upper end to its lower one, bulging to the right.
+
+    Args:
+        structure: the structure.
+        upper_top: the vertex after the upper end, if the upper side has one.
+        lower_top: the vertex before the lower end, if the lower side has one.
+    """
+    upper, lower = structure.trees
+    return [_from(structure, UPPER, c) + 1 for c in path(upper_top, upper)] + [
+        _from(structure, LOWER, c) for c in reversed(list(path(lower_top, lower)))
+    ]
+
+
+def _close(mesh: Mesh, face: list[int]) -> None:
+    for h, g in pairwise([*face, face[0]]):
+        mesh.map.link(h, g)

@@ -1,0 +1,114 @@
+"""What every kinetic tiling is: certificates, a queue of their failures, time that passes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ
+from exactpt.kinetic.queue import EventQueue, EventTime, ExactQueue
+from exactpt.motion.vertices import Vertices
+from exactpt.tiling.certificates import Certifier
+from exactpt.tiling.events import Stats, TilingEvent
+
+if TYPE_CHECKING:
+    from exactpt.tiling.instant import Instant
+    from exactpt.tiling.mesh import Mesh
+
+__all__ = ["Tiling"]
+
+
+class Tiling:
+    """A tiling of the free space that is kept up to date as time goes on.
+
+    Attributes:
+        vertices: the moving vertices.
+        certifier: certificates and the current time.
+        queue: pending failures.
+        stats: counts.
+    """
+
+    name = ""
+
+    def __init__(self, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool = False) -> None:
+        self.vertices = vertices
+        self.certifier = Certifier(vertices, start, end, exact_only=exact_only)
+        self.queue = ExactQueue(self.certifier) if exact_only else EventQueue(self.certifier)
+        self.stats = Stats()
+        self._events: list[TilingEvent] = []
+        self._until: tuple[QQ, float] = (end, vertices.frame.time(end)[0])
+
+    if TYPE_CHECKING:
+
+        @property
+        def mesh(self) -> Mesh:
+            """The tiling just after the current time."""
+
+    @classmethod
+    def mesh_at(cls, instant: Instant) -> Mesh:
+        """The tiling of an instant."""
+        raise NotImplementedError
+
+    def mesh_now(self, time: QQ) -> Mesh:
+        """The tiling at a rational time: the current one, or one before the next event."""
+        raise NotImplementedError
+
+    @property
+    def now(self) -> AlgebraicNumber:
+        """The current time."""
+        return self.certifier.exact_now
+
+    def next_time(self) -> EventTime | None:
+        """When the next certificates fail; the queue keeps them."""
+        popped = self.queue.pop()
+        if popped is None:
+            return None
+        time, entries = popped
+        for slot, its_time in entries:
+            self.queue.schedule(slot, its_time)
+        return time
+
+    def run(self, until: QQ | None = None) -> Iterator[TilingEvent]:
+        """Process all events up to and including a time (default: the end of the span).
+
+        Raises:
+            ContactFound: at the first contact.
+        """
+        end = self.certifier.end if until is None else min(until, self.certifier.end)
+        while (events := self.advance(end)) is not None:
+            yield from events
+
+    def advance(self, until: QQ) -> list[TilingEvent] | None:
+        """Process the events of the next time, if that is not after ``until``.
+
+        Returns:
+            The events (perhaps none that matter outside); None if there are no more, and
+            then the current time is ``until``.
+
+        Raises:
+            ContactFound: if there is a contact at that time.
+        """
+        if until is not self._until[0]:
+            self._until = (until, self.vertices.frame.time(until)[0])
+        popped = self.queue.pop()
+        if popped is not None:
+            time, entries = popped
+            if time.high > self._until[1]:
+                number = time.exact or self.certifier.resolve(time)
+                if number.compare_rational(until) > 0:
+                    for slot, its_time in entries:
+                        self.queue.schedule(slot, its_time)
+                    popped = None
+        if popped is None:
+            low, high = self.vertices.frame.time(until)
+            self.certifier.move_to(EventTime(low, high, -1, -1, -1, AlgebraicNumber(until)), [])
+            return None
+        self._process(*popped)
+        events = self._events
+        self._events = []
+        return events
+
+    def _process(self, time: EventTime, entries: list[tuple[int, EventTime]]) -> None:
+        """Let all events of one time happen."""
+        raise NotImplementedError

@@ -1,0 +1,144 @@
+"""The mixed tiling: labels, counts, and what they promise (paper, section 5)."""
+
+import math
+from random import Random
+
+import pytest
+
+from exactpt.collision.initial import initial_touches
+from exactpt.collision.tilings import start_tiling
+from exactpt.geometry.predicates import side
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.motion.vertices import Vertices
+from exactpt.scene.generate import FAMILIES, generate
+from exactpt.scene.scene import Scene
+from exactpt.tiling.audit import audit_angles
+from exactpt.tiling.build import build_mesh
+from exactpt.tiling.greedy.shadow import flip, shadow
+from exactpt.tiling.instant import Instant
+from exactpt.tiling.mesh import FREE
+from exactpt.tiling.mixed.geodesics import Geodesics
+from exactpt.tiling.mixed.labels import Forest
+from exactpt.tiling.mixed.static import mixed_mesh
+from exactpt.tiling.plane_sweep import Sweep, body_edges
+
+COUNTS = [2, pytest.param(60, marks=pytest.mark.slow)]
+
+
+def instants(family, count):
+    for seed in range(count):
+        scene = generate(family, seed)
+        if not initial_touches(scene)[1]:
+            yield seed, Instant(Vertices(scene.bodies, scene.start, scene.end), scene.start)
+
+
+@pytest.mark.parametrize("count", COUNTS)
+@pytest.mark.parametrize("family", sorted(FAMILIES))
+def test_labels_are_paths_and_each_node_has_one_face(family, count):
+    """Theory: the facts about labels; 2 k - 2 faces in F2, one for each other node at most."""
+    for _, instant in instants(family, count):
+        mesh = mixed_mesh(instant)
+        mesh.audit()
+        audit_angles(mesh, instant)
+        assert all(mesh.forest.is_path(label) for label in mesh.labels)
+        nodes = []
+        for face in mesh.faces():
+            of_face = {mesh.forest.node(mesh.labels[h], mesh.labels[h ^ 1]) for h in face}
+            assert len(of_face) == 1
+            nodes += of_face
+        inner = [node for node in nodes if node >= 0]
+        assert len(inner) == len(set(inner))
+        assert not mesh.forest.leaves & set(inner)
+        assert nodes.count(-1) == 2 * len(instant.vertices.bodies) - 2
+
+
+def shuffled(instant, rng):
+    """A triangulation of the free space, some of its diagonals flipped at random."""
+    mesh = build_mesh(instant, Sweep(instant, body_edges(instant), triangulate=True).run())
+    for h in mesh.flippable():
+        far = {mesh.map.target(mesh.map.following[g]) for g in (h, h ^ 1)}
+        if rng.random() < 0.5 and len(far) == 2 and convex(instant, *mesh.ends(h), *far):
+            visits = shadow(mesh, h, instant)
+            assert {mesh.map.origin[g] for g in visits} == far
+            flip(mesh, h, visits, instant)
+    return mesh
+
+
+def convex(instant, a, b, c, d):
+    """Whether the segments ab and cd cross."""
+    sign = instant.sign
+    return sign(a, b, c) * sign(a, b, d) < 0 and sign(c, d, a) * sign(c, d, b) < 0
+
+
+@pytest.mark.parametrize("count", COUNTS)
+@pytest.mark.parametrize("family", ["stars", "combs", "spirals", "letters", "clamps", "chains"])
+def test_geodesics_do_not_depend_on_the_triangulation(family, count):
+    for seed, instant in instants(family, count):
+        rng = Random(seed)
+        forest = Forest(instant.vertices)
+        first, second = (Geodesics(instant, shuffled(instant, rng)) for _ in range(2))
+        for tree, _, chain in forest.bodies:
+            for node in range(1, len(tree)):
+                part = chain[tree.low[node] : tree.high[node] + 1]
+                assert first.path(part) == second.path(part)
+
+
+def crosses(p, q, a, b):
+    return side(p, q, a) * side(p, q, b) < 0 and side(a, b, p) * side(a, b, q) < 0
+
+
+@pytest.mark.parametrize("count", COUNTS)
+@pytest.mark.parametrize("family", ["stars", "combs", "spirals", "letters"])
+def test_a_free_segment_crosses_few_edges_of_f1(family, count):
+    """Paper, Lemma 5.4: at most 2 (ceil(log2 n) + 2), n the size of the largest polygon."""
+    tried = 0
+    for seed, instant in instants(family, count):
+        rng = Random(seed)
+        mesh = mixed_mesh(instant)
+        at = instant.positions
+        m = mesh.map
+        solid = [(at[v], at[m.target(mesh.ring_edge[v])]) for v in range(len(at))]
+        bridges = [
+            tuple(at[v] for v in mesh.ends(h))
+            for h in mesh.diagonals()
+            if mesh.region[h] == FREE and (mesh.labels[h] or mesh.labels[h ^ 1])
+        ]
+        most = max(len(body.ring) for body in instant.vertices.bodies)
+        bound = 2 * (math.ceil(math.log2(most)) + 2)
+        for _ in range(100):
+            p, q = (random_free_point(rng, instant) for _ in range(2))
+            if p != q and not any(crosses(p, q, *edge) for edge in solid):
+                tried += 1
+                assert sum(crosses(p, q, *edge) for edge in bridges) <= bound
+    assert tried
+
+
+def random_free_point(rng, instant):
+    """A point near a vertex, on its free side or not: a segment into a body crosses its edge."""
+    x, y = rng.choice(instant.positions)
+    return x + QQ(rng.randint(-300, 300), 97), y + QQ(rng.randint(-300, 300), 101)
+
+
+def comb(teeth, x, y, *, down=False):
+    lower = [(-2, -2), (8 * teeth, -2), (8 * teeth, 0)]
+    for i in reversed(range(teeth)):
+        lower += [(8 * i + 2, 0), (8 * i + 2, 9), (8 * i, 9), (8 * i, 0)]
+    lower.append((-2, 0))
+    return [(a + x, y - b if down else y + b) for a, b in (reversed(lower) if down else lower)]
+
+
+def test_far_apart_the_certificates_do_not_depend_on_the_vertices():
+    """Paper, Theorem 5.6: O(kappa log n) certificates, and kappa is constant here."""
+    made = set()
+    for teeth in (4, 16, 64):
+        far = 10_000 * teeth
+        bodies = [
+            Body("a", comb(teeth, 0, 0)),
+            Body("b", comb(teeth, far, 11, down=True), Translation([0, "1/7"], [0, "1/5"])),
+        ]
+        kinetic = start_tiling(Scene(bodies, (0, 8)), "mixed", QQ(0))
+        made.add(kinetic.certifier.made)
+    assert len(made) == 1
+    assert made.pop() <= 30
