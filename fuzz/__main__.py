@@ -8,13 +8,15 @@ import click
 
 from exactpt.cgal import find_program
 from exactpt.errors import InputError
-from exactpt.scene.generate import FAMILIES
+from exactpt.scene.generate import FAMILIES as BODIES
+from exactpt.scene.generate import POINTS
 from fuzz import battery, corpus, planted
 from fuzz.campaign import Campaign, run
 from fuzz.cases import Outcome
 from fuzz.witnesses import WITNESSES
 
 FAILED, INTERRUPTED = 1, 130
+FAMILIES = (*BODIES, *POINTS)
 
 
 HELP = {"help_option_names": ["-h", "--help"]}
@@ -59,7 +61,7 @@ def fuzz(
     if count is None and seconds is None:
         count = 200
     campaign = Campaign(
-        families=(*families, *more) or tuple(FAMILIES),
+        families=(*families, *more) or FAMILIES,
         witnesses=witnesses or tuple(WITNESSES),
         seed=seed,
         start=start,

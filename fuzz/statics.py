@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final, NamedTuple
 
 from exactpt.collision.initial import initial_touches
-from exactpt.collision.tilings import start_tiling
+from exactpt.collision.tilings import POINT_TILING, start_tiling
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
@@ -15,7 +15,6 @@ from exactpt.tiling.events import ContactFound
 from exactpt.tiling.greedy.greedy import GreedyTiling
 from exactpt.tiling.greedy.vertical import VerticalDecomposition
 from exactpt.tiling.instant import Instant
-from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.mesh import INSIDE, Mesh
 from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.tiling import Tiling
@@ -86,13 +85,16 @@ def audit_at(kinetic: Tiling, at: QQ) -> None:
     Raises:
         AuditError: if an angle is not as marked, or the tilings differ.
     """
-    if not isinstance(kinetic, KineticTiling):  # of points: a mesh is made when asked for
+    if not isinstance(kinetic, Tiling):  # of points: a mesh is made when asked for
         mesh = type(kinetic).mesh_at(Instant(kinetic.vertices, at, after=False))
         if _diagonals(mesh) != _diagonals(kinetic.mesh_now(at)):
             raise AuditError(f"t = {at}: kinetic is not static")
         return
     instant = Instant(kinetic.vertices, at)
-    audit_angles(kinetic.mesh, instant)
+    if kinetic.name == POINT_TILING:
+        kinetic.mesh.audit()  # its points have no rings
+    else:
+        audit_angles(kinetic.mesh, instant)
     if kinetic.name in FREE_TO_DIFFER:
         return
     if isinstance(kinetic, GreedyTiling):

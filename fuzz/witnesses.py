@@ -9,14 +9,13 @@ from exactpt.check import check_scene
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
-from exactpt.collision.tilings import TILINGS
-from exactpt.errors import InputError
+from exactpt.collision.tilings import POINT_TILING, TILINGS
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from fuzz.statics import run_and_audit
 from fuzz.variants import VARIANTS, difference
 
-__all__ = ["PARTICULAR", "WITNESSES", "Difference", "Witness", "contrast"]
+__all__ = ["WITNESSES", "Difference", "Witness", "contrast", "tilings_of"]
 
 Witness: TypeAlias = Callable[[Scene, int | None], None]
 """Raises `Difference`, or whatever broke, if something is wrong with a scene.
@@ -48,7 +47,7 @@ def reference(scene: Scene, turn: int | None) -> None:  # noqa: ARG001 - always 
             said = f"{_in_words(found)}, but the reference {_in_words(expected)}"
             raise Difference(f"{name}: {kind}", said)
 
-    _with_tilings(compare, None)
+    _with_tilings(scene, compare, None)
 
 
 def static(scene: Scene, turn: int | None) -> None:
@@ -57,7 +56,7 @@ def static(scene: Scene, turn: int | None) -> None:
     def audit(name: str) -> None:
         run_and_audit(scene, name, middle=False)
 
-    _with_tilings(audit, turn)
+    _with_tilings(scene, audit, turn)
 
 
 def filters(scene: Scene, turn: int | None) -> None:
@@ -74,13 +73,13 @@ def filters(scene: Scene, turn: int | None) -> None:
         if len(logs[0]) != len(logs[1]):
             raise Difference(f"{name}: length", f"{len(logs[0])}, exactly {len(logs[1])} events")
 
-    _with_tilings(compare, turn)
+    _with_tilings(scene, compare, turn)
 
 
 def symmetry(scene: Scene, turn: int | None) -> None:
     """Symmetric variants of a scene have the same first contact, mapped."""
     contact = first_contact(scene)
-    tilings = [name for name in TILINGS if name not in PARTICULAR]
+    tilings = tilings_of(scene)
     stride = 1 if turn is None else 5
     for i, (name, variant) in enumerate(VARIANTS.items()):
         if turn is not None and i % stride != turn % stride:
@@ -103,11 +102,8 @@ def cgal(scene: Scene, turn: int | None) -> None:
         if not report.ok:
             raise Difference(f"{name}: cgal", report.failures[0])
 
-    _with_tilings(check, turn)
+    _with_tilings(scene, check, turn)
 
-
-PARTICULAR: Final = frozenset({"incremental"})
-"""The tilings that are not for all scenes."""
 
 WITNESSES: Final[dict[str, Witness]] = {
     "reference": reference,
@@ -119,18 +115,17 @@ WITNESSES: Final[dict[str, Witness]] = {
 """The witnesses by name."""
 
 
-def _with_tilings(check: Callable[[str], None], turn: int | None) -> None:
-    """Check with each tiling, or with that whose turn it is.
+def tilings_of(scene: Scene) -> list[str]:
+    """The tilings that must accept a scene."""
+    points = all(body.size == 1 for body in scene.bodies)
+    return [*TILINGS, POINT_TILING] if points else [*TILINGS]
 
-    A refusal is a failure, but not of a particular one.
-    """
-    names = list(TILINGS)
+
+def _with_tilings(scene: Scene, check: Callable[[str], None], turn: int | None) -> None:
+    """Check with each tiling, or with that whose turn it is."""
+    names = tilings_of(scene)
     for name in names if turn is None else [names[turn % len(names)]]:
-        try:
-            check(name)
-        except InputError:
-            if name not in PARTICULAR:
-                raise
+        check(name)
 
 
 def contrast(expected: Contact | None, found: Contact | None) -> str | None:

@@ -108,11 +108,19 @@ class Certifier:
         va, vb, vc = self._all[a], self._all[b], self._all[c]
         motion = va.image.motion
         if motion >= 0 and motion == vb.image.motion and motion == vc.image.motion:
-            return True
+            return not (va.image.ws and self._has_copies_of_a_point(va, vb, vc))
         return (
             va.offset is not None
             and va.body == vb.body == vc.body
             and self._vertices.bodies[va.body].body.size < 3
+        )
+
+    def _has_copies_of_a_point(self, *vertices: Vertex) -> bool:
+        """Whether some, not all, are copies of one point: their offsets do not turn with it."""
+        bodies = {v.body for v in vertices}
+        return len(bodies) == 2 and any(
+            self._vertices.bodies[i].body.size == 1 and sum(v.body == i for v in vertices) == 2
+            for i in bodies
         )
 
     def keeps_x_order(self, a: int, b: int) -> bool:
