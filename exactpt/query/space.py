@@ -1,0 +1,328 @@
+"""The space around the bodies at one time, and what can be asked of it.
+
+A point is located by a walk through the tiling along a straight line, a ray is followed
+from tile to tile, and a path is pulled tight in a sleeve of tiles. Making the space takes
+O(n log n), asking O(edges crossed): O(k) of k bodies in a tiling with the fewest faces,
+and O(log n) on the way through the relative hull of a polygon in the mixed one. (Each
+step reads the tile that it passes.)
+
+Source: the paper, sections 4 and 5 (Lemma 5.4 for the number of edges crossed).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from itertools import pairwise
+from typing import TypeAlias, final
+
+from exactpt.errors import InputError
+from exactpt.geometry.predicates import Point
+from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.query.answers import Hit, Path, Place, VertexName
+from exactpt.query.relative import relative_hull
+from exactpt.query.sleeve import Sleeves, pull_tight, reduced
+from exactpt.query.subdivision import OUTSIDE, Subdivision
+from exactpt.query.walk import On, Ray, Spot, next_leg
+from exactpt.tiling.instant import Instant
+from exactpt.tiling.kinetic import KineticTiling
+from exactpt.tiling.mesh import INSIDE, Mesh
+from exactpt.tiling.mixed.labels import LabelledMesh
+from exactpt.tiling.mixed.static import mixed_mesh
+from exactpt.tiling.snapshot import Snapshot, snapshot
+
+__all__ = ["FreeSpace", "PointLike"]
+
+PointLike: TypeAlias = "Sequence[Rational]"
+"""A point or direction as a caller may write it: two numbers."""
+
+
+@final
+class FreeSpace:
+    """The plane at a rational time, tiled.
+
+    Bodies are closed: a ray that grazes one hits it, a segment that touches one is not
+    free. Points are pairs of rationals, exactly what is given.
+
+    Args:
+        kinetic: a tiling.
+        at: a rational time, now or before the next event.
+
+    Attributes:
+        at: the time.
+        snapshot: the tiling then; `Place.tile` counts its faces.
+    """
+
+    def __init__(self, kinetic: KineticTiling, at: QQ) -> None:
+        self._vertices = kinetic.vertices
+        self._mesh: Mesh = kinetic.mesh_now(at)
+        self.at = at
+        self.snapshot: Snapshot = snapshot(self._vertices, self._mesh, kinetic.name, at)
+
+    @cached_property
+    def _node(self) -> list[int]:
+        """Of each vertex id, its node."""
+        first, total = [], 0
+        for moving in self._vertices.bodies:
+            first.append(total)
+            total += moving.body.size
+        return [first[v.body] + v.index for v in self._vertices.all]
+
+    @cached_property
+    def _plane(self) -> Subdivision:
+        mesh, node = self._mesh, self._node
+        hidden = {
+            tuple(sorted((node[u], node[v])))
+            for h in mesh.diagonals()
+            if mesh.region[h] == INSIDE
+            for u, v in [mesh.ends(h)]
+        }
+        return Subdivision(self.snapshot, hidden)  # type: ignore[arg-type]
+
+    @cached_property
+    def _sleeves(self) -> Sleeves:
+        return Sleeves(self._plane)
+
+    # Places and rays
+
+    def locate(self, point: PointLike) -> Place:
+        """Where a point is."""
+        spot, crossed = self._find(_point(point))
+        return self._place(spot, crossed)
+
+    def ray_cast(self, origin: PointLike, direction: PointLike) -> Hit | None:
+        """The first point of a ray that a body has; None if it hits nothing.
+
+        Raises:
+            InputError: if the direction is (0, 0).
+        """
+        start, along = _point(origin), _point(direction)
+        if along == (0, 0):
+            raise InputError("a ray needs a direction that is not (0, 0)")
+        return self._cast(start, along, None)
+
+    def is_free(self, p: PointLike, q: PointLike) -> bool:
+        """Whether no body has a point of the closed segment from p to q."""
+        start, end = _point(p), _point(q)
+        if start == end:
+            return self.locate(start).is_free
+        return self._cast(start, (end[0] - start[0], end[1] - start[1]), QQ(1)) is None
+
+    # Paths
+
+    def path(self, start: PointLike, goal: PointLike) -> Path | None:
+        """The shortest path of those through the fewest tiles, inside the convex hull.
+
+        Returns:
+            None if bodies separate the points there.
+
+        Raises:
+            InputError: if one of the points is not free, or outside the convex hull.
+        """
+        p, q = _point(start), _point(goal)
+        doors = self._sleeves.doors(self._tile(p), self._tile(q))
+        return None if doors is None else self._tight(p, self._tile(p), doors, q)
+
+    def shorten(self, walk: Sequence[PointLike]) -> Path:
+        """The shortest path that a walk can be deformed into, its ends fixed.
+
+        Args:
+            walk: the points of a polyline in free space, inside the convex hull.
+
+        Raises:
+            InputError: if a body is in the way, or a point outside the convex hull.
+        """
+        points = [_point(p) for p in walk]
+        if not points:
+            raise InputError("a walk has at least one point")
+        first = tile = self._tile(points[0])
+        doors: list[int] = []
+        for p, q in pairwise(points):
+            part = self._doors_along(p, tile, q)
+            doors += part
+            tile = self._plane.face[part[-1] ^ 1] if part else tile
+        return self._tight(points[0], first, reduced(doors), points[-1])
+
+    # Bodies
+
+    def hull(self) -> list[VertexName]:
+        """The vertices on the convex hull of all bodies, counter-clockwise.
+
+        Those inside an edge of the hull too. A hull without area is walked there and back.
+        """
+        plane = self._plane
+        if OUTSIDE not in plane.door:
+            return [plane.node_name(v) for v in range(len(plane.points))]
+        m = plane.map
+        cycle = [m.origin[h] for h in m.face(plane.door[OUTSIDE])][::-1]
+        least = cycle.index(min(cycle))
+        return [plane.node_name(v) for v in cycle[least:] + cycle[:least]]
+
+    def relative_hull(self, body: str) -> list[VertexName]:
+        """The vertices of the shortest loop around a body and no other, counter-clockwise.
+
+        In the mixed tiling it is known; for others that tiling is built here.
+
+        Raises:
+            InputError: if there is no such body.
+        """
+        index = self._index(body)
+        mesh = self._mesh
+        if not isinstance(mesh, LabelledMesh):
+            mesh = self._mixed
+        nodes = [self._node[v] for v in relative_hull(mesh, index)]
+        cycle = [v for before, v in zip([nodes[-1], *nodes[:-1]], nodes, strict=True) if v != before]
+        cycle = cycle or nodes[:1]
+        least = cycle.index(min(cycle))
+        return [self._plane.node_name(v) for v in cycle[least:] + cycle[:least]]
+
+    @cached_property
+    def _mixed(self) -> LabelledMesh:
+        return mixed_mesh(Instant(self._vertices, self.at, after=False))
+
+    def neighbours(self, body: str) -> list[str]:
+        """The bodies that a diagonal joins to a body, in the order of the scene.
+
+        Whatever touches the body next is among them then: a vertex that meets an edge is
+        joined to one of its ends just before.
+
+        Raises:
+            InputError: if there is no such body.
+        """
+        index, plane = self._index(body), self._plane
+        m = plane.map
+        found = set()
+        for node in range(plane.first[index], plane.first[index + 1]):
+            if plane.out[node] >= 0:
+                found.update(plane.body[m.target(h)] for h in m.fan(plane.out[node]))
+        return [plane.names[i] for i in sorted(found - {index})]
+
+    def _index(self, body: str) -> int:
+        if body not in self._plane.names:
+            raise InputError(f"no body {body!r}")
+        return self._plane.names.index(body)
+
+    # Walking
+
+    def _find(self, p: Point) -> tuple[Spot, int]:
+        """Where a point is, and how many edges and nodes the walk there from a node passes."""
+        plane = self._plane
+        if not plane.points:
+            return Spot(On.FACE, OUTSIDE), 0
+        start = plane.points[0]
+        if p == start:
+            return Spot(On.NODE, 0), 0
+        if plane.out[0] < 0:
+            return Spot(On.FACE, OUTSIDE), 0
+        ray = Ray(plane, start, (p[0] - start[0], p[1] - start[1]))
+        spot, at, crossed = Spot(On.NODE, 0), QQ(0), 0
+        while True:
+            leg = next_leg(plane, ray, spot, at)
+            if leg.end is None or leg.at > 1:
+                return leg.through, crossed
+            if leg.at == 1:
+                return leg.end, crossed
+            spot, at, crossed = leg.end, leg.at, crossed + 1
+
+    def _place(self, spot: Spot, crossed: int) -> Place:
+        plane, handle = self._plane, spot.handle
+        if spot.on is On.NODE:
+            body, vertex = plane.node_name(handle)
+            return Place("vertex", body, vertex, crossed=crossed)
+        if spot.on is On.EDGE:
+            ends = plane.map.origin[handle], plane.map.origin[handle ^ 1]
+            if plane.boundary[handle >> 1]:
+                body, number = plane.names[plane.body[ends[0]]], plane.edge_number(handle)
+                return Place("edge", body, edge=number, crossed=crossed)
+            u, v = sorted(ends)
+            names = plane.node_name(u), plane.node_name(v)
+            return Place("diagonal", diagonal=names, crossed=crossed)
+        if handle == OUTSIDE:
+            return Place("outside", crossed=crossed)
+        if handle >= 0:
+            return Place("tile", tile=handle, crossed=crossed)
+        return Place("body", plane.names[-2 - handle], crossed=crossed)
+
+    def _cast(self, origin: Point, direction: Point, limit: QQ | None) -> Hit | None:
+        """The first point of a ray that a body has, up to a parameter."""
+        plane = self._plane
+        spot, _ = self._find(origin)
+        place = self._place(spot, 0)
+        if place.body is not None:
+            return Hit(place.body, place.vertex, place.edge, origin, QQ(0), 0)
+        if not plane.points:
+            return None
+        ray = Ray(plane, origin, direction)
+        if OUTSIDE not in plane.door:
+            return self._cast_at_point(ray, limit)
+        at, crossed = QQ(0), 0
+        while True:
+            leg = next_leg(plane, ray, spot, at)
+            if leg.end is None or (limit is not None and leg.at > limit):
+                return None
+            spot, at = leg.end, leg.at
+            place = self._place(spot, 0)
+            if place.body is not None:
+                point = ray.point(at)
+                return Hit(place.body, place.vertex, place.edge, point, at, crossed)
+            crossed += 1
+
+    def _cast_at_point(self, ray: Ray, limit: QQ | None) -> Hit | None:
+        """The same in a scene of one point."""
+        at = ray.reaches(0)
+        if ray.side(0) != 0 or at < 0 or (limit is not None and at > limit):
+            return None
+        return Hit(self._plane.names[0], 0, None, self._plane.points[0], at, 0)
+
+    def _tile(self, p: Point) -> int:
+        """A tile that has a free point."""
+        spot, _ = self._find(p)
+        plane, place = self._plane, self._place(spot, 0)
+        tiles = [spot.handle]
+        if spot.on is On.EDGE:
+            tiles = [plane.face[spot.handle], plane.face[spot.handle ^ 1]]
+        shown = f"({p[0]}, {p[1]})"
+        if place.body is not None:
+            raise InputError(f"the point {shown} is not free: body {place.body!r} has it")
+        if max(tiles) < 0:
+            raise InputError(f"the point {shown} is outside the convex hull of the bodies")
+        return max(tiles)
+
+    def _doors_along(self, p: Point, tile: int, q: Point) -> list[int]:
+        """The half-edges that a free segment crosses, from a tile with p to one with q."""
+        plane = self._plane
+        if p == q:
+            return []
+        ray = Ray(plane, p, (q[0] - p[0], q[1] - p[1]))
+        spot, _ = self._find(p)
+        at, here = QQ(0), tile
+        doors: list[int] = []
+        while True:
+            leg = next_leg(plane, ray, spot, at)
+            there = leg.through.handle if leg.through.on is On.FACE else here
+            if spot.on is On.EDGE and there != here:
+                doors.append(spot.handle if plane.face[spot.handle] == here else spot.handle ^ 1)
+            here = there
+            if here == OUTSIDE:
+                raise InputError("the walk leaves the convex hull of the bodies")
+            if leg.end is None or leg.at >= 1:
+                self._tile(q)  # refuses what is not free
+                return doors
+            place = self._place(leg.end, 0)
+            if place.body is not None:
+                x, y = ray.point(leg.at)
+                raise InputError(f"the walk meets body {place.body!r} at ({x}, {y})")
+            spot, at = leg.end, leg.at
+
+    def _tight(self, start: Point, tile: int, doors: Sequence[int], goal: Point) -> Path:
+        plane = self._plane
+        portals = self._sleeves.portals(start, tile, doors, goal)
+        bends = pull_tight(start, goal, portals, plane.points)
+        points = (start, *(plane.points[v] for v in bends), goal)
+        return Path(points, tuple(plane.node_name(v) for v in bends), len(doors))
+
+
+def _point(p: PointLike) -> Point:
+    if isinstance(p, str) or len(p) != 2:
+        raise InputError(f"a point has two coordinates: {p!r}")
+    return rational(p[0]), rational(p[1])
