@@ -169,6 +169,7 @@ def pull_tight(
     The funnel algorithm. A path that passes a node straight on does not bend there.
     """
     ends = [(points[l], points[r]) for l, r in portals] + [(goal, goal)]
+    nodes = [*portals, (-1, -1)]
     path: list[tuple[Point, int]] = [(start, -1)]
     apex = left = right = start
     left_at = right_at = -1
@@ -176,24 +177,33 @@ def pull_tight(
     while i < len(ends):
         l, r = ends[i]
         if apex == right or side(apex, right, r) >= 0:
-            if apex in (right, left) or side(apex, left, r) < 0:
+            if apex in (right, left) or _opens(apex, left, r):
                 right, right_at = r, i
             else:  # the right end has passed the left side: the path bends there
-                path.append((left, portals[left_at][0]))
+                path.append((left, nodes[left_at][0]))
                 apex = right = left
                 i, right_at = left_at + 1, left_at
                 continue
         if apex == left or side(apex, left, l) <= 0:
-            if apex in (left, right) or side(apex, right, l) > 0:
+            if apex in (left, right) or _opens(apex, l, right):
                 left, left_at = l, i
             else:
-                path.append((right, portals[right_at][1]))
+                path.append((right, nodes[right_at][1]))
                 apex = left = right
                 i, left_at = right_at + 1, right_at
                 continue
         i += 1
     path.append((goal, -1))
     return _bends(path)
+
+
+def _opens(apex: Point, left: Point, right: Point) -> bool:
+    """Whether the right end is right of the left one, seen from the apex.
+
+    Or opposite to it: then the apex is on the portal.
+    """
+    turn = side(apex, left, right)
+    return turn < 0 or (turn == 0 and between(left, right, apex))
 
 
 def _bends(path: Sequence[tuple[Point, int]]) -> list[int]:

@@ -20,10 +20,11 @@ from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, Rational, rational
 from exactpt.query.answers import Hit, Path, Place, VertexName
+from exactpt.query.locate import cast, find, place_of
 from exactpt.query.relative import relative_hull
 from exactpt.query.sleeve import Sleeves, pull_tight, reduced
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.query.walk import On, Ray, Spot, next_leg
+from exactpt.query.walk import On, Ray, next_leg
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.mesh import INSIDE, Mesh
@@ -87,8 +88,8 @@ class FreeSpace:
 
     def locate(self, point: PointLike) -> Place:
         """Where a point is."""
-        spot, crossed = self._find(_point(point))
-        return self._place(spot, crossed)
+        spot, crossed = find(self._plane, _point(point))
+        return place_of(self._plane, spot, crossed)
 
     def ray_cast(self, origin: PointLike, direction: PointLike) -> Hit | None:
         """The first point of a ray that a body has; None if it hits nothing.
@@ -97,16 +98,16 @@ class FreeSpace:
             InputError: if the direction is (0, 0).
         """
         start, along = _point(origin), _point(direction)
-        if along == (0, 0):
+        if not any(along):
             raise InputError("a ray needs a direction that is not (0, 0)")
-        return self._cast(start, along, None)
+        return cast(self._plane, start, along)
 
     def is_free(self, p: PointLike, q: PointLike) -> bool:
         """Whether no body has a point of the closed segment from p to q."""
         start, end = _point(p), _point(q)
         if start == end:
             return self.locate(start).is_free
-        return self._cast(start, (end[0] - start[0], end[1] - start[1]), QQ(1)) is None
+        return cast(self._plane, start, (end[0] - start[0], end[1] - start[1]), QQ(1)) is None
 
     # Paths
 
@@ -171,7 +172,9 @@ class FreeSpace:
         if not isinstance(mesh, LabelledMesh):
             mesh = self._mixed
         nodes = [self._node[v] for v in relative_hull(mesh, index)]
-        cycle = [v for before, v in zip([nodes[-1], *nodes[:-1]], nodes, strict=True) if v != before]
+        cycle = [
+            v for before, v in zip([nodes[-1], *nodes[:-1]], nodes, strict=True) if v != before
+        ]
         cycle = cycle or nodes[:1]
         least = cycle.index(min(cycle))
         return [self._plane.node_name(v) for v in cycle[least:] + cycle[:least]]
@@ -191,7 +194,7 @@ class FreeSpace:
         """
         index, plane = self._index(body), self._plane
         m = plane.map
-        found = set()
+        found: set[int] = set()
         for node in range(plane.first[index], plane.first[index + 1]):
             if plane.out[node] >= 0:
                 found.update(plane.body[m.target(h)] for h in m.fan(plane.out[node]))
@@ -202,82 +205,13 @@ class FreeSpace:
             raise InputError(f"no body {body!r}")
         return self._plane.names.index(body)
 
-    # Walking
-
-    def _find(self, p: Point) -> tuple[Spot, int]:
-        """Where a point is, and how many edges and nodes the walk there from a node passes."""
-        plane = self._plane
-        if not plane.points:
-            return Spot(On.FACE, OUTSIDE), 0
-        start = plane.points[0]
-        if p == start:
-            return Spot(On.NODE, 0), 0
-        if plane.out[0] < 0:
-            return Spot(On.FACE, OUTSIDE), 0
-        ray = Ray(plane, start, (p[0] - start[0], p[1] - start[1]))
-        spot, at, crossed = Spot(On.NODE, 0), QQ(0), 0
-        while True:
-            leg = next_leg(plane, ray, spot, at)
-            if leg.end is None or leg.at > 1:
-                return leg.through, crossed
-            if leg.at == 1:
-                return leg.end, crossed
-            spot, at, crossed = leg.end, leg.at, crossed + 1
-
-    def _place(self, spot: Spot, crossed: int) -> Place:
-        plane, handle = self._plane, spot.handle
-        if spot.on is On.NODE:
-            body, vertex = plane.node_name(handle)
-            return Place("vertex", body, vertex, crossed=crossed)
-        if spot.on is On.EDGE:
-            ends = plane.map.origin[handle], plane.map.origin[handle ^ 1]
-            if plane.boundary[handle >> 1]:
-                body, number = plane.names[plane.body[ends[0]]], plane.edge_number(handle)
-                return Place("edge", body, edge=number, crossed=crossed)
-            u, v = sorted(ends)
-            names = plane.node_name(u), plane.node_name(v)
-            return Place("diagonal", diagonal=names, crossed=crossed)
-        if handle == OUTSIDE:
-            return Place("outside", crossed=crossed)
-        if handle >= 0:
-            return Place("tile", tile=handle, crossed=crossed)
-        return Place("body", plane.names[-2 - handle], crossed=crossed)
-
-    def _cast(self, origin: Point, direction: Point, limit: QQ | None) -> Hit | None:
-        """The first point of a ray that a body has, up to a parameter."""
-        plane = self._plane
-        spot, _ = self._find(origin)
-        place = self._place(spot, 0)
-        if place.body is not None:
-            return Hit(place.body, place.vertex, place.edge, origin, QQ(0), 0)
-        if not plane.points:
-            return None
-        ray = Ray(plane, origin, direction)
-        if OUTSIDE not in plane.door:
-            return self._cast_at_point(ray, limit)
-        at, crossed = QQ(0), 0
-        while True:
-            leg = next_leg(plane, ray, spot, at)
-            if leg.end is None or (limit is not None and leg.at > limit):
-                return None
-            spot, at = leg.end, leg.at
-            place = self._place(spot, 0)
-            if place.body is not None:
-                point = ray.point(at)
-                return Hit(place.body, place.vertex, place.edge, point, at, crossed)
-            crossed += 1
-
-    def _cast_at_point(self, ray: Ray, limit: QQ | None) -> Hit | None:
-        """The same in a scene of one point."""
-        at = ray.reaches(0)
-        if ray.side(0) != 0 or at < 0 or (limit is not None and at > limit):
-            return None
-        return Hit(self._plane.names[0], 0, None, self._plane.points[0], at, 0)
+    # Walks
 
     def _tile(self, p: Point) -> int:
         """A tile that has a free point."""
-        spot, _ = self._find(p)
-        plane, place = self._plane, self._place(spot, 0)
+        plane = self._plane
+        spot, _ = find(plane, p)
+        place = place_of(plane, spot)
         tiles = [spot.handle]
         if spot.on is On.EDGE:
             tiles = [plane.face[spot.handle], plane.face[spot.handle ^ 1]]
@@ -294,7 +228,7 @@ class FreeSpace:
         if p == q:
             return []
         ray = Ray(plane, p, (q[0] - p[0], q[1] - p[1]))
-        spot, _ = self._find(p)
+        spot, _ = find(plane, p)
         at, here = QQ(0), tile
         doors: list[int] = []
         while True:
@@ -308,7 +242,7 @@ class FreeSpace:
             if leg.end is None or leg.at >= 1:
                 self._tile(q)  # refuses what is not free
                 return doors
-            place = self._place(leg.end, 0)
+            place = place_of(plane, leg.end)
             if place.body is not None:
                 x, y = ray.point(leg.at)
                 raise InputError(f"the walk meets body {place.body!r} at ({x}, {y})")

@@ -4,6 +4,8 @@ Written from the definitions in plain rational arithmetic; shares nothing with
 `exactpt.query` or the tilings.
 """
 
+from itertools import pairwise
+
 
 def cross(o, a, b):
     return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
@@ -88,3 +90,75 @@ def convex_hull(points):
         if best is None or best == start:
             return cycle
         here = best
+
+
+def crosses(p, q, scene):
+    """Whether the open segment from p to q goes through a body (touching is fine)."""
+    if p == q:
+        return False
+    d = (q[0] - p[0], q[1] - p[1])
+    stops = [0, 1]
+    for points in scene.values():
+        for _, a, b in edges_of(points):
+            if cross(p, q, a) * cross(p, q, b) < 0 and cross(a, b, p) * cross(a, b, q) < 0:
+                return True
+        level = [a for a in points if cross(p, q, a) == 0]
+        norm = d[0] ** 2 + d[1] ** 2
+        stops += [((a[0] - p[0]) * d[0] + (a[1] - p[1]) * d[1]) / norm for a in level]
+    stops = sorted(t for t in stops if 0 <= t <= 1)
+    for s, t in pairwise(stops):
+        m = (s + t) / 2
+        found = owner((p[0] + m * d[0], p[1] + m * d[1]), scene)
+        if found is not None and found[1:] == (None, None):
+            return True
+    return False
+
+
+def bends_around(before, here, after, points, vertex):
+    """Whether a path turns at a vertex of a body with the body on the inner side of the turn."""
+    turn = cross(before, here, after)
+    n = len(points)
+
+    def within(p):
+        a, b = cross(here, before, p), cross(here, after, p)
+        return (a <= 0 <= b) if turn > 0 else (b <= 0 <= a)
+
+    return turn != 0 and (
+        n == 1 or all(within(p) for p in (points[vertex - 1], points[(vertex + 1) % n]))
+    )
+
+
+def inner_point(points, rng):
+    """A random point inside a polygon; in the middle of a segment; the point itself."""
+    n = len(points)
+    if n < 3:
+        return tuple(sum(c) / n for c in zip(*points, strict=True))
+    while True:
+        i = rng.randrange(n)
+        a, b, c = points[i - 1], points[i], points[(i + 1) % n]
+        u, v, w = (rng.randint(1, 997) for _ in range(3))
+        s, far = u + v + w, rng.choice([1, 2, 4, 8, 64])
+        m = tuple((a[k] * u + b[k] * v + c[k] * w) / s for k in (0, 1))
+        p = tuple(b[k] + (m[k] - b[k]) / far for k in (0, 1))
+        if owner(p, {"": points}) == ("", None, None):
+            return p
+
+
+def crossing_word(path, anchors):
+    """How a path passes above each anchor, reduced: equal for two paths with the same ends if
+    and only if one can be deformed into the other in the plane without the anchors.
+    """
+    word = []
+    for p, q in pairwise(path):
+        passed = []
+        for name, (x, y) in anchors.items():
+            if (p[0] < x) != (q[0] < x):
+                t = (x - p[0]) / (q[0] - p[0])
+                if p[1] + t * (q[1] - p[1]) > y:
+                    passed.append((t, name, 1 if p[0] < x else -1))
+        for _, name, way in sorted(passed):
+            if word and word[-1] == (name, -way):
+                word.pop()
+            else:
+                word.append((name, way))
+    return word
