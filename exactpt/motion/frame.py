@@ -9,7 +9,7 @@ very small or large, is filtered as well as any other.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING, Final, final
 
 from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of_two
@@ -76,6 +76,7 @@ class Frame:
             center == (QQ(0), QQ(0)) and scale == (0, 0) and origin == 0 and time_scale == 0
         )
         self._motions: dict[object, int] = {}
+        self._named: int = 0
         self.errors: list[float] = [0.0, 0.0]
 
     def point(self, position: tuple[QQ, QQ]) -> tuple[float, float]:
@@ -111,7 +112,8 @@ class Frame:
         """The image of a track."""
         motion = -1
         if track.frame is not None:
-            motion = self._motions.setdefault(track.frame, len(self._motions))
+            motion = self._motions.setdefault(track.frame, self._named)
+            self._named = max(self._named, motion + 1)
         x, y, w = self._moved(track)
         size = max(len(x), len(y), 1)
         if len(w) > 1:
@@ -128,6 +130,15 @@ class Frame:
             self._note_errors(x, xs, divisor)
             self._note_errors(y, ys, divisor)
         return Image(xs, ys, ws, motion)
+
+    @property
+    def motion_count(self) -> int:
+        """How many different motions are known."""
+        return len(self._motions)
+
+    def forget_motions(self, kept: Collection[int]) -> None:
+        """Forget all motions but some: no image has them any more."""
+        self._motions = {key: i for key, i in self._motions.items() if i in kept}
 
     def _moved(self, track: Track) -> tuple[Sequence[QQ], Sequence[QQ], Sequence[QQ]]:
         """The track's coefficients in the frame (still exact; any common factor)."""

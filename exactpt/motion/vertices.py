@@ -71,13 +71,15 @@ class MovingBody:
         deforms: whether distances between its vertices may change, in the current piece.
         is_tiled: whether its inside is tiled: it deforms at some time, has a diagonal, and
             need not stay convex.
+        since: the rational time at which it entered the piece.
     """
 
-    __slots__ = ("body", "deforms", "horizon", "is_tiled", "ring", "until")
+    __slots__ = ("body", "deforms", "horizon", "is_tiled", "ring", "since", "until")
 
     def __init__(self, body: Body) -> None:
         self.body = body
         self.ring: list[int] = []
+        self.since: QQ = QQ(0)
         self.until: QQ | None = None
         self.horizon: float = float("inf")
         self.deforms: bool = False
@@ -111,11 +113,16 @@ class Vertices:
                 self.all[behind].ahead = here
                 self.all[here].behind = behind
             self.enter_piece(i, start)
-            moving.is_tiled = (
-                len(positions[i]) > 3
-                and self._ever_deforms(i, start)
-                and not stays_convex(body, [self.all[v].index for v in moving.ring], start, end)
-            )
+            moving.is_tiled = self._may_pinch(i, start, end)
+
+    def _may_pinch(self, i: int, start: QQ, end: QQ) -> bool:
+        """Whether the inside of a body must be tiled from a time on."""
+        body, ring = self.bodies[i].body, self.bodies[i].ring
+        return (
+            body.size > 3
+            and self._ever_deforms(i, start)
+            and not stays_convex(body, [self.all[v].index for v in ring], start, end)
+        )
 
     def _ever_deforms(self, i: int, start: QQ) -> bool:
         """Whether a body deforms in any of its pieces from a time on."""
@@ -129,6 +136,7 @@ class Vertices:
         """Give the vertices of a body the tracks that hold just after a rational time."""
         moving = self.bodies[i]
         piece = moving.body.piece_after(t)
+        moving.since = t
         moving.until = piece.until
         moving.horizon = float("inf") if piece.until is None else self.frame.time(piece.until)[1]
         images = [self.frame.image(track) for track in piece.tracks]
@@ -138,6 +146,22 @@ class Vertices:
             vertex.track = piece.tracks[vertex.index]
             vertex.image = images[vertex.index]
             vertex.offset = _offset(piece.tracks, copy)
+
+    def set_plan(self, i: int, body: Body, t: QQ, end: QQ) -> bool:
+        """Let a body go on as another one, which is at the same place at a rational time.
+
+        A body whose inside is tiled stays so, whatever it does next.
+
+        Returns:
+            Whether its inside has to be tiled from now on, and is not yet.
+        """
+        moving = self.bodies[i]
+        moving.body = body
+        self.enter_piece(i, t)
+        tiled, moving.is_tiled = moving.is_tiled, moving.is_tiled or self._may_pinch(i, t, end)
+        if self.frame.motion_count > 2 * len(self.all) + 64:
+            self.frame.forget_motions({v.image.motion for v in self.all})
+        return moving.is_tiled and not tiled
 
     def name(self, vertex_id: int) -> str:
         """The name in event logs: ``"body:vertex"``."""

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Iterator
-from typing import final
+from collections import deque
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from typing import TypeAlias, final
 
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
@@ -12,19 +14,30 @@ from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import counters
-from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Motion
+from exactpt.query.space import FreeSpace
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
-from exactpt.tiling.events import ContactFound, TilingEvent
+from exactpt.simulation.living import LivingScene
+from exactpt.simulation.questions import Questions
+from exactpt.simulation.report import report
+from exactpt.tiling.events import ContactFound
 from exactpt.tiling.kinetic import KineticTiling
-from exactpt.tiling.snapshot import Snapshot, snapshot
 
-__all__ = ["Simulation"]
+__all__ = ["OnContact", "Simulation"]
+
+OnContact: TypeAlias = "Callable[[Simulation, Contact], object]"
+"""What is called just before a contact; it may set new motions."""
 
 
 @final
-class Simulation:
+class Simulation(Questions):
     """Runs a scene from its start towards its end or its first contact.
+
+    It lives: at rational times, bodies get new motions, come and go, and the free space
+    can be asked about; and with ``on_contact`` it runs on after contacts.
 
     Args:
         scene: what moves.
@@ -34,9 +47,8 @@ class Simulation:
         max_seconds: raise `BudgetExceeded` after this time.
 
     Attributes:
-        scene: the scene.
-        name: the name of the tiling.
-        contact: the first contact, once it has been reached; no time passes after it.
+        contact: the contact that has ended the run, if one has; no time passes after it.
+        contacts: how many contacts have been met.
     """
 
     def __init__(
@@ -48,28 +60,40 @@ class Simulation:
         max_events: int | None = None,
         max_seconds: float | None = None,
     ) -> None:
-        self.scene = scene
         plan = plan_tiling(scene, tiling, scene.start)
-        self.name = plan.name
         self.contact: Contact | None = None
+        self.contacts: int = 0
+        self._given = scene, plan.name
         self._max_events = max_events
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
         self._counted = (counters.exact, counters.filtered)
         self._events = 0
-        self._kinetic: KineticTiling | None = None
+        self._pending: deque[Event] = deque()
+        self._space: FreeSpace | None = None
+        self._living: LivingScene | None = None
         touches, overlaps = initial_touches(scene)
         if overlaps:
-            start = AlgebraicNumber(scene.start)
-            self.contact = contact_of(scene, start, touches, overlaps)
+            self._end_with(contact_of(scene, AlgebraicNumber(scene.start), touches, overlaps))
         else:
-            self._kinetic = plan.start(scene.start, exact_only=exact_only)
+            kinetic = plan.start(scene.start, exact_only=exact_only)
+            self._living = LivingScene(scene, kinetic, tiling, exact_only=exact_only)
+
+    @property
+    def scene(self) -> Scene:
+        """The bodies with their present plans; it starts at the last change of plans."""
+        return self._given[0] if self._living is None else self._living.scene
+
+    @property
+    def name(self) -> str:
+        """The name of the tiling."""
+        return self._given[1] if self._living is None else self._living.kinetic.name
 
     @property
     def now(self) -> AlgebraicNumber:
         """The current time."""
-        if self._kinetic is None:
+        if self._living is None:
             return AlgebraicNumber(self.scene.start)
-        return self._kinetic.now
+        return self._living.kinetic.now
 
     @property
     def kinetic(self) -> KineticTiling | None:
@@ -77,116 +101,127 @@ class Simulation:
 
         At a contact it is the one just before.
         """
-        return self._kinetic
+        return None if self._living is None else self._living.kinetic
 
-    def run(self, until: Rational | None = None) -> Iterator[Event]:
+    @property
+    def stats(self) -> dict[str, object]:
+        """The figures of the run so far; see `exactpt.simulation.report`."""
+        exact, filtered = counters.exact - self._counted[0], counters.filtered - self._counted[1]
+        changes = 0 if self._living is None else self._living.changes
+        data = report(self.scene, self.kinetic, exact, filtered)
+        return data | {"contacts": self.contacts, "plans": changes}
+
+    # Time
+
+    def run(
+        self,
+        until: Rational | None = None,
+        *,
+        on_contact: OnContact | None = None,
+        margin: Rational | None = None,
+    ) -> Iterator[Event]:
         """Process the events up to and including a time, by default the end of the span.
 
-        Yields every event as it has been processed; the last is of kind "contact" if the
-        first contact comes by then.
+        Yields every event as it has been processed. The first contact is the last of them,
+        unless ``on_contact`` is given: then the simulation goes back to a rational time
+        just before each contact and calls it with itself and the `Contact`. If it changes
+        plans (`set_motion`, `set_motions`, `remove`), the run goes on; else it ends there.
+
+        Args:
+            until: the last time.
+            on_contact: lets what touches bounce, stop or slide.
+            margin: how far before a contact that time is, at most; by default about 2^-80
+                of the time span. The time is the last multiple of the margin before the
+                contact, so that its numbers stay small; or one nearer to the contact if
+                something else happens in between.
+
+        Raises:
+            BudgetExceeded: if the bounds of the simulation are reached.
+            InputError: if the margin is not positive.
+        """
+        end = self.scene.end if until is None else min(rational(until), self.scene.end)
+        grid = self._margin() if margin is None else rational(margin)
+        if grid <= 0:
+            raise InputError(f"the margin before contacts is not positive: {grid}")
+        while True:
+            if self.contact is None:
+                self._check_budget()
+            if self._pending:
+                self._events += 1
+                yield self._pending.popleft()
+            elif self.contact is not None or not self._advance(end, on_contact, grid):
+                return
+
+    def step(self) -> list[Event]:
+        """Process the events of the next time at which there are any.
+
+        Returns:
+            The events; none if there are no more, and then now is the end.
 
         Raises:
             BudgetExceeded: if the bounds of the simulation are reached.
         """
-        end = self.scene.end if until is None else min(rational(until), self.scene.end)
-        if self.contact is not None:
-            if not self._events:
-                self._events += 1
-                yield Event(self.contact.time, "contact")
-            return
-        kinetic = self._tiling()
-        steps = kinetic.run(end)
-        while True:
+        while not self._pending and self.contact is None:
             self._check_budget()
-            try:
-                event = next(steps, None)
-            except ContactFound as found:
-                self.contact = contact_of(self.scene, kinetic.now, found.touches)
-                self._events += 1
-                yield Event(self.contact.time, "contact")
-                return
-            if event is None:
-                return
-            self._events += 1
-            yield self._named(event)
+            if not self._advance(self.scene.end, None, QQ(1)):
+                break
+        events = list(self._pending)
+        self._pending.clear()
+        self._events += len(events)
+        return events
 
     def run_to_contact(self) -> Contact | None:
         """The first contact in the time span, or None; the fastest way to it."""
         if self.contact is None:
-            kinetic = self._tiling()
+            kinetic = self._alive().kinetic
+            self._space = None
             try:
                 for _ in kinetic.run():
                     self._events += 1
                     self._check_budget()
             except ContactFound as found:
-                self.contact = contact_of(self.scene, kinetic.now, found.touches)
+                self._end_with(contact_of(self.scene, kinetic.now, found.touches))
         return self.contact
 
-    def snapshot(self) -> Snapshot:
-        """The tiling at the current time, which must be rational.
+    def _advance(self, end: QQ, on_contact: OnContact | None, grid: QQ) -> bool:
+        """Let the next time with events come; False if there is none up to the end."""
+        living = self._alive()
+        self._space = None
+        try:
+            events = living.kinetic.advance(end)
+        except ContactFound as found:
+            contact = contact_of(self.scene, living.kinetic.now, found.touches)
+            if on_contact is None:
+                self._end_with(contact)
+            else:
+                self._meet(contact, on_contact, grid)
+            return True
+        if events is None:
+            return False
+        self._pending.extend(map(living.named, events))
+        return True
 
-        Raises:
-            InputError: if it is not, or after the first contact.
-        """
-        if self.contact is not None:
-            raise InputError(f"no tiling at a contact, t = {float(self.contact.time)!r}")
-        now = self.now.simplified()
-        if not now.is_rational:
-            raise InputError(
-                f"the tiling is asked for at t = {float(now)!r}, which is not rational"
-            )
-        kinetic = self._tiling()
-        return snapshot(kinetic.vertices, kinetic.mesh_now(now.low), self.name, now.low)
+    def _meet(self, contact: Contact, on_contact: OnContact, grid: QQ) -> None:
+        """Call back just before a contact; without new plans, let it happen."""
+        living = self._alive()
+        living.kinetic.retreat(grid)
+        self.contacts += 1
+        self._pending.append(Event(contact.time, "contact"))
+        changes = living.changes
+        on_contact(self, contact)
+        if living.changes == changes:
+            self.contact = contact
+            with suppress(ContactFound):
+                living.kinetic.advance(self.scene.end)
 
-    @property
-    def stats(self) -> dict[str, object]:
-        """Counts of the run so far, as in the contract and more."""
-        exact, filtered = self._counted
-        data: dict[str, object] = {
-            "bodies": len(self.scene.bodies),
-            "vertices": self.scene.vertex_count,
-            "events": 0,
-            "certificates": 0,
-            "skipped": 0,
-            "exact": counters.exact - exact,
-            "filtered": counters.filtered - filtered,
-        }
-        if self._kinetic is not None:
-            stats, certifier = self._kinetic.stats, self._kinetic.certifier
-            data |= {
-                "events": stats.total,
-                "certificates": certifier.made,
-                "skipped": certifier.skipped,
-                "by_kind": dict(sorted(stats.events.items())),
-                "pending": len(self._kinetic.queue),
-                "most_pending": stats.most,
-                "batches": stats.batches,
-                "rebuilds": stats.rebuilds,
-                "flips": stats.flips,
-            }
-        return data
+    def _end_with(self, contact: Contact) -> None:
+        self.contact = contact
+        self.contacts += 1
+        self._pending.append(Event(contact.time, "contact"))
 
-    def _repr_svg_(self) -> str:
-        """The tiling at the current time, or the contact, for notebooks."""
-        from exactpt.render.notebook import simulation_svg
-
-        return simulation_svg(self)
-
-    def _tiling(self) -> KineticTiling:
-        if self._kinetic is None:
-            raise InputError("the bodies touch at the start: there is no tiling")
-        return self._kinetic
-
-    def _named(self, event: TilingEvent) -> Event:
-        kinetic = self._tiling()
-        name = kinetic.vertices.name
-        time = event.time.exact or kinetic.certifier.resolve(event.time)
-        return Event(
-            time,
-            event.kind,
-            tuple((name(u), name(v)) for u, v in event.removed),
-            tuple((name(u), name(v)) for u, v in event.added),
-        )
+    def _margin(self) -> QQ:
+        span = self._given[0].end - self._given[0].start
+        return power_of_two(span.numerator.bit_length() - span.denominator.bit_length() - 80)
 
     def _check_budget(self) -> None:
         late = self._deadline is not None and clock.monotonic() > self._deadline
@@ -200,3 +235,108 @@ class Simulation:
         """A rational time at most now: up to it there is provably no contact."""
         now = self.now
         return now.low if now.is_rational else now.canonical_interval()[0]
+
+    def _alive(self) -> LivingScene:
+        if self._living is None:
+            raise InputError("the bodies touch at the start: there is no tiling")
+        return self._living
+
+    # Plans
+
+    def body(self, name: str) -> Body:
+        """The body with a name, with its present plan.
+
+        Raises:
+            InputError: if there is none.
+        """
+        return self._changeable().body(name)
+
+    def set_motion(self, body: str, plan: Motion | Body) -> None:
+        """Let a body go on by another motion from now on; see `set_motions`."""
+        self.set_motions({body: plan})
+
+    def set_motions(self, plans: Mapping[str, Motion | Body]) -> None:
+        """Let bodies go on by other motions from now on; now must be rational.
+
+        The work is for the certificates of these bodies, not for the scene. (Only if the
+        tiling is that of convex bodies and one need not stay convex, another kind of
+        tiling is built, once.) The events that this causes come first in the next `run`.
+
+        Args:
+            plans: by name, a motion of the body's shape; or a body of that name with as
+                many vertices, for a shape that changes in another way.
+
+        Raises:
+            InputError: if there is no such body, a vertex would jump (with the two
+                positions), now is not rational or is the end of the time span.
+        """
+        self._pending.extend(self._changeable().set_motions(plans))
+
+    def add(self, body: Body) -> None:
+        """Add a body now, which must be rational. The tiling is built anew: O(n log n).
+
+        Raises:
+            InputError: if its name is taken, it is not simple, it touches another body,
+                now is not rational or is the end of the time span.
+        """
+        self._pending.extend(self._changeable().add(body))
+
+    def remove(self, body: str) -> None:
+        """Remove a body now, which must be rational. The tiling is built anew: O(n log n).
+
+        Raises:
+            InputError: if there is no such body, now is not rational or is the end.
+        """
+        self._pending.extend(self._changeable().remove(body))
+
+    def _changeable(self) -> LivingScene:
+        if self.contact is not None:
+            raise InputError(
+                f"the run has ended with a contact at t = {float(self.contact.time)!r}"
+            )
+        self._space = None
+        return self._alive()
+
+    # Questions about the free space
+
+    def space(self, at: Rational | None = None) -> FreeSpace:
+        """The space around the bodies, for any number of questions; made in O(n log n).
+
+        Args:
+            at: a rational time, from now to before the next event; by default now.
+
+        Raises:
+            InputError: if now is not rational and no time is given, the time is not
+                between now and the next event, or the run has ended with a contact.
+        """
+        if self.contact is not None:
+            raise InputError(f"no tiling at a contact, t = {float(self.contact.time)!r}")
+        kinetic = self._alive().kinetic
+        now = kinetic.now.simplified()
+        if at is None:
+            if not now.is_rational:
+                raise InputError(f"now, t = {float(now)!r}, is not rational: give a time")
+            t = now.low
+        else:
+            t = rational(at)
+            self._check_between(kinetic, t)
+        if self._space is None or self._space.at != t:
+            self._space = FreeSpace(kinetic, t)
+        return self._space
+
+    def _check_between(self, kinetic: KineticTiling, t: QQ) -> None:
+        following = kinetic.next_time()
+        late = t > self.scene.end
+        if following is not None:
+            number = following.exact or kinetic.certifier.resolve(following)
+            late = late or number.compare_rational(t) <= 0
+        if late or kinetic.now.compare_rational(t) > 0:
+            raise InputError(
+                f"t = {t} is not between now, t = {float(kinetic.now)!r}, and the next event"
+            )
+
+    def _repr_svg_(self) -> str:
+        """The tiling at the current time, or the contact, for notebooks."""
+        from exactpt.render.notebook import simulation_svg
+
+        return simulation_svg(self)

@@ -117,15 +117,20 @@ def crosses(p, q, scene):
 def bends_around(before, here, after, points, vertex):
     """Whether a path turns at a vertex of a body with the body on the inner side of the turn."""
     turn = cross(before, here, after)
-    n = len(points)
+    nearby = [] if len(points) == 1 else [points[vertex - 1], points[(vertex + 1) % len(points)]]
 
     def within(p):
         a, b = cross(here, before, p), cross(here, after, p)
+        if turn == 0:  # back the way it came, around the end of a segment
+            return a == 0 and ahead(here, before, p)
         return (a <= 0 <= b) if turn > 0 else (b <= 0 <= a)
 
-    return turn != 0 and (
-        n == 1 or all(within(p) for p in (points[vertex - 1], points[(vertex + 1) % n]))
-    )
+    return (turn != 0 or ahead(here, before, after)) and all(map(within, nearby))
+
+
+def ahead(o, a, p):
+    """Whether p, on the line through o and a, is on the side of a."""
+    return (a[0] - o[0]) * (p[0] - o[0]) + (a[1] - o[1]) * (p[1] - o[1]) > 0
 
 
 def inner_point(points, rng):

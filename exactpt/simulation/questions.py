@@ -1,0 +1,66 @@
+"""The questions that a simulation answers about the free space now."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+
+from exactpt.kernel.numbers import Rational
+from exactpt.query.answers import Hit, Path, Place, VertexName
+from exactpt.query.space import FreeSpace, PointLike
+from exactpt.tiling.snapshot import Snapshot
+
+__all__ = ["Questions"]
+
+
+class Questions(ABC):
+    """What can be asked of anything that has a space around bodies."""
+
+    @abstractmethod
+    def space(self, at: Rational | None = None) -> FreeSpace:
+        """The space at a time, by default now."""
+
+    def snapshot(self) -> Snapshot:
+        """The tiling at the current time, which must be rational.
+
+        Raises:
+            InputError: see `space`.
+        """
+        return self.space().snapshot
+
+    @property
+    def tiling(self) -> Snapshot:
+        """The same: ``simulation.tiling.faces``, ``simulation.tiling.diagonals``."""
+        return self.snapshot()
+
+    def locate(self, point: PointLike) -> Place:
+        """Where a point is now: see `FreeSpace.locate`."""
+        return self.space().locate(point)
+
+    def ray_cast(self, origin: PointLike, direction: PointLike) -> Hit | None:
+        """What a ray hits first now: see `FreeSpace.ray_cast`."""
+        return self.space().ray_cast(origin, direction)
+
+    def is_free(self, p: PointLike, q: PointLike) -> bool:
+        """Whether a segment meets no body now: see `FreeSpace.is_free`."""
+        return self.space().is_free(p, q)
+
+    def path(self, start: PointLike, goal: PointLike) -> Path | None:
+        """A shortest path of its kind now: see `FreeSpace.path`."""
+        return self.space().path(start, goal)
+
+    def shorten(self, walk: Sequence[PointLike]) -> Path:
+        """The shortest path that a walk can be deformed into now: see `FreeSpace.shorten`."""
+        return self.space().shorten(walk)
+
+    def hull(self) -> list[VertexName]:
+        """The convex hull of all bodies now: see `FreeSpace.hull`."""
+        return self.space().hull()
+
+    def relative_hull(self, body: str) -> list[VertexName]:
+        """The shortest loop around a body now: see `FreeSpace.relative_hull`."""
+        return self.space().relative_hull(body)
+
+    def neighbours(self, body: str) -> list[str]:
+        """The bodies next to a body now: see `FreeSpace.neighbours`."""
+        return self.space().neighbours(body)
