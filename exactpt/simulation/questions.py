@@ -5,9 +5,11 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
-from exactpt.kernel.numbers import Rational
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ, Rational, rational
 from exactpt.query.answers import Hit, Path, Place, VertexName
 from exactpt.query.space import FreeSpace, PointLike
+from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.snapshot import Snapshot
 
 __all__ = ["Questions"]
@@ -16,9 +18,42 @@ __all__ = ["Questions"]
 class Questions(ABC):
     """What can be asked of anything that has a space around bodies."""
 
+    _space: FreeSpace | None
+
     @abstractmethod
+    def _asked(self) -> KineticTiling:
+        """The tiling that knows.
+
+        Raises:
+            InputError: if there is none.
+        """
+
+    def _forget_space(self) -> None:
+        """Time has passed, or something has changed."""
+        self._space = None
+
     def space(self, at: Rational | None = None) -> FreeSpace:
-        """The space at a time, by default now."""
+        """The space around the bodies, for any number of questions; made in O(n log n).
+
+        Args:
+            at: a rational time, from now to before the next event; by default now.
+
+        Raises:
+            InputError: if now is not rational and no time is given, the time is not
+                between now and the next event, or the run has ended with a contact.
+        """
+        kinetic = self._asked()
+        if at is None:
+            now = kinetic.now.simplified()
+            if not now.is_rational:
+                raise InputError(f"now, t = {float(now)!r}, is not rational: give a time")
+            t = now.low
+        else:
+            t = rational(at)
+            _check_between(kinetic, t)
+        if self._space is None or self._space.at != t:
+            self._space = FreeSpace(kinetic, t)
+        return self._space
 
     def snapshot(self) -> Snapshot:
         """The tiling at the current time, which must be rational.
@@ -64,3 +99,15 @@ class Questions(ABC):
     def neighbours(self, body: str) -> list[str]:
         """The bodies next to a body now: see `FreeSpace.neighbours`."""
         return self.space().neighbours(body)
+
+
+def _check_between(kinetic: KineticTiling, t: QQ) -> None:
+    following = kinetic.next_time()
+    late = t > kinetic.certifier.end
+    if following is not None:
+        number = following.exact or kinetic.certifier.resolve(following)
+        late = late or number.compare_rational(t) <= 0
+    if late or kinetic.now.compare_rational(t) > 0:
+        raise InputError(
+            f"t = {t} is not between now, t = {float(kinetic.now)!r}, and the next event"
+        )

@@ -17,7 +17,6 @@ from exactpt.kernel.counters import counters
 from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
-from exactpt.query.space import FreeSpace
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
 from exactpt.simulation.living import LivingScene
@@ -69,7 +68,7 @@ class Simulation(Questions):
         self._counted = (counters.exact, counters.filtered)
         self._events = 0
         self._pending: deque[Event] = deque()
-        self._space: FreeSpace | None = None
+        self._forget_space()
         self._living: LivingScene | None = None
         touches, overlaps = initial_touches(scene)
         if overlaps:
@@ -174,7 +173,7 @@ class Simulation(Questions):
         """The first contact in the time span, or None; the fastest way to it."""
         if self.contact is None:
             kinetic = self._alive().kinetic
-            self._space = None
+            self._forget_space()
             try:
                 for _ in kinetic.run():
                     self._events += 1
@@ -186,7 +185,7 @@ class Simulation(Questions):
     def _advance(self, end: QQ, on_contact: OnContact | None, grid: QQ) -> bool:
         """Let the next time with events come; False if there is none up to the end."""
         living = self._alive()
-        self._space = None
+        self._forget_space()
         try:
             events = living.kinetic.advance(end)
         except ContactFound as found:
@@ -294,46 +293,13 @@ class Simulation(Questions):
             raise InputError(
                 f"the run has ended with a contact at t = {float(self.contact.time)!r}"
             )
-        self._space = None
+        self._forget_space()
         return self._alive()
 
-    # Questions about the free space
-
-    def space(self, at: Rational | None = None) -> FreeSpace:
-        """The space around the bodies, for any number of questions; made in O(n log n).
-
-        Args:
-            at: a rational time, from now to before the next event; by default now.
-
-        Raises:
-            InputError: if now is not rational and no time is given, the time is not
-                between now and the next event, or the run has ended with a contact.
-        """
+    def _asked(self) -> KineticTiling:
         if self.contact is not None:
             raise InputError(f"no tiling at a contact, t = {float(self.contact.time)!r}")
-        kinetic = self._alive().kinetic
-        now = kinetic.now.simplified()
-        if at is None:
-            if not now.is_rational:
-                raise InputError(f"now, t = {float(now)!r}, is not rational: give a time")
-            t = now.low
-        else:
-            t = rational(at)
-            self._check_between(kinetic, t)
-        if self._space is None or self._space.at != t:
-            self._space = FreeSpace(kinetic, t)
-        return self._space
-
-    def _check_between(self, kinetic: KineticTiling, t: QQ) -> None:
-        following = kinetic.next_time()
-        late = t > self.scene.end
-        if following is not None:
-            number = following.exact or kinetic.certifier.resolve(following)
-            late = late or number.compare_rational(t) <= 0
-        if late or kinetic.now.compare_rational(t) > 0:
-            raise InputError(
-                f"t = {t} is not between now, t = {float(kinetic.now)!r}, and the next event"
-            )
+        return self._alive().kinetic
 
     def _repr_svg_(self) -> str:
         """The tiling at the current time, or the contact, for notebooks."""
