@@ -23,7 +23,7 @@ from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, SimpleMotion, Translation
 
-__all__ = ["GRID", "onward", "planned", "rounded"]
+__all__ = ["GRID", "moved", "onward", "planned", "rounded", "translation_at"]
 
 GRID = power_of_two(-20)
 """The grid of velocities, if no other is asked for."""
@@ -57,7 +57,7 @@ def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
 
 
 def moved(body: Body, motion: Motion) -> Body:
-    """The shape of a body with another motion."""
+    """The shape of a body with another motion; it may be at another place."""
     if body.keyframes:
         return Body(body.name, motion=motion, closed=body.closed, keyframes=body.keyframes)
     return Body(body.name, body.vertices, motion, closed=body.closed)
@@ -88,16 +88,22 @@ def onward(
     if not isinstance(body.motion, Pieces):
         return _onward(body.motion, now, v)
     pieces: list[tuple[QQ | None, SimpleMotion]] = []
-    ends = [*body.motion.until, None]
-    current = next(
-        m for end, m in zip(ends, body.motion.motions, strict=True) if end is None or end > now
-    )
-    x, y = _translation(current)
+    x, y = translation_at(body, now)
     line = Polynomial([x(now) - v[0] * now, v[0]]), Polynomial([y(now) - v[1] * now, v[1]])
-    for end, motion in zip(ends, body.motion.motions, strict=True):
+    for end, motion in zip([*body.motion.until, None], body.motion.motions, strict=True):
         if end is None or end > now:
             pieces.append((end, _translated(motion, *line)))
     return Pieces(pieces)
+
+
+def translation_at(body: Body, t: QQ) -> tuple[Polynomial, Polynomial]:
+    """The translation that is part of a body's motion just after a time."""
+    motion = body.motion
+    if isinstance(motion, Pieces):
+        ends = [*motion.until, None]
+        parts = zip(ends, motion.motions, strict=True)
+        motion = next(m for end, m in parts if end is None or end > t)
+    return _translation(motion)
 
 
 def _onward(motion: SimpleMotion, t: QQ, v: tuple[QQ, QQ]) -> SimpleMotion:
