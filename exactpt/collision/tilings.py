@@ -12,7 +12,7 @@ from exactpt.tiling.instant import Instant
 from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.mesh import Mesh
 
-__all__ = ["TILINGS", "TilingPlan", "plan_tiling", "start_tiling"]
+__all__ = ["TILINGS", "TilingPlan", "plan_tiling", "start_tiling", "tiling_class"]
 
 TILINGS: Final = ("greedy", "mixed", "lazy")
 """The tilings by name."""
@@ -54,10 +54,10 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
     convex = name in ("auto", "greedy") and Instant(vertices, start).all_stay_convex()
     if name == "auto":
         name = "greedy" if convex else "mixed"
-    return TilingPlan(name, _kind(name, convex=convex), vertices, scene.end)
+    return TilingPlan(name, tiling_class(name, convex=convex), vertices, scene.end)
 
 
-def _kind(name: str, *, convex: bool) -> type[KineticTiling]:
+def tiling_class(name: str, *, convex: bool) -> type[KineticTiling]:
     """The class that keeps a tiling: of the greedy ones, convex bodies have their own."""
     if name == "lazy":
         from exactpt.tiling.lazy import LazyTiling

@@ -103,17 +103,42 @@ class Vertices:
         self.all: list[Vertex] = []
         self.bodies: list[MovingBody] = []
         for i, body in enumerate(bodies):
-            moving = MovingBody(body)
-            self.bodies.append(moving)
-            for index in _ring_indices(body, positions[i]):
-                vertex = Vertex(len(self.all), i, index, _NO_TRACK, _NO_IMAGE)
-                moving.ring.append(vertex.id)
-                self.all.append(vertex)
-            for behind, here in zip(moving.ring, [*moving.ring[1:], moving.ring[0]], strict=True):
-                self.all[behind].ahead = here
-                self.all[here].behind = behind
-            self.enter_piece(i, start)
-            moving.is_tiled = self._may_pinch(i, start, end)
+            self._add(body, _ring_indices(body, positions[i]), start)
+            self.bodies[i].is_tiled = self._may_pinch(i, start, end)
+
+    @classmethod
+    def restored(
+        cls,
+        bodies: Sequence[Body],
+        rings: Sequence[Sequence[int]],
+        since: Sequence[QQ],
+        frame: Frame,
+    ) -> Vertices:
+        """The vertices of a run that goes on.
+
+        Args:
+            bodies: with their present plans.
+            rings: of each body, which vertices of the scene its ring consists of.
+            since: when each body entered its piece.
+            frame: of the run.
+        """
+        self = cls.__new__(cls)
+        self.frame, self.all, self.bodies = frame, [], []
+        for body, ring, t in zip(bodies, rings, since, strict=True):
+            self._add(body, ring, t)
+        return self
+
+    def _add(self, body: Body, indices: Sequence[int], t: QQ) -> None:
+        i, moving = len(self.bodies), MovingBody(body)
+        self.bodies.append(moving)
+        for index in indices:
+            vertex = Vertex(len(self.all), i, index, _NO_TRACK, _NO_IMAGE)
+            moving.ring.append(vertex.id)
+            self.all.append(vertex)
+        for behind, here in zip(moving.ring, [*moving.ring[1:], moving.ring[0]], strict=True):
+            self.all[behind].ahead = here
+            self.all[here].behind = behind
+        self.enter_piece(i, t)
 
     def _may_pinch(self, i: int, start: QQ, end: QQ) -> bool:
         """Whether the inside of a body must be tiled from a time on."""

@@ -2,9 +2,8 @@
 
 The shortest closed curve in the free space that can be deformed into the boundary. In the
 mixed tiling it is there to be read: the half-edges that carry the label of the cycle
-pinned nowhere (`exactpt.tiling.mixed.labels`). Such a cycle passes each vertex at most
-once, since two bends around one body at one place would be nested, and nothing is between
-them.
+pinned nowhere (`exactpt.tiling.mixed.labels`). It may pass a vertex of its own body twice,
+where a mouth is pulled shut: what is on its left tells how it goes on.
 """
 
 from __future__ import annotations
@@ -16,23 +15,24 @@ __all__ = ["relative_hull"]
 
 
 def relative_hull(mesh: LabelledMesh, body: int) -> list[int]:
-    """The vertex ids of the relative hull of a body, counter-clockwise from the least one.
+    """The vertex ids along the relative hull of a body, counter-clockwise.
 
     Raises:
         AuditError: if the labels are not those of one cycle.
     """
     top, m = mesh.forest.bodies[body].first, mesh.map
-    ahead: dict[int, int] = {}
-    for h in m.half_edges():
-        if top in mesh.labels[h]:
-            if m.origin[h] in ahead:
-                raise AuditError(f"the relative hull of body {body} passes {m.origin[h]} twice")
-            ahead[m.origin[h]] = m.target(h)
-    cycle = [min(ahead)]
-    while len(cycle) < len(ahead):
-        cycle.append(ahead.get(cycle[-1], cycle[0]))
-        if cycle[-1] == cycle[0]:
+    cycle = [h for h in m.half_edges() if top in mesh.labels[h]]
+    ordered = [cycle[0]]
+    while True:
+        # The first one to the left: clockwise from where it comes from.
+        g = m.following[ordered[-1]]
+        while top not in mesh.labels[g]:
+            g = m.following[g ^ 1]
+        if g == ordered[0]:
             break
-    if len(cycle) < len(ahead) or ahead[cycle[-1]] != cycle[0]:
-        raise AuditError(f"the relative hull of body {body} is not one cycle: {sorted(ahead)}")
-    return cycle
+        ordered.append(g)
+        if len(ordered) > len(cycle):
+            break
+    if sorted(ordered) != cycle:
+        raise AuditError(f"the relative hull of body {body} is not one cycle: {cycle}")
+    return [m.origin[h] for h in ordered]

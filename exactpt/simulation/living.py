@@ -35,12 +35,18 @@ class LivingScene:
     """
 
     def __init__(
-        self, scene: Scene, kinetic: KineticTiling, asked: str, *, exact_only: bool
+        self,
+        scene: Scene,
+        kinetic: KineticTiling,
+        asked: str,
+        *,
+        exact_only: bool,
+        changes: int = 0,
     ) -> None:
         self.asked = asked
         self.exact_only = exact_only
         self.kinetic = kinetic
-        self.changes: int = 0
+        self.changes = changes
         self._end = scene
         self._scene: Scene | None = scene
         self._since = scene.start

@@ -6,6 +6,7 @@ import time as clock
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
+from pathlib import Path
 from typing import TypeAlias, final
 
 from exactpt.collision.contact import Contact, contact_of
@@ -14,14 +15,23 @@ from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import counters
-from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational
+from exactpt.kernel.numbers import QQ, Rational, parse_rational, power_of_two, rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
+from exactpt.scene.format import to_json as scene_to_json
+from exactpt.scene.format import write_atomically
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
 from exactpt.simulation.living import LivingScene
 from exactpt.simulation.questions import Questions
 from exactpt.simulation.report import report
+from exactpt.simulation.saved import (
+    contact_from_json,
+    event_from_json,
+    tiling_from_json,
+    tiling_to_json,
+)
+from exactpt.simulation.store import VERSION, json_text, reading, scene_from_json
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.kinetic import KineticTiling
 
@@ -63,6 +73,8 @@ class Simulation(Questions):
         self.contact: Contact | None = None
         self.contacts: int = 0
         self._given = scene, plan.name
+        self._margin = _margin_of(scene)
+        self._asked_for = tiling, exact_only
         self._max_events = max_events
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
         self._counted = (counters.exact, counters.filtered)
@@ -139,7 +151,7 @@ class Simulation(Questions):
             InputError: if the margin is not positive.
         """
         end = self.scene.end if until is None else min(rational(until), self.scene.end)
-        grid = self._margin() if margin is None else rational(margin)
+        grid = self._margin if margin is None else rational(margin)
         if grid <= 0:
             raise InputError(f"the margin before contacts is not positive: {grid}")
         while True:
@@ -217,10 +229,6 @@ class Simulation(Questions):
         self.contact = contact
         self.contacts += 1
         self._pending.append(Event(contact.time, "contact"))
-
-    def _margin(self) -> QQ:
-        span = self._given[0].end - self._given[0].start
-        return power_of_two(span.numerator.bit_length() - span.denominator.bit_length() - 80)
 
     def _check_budget(self) -> None:
         late = self._deadline is not None and clock.monotonic() > self._deadline
@@ -306,3 +314,82 @@ class Simulation(Questions):
         from exactpt.render.notebook import simulation_svg
 
         return simulation_svg(self)
+
+    # A run that is interrupted
+
+    def save(self, path: str | Path) -> None:
+        """Write the simulation as JSON, exactly; the file is complete or not there.
+
+        `restore` goes on with it: the events that come are the same, byte by byte, as
+        without the interruption. Bounds on events and seconds are not saved.
+        """
+        write_atomically(Path(path), json_text(self.to_json()))
+
+    @classmethod
+    def restore(
+        cls,
+        path: str | Path,
+        *,
+        max_events: int | None = None,
+        max_seconds: float | None = None,
+    ) -> Simulation:
+        """The simulation that `save` has written.
+
+        Args:
+            path: of the file.
+            max_events: raise `BudgetExceeded` before one more event than these, from now on.
+            max_seconds: raise `BudgetExceeded` after this time.
+
+        Raises:
+            InputError: if the file is none, or of another version.
+        """
+        with reading(Path(path)) as data:
+            asked, exact_only = data["tiling"], data["exact_only"]
+            scene = scene_from_json(data["scene"])
+            counts, state = data["counts"], data["state"]
+            self = cls(Scene([], (scene.start, scene.end)), tiling=asked, exact_only=exact_only,
+                       max_events=max_events, max_seconds=max_seconds)  # fmt: skip
+            self._given = scene, data["name"]
+            self._margin = parse_rational(data["margin"])
+            self._living = state and LivingScene(
+                scene,
+                tiling_from_json(state, scene.bodies, exact_only=exact_only),
+                asked,
+                exact_only=exact_only,
+                changes=counts["changes"],
+            )
+            self._pending.extend(map(event_from_json, data["pending"]))
+            self.contact = data["contact"] and contact_from_json(data["contact"])
+            self.contacts = counts["contacts"]
+            self._counted = (
+                counters.exact - counts["exact"],
+                counters.filtered - counts["filtered"],
+            )
+        return self
+
+    def to_json(self) -> dict[str, object]:
+        """What `save` writes."""
+        living = self._living
+        return {
+            "exactpt-simulation": VERSION,
+            "name": self.name,
+            "tiling": self._asked_for[0],
+            "exact_only": self._asked_for[1],
+            "margin": str(self._margin),
+            "scene": scene_to_json(self.scene),
+            "contact": None if self.contact is None else self.contact.to_json(),
+            "pending": [event.to_json() for event in self._pending],
+            "counts": {
+                "contacts": self.contacts,
+                "changes": 0 if living is None else living.changes,
+                "exact": counters.exact - self._counted[0],
+                "filtered": counters.filtered - self._counted[1],
+            },
+            "state": None if living is None else tiling_to_json(living.kinetic),
+        }
+
+
+def _margin_of(scene: Scene) -> QQ:
+    """About 2^-80 of the time span."""
+    span = scene.end - scene.start
+    return power_of_two(span.numerator.bit_length() - span.denominator.bit_length() - 80)

@@ -16,7 +16,7 @@ building the tiling anew.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Self
 
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
@@ -70,23 +70,59 @@ class KineticTiling:
     name = "lazy"
 
     def __init__(self, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool = False) -> None:
-        self.vertices = vertices
-        self.certifier = Certifier(vertices, start, end, exact_only=exact_only)
-        self.queue = ExactQueue(self.certifier) if exact_only else EventQueue(self.certifier)
-        self.stats = Stats()
-        self.mesh: Mesh = Mesh(0)
-        self._flat: set[int] = set()
-        self._due: set[int] = set()
-        self._touched: set[int] = set()
-        self._careful: bool = False
-        self._events: list[TilingEvent] = []
-        self._undo: tuple[EventTime, list[tuple[int, EventTime]]] | None = None
+        certifier = Certifier(vertices, start, end, exact_only=exact_only)
+        self._set_up(certifier, vertices, Mesh(0), Stats(), ())
         self._build(start)
         self._certify_everything()
         if self._due:
             raise AuditError(f"violated at the start: {sorted(self._due)}")
         for i in range(len(vertices.bodies)):
             self._schedule_piece(i)
+
+    def _set_up(
+        self,
+        certifier: Certifier,
+        vertices: Vertices,
+        mesh: Mesh,
+        stats: Stats,
+        flat: Iterable[int],
+    ) -> None:
+        """Set all attributes; nothing is violated, and nothing pending."""
+        self.vertices = vertices
+        self.certifier = certifier
+        exact_only = certifier.exact_only
+        self.queue = ExactQueue(certifier) if exact_only else EventQueue(certifier)
+        self.stats = stats
+        self.mesh = mesh
+        self._flat: set[int] = set(flat)
+        self._due: set[int] = set()
+        self._touched: set[int] = set()
+        self._careful: bool = False
+        self._events: list[TilingEvent] = []
+        self._undo: tuple[EventTime, list[tuple[int, EventTime]]] | None = None
+        self._clear_notes()
+
+    def _clear_notes(self) -> None:
+        """Forget what is noted during the repairs of one time."""
+
+    @classmethod
+    def restored(
+        cls,
+        certifier: Certifier,
+        vertices: Vertices,
+        mesh: Mesh,
+        stats: Stats,
+        flat: Iterable[int],
+    ) -> Self:
+        """A tiling that goes on between two events; what is pending is the caller's to schedule."""
+        self = cls.__new__(cls)
+        self._set_up(certifier, vertices, mesh, stats, flat)
+        return self
+
+    @property
+    def flat(self) -> set[int]:
+        """The half-edges whose angles are known to be straight for ever."""
+        return self._flat
 
     # Construction
 

@@ -32,8 +32,10 @@ class FlippingTiling(KineticTiling):
         super()._close(mesh, instant)
         flip_until_greedy(mesh, instant, mesh.flippable())
 
-    def _certify_everything(self) -> None:
+    def _clear_notes(self) -> None:
         self._stale: set[int] = set()
+
+    def _certify_everything(self) -> None:
         super()._certify_everything()
         self._stale.clear()
         after = Moment(self.certifier, before=False)
