@@ -21,7 +21,7 @@ from exactpt.errors import AuditError
 from exactpt.geometry.predicates import Point, between, side
 from exactpt.query.subdivision import Subdivision
 
-__all__ = ["Sleeves", "pull_tight", "reduced"]
+__all__ = ["Sleeves", "pull_tight", "reduced", "triangulated"]
 
 Triangle: TypeAlias = tuple[int, int, int]
 Portal: TypeAlias = tuple[int, int]
@@ -47,8 +47,12 @@ class Sleeves:
         self._plane = plane
         self._tiles: dict[int, list[Triangle]] = {}
 
-    def doors(self, start: int, goal: int) -> list[int] | None:
-        """The fewest diagonals to cross from one tile to another; None if there is no way."""
+    def doors(self, start: int, goal: int) -> list[int]:
+        """The fewest diagonals to cross from one tile to another.
+
+        Raises:
+            AuditError: if there is no way.
+        """
         plane, m = self._plane, self._plane.map
         came: dict[int, int] = {start: -1}
         queue = deque([start])
@@ -60,7 +64,7 @@ class Sleeves:
                     came[there] = h
                     queue.append(there)
         if goal not in came:
-            return None
+            raise AuditError(f"no way leads from tile {start} to tile {goal}")
         doors = []
         tile = goal
         while came[tile] >= 0:
@@ -86,7 +90,7 @@ class Sleeves:
         if known is None:
             m = self._plane.map
             cycle = [m.origin[h] for h in m.face(self._plane.door[tile])]
-            known = self._tiles[tile] = _triangulated(cycle, self._plane.points)
+            known = self._tiles[tile] = triangulated(cycle, self._plane.points)
         return known
 
     def _triangle_of(self, tile: int, p: Point) -> int:
@@ -126,10 +130,11 @@ class Sleeves:
         return portals[::-1]
 
 
-def _triangulated(cycle: Sequence[int], points: Sequence[Point]) -> list[Triangle]:
+def triangulated(cycle: Sequence[int], points: Sequence[Point]) -> list[Triangle]:
     """The triangles of a simple polygon (counter-clockwise), by cutting off its ears.
 
-    Vertices with an angle of pi stay vertices: no triangle has one inside an edge.
+    It may touch itself at vertices and along edges. Vertices with an angle of pi stay
+    vertices: no triangle has one inside an edge.
     O(n^2) for a tile with n vertices and a bounded number of candidates at a time.
     """
     nodes = list(cycle)

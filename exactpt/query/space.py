@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from itertools import pairwise
 from typing import TypeAlias, final
 
 from exactpt.errors import InputError
@@ -22,9 +21,9 @@ from exactpt.kernel.numbers import QQ, Rational, rational
 from exactpt.query.answers import Hit, Path, Place, VertexName
 from exactpt.query.locate import cast, find, place_of
 from exactpt.query.relative import relative_hull
-from exactpt.query.sleeve import Sleeves, pull_tight, reduced
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.query.walk import On, Ray, next_leg
+from exactpt.query.surround import surrounded
+from exactpt.query.ways import Ways
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.mesh import INSIDE, Mesh
@@ -58,6 +57,7 @@ class FreeSpace:
         self._vertices = kinetic.vertices
         self._mesh: Mesh = kinetic.mesh_now(at)
         self.at = at
+        self._wide: Ways | None = None
         self.snapshot: Snapshot = snapshot(self._vertices, self._mesh, kinetic.name, at)
 
     @cached_property
@@ -70,19 +70,15 @@ class FreeSpace:
         return [first[v.body] + v.index for v in self._vertices.all]
 
     @cached_property
-    def _plane(self) -> Subdivision:
+    def _hidden(self) -> set[tuple[int, int]]:
+        """The edges inside bodies, as pairs of nodes."""
         mesh, node = self._mesh, self._node
-        hidden = {
-            tuple(sorted((node[u], node[v])))
-            for h in mesh.diagonals()
-            if mesh.region[h] == INSIDE
-            for u, v in [mesh.ends(h)]
-        }
-        return Subdivision(self.snapshot, hidden)  # type: ignore[arg-type]
+        ends = [mesh.ends(h) for h in mesh.diagonals() if mesh.region[h] == INSIDE]
+        return {(min(node[u], node[v]), max(node[u], node[v])) for u, v in ends}
 
     @cached_property
-    def _sleeves(self) -> Sleeves:
-        return Sleeves(self._plane)
+    def _plane(self) -> Subdivision:
+        return Subdivision(self.snapshot, self._hidden)
 
     # Places and rays
 
@@ -111,38 +107,40 @@ class FreeSpace:
 
     # Paths
 
-    def path(self, start: PointLike, goal: PointLike) -> Path | None:
-        """The shortest path of those through the fewest tiles, inside the convex hull.
+    def path(self, start: PointLike, goal: PointLike) -> Path:
+        """The shortest of the paths that cross the fewest diagonals in the same order.
 
-        Returns:
-            None if bodies separate the points there.
+        There is always a way between free points, around the convex hull if need be.
 
         Raises:
-            InputError: if one of the points is not free, or outside the convex hull.
+            InputError: if one of the points is not free.
         """
         p, q = _point(start), _point(goal)
-        doors = self._sleeves.doors(self._tile(p), self._tile(q))
-        return None if doors is None else self._tight(p, self._tile(p), doors, q)
+        return self._ways((p, q)).path(p, q)
 
     def shorten(self, walk: Sequence[PointLike]) -> Path:
         """The shortest path that a walk can be deformed into, its ends fixed.
 
         Args:
-            walk: the points of a polyline in free space, inside the convex hull.
+            walk: the points of a polyline in free space.
 
         Raises:
-            InputError: if a body is in the way, or a point outside the convex hull.
+            InputError: if a body is in the way.
         """
         points = [_point(p) for p in walk]
         if not points:
             raise InputError("a walk has at least one point")
-        first = tile = self._tile(points[0])
-        doors: list[int] = []
-        for p, q in pairwise(points):
-            part = self._doors_along(p, tile, q)
-            doors += part
-            tile = self._plane.face[part[-1] ^ 1] if part else tile
-        return self._tight(points[0], first, reduced(doors), points[-1])
+        return self._ways(points).shorten(points)
+
+    def _ways(self, points: Sequence[Point]) -> Ways:
+        """What knows the ways between points: inside the hull, or wider if one is outside."""
+        if self._wide is None or not self._wide.reach(points):
+            plane = self._plane
+            if plane.points:
+                wider = surrounded(self.snapshot, self._hull_nodes(), points)
+                plane = Subdivision(wider, self._hidden)
+            self._wide = Ways(plane)
+        return self._wide
 
     # Bodies
 
@@ -151,13 +149,16 @@ class FreeSpace:
 
         Those inside an edge of the hull too. A hull without area is walked there and back.
         """
+        return [self._plane.node_name(v) for v in self._hull_nodes()]
+
+    def _hull_nodes(self) -> list[int]:
         plane = self._plane
         if OUTSIDE not in plane.door:
-            return [plane.node_name(v) for v in range(len(plane.points))]
+            return list(range(len(plane.points)))
         m = plane.map
         cycle = [m.origin[h] for h in m.face(plane.door[OUTSIDE])][::-1]
         least = cycle.index(min(cycle))
-        return [plane.node_name(v) for v in cycle[least:] + cycle[:least]]
+        return cycle[least:] + cycle[:least]
 
     def relative_hull(self, body: str) -> list[VertexName]:
         """The vertices of the shortest loop around a body and no other, counter-clockwise.
@@ -204,56 +205,6 @@ class FreeSpace:
         if body not in self._plane.names:
             raise InputError(f"no body {body!r}")
         return self._plane.names.index(body)
-
-    # Walks
-
-    def _tile(self, p: Point) -> int:
-        """A tile that has a free point."""
-        plane = self._plane
-        spot, _ = find(plane, p)
-        place = place_of(plane, spot)
-        tiles = [spot.handle]
-        if spot.on is On.EDGE:
-            tiles = [plane.face[spot.handle], plane.face[spot.handle ^ 1]]
-        shown = f"({p[0]}, {p[1]})"
-        if place.body is not None:
-            raise InputError(f"the point {shown} is not free: body {place.body!r} has it")
-        if max(tiles) < 0:
-            raise InputError(f"the point {shown} is outside the convex hull of the bodies")
-        return max(tiles)
-
-    def _doors_along(self, p: Point, tile: int, q: Point) -> list[int]:
-        """The half-edges that a free segment crosses, from a tile with p to one with q."""
-        plane = self._plane
-        if p == q:
-            return []
-        ray = Ray(plane, p, (q[0] - p[0], q[1] - p[1]))
-        spot, _ = find(plane, p)
-        at, here = QQ(0), tile
-        doors: list[int] = []
-        while True:
-            leg = next_leg(plane, ray, spot, at)
-            there = leg.through.handle if leg.through.on is On.FACE else here
-            if spot.on is On.EDGE and there != here:
-                doors.append(spot.handle if plane.face[spot.handle] == here else spot.handle ^ 1)
-            here = there
-            if here == OUTSIDE:
-                raise InputError("the walk leaves the convex hull of the bodies")
-            if leg.end is None or leg.at >= 1:
-                self._tile(q)  # refuses what is not free
-                return doors
-            place = place_of(plane, leg.end)
-            if place.body is not None:
-                x, y = ray.point(leg.at)
-                raise InputError(f"the walk meets body {place.body!r} at ({x}, {y})")
-            spot, at = leg.end, leg.at
-
-    def _tight(self, start: Point, tile: int, doors: Sequence[int], goal: Point) -> Path:
-        plane = self._plane
-        portals = self._sleeves.portals(start, tile, doors, goal)
-        bends = pull_tight(start, goal, portals, plane.points)
-        points = (start, *(plane.points[v] for v in bends), goal)
-        return Path(points, tuple(plane.node_name(v) for v in bends), len(doors))
 
 
 def _point(p: PointLike) -> Point:

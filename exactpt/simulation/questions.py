@@ -80,7 +80,7 @@ class Questions(ABC):
         """Whether a segment meets no body now: see `FreeSpace.is_free`."""
         return self.space().is_free(p, q)
 
-    def path(self, start: PointLike, goal: PointLike) -> Path | None:
+    def path(self, start: PointLike, goal: PointLike) -> Path:
         """A shortest path of its kind now: see `FreeSpace.path`."""
         return self.space().path(start, goal)
 
