@@ -145,7 +145,7 @@ def check_relative_hulls(space, bodies, rng):
             assert not brute.crosses(here, after, bodies)
             turn = brute.cross(before, here, after)
             if turn:
-                assert (turn > 0) == (name == body)
+                assert turn < 0 or name == body
                 assert brute.bends_around(before, here, after, bodies[name], vertex)
         for name, p in anchors.items():
             if any(brute.on_segment(p, points[i - 1], points[i]) for i in range(len(points))):
