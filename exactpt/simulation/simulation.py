@@ -48,6 +48,17 @@ class Simulation(Questions):
     It lives: at rational times, bodies get new motions, come and go, and the free space
     can be asked about; and with ``on_contact`` it runs on after contacts.
 
+    >>> import exactpt
+    >>> ball = exactpt.Body("ball", [(0, 0), (1, 0), (0, 1)], exactpt.Translation([0, 1]))
+    >>> wall = exactpt.Body("wall", [(5, -9), (5, 9)])
+    >>> simulation = exactpt.Simulation(exactpt.Scene([ball, wall], time=(0, 20)))
+    >>> list(simulation.run(2)), simulation.ray_cast((4, "1/2"), (-1, 0)).body
+    ([], 'ball')
+    >>> simulation.set_motion("ball", exactpt.Translation([1, "1/2"]))
+    >>> events = simulation.run(on_contact=exactpt.Bounce(fixed=["wall"]))
+    >>> [(event.kind, float(event.time)) for event in events]
+    [('motion', 2.0), ('contact', 6.0), ('motion', 6.0)]
+
     Args:
         scene: what moves.
         tiling: which tiling to keep: "auto" or one of `TILINGS`.

@@ -17,15 +17,15 @@ from exactpt.simulation.simulation import Simulation
 
 GOLDEN = Path(__file__).parent / "golden"
 SCENES = [
-    ("convex", 1, "greedy"),
+    ("convex", 3, "greedy"),
     ("ballistic", 2, "greedy"),
-    ("turning", 1, "lazy"),
+    ("turning", 2, "lazy"),
     ("pieces", 3, "greedy"),
-    ("grids_passing", 1, "greedy"),
+    ("grids_passing", 3, "greedy"),
     ("mirrored", 2, "lazy"),
     ("polygons_in_step", 1, "greedy"),
-    ("stars", 2, "mixed"),
-    ("blobs", 1, "mixed"),
+    ("stars", 4, "mixed"),
+    ("blobs", 0, "mixed"),
     ("letters", 4, "greedy"),
 ]
 NAMES = ["-".join(map(str, key)) for key in SCENES]
