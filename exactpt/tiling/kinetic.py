@@ -15,12 +15,12 @@ building the tiling anew.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Final
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Final, Self
 
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, floor
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.vertices import Vertex, Vertices
 from exactpt.tiling.audit import audit_fan
@@ -28,11 +28,17 @@ from exactpt.tiling.closing import close_at
 from exactpt.tiling.contacts import touches
 from exactpt.tiling.events import ContactFound, TilingEvent
 from exactpt.tiling.exact import comes_first
+from exactpt.tiling.inside import tile_inside
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import OUTER, SOLID, Mesh
 from exactpt.tiling.moment import Moment
 from exactpt.tiling.placement import nearer, nearer_copy, strictly_between
 from exactpt.tiling.tiling import Tiling
+
+if TYPE_CHECKING:
+    from exactpt.motion.body import Body
+    from exactpt.tiling.certificates import Certifier
+    from exactpt.tiling.events import Stats
 
 __all__ = ["KineticTiling", "RebuildNeeded"]
 
@@ -64,16 +70,50 @@ class KineticTiling(Tiling):
 
     def __init__(self, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool = False) -> None:
         super().__init__(vertices, start, end, exact_only=exact_only)
-        self._flat: set[int] = set()
-        self._due: set[int] = set()
-        self._touched: set[int] = set()
-        self._careful: bool = False
+        self._set_up(Mesh(0), ())
         self._build(start)
         self._certify_everything()
         if self._due:
             raise AuditError(f"violated at the start: {sorted(self._due)}")
         for i in range(len(vertices.bodies)):
             self._schedule_piece(i)
+
+    def _set_up(self, mesh: Mesh, flat: Iterable[int]) -> None:
+        """Nothing is violated, and nothing pending."""
+        self.mesh = mesh
+        self._flat: set[int] = set(flat)
+        self._due: set[int] = set()
+        self._touched: set[int] = set()
+        self._careful: bool = False
+        self._undo: tuple[EventTime, list[tuple[int, EventTime]]] | None = None
+        self._clear_notes()
+
+    def _clear_notes(self) -> None:
+        """Forget what is noted during the repairs of one time."""
+
+    @classmethod
+    def restored(
+        cls,
+        certifier: Certifier,
+        vertices: Vertices,
+        mesh: Mesh,
+        stats: Stats,
+        flat: Iterable[int],
+    ) -> Self:
+        """A tiling that goes on between two events; what is pending is the caller's to schedule."""
+        self = cls.__new__(cls)
+        self._begin(vertices, certifier, stats)
+        self._set_up(mesh, flat)
+        self._recall()
+        return self
+
+    def _recall(self) -> None:
+        """Find again what is known between two events and follows from the mesh."""
+
+    @property
+    def flat(self) -> set[int]:
+        """The half-edges whose angles are known to be straight for ever."""
+        return self._flat
 
     # Construction
 
@@ -194,9 +234,69 @@ class KineticTiling(Tiling):
 
     # Time
 
+    def retreat(self, grid: QQ) -> QQ:
+        """After `ContactFound`: go back to a rational time just before the contact.
+
+        Args:
+            grid: the time is the last multiple of it before the contact; or, if an event
+                is in between, a dyadic rational after that.
+
+        Returns:
+            The time. The tiling is the one that leads up to the contact.
+        """
+        if self._undo is None:
+            raise AuditError("there is no contact to go back from")
+        (time_before, entries), contact = self._undo, self.now
+        before = time_before.exact or self.certifier.resolve(time_before)
+        self._undo = None
+        for slot, time in entries:
+            self.queue.schedule(slot, time)
+        contact.refine_to(grid)
+        m = floor(contact.high / grid)
+        while contact.compare_rational(m * grid) <= 0:
+            m -= 1
+        t = m * grid
+        if before.compare_rational(t) >= 0:
+            t = rational_between(before, contact)
+        self._move_to(t)
+        return t
+
+    def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent]:
+        """Let bodies go on by other plans; work for their certificates alone.
+
+        Args:
+            plans: by the number of the body, what it is from now on. Its positions now are
+                those that it has.
+            t: now.
+
+        Returns:
+            What changes at once.
+        """
+        self._move_to(t)
+        self._due.clear()
+        self._touched.clear()
+        self._careful = True
+        try:
+            for i in sorted(plans):
+                if self.vertices.set_plan(i, plans[i], t, self.certifier.end):
+                    first = self.mesh.ring_edge[self.vertices.bodies[i].ring[0]]
+                    tile_inside(self.mesh, first, Moment(self.certifier, before=False))
+                self._schedule_piece(i)
+                self._record("motion", (), ())
+            angles = [h for i in sorted(plans) for h in self._certify_body(i)]
+            self._recheck([])
+            self._certify_again(angles)
+            self._settle()
+        except RebuildNeeded:
+            self._rebuild()
+        self._careful = False
+        self.stats.most = max(self.stats.most, len(self.queue))
+        return self._reported()
+
     def _process(self, time: EventTime, entries: list[tuple[int, EventTime]]) -> None:
         """Let all events of one time happen."""
         self._due.clear()
+        self._undo = self.certifier.now, entries
         self.certifier.move_to(time, [(t.a, t.b, t.c) for _, t in entries])
         slots = [slot for slot, _ in entries]
         self._touched.clear()
@@ -219,18 +319,29 @@ class KineticTiling(Tiling):
     def _begin_batch(self, slots: list[int]) -> None:
         """Note what is violated just after now; report a contact if there is one."""
         angles = [slot // KINDS for slot in slots if slot % KINDS == ANGLE]
-        for slot in slots:
-            if slot % KINDS == MOTION:
-                angles += self._change_motion(slot // KINDS)
+        shrinking = [slot // KINDS for slot in slots if slot % KINDS == SHRINK]
+        moving = [slot // KINDS for slot in slots if slot % KINDS == MOTION]
+        # Before anything is changed, so that `retreat` finds everything as it was.
+        self._look_for_contact(angles, shrinking)
+        if moving:
+            self._undo = None
+            changed = [h for i in moving for h in self._change_motion(i)]
+            self._look_for_contact(changed, ())
+            angles += changed
+        self._recheck([slot for slot in slots if slot % KINDS not in (ANGLE, MOTION, SHRINK)])
+        self._certify_again(angles)
+
+    def _look_for_contact(self, angles: Iterable[int], shrinking: Iterable[int]) -> None:
+        """Report what touches now near angles that vanish, and segments that shrink."""
         candidates: set[int] = set()
         for h in angles:
             candidates.update(self._straight_run(h))
-        for slot in slots:
-            if slot % KINDS == SHRINK:
-                candidates.update(self.vertices.bodies[slot // KINDS].ring)
+        for i in shrinking:
+            candidates.update(self.vertices.bodies[i].ring)
         if candidates:
             self._report_touches(candidates)
-        self._recheck([slot for slot in slots if slot % KINDS not in (ANGLE, MOTION, SHRINK)])
+
+    def _certify_again(self, angles: Iterable[int]) -> None:
         for h in angles:
             if self.mesh.map.origin[h] >= 0:
                 self._certify(h)

@@ -62,9 +62,12 @@ class GreedyTiling(KineticTiling):
         """The greedy tiling of an instant."""
         return greedy_mesh(instant, VerticalDecomposition.at(instant))[0]
 
-    def _certify_everything(self) -> None:
+    def _clear_notes(self) -> None:
         self._due_cells: set[int] = set()
         self._due_extremes: set[int] = set()
+
+    def _certify_everything(self) -> None:
+        self._clear_notes()
         super()._certify_everything()
         for cell in range(len(self.cells.left)):
             self._certify_cell(cell)

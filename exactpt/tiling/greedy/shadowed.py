@@ -46,8 +46,12 @@ class ShadowedTiling(FlippingTiling):
         flip_until_greedy(mesh, instant, mesh.flippable())
         return mesh
 
-    def _certify_everything(self) -> None:
+    def _clear_notes(self) -> None:
+        super()._clear_notes()
         self._turned: set[int] = set()
+
+    def _certify_everything(self) -> None:
+        self._turned.clear()
         super()._certify_everything()
         for v in range(len(self.vertices.all)):
             self._certify_turn(v)
