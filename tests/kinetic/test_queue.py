@@ -1,0 +1,149 @@
+"""The event queue: laws against the simplest model, a sorted list of exact times."""
+
+from itertools import pairwise
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
+
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ
+from exactpt.kinetic.queue import EventQueue, EventTime, ExactQueue
+
+# The square root of 2 by two polynomials, the double next to it, thirds, nearly a third.
+NUMBERS = [
+    AlgebraicNumber.root((-2, 0, 1), QQ(1), QQ(2)),
+    AlgebraicNumber.root((-8, 0, 0, 0, 0, 0, 1), QQ(1), QQ(2)),
+    AlgebraicNumber(QQ(6369051672525773, 4503599627370496)),
+    *(AlgebraicNumber(QQ(n, 3)) for n in range(1, 7)),
+    AlgebraicNumber(QQ(1, 3) + QQ(1, 10**40)),
+]
+
+
+class Numbers:
+    """Knows which number each time is, by its key."""
+
+    def __init__(self):
+        self.asked = 0
+
+    def resolve(self, time):
+        self.asked += 1
+        time.exact = NUMBERS[time.a]
+        time.low, time.high = time.exact.enclosure()
+        return time.exact
+
+
+def time_of(index, width=0.0):
+    low, high = NUMBERS[index].enclosure()
+    return EventTime(low - width, high + width, index, -1, -1)
+
+
+numbers = st.integers(0, len(NUMBERS) - 1)
+widths = st.sampled_from([0.0, 1e-12, 0.5])
+
+
+@pytest.mark.parametrize("kind", [EventQueue, ExactQueue])
+@given(events=st.lists(st.tuples(numbers, widths)))
+def test_events_come_in_the_order_of_time_then_of_slots(kind, events):
+    queue = kind(Numbers())
+    for slot, (index, width) in enumerate(events):
+        queue.schedule(slot, time_of(index, width))
+
+    popped = []
+    while (batch := queue.pop()) is not None:
+        time, entries = batch
+        assert [slot for slot, _ in entries] == sorted(slot for slot, _ in entries)
+        assert time in [t for _, t in entries]
+        popped.append([slot for slot, _ in entries])
+
+    assert sorted(slot for batch in popped for slot in batch) == list(range(len(events)))
+    for batch in popped:
+        first = NUMBERS[events[batch[0]][0]]
+        assert all(NUMBERS[events[slot][0]] == first for slot in batch)
+    times = [NUMBERS[events[batch[0]][0]] for batch in popped]
+    assert all(a < b for a, b in pairwise(times))
+
+
+def test_enclosures_that_do_not_overlap_decide_alone():
+    numbers = Numbers()
+    queue = EventQueue(numbers)
+    for slot, index in enumerate((5, 3, 7)):
+        queue.schedule(slot, time_of(index))
+
+    assert [queue.pop()[1][0][0] for _ in range(3)] == [1, 0, 2]
+    assert queue.pop() is None
+    assert numbers.asked == 0
+
+
+def test_equal_times_are_one_batch_known_by_the_least_polynomial():
+    """sqrt(2) is a root of t^2 - 2 and of t^6 - 8."""
+    queue = EventQueue(Numbers())
+    queue.schedule(4, time_of(1))
+    queue.schedule(2, time_of(0))
+
+    time, entries = queue.pop()
+
+    assert [slot for slot, _ in entries] == [2, 4]
+    assert time.exact.polynomial == (-2, 0, 1)
+
+
+def test_a_time_of_one_function_equals_itself_unresolved():
+    numbers = Numbers()
+    queue = EventQueue(numbers)
+    queue.schedule(0, time_of(3))
+    queue.schedule(1, time_of(3))
+
+    assert len(queue.pop()[1]) == 2
+    assert numbers.asked == 0
+
+
+def test_many_replaced_events_are_dropped():
+    queue = EventQueue(Numbers())
+    for i in range(5000):
+        queue.schedule(i % 3, time_of(3 + i % 6))
+
+    assert len(queue) == 3
+    assert len(queue._heap) < 300
+    assert queue.slots() == [0, 1, 2]
+
+
+class QueueMachine(RuleBasedStateMachine):
+    """Any order of scheduling, replacing, cancelling and popping, against a dict."""
+
+    def __init__(self):
+        super().__init__()
+        self.queue = EventQueue(Numbers())
+        self.model = {}
+
+    @rule(slot=st.integers(0, 6), index=numbers, width=widths)
+    def schedule(self, slot, index, width):
+        self.queue.schedule(slot, time_of(index, width))
+        self.model[slot] = index
+
+    @rule(slot=st.integers(0, 6))
+    def cancel(self, slot):
+        self.queue.cancel(slot)
+        self.model.pop(slot, None)
+
+    @precondition(lambda self: self.model)
+    @rule()
+    def pop(self):
+        _, entries = self.queue.pop()
+
+        first = min(NUMBERS[i] for i in self.model.values())
+        expected = sorted(s for s, i in self.model.items() if NUMBERS[i] == first)
+        assert [slot for slot, _ in entries] == expected
+        for slot in expected:
+            del self.model[slot]
+
+    @invariant()
+    def same_slots(self):
+        assert self.queue.slots() == sorted(self.model)
+        assert len(self.queue) == len(self.model)
+        for slot in range(7):
+            time = self.queue.pending(slot)
+            assert (None if time is None else time.a) == self.model.get(slot)
+
+
+TestQueue = QueueMachine.TestCase

@@ -1,0 +1,120 @@
+"""The planar map: each operation, its inverse, and an audit that sees broken links."""
+
+import pytest
+
+from exactpt.errors import AuditError
+from exactpt.planar.halfedge import NOTHING, PlanarMap
+
+
+def polygon(n):
+    """A cycle of n vertices: half-edge 2 i leads from i to i + 1, with the inside on its left."""
+    m = PlanarMap()
+    edges = [m.add_edge(i, (i + 1) % n) for i in range(n)]
+    for e, f in zip(edges, [*edges[1:], edges[0]], strict=True):
+        m.link(e, f)
+        m.link(f ^ 1, e ^ 1)
+    return m
+
+
+def faces(m):
+    found = set()
+    for h in m.half_edges():
+        cycle = [m.origin[g] for g in m.face(h)]
+        least = cycle.index(min(cycle))
+        found.add(tuple(cycle[least:] + cycle[:least]))
+    return found
+
+
+def test_a_polygon_has_an_inside_and_an_outside():
+    m = polygon(5)
+
+    m.audit()
+    assert faces(m) == {(0, 1, 2, 3, 4), (0, 4, 3, 2, 1)}
+    assert m.fan(0) == [0, 9]
+    assert m.target(0) == 1
+
+
+def test_a_split_face_and_its_edge_removed():
+    m = polygon(6)
+    before = faces(m)
+
+    e = m.split_face(0, 6)
+
+    m.audit()
+    assert (m.origin[e], m.target(e)) == (0, 3)
+    assert faces(m) == {(0, 1, 2, 3), (0, 3, 4, 5), (0, 5, 4, 3, 2, 1)}
+    m.remove_edge(e)
+    m.audit()
+    assert faces(m) == before
+    assert m.origin[e] == m.origin[e ^ 1] == NOTHING
+
+
+def test_handles_are_used_again():
+    m = polygon(6)
+    first = m.split_face(0, 6)
+    m.remove_edge(first)
+
+    second = m.split_face(2, 8)
+
+    assert second >> 1 == first >> 1
+    m.audit()
+    assert len(m.half_edges()) == 14
+
+
+def test_an_edge_slides_along_its_neighbour():
+    """A diagonal from 0 to 3 of a hexagon: its origin moves back along the edge before it."""
+    m = polygon(6)
+    e = m.split_face(0, 6)
+    neighbour = m.origin[m.previous[e]]
+
+    m.slide_origin(e)
+
+    m.audit()
+    assert (m.origin[e], m.target(e)) == (neighbour, 3)
+    assert sorted(map(len, faces(m))) == [3, 5, 6]
+
+
+def test_a_slid_target_mirrors_a_slid_origin():
+    for n in (4, 5, 6, 9):
+        m = polygon(n)
+        e = m.split_face(0, 4)
+        before = faces(m)
+        origin, target = m.origin[e], m.target(e)
+
+        m.slide_target(e)
+        m.audit()
+        assert m.origin[e] == origin
+        assert m.target(e) != target
+        h = e ^ 1
+        m.slide_origin(h)
+        m.audit()
+        moved = faces(m)
+        assert len(moved) == len(before)
+
+
+def test_a_copy_is_independent():
+    m = polygon(4)
+    other = m.copy()
+
+    other.split_face(0, 4)
+
+    assert len(m.half_edges()) == 8
+    m.audit()
+    other.audit()
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda m: m.previous.__setitem__(2, 4),
+        lambda m: m.following.__setitem__(0, 4),
+        lambda m: m.origin.__setitem__(2, 3),
+        lambda m: m.link(0, 6),
+    ],
+)
+def test_the_audit_sees_a_broken_link(damage):
+    m = polygon(5)
+    damage(m)
+
+    with pytest.raises(AuditError):
+        m.audit()

@@ -1,0 +1,72 @@
+"""Tilings shown at the very time of an event: whole, and without faces that have no area."""
+
+from itertools import pairwise
+
+import pytest
+
+from exactpt.cgal import BodyShape
+from exactpt.collision.tilings import TILINGS
+from exactpt.geometry.polygon import signed_area2
+from exactpt.geometry.predicates import side
+from exactpt.scene.families.shapes import hull
+from exactpt.scene.generate import generate
+from exactpt.simulation.simulation import Simulation
+
+FAMILIES = ("small_grid", "row", "grids_passing", "mirrored", "letters", "flat", "nested", "chains")
+
+
+def snapshots(family, seed, tiling):
+    """The tilings at the rational times of events, but a contact."""
+    simulation = Simulation(generate(family, seed), tiling=tiling)
+    last = None
+    for event in simulation.run():
+        now = simulation.now.simplified()
+        if event.kind != "contact" and now.is_rational and now != last:
+            last = now
+            yield simulation.scene, simulation.snapshot()
+
+
+def assert_whole(scene, snapshot):
+    """Faces have three corners each, and with the bodies they make up the convex hull."""
+    points = [(node.x, node.y) for node in snapshot.nodes]
+    area = 0
+    for face in snapshot.faces:
+        assert len(face.corners) == 3
+        cycle = [points[v] for v in face.nodes]
+        turns = zip(face.nodes, [cycle[-1], *cycle], cycle, [*cycle[1:], cycle[0]], strict=False)
+        assert {v for v, a, p, b in turns if side(a, p, b) > 0} == set(face.corners)
+        area += signed_area2(cycle)
+    for body in scene.bodies:
+        if body.closed and body.size > 2:
+            area += abs(signed_area2(body.at(snapshot.at)))
+    assert area == signed_area2(hull(points))
+    edges = {(e.u, e.v) for e in snapshot.edges}
+    for face in snapshot.faces:
+        for u, v in pairwise([*face.nodes, face.nodes[0]]):
+            assert (min(u, v), max(u, v)) in edges
+
+
+@pytest.mark.parametrize("tiling", [t for t in TILINGS if t != "incremental"])
+@pytest.mark.parametrize("family", FAMILIES)
+def test_a_tiling_at_an_event_is_whole(family, tiling):
+    seen = 0
+    for seed in range(12):
+        for scene, snapshot in snapshots(family, seed, tiling):
+            assert_whole(scene, snapshot)
+            seen += 1
+            if seen == 12:
+                return
+
+
+@pytest.mark.cgal
+@pytest.mark.parametrize("tiling", [t for t in TILINGS if t != "incremental"])
+@pytest.mark.parametrize("family", FAMILIES)
+def test_cgal_accepts_a_tiling_at_an_event(family, tiling, witness):
+    seen = 0
+    for seed in range(12):
+        for scene, snapshot in snapshots(family, seed, tiling):
+            verdict = witness.check_tiling(snapshot.to_json(), BodyShape.of_scene(scene))
+            assert verdict.ok, (seed, snapshot.at, verdict.reason)
+            seen += 1
+            if seen == 30:
+                return
