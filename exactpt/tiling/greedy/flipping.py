@@ -14,11 +14,13 @@ from collections.abc import Iterable
 from typing import Final, NamedTuple
 
 from exactpt.errors import AuditError
+from exactpt.tiling.angles import KINDS
 from exactpt.tiling.greedy.shadow import flip_until_greedy, shadow, tangency
 from exactpt.tiling.instant import Instant
-from exactpt.tiling.kinetic import KINDS, KineticTiling, RebuildNeeded
+from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.moment import Moment
+from exactpt.tiling.repairs import RebuildNeeded
 
 __all__ = ["FlippingTiling"]
 

@@ -11,15 +11,17 @@ from typing import final
 
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
+from exactpt.tiling.angles import CELL, EXTREME, KINDS
 from exactpt.tiling.build import build_mesh
 from exactpt.tiling.greedy.shadow import facing_visit, flip, flip_until_greedy, shadow
 from exactpt.tiling.greedy.sweep import greedy_diagonals
 from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition
 from exactpt.tiling.instant import Instant
-from exactpt.tiling.kinetic import CELL, EXTREME, KINDS, KineticTiling, RebuildNeeded
+from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.moment import Moment
 from exactpt.tiling.placement import coordinate_order
+from exactpt.tiling.repairs import RebuildNeeded
 
 __all__ = ["GreedyTiling", "greedy_mesh"]
 
