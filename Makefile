@@ -9,7 +9,7 @@ PACKAGES := g++ cmake libcgal-dev
 JOBS ?= 2
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-exact test-browser coverage lint quick pictures check-cgal clean
+.PHONY: help demo test test-slow test-exact test-browser coverage lint quick pictures check-cgal clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -17,8 +17,11 @@ help: ## what can be made
 demo: $(VENV)/installed ## set up, run the packaged scene to its first contact, write an animation
 	$(BIN)/exactpt demo
 
-test: $(VENV)/developing cgal_check/build/cgal_check lint ## set up (CGAL included), pass all tests
-	$(BIN)/python -m pytest -n $(JOBS) -m "not browser"
+test: $(VENV)/developing cgal_check/build/cgal_check lint ## set up (CGAL included), pass the tests
+	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser"
+
+test-slow: $(VENV)/developing cgal_check/build/cgal_check ## the same claims on thousands of scenes: an hour
+	$(BIN)/python -m pytest -n $(JOBS) -m slow
 
 quick: $(VENV)/developing ## the tests that take seconds
 	$(BIN)/python -m pytest
@@ -31,7 +34,7 @@ test-browser: $(VENV)/developing ## the animation in a real browser (installs ch
 	$(BIN)/python -m pytest -m browser
 
 coverage: $(VENV)/developing cgal_check/build/cgal_check ## branches covered by the tests
-	$(BIN)/python -m pytest -n $(JOBS) -m "not browser" --cov=exactpt --cov-report=term:skip-covered
+	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser" --cov=exactpt --cov-report=term:skip-covered
 
 lint: $(VENV)/developing ## formatting, rules, types, imports
 	$(BIN)/ruff format --check .

@@ -15,8 +15,12 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
+from exactpt.query.answers import Hit, Path, Place
+from exactpt.query.space import FreeSpace
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
+from exactpt.simulation.plans import onward
+from exactpt.simulation.responses import Bounce, stop
 from exactpt.simulation.simulation import Simulation
 
 __all__ = [
@@ -24,17 +28,24 @@ __all__ = [
     "AlgebraicNumber",
     "AuditError",
     "Body",
+    "Bounce",
     "BudgetExceeded",
     "Contact",
     "Event",
     "ExactPTError",
+    "FreeSpace",
+    "Hit",
     "InputError",
     "Pair",
+    "Path",
     "Pieces",
+    "Place",
     "Polynomial",
     "Rigid",
     "Scene",
     "Simulation",
     "Translation",
     "first_contact",
+    "onward",
+    "stop",
 ]

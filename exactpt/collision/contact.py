@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -11,6 +11,7 @@ from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly, multiply, scale, subtract
 from exactpt.kernel.numbers import QQ, ZZ, nearest_float
+from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, difference, orientation
 from exactpt.motion.track import Track
 from exactpt.scene.scene import Scene
@@ -108,12 +109,12 @@ def time_to_json(time: AlgebraicNumber) -> dict[str, object]:
 
 def tracks_before(scene: Scene, time: AlgebraicNumber) -> list[tuple[Track, ...]]:
     """The tracks of every body in the piece that leads up to a time after the start."""
-    return [
-        body.piece_after(
-            max((b for b in body.breakpoints if time.compare_rational(b) > 0), default=scene.start)
-        ).tracks
-        for body in scene.bodies
-    ]
+    return [_tracks_of(body, time, scene.start) for body in scene.bodies]
+
+
+def _tracks_of(body: Body, time: AlgebraicNumber, start: QQ) -> tuple[Track, ...]:
+    since = max((b for b in body.breakpoints if time.compare_rational(b) > 0), default=start)
+    return body.piece_after(since).tracks
 
 
 def contact_of(
@@ -131,9 +132,10 @@ def contact_of(
         overlaps: bodies that overlap, at the start.
     """
     number = time.simplified()
-    tracks = tracks_before(scene, number)
     touches = sorted(touches)
     outward = {i: _outward(scene, i) for i in {touch.other for touch in touches}}
+    involved = sorted({i for touch in touches for i in (touch.body, touch.other)})
+    tracks = {i: _tracks_of(scene.bodies[i], number, scene.start) for i in involved}
     pairs = tuple(_pair(scene, tracks, touch, number, outward[touch.other]) for touch in touches)
     names = tuple((scene.bodies[i].name, scene.bodies[j].name) for i, j in overlaps)
     return Contact(number, _kind(scene, number, pairs), pairs, names)
@@ -150,7 +152,7 @@ def _kind(scene: Scene, time: AlgebraicNumber, pairs: Sequence[Pair]) -> str:
 
 def _pair(
     scene: Scene,
-    tracks: list[tuple[Track, ...]],
+    tracks: Mapping[int, tuple[Track, ...]],
     touch: Touch,
     time: AlgebraicNumber,
     outward: int,

@@ -18,6 +18,7 @@ __all__ = [
     "TilingPlan",
     "plan_tiling",
     "start_tiling",
+    "tiling_class",
     "tiling_for_contact",
 ]
 
@@ -73,7 +74,7 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
     convex = name in ("auto", "greedy") and Instant(vertices, start).all_stay_convex()
     if name == "auto":
         name = "greedy" if convex else "mixed"
-    return TilingPlan(name, _kind(name, convex=convex), vertices, scene.end)
+    return TilingPlan(name, tiling_class(name, convex=convex), vertices, scene.end)
 
 
 def tiling_for_contact(scene: Scene, name: str) -> str:
@@ -83,7 +84,7 @@ def tiling_for_contact(scene: Scene, name: str) -> str:
     return POINT_TILING if all(body.size == 1 for body in scene.bodies) else "lazy"
 
 
-def _kind(name: str, *, convex: bool) -> type[Tiling]:
+def tiling_class(name: str, *, convex: bool) -> type[Tiling]:
     """The class that keeps a tiling: of the greedy ones, convex bodies have their own."""
     if name == "lazy":
         from exactpt.tiling.lazy import LazyTiling

@@ -9,7 +9,7 @@ very small or large, is filtered as well as any other.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING, Final, final
 
 from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of_two
@@ -61,6 +61,8 @@ class Frame:
     """A frame, the identities of motions in it, and the errors of its images.
 
     Attributes:
+        center, scale, origin, time_scale: the frame: x' = (x - center[0]) / 2^scale[0],
+            likewise y, and t' = (t - origin) / 2^time_scale.
         errors: ``errors[i]`` bounds the error of coefficient i of every image of a
             translating track made so far, in x and in y; 0 while all are exact.
     """
@@ -68,14 +70,15 @@ class Frame:
     def __init__(
         self, center: tuple[QQ, QQ], scale: tuple[int, int], origin: QQ, time_scale: int
     ) -> None:
-        self._center = center
-        self._scale = scale
-        self._origin = origin
-        self._time_scale = time_scale
+        self.center = center
+        self.scale = scale
+        self.origin = origin
+        self.time_scale = time_scale
         self._identity = (
             center == (QQ(0), QQ(0)) and scale == (0, 0) and origin == 0 and time_scale == 0
         )
         self._motions: dict[object, int] = {}
+        self._named: int = 0
         self.errors: list[float] = [0.0, 0.0]
 
     def point(self, position: tuple[QQ, QQ]) -> tuple[float, float]:
@@ -83,15 +86,15 @@ class Frame:
         if self._identity:
             return nearest_float(position[0]), nearest_float(position[1])
         return (
-            nearest_float((position[0] - self._center[0]) * power_of_two(-self._scale[0])),
-            nearest_float((position[1] - self._center[1]) * power_of_two(-self._scale[1])),
+            nearest_float((position[0] - self.center[0]) * power_of_two(-self.scale[0])),
+            nearest_float((position[1] - self.center[1]) * power_of_two(-self.scale[1])),
         )
 
     def time(self, t: QQ) -> tuple[float, float]:
         """Doubles that enclose a rational time."""
         if self._identity:
             return enclosing_floats(t)
-        return enclosing_floats((t - self._origin) * power_of_two(-self._time_scale))
+        return enclosing_floats((t - self.origin) * power_of_two(-self.time_scale))
 
     def enclosure(self, t: AlgebraicNumber) -> tuple[float, float]:
         """Doubles that enclose an algebraic time, neighbours or nearly so."""
@@ -105,13 +108,14 @@ class Frame:
 
     def exact_time(self, t: float) -> QQ:
         """The rational time that a double of the frame stands for."""
-        return QQ(*t.as_integer_ratio()) * power_of_two(self._time_scale) + self._origin
+        return QQ(*t.as_integer_ratio()) * power_of_two(self.time_scale) + self.origin
 
     def image(self, track: Track) -> Image:
         """The image of a track."""
         motion = -1
         if track.frame is not None:
-            motion = self._motions.setdefault(track.frame, len(self._motions))
+            motion = self._motions.setdefault(track.frame, self._named)
+            self._named = max(self._named, motion + 1)
         x, y, w = self._moved(track)
         size = max(len(x), len(y), 1)
         if len(w) > 1:
@@ -129,16 +133,25 @@ class Frame:
             self._note_errors(y, ys, divisor)
         return Image(xs, ys, ws, motion)
 
+    @property
+    def motion_count(self) -> int:
+        """How many different motions are known."""
+        return len(self._motions)
+
+    def forget_motions(self, kept: Collection[int]) -> None:
+        """Forget all motions but some: no image has them any more."""
+        self._motions = {key: i for key, i in self._motions.items() if i in kept}
+
     def _moved(self, track: Track) -> tuple[Sequence[QQ], Sequence[QQ], Sequence[QQ]]:
         """The track's coefficients in the frame (still exact; any common factor)."""
         if self._identity:
             return track.x, track.y, track.w  # type: ignore[return-value]
-        cx, cy = self._center
+        cx, cy = self.center
         x, y, w = ([QQ(c) for c in part] for part in (track.x, track.y, track.w))
-        x = _combine(x, w, -cx, power_of_two(-self._scale[0]))
-        y = _combine(y, w, -cy, power_of_two(-self._scale[1]))
-        step = power_of_two(self._time_scale)
-        return tuple(_substituted(f, self._origin, step) for f in (x, y, w))  # type: ignore[return-value]
+        x = _combine(x, w, -cx, power_of_two(-self.scale[0]))
+        y = _combine(y, w, -cy, power_of_two(-self.scale[1]))
+        step = power_of_two(self.time_scale)
+        return tuple(_substituted(f, self.origin, step) for f in (x, y, w))  # type: ignore[return-value]
 
     def _note_errors(self, exact: Sequence[QQ], floats: list[float], divisor: QQ) -> None:
         for i, c in enumerate(exact):

@@ -65,13 +65,15 @@ class MovingBody:
         deforms: whether distances between its vertices may change, in the current piece.
         is_tiled: whether its inside is tiled: it deforms at some time, has a diagonal, and
             need not stay convex.
+        since: the rational time at which it entered the piece.
     """
 
-    __slots__ = ("body", "deforms", "horizon", "is_tiled", "ring", "until")
+    __slots__ = ("body", "deforms", "horizon", "is_tiled", "ring", "since", "until")
 
     def __init__(self, body: Body) -> None:
         self.body = body
         self.ring: list[int] = []
+        self.since: QQ = QQ(0)
         self.until: QQ | None = None
         self.horizon: float = float("inf")
         self.deforms: bool = False
@@ -100,23 +102,55 @@ class Vertices:
         self.all: list[Vertex] = []
         self.bodies: list[MovingBody] = []
         for i, body in enumerate(bodies):
-            moving = MovingBody(body)
-            self.bodies.append(moving)
             plain = plain_points and body.size == 1
-            for index in [0] if plain else _ring_indices(body, positions[i]):
-                vertex = Vertex(len(self.all), i, index, _NO_TRACK, _NO_IMAGE)
-                moving.ring.append(vertex.id)
-                self.all.append(vertex)
-            for behind, here in zip(moving.ring, [*moving.ring[1:], moving.ring[0]], strict=True):
-                self.all[behind].ahead = here
-                self.all[here].behind = behind
-            self.enter_piece(i, start)
-            moving.is_tiled = (
-                len(positions[i]) > 3
-                and body.closed
-                and self._ever_deforms(i, start)
-                and not stays_convex(body, [self.all[v].index for v in moving.ring], start, end)
-            )
+            self._add(body, [0] if plain else _ring_indices(body, positions[i]), start)
+            self.bodies[i].is_tiled = self._may_pinch(i, start, end)
+
+    @classmethod
+    def restored(
+        cls,
+        bodies: Sequence[Body],
+        rings: Sequence[Sequence[int]],
+        since: Sequence[QQ],
+        frame: Frame,
+        end: QQ,
+    ) -> Vertices:
+        """The vertices of a run that goes on.
+
+        Args:
+            bodies: with their present plans.
+            rings: of each body, which vertices of the scene its ring consists of.
+            since: when each body entered its piece.
+            frame: of the run.
+            end: of the time span.
+        """
+        self = cls.__new__(cls)
+        self.frame, self._end, self.all, self.bodies = frame, end, [], []
+        for body, ring, t in zip(bodies, rings, since, strict=True):
+            self._add(body, ring, t)
+        return self
+
+    def _add(self, body: Body, indices: Sequence[int], t: QQ) -> None:
+        i, moving = len(self.bodies), MovingBody(body)
+        self.bodies.append(moving)
+        for index in indices:
+            vertex = Vertex(len(self.all), i, index, _NO_TRACK, _NO_IMAGE)
+            moving.ring.append(vertex.id)
+            self.all.append(vertex)
+        for behind, here in zip(moving.ring, [*moving.ring[1:], moving.ring[0]], strict=True):
+            self.all[behind].ahead = here
+            self.all[here].behind = behind
+        self.enter_piece(i, t)
+
+    def _may_pinch(self, i: int, start: QQ, end: QQ) -> bool:
+        """Whether the inside of a body must be tiled from a time on."""
+        body, ring = self.bodies[i].body, self.bodies[i].ring
+        return (
+            body.size > 3
+            and body.closed
+            and self._ever_deforms(i, start)
+            and not stays_convex(body, [self.all[v].index for v in ring], start, end)
+        )
 
     def _ever_deforms(self, i: int, start: QQ) -> bool:
         """Whether a body deforms in any of its pieces from a time on."""
@@ -130,6 +164,7 @@ class Vertices:
         """Give the vertices of a body the tracks that hold just after a rational time."""
         moving = self.bodies[i]
         piece = moving.body.piece_after(t)
+        moving.since = t
         self._set_until(moving, piece.until)
         images = [self.frame.image(track) for track in piece.tracks]
         moving.deforms = _deforms(images)
@@ -148,6 +183,22 @@ class Vertices:
     def _set_until(self, moving: MovingBody, until: QQ | None) -> None:
         moving.until = until
         moving.horizon = float("inf") if until is None else self.frame.time(until)[1]
+
+    def set_plan(self, i: int, body: Body, t: QQ, end: QQ) -> bool:
+        """Let a body go on as another one, which is at the same place at a rational time.
+
+        A body whose inside is tiled stays so, whatever it does next.
+
+        Returns:
+            Whether its inside has to be tiled from now on, and is not yet.
+        """
+        moving = self.bodies[i]
+        moving.body = body
+        self.enter_piece(i, t)
+        tiled, moving.is_tiled = moving.is_tiled, moving.is_tiled or self._may_pinch(i, t, end)
+        if self.frame.motion_count > 2 * len(self.all) + 64:
+            self.frame.forget_motions({v.image.motion for v in self.all})
+        return moving.is_tiled and not tiled
 
     def name(self, vertex_id: int) -> str:
         """The name in event logs: ``"body:vertex"``."""

@@ -52,6 +52,20 @@ class PlanarMap:
         self.following[h] = g
         self.previous[g] = h
 
+    @classmethod
+    def of(
+        cls, origin: list[int], following: list[int], previous: list[int], free: list[int]
+    ) -> PlanarMap:
+        """The map with these lists, and these handles to be used again, the last one first."""
+        self = cls()
+        self.origin, self.following, self.previous, self._free = origin, following, previous, free
+        return self
+
+    @property
+    def free(self) -> list[int]:
+        """The handles (even) that edges have left, the one to be used again first at the end."""
+        return self._free
+
     def copy(self) -> PlanarMap:
         """An independent copy."""
         other = PlanarMap()

@@ -97,6 +97,12 @@ class Scene:
         other.bodies, other.start, other.end = self.bodies, self.start, last
         return other
 
+    def going_on(self, bodies: Iterable[Body], start: QQ) -> Scene:
+        """The scene from a later start on, with bodies that are known to be valid then."""
+        other = Scene.__new__(Scene)
+        other.bodies, other.start, other.end = tuple(bodies), start, self.end
+        return other
+
     @property
     def vertex_count(self) -> int:
         """The number of vertices of all bodies."""

@@ -2,29 +2,48 @@
 
 from __future__ import annotations
 
-import time as clock
-from collections.abc import Iterator
+from collections.abc import Mapping
+from pathlib import Path
 from typing import final
 
-from exactpt.collision.contact import Contact, contact_of
-from exactpt.collision.initial import initial_touches
-from exactpt.collision.tilings import plan_tiling
-from exactpt.errors import BudgetExceeded, InputError
-from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.errors import InputError
 from exactpt.kernel.counters import counters
-from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.kernel.numbers import parse_rational
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Motion
+from exactpt.scene.format import to_json as scene_to_json
+from exactpt.scene.format import write_atomically
 from exactpt.scene.scene import Scene
-from exactpt.simulation.event import Event
-from exactpt.tiling.events import ContactFound, TilingEvent
-from exactpt.tiling.snapshot import Snapshot, snapshot
-from exactpt.tiling.tiling import Tiling
+from exactpt.simulation.living import LivingScene
+from exactpt.simulation.running import Running
+from exactpt.simulation.saved import (
+    contact_from_json,
+    event_from_json,
+    tiling_from_json,
+    tiling_to_json,
+)
+from exactpt.simulation.store import VERSION, json_text, reading, scene_from_json
 
 __all__ = ["Simulation"]
 
 
 @final
-class Simulation:
+class Simulation(Running):
     """Runs a scene from its start towards its end or its first contact.
+
+    It lives: at rational times, bodies get new motions, come and go, and the free space
+    can be asked about; and with ``on_contact`` it runs on after contacts.
+
+    >>> import exactpt
+    >>> ball = exactpt.Body("ball", [(0, 0), (1, 0), (0, 1)], exactpt.Translation([0, 1]))
+    >>> wall = exactpt.Body("wall", [(5, -9), (5, 9)])
+    >>> simulation = exactpt.Simulation(exactpt.Scene([ball, wall], time=(0, 20)))
+    >>> list(simulation.run(2)), simulation.ray_cast((4, "1/2"), (-1, 0)).body
+    ([], 'ball')
+    >>> simulation.set_motion("ball", exactpt.Translation([1, "1/2"]))
+    >>> events = simulation.run(on_contact=exactpt.Bounce(fixed=["wall"]))
+    >>> [(event.kind, float(event.time)) for event in events]
+    [('motion', 2.0), ('contact', 6.0), ('motion', 6.0)]
 
     Args:
         scene: what moves.
@@ -34,137 +53,66 @@ class Simulation:
         max_seconds: raise `BudgetExceeded` after this time.
 
     Attributes:
-        scene: the scene.
-        name: the name of the tiling.
-        contact: the first contact, once it has been reached; no time passes after it.
+        contact: the contact that has ended the run, if one has; no time passes after it.
+        contacts: how many contacts have been met.
     """
 
-    def __init__(
-        self,
-        scene: Scene,
-        *,
-        tiling: str = "auto",
-        exact_only: bool = False,
-        max_events: int | None = None,
-        max_seconds: float | None = None,
-    ) -> None:
-        self.scene = scene
-        plan = plan_tiling(scene, tiling, scene.start)
-        self.name = plan.name
-        self.contact: Contact | None = None
-        self._max_events = max_events
-        self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
-        self._counted = (counters.exact, counters.filtered)
-        self._events = 0
-        self._kinetic: Tiling | None = None
-        touches, overlaps = initial_touches(scene)
-        if overlaps:
-            start = AlgebraicNumber(scene.start)
-            self.contact = contact_of(scene, start, touches, overlaps)
-        else:
-            self._kinetic = plan.start(scene.start, exact_only=exact_only)
+    # Plans
 
-    @property
-    def now(self) -> AlgebraicNumber:
-        """The current time."""
-        if self._kinetic is None:
-            return AlgebraicNumber(self.scene.start)
-        return self._kinetic.now
-
-    @property
-    def kinetic(self) -> Tiling | None:
-        """The tiling that is kept (None if bodies touch at the start); for `exactpt.render`.
-
-        At a contact it is the one just before.
-        """
-        return self._kinetic
-
-    def run(self, until: Rational | None = None) -> Iterator[Event]:
-        """Process the events up to and including a time, by default the end of the span.
-
-        Yields every event as it has been processed; the last is of kind "contact" if the
-        first contact comes by then.
+    def body(self, name: str) -> Body:
+        """The body with a name, with its present plan.
 
         Raises:
-            BudgetExceeded: if the bounds of the simulation are reached.
+            InputError: if there is none.
         """
-        end = self.scene.end if until is None else min(rational(until), self.scene.end)
-        if self.contact is not None:
-            if not self._events:
-                self._events += 1
-                yield Event(self.contact.time, "contact")
-            return
-        kinetic = self._tiling()
-        steps = kinetic.run(end)
-        while True:
-            self._check_budget()
-            try:
-                event = next(steps, None)
-            except ContactFound as found:
-                self.contact = contact_of(self.scene, kinetic.now, found.touches)
-                self._events += 1
-                yield Event(self.contact.time, "contact")
-                return
-            if event is None:
-                return
-            self._events += 1
-            yield self._named(event)
+        return self._changeable().body(name)
 
-    def run_to_contact(self) -> Contact | None:
-        """The first contact in the time span, or None; the fastest way to it."""
-        if self.contact is None:
-            kinetic = self._tiling()
-            try:
-                for _ in kinetic.run():
-                    self._events += 1
-                    self._check_budget()
-            except ContactFound as found:
-                self.contact = contact_of(self.scene, kinetic.now, found.touches)
-        return self.contact
+    def set_motion(self, body: str, plan: Motion | Body) -> None:
+        """Let a body go on by another motion from now on; see `set_motions`."""
+        self.set_motions({body: plan})
 
-    def snapshot(self) -> Snapshot:
-        """The tiling at the current time, which must be rational.
+    def set_motions(self, plans: Mapping[str, Motion | Body]) -> None:
+        """Let bodies go on by other motions from now on; now must be rational.
+
+        The work is for the certificates of these bodies, not for the scene. (Another kind of
+        tiling is built, once, if it is that of convex bodies and one need not stay convex;
+        that of points alone is built anew each time.) The events that this causes come
+        first in the next `run`.
+
+        Args:
+            plans: by name, a motion of the body's shape; or a body of that name with as
+                many vertices, for a shape that changes in another way.
 
         Raises:
-            InputError: if it is not, or after the first contact.
+            InputError: if there is no such body, a vertex would jump (with the two
+                positions), now is not rational or is the end of the time span.
         """
+        self._pending.extend(self._changeable().set_motions(plans))
+
+    def add(self, body: Body) -> None:
+        """Add a body now, which must be rational. The tiling is built anew: O(n log n).
+
+        Raises:
+            InputError: if its name is taken, it is not simple, it touches another body,
+                now is not rational or is the end of the time span.
+        """
+        self._pending.extend(self._changeable().add(body))
+
+    def remove(self, body: str) -> None:
+        """Remove a body now, which must be rational. The tiling is built anew: O(n log n).
+
+        Raises:
+            InputError: if there is no such body, now is not rational or is the end.
+        """
+        self._pending.extend(self._changeable().remove(body))
+
+    def _changeable(self) -> LivingScene:
         if self.contact is not None:
-            raise InputError(f"no tiling at a contact, t = {float(self.contact.time)!r}")
-        now = self.now.simplified()
-        if not now.is_rational:
             raise InputError(
-                f"the tiling is asked for at t = {float(now)!r}, which is not rational"
+                f"the run has ended with a contact at t = {float(self.contact.time)!r}"
             )
-        kinetic = self._tiling()
-        return snapshot(kinetic.vertices, kinetic.mesh_now(now.low), self.name, now.low)
-
-    @property
-    def stats(self) -> dict[str, object]:
-        """Counts of the run so far, as in the contract and more."""
-        exact, filtered = self._counted
-        data: dict[str, object] = {
-            "bodies": len(self.scene.bodies),
-            "vertices": self.scene.vertex_count,
-            "events": 0,
-            "certificates": 0,
-            "skipped": 0,
-            "exact": counters.exact - exact,
-            "filtered": counters.filtered - filtered,
-        }
-        if self._kinetic is not None:
-            stats, certifier = self._kinetic.stats, self._kinetic.certifier
-            data |= {
-                "events": stats.total,
-                "certificates": certifier.made,
-                "skipped": certifier.skipped,
-                "by_kind": dict(sorted(stats.events.items())),
-                "pending": len(self._kinetic.queue),
-                "most_pending": stats.most,
-                "batches": stats.batches,
-                "rebuilds": stats.rebuilds,
-                "flips": stats.flips,
-            }
-        return data
+        self._forget_space()
+        return self._alive()
 
     def _repr_svg_(self) -> str:
         """The tiling at the current time, or the contact, for notebooks."""
@@ -172,31 +120,75 @@ class Simulation:
 
         return simulation_svg(self)
 
-    def _tiling(self) -> Tiling:
-        if self._kinetic is None:
-            raise InputError("the bodies touch at the start: there is no tiling")
-        return self._kinetic
+    # A run that is interrupted
 
-    def _named(self, event: TilingEvent) -> Event:
-        kinetic = self._tiling()
-        name = kinetic.vertices.name
-        time = event.time.exact or kinetic.certifier.resolve(event.time)
-        return Event(
-            time,
-            event.kind,
-            tuple((name(u), name(v)) for u, v in event.removed),
-            tuple((name(u), name(v)) for u, v in event.added),
-        )
+    def save(self, path: str | Path) -> None:
+        """Write the simulation as JSON, exactly; the file is complete or not there.
 
-    def _check_budget(self) -> None:
-        late = self._deadline is not None and clock.monotonic() > self._deadline
-        many = self._max_events is not None and self._events >= self._max_events
-        if late or many:
-            reached = self.reached()
-            what = "time" if late else "number of events"
-            raise BudgetExceeded(f"the {what} is used up at t = {float(reached)!r}", reached)
+        `restore` goes on with it: the events that come are the same, byte by byte, as
+        without the interruption. Bounds on events and seconds are not saved.
+        """
+        write_atomically(Path(path), json_text(self.to_json()))
 
-    def reached(self) -> QQ:
-        """A rational time at most now: up to it there is provably no contact."""
-        now = self.now
-        return now.low if now.is_rational else now.canonical_interval()[0]
+    @classmethod
+    def restore(
+        cls,
+        path: str | Path,
+        *,
+        max_events: int | None = None,
+        max_seconds: float | None = None,
+    ) -> Simulation:
+        """The simulation that `save` has written.
+
+        Args:
+            path: of the file.
+            max_events: raise `BudgetExceeded` before one more event than these, from now on.
+            max_seconds: raise `BudgetExceeded` after this time.
+
+        Raises:
+            InputError: if the file is none, or of another version.
+        """
+        with reading(Path(path)) as data:
+            asked, exact_only = data["tiling"], data["exact_only"]
+            scene = scene_from_json(data["scene"])
+            counts, state = data["counts"], data["state"]
+            self = cls(Scene([], (scene.start, scene.end)), tiling=asked, exact_only=exact_only,
+                       max_events=max_events, max_seconds=max_seconds)  # fmt: skip
+            self._given = scene, data["name"]
+            self._margin = parse_rational(data["margin"])
+            self._living = state and LivingScene(
+                scene,
+                tiling_from_json(state, scene.bodies, exact_only=exact_only),
+                asked,
+                exact_only=exact_only,
+                changes=counts["changes"],
+            )
+            self._pending.extend(map(event_from_json, data["pending"]))
+            self.contact = data["contact"] and contact_from_json(data["contact"])
+            self.contacts = counts["contacts"]
+            self._counted = (
+                counters.exact - counts["exact"],
+                counters.filtered - counts["filtered"],
+            )
+        return self
+
+    def to_json(self) -> dict[str, object]:
+        """What `save` writes."""
+        living = self._living
+        return {
+            "exactpt-simulation": VERSION,
+            "name": self.name,
+            "tiling": self._asked_for[0],
+            "exact_only": self._asked_for[1],
+            "margin": str(self._margin),
+            "scene": scene_to_json(self.scene),
+            "contact": None if self.contact is None else self.contact.to_json(),
+            "pending": [event.to_json() for event in self._pending],
+            "counts": {
+                "contacts": self.contacts,
+                "changes": 0 if living is None else living.changes,
+                "exact": counters.exact - self._counted[0],
+                "filtered": counters.filtered - self._counted[1],
+            },
+            "state": None if living is None else tiling_to_json(living.kinetic),
+        }

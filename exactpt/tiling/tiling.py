@@ -32,12 +32,17 @@ class Tiling:
     name = ""
 
     def __init__(self, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool = False) -> None:
+        certifier = Certifier(vertices, start, end, exact_only=exact_only)
+        self._begin(vertices, certifier, Stats())
+
+    def _begin(self, vertices: Vertices, certifier: Certifier, stats: Stats) -> None:
+        """Set the attributes; nothing is pending."""
         self.vertices = vertices
-        self.certifier = Certifier(vertices, start, end, exact_only=exact_only)
-        self.queue = ExactQueue(self.certifier) if exact_only else EventQueue(self.certifier)
-        self.stats = Stats()
+        self.certifier = certifier
+        self.queue = ExactQueue(certifier) if certifier.exact_only else EventQueue(certifier)
+        self.stats = stats
         self._events: list[TilingEvent] = []
-        self._until: tuple[QQ, float] = (end, vertices.frame.time(end)[0])
+        self._until: tuple[QQ, float] = (certifier.end, vertices.frame.time(certifier.end)[0])
 
     if TYPE_CHECKING:
 
@@ -53,6 +58,15 @@ class Tiling:
     def mesh_now(self, time: QQ) -> Mesh:
         """The tiling at a rational time: the current one, or one before the next event."""
         raise NotImplementedError
+
+    def take_over_counts(self, other: Tiling) -> None:
+        """Go on counting where another tiling of the same run has stopped."""
+        other.stats.most = max(other.stats.most, self.stats.most)
+        other.stats.flips += self.stats.flips
+        self.stats = other.stats
+        self.certifier.made += other.certifier.made
+        self.certifier.skipped += other.certifier.skipped
+        self.certifier.zeros += other.certifier.zeros
 
     @property
     def now(self) -> AlgebraicNumber:
@@ -101,12 +115,18 @@ class Tiling:
                         self.queue.schedule(slot, its_time)
                     popped = None
         if popped is None:
-            low, high = self.vertices.frame.time(until)
-            self.certifier.move_to(EventTime(low, high, -1, -1, -1, AlgebraicNumber(until)), [])
+            self._move_to(until)
             return None
         self._process(*popped)
-        events = self._events
-        self._events = []
+        return self._reported()
+
+    def _move_to(self, t: QQ) -> None:
+        """Let a rational time be now; nothing happens up to it that has not been processed."""
+        low, high = self.vertices.frame.time(t)
+        self.certifier.move_to(EventTime(low, high, -1, -1, -1, AlgebraicNumber(t)), [])
+
+    def _reported(self) -> list[TilingEvent]:
+        events, self._events = self._events, []
         return events
 
     def _process(self, time: EventTime, entries: list[tuple[int, EventTime]]) -> None:

@@ -48,10 +48,10 @@ def shifted(f, origin, step):
 
 def in_frame(frame, f, axis):
     """The coordinate polynomial in the frame's coordinates and time."""
-    center, scale = exact(frame._center[axis]), Fraction(2) ** -frame._scale[axis]
+    center, scale = exact(frame.center[axis]), Fraction(2) ** -frame.scale[axis]
     f = [*f, *[Fraction(0)] * (1 - len(f))]
     f[0] -= center
-    origin, step = exact(frame._origin), Fraction(2) ** frame._time_scale
+    origin, step = exact(frame.origin), Fraction(2) ** frame.time_scale
     return [c * scale for c in shifted(f, origin, step)]
 
 
@@ -91,12 +91,12 @@ def test_images_of_turning_tracks_are_right_to_a_unit(frame, h, x):
     if math.isnan(image.x0) or not image.ws:
         return
     whole = [[exact(c) for c in part] for part in (path.x, path.y, path.w)]
-    origin, step = exact(frame._origin), Fraction(2) ** frame._time_scale
+    origin, step = exact(frame.origin), Fraction(2) ** frame.time_scale
     for axis, floats in ((0, image.xs), (1, image.ys), (None, image.ws)):
         f = whole[2]
         if axis is not None:
             size = max(len(whole[axis]), len(f))
-            center, scale = exact(frame._center[axis]), Fraction(2) ** -frame._scale[axis]
+            center, scale = exact(frame.center[axis]), Fraction(2) ** -frame.scale[axis]
             f = [
                 (a - center * b) * scale
                 for a, b in zip(padded(whole[axis], size), padded(f, size), strict=True)
@@ -129,7 +129,7 @@ def test_bug_the_errors_are_shorter_than_an_image_of_nan():
 @given(frame=frames(), case=algebraics())
 def test_times_are_enclosed(frame, case):
     t, root = case
-    origin, step = exact(frame._origin), Fraction(2) ** frame._time_scale
+    origin, step = exact(frame.origin), Fraction(2) ** frame.time_scale
 
     lo, hi = frame.enclosure(t)
 

@@ -14,11 +14,13 @@ from collections.abc import Iterable
 from typing import Final, NamedTuple
 
 from exactpt.errors import AuditError
-from exactpt.tiling.greedy.shadow import flip_until_greedy, tangency
+from exactpt.tiling.angles import KINDS
+from exactpt.tiling.greedy.shadow import flip_until_greedy, shadow, tangency
 from exactpt.tiling.instant import Instant
-from exactpt.tiling.kinetic import KINDS, KineticTiling, RebuildNeeded
+from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.moment import Moment
+from exactpt.tiling.repairs import RebuildNeeded
 
 __all__ = ["FlippingTiling"]
 
@@ -41,10 +43,20 @@ class FlippingTiling(KineticTiling):
         super()._close(mesh, instant)
         flip_until_greedy(mesh, instant, mesh.flippable())
 
-    def _certify_everything(self) -> None:
+    def _clear_notes(self) -> None:
         self._stale: set[int] = set()
         self._moved: set[int] = set()
         self._shadows: dict[int, _Shadow] = {}
+
+    def _recall(self) -> None:
+        after = Moment(self.certifier, before=False)
+        for h in self.mesh.flippable():
+            visits = shadow(self.mesh, h, after)
+            if visits is not None:  # at a contact, after which nothing comes
+                self._shadows[h] = self._shadow_of(h, visits)
+
+    def _certify_everything(self) -> None:
+        self._clear_notes()
         super()._certify_everything()
         self._stale.clear()
         self._restore_greedy(Moment(self.certifier, before=False), self.mesh.flippable())
@@ -117,9 +129,7 @@ class FlippingTiling(KineticTiling):
 
         Certificates that are the same as before are pending still.
         """
-        m = self.mesh.map
-        crossing = m.origin[visits[0]], m.origin[visits[1]]
-        new = _Shadow(self.mesh.ends(h), crossing, tangency(self.mesh, h, visits))
+        new = self._shadow_of(h, visits)
         if self._shadows.get(h) == new and h not in self._moved:
             return
         self._shadows[h] = new
@@ -128,6 +138,11 @@ class FlippingTiling(KineticTiling):
         self._certify_spin(slot + 1, *new.crossing, after)
         for i, triple in enumerate(new.tangencies):
             self._certify_tangency(slot + 2 + i, triple)
+
+    def _shadow_of(self, h: int, visits: tuple[int, int]) -> _Shadow:
+        m = self.mesh.map
+        crossing = m.origin[visits[0]], m.origin[visits[1]]
+        return _Shadow(self.mesh.ends(h), crossing, tangency(self.mesh, h, visits))
 
     def _certify_spin(self, slot: int, u: int, v: int, after: Moment) -> None:
         a, b = (u, v) if after.left_of(u, v) else (v, u)

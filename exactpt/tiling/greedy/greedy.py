@@ -11,15 +11,17 @@ from typing import final
 
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
+from exactpt.tiling.angles import CELL, EXTREME, KINDS
 from exactpt.tiling.build import build_mesh
 from exactpt.tiling.greedy.shadow import facing_visit, flip, flip_until_greedy, shadow
 from exactpt.tiling.greedy.sweep import greedy_diagonals
 from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition
 from exactpt.tiling.instant import Instant
-from exactpt.tiling.kinetic import CELL, EXTREME, KINDS, KineticTiling, RebuildNeeded
+from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.moment import Moment
 from exactpt.tiling.placement import coordinate_order
+from exactpt.tiling.repairs import RebuildNeeded
 
 __all__ = ["GreedyTiling", "greedy_mesh"]
 
@@ -62,9 +64,12 @@ class GreedyTiling(KineticTiling):
         """The greedy tiling of an instant."""
         return greedy_mesh(instant, VerticalDecomposition.at(instant))[0]
 
-    def _certify_everything(self) -> None:
+    def _clear_notes(self) -> None:
         self._due_cells: set[int] = set()
         self._due_extremes: set[int] = set()
+
+    def _certify_everything(self) -> None:
+        self._clear_notes()
         super()._certify_everything()
         for cell in range(len(self.cells.left)):
             self._certify_cell(cell)

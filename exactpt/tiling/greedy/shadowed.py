@@ -14,15 +14,16 @@ from typing import Final, final
 
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
+from exactpt.tiling.angles import KINDS
 from exactpt.tiling.build import build_mesh
 from exactpt.tiling.greedy.flipping import FlippingTiling
 from exactpt.tiling.greedy.shadow import flip_until_greedy
 from exactpt.tiling.instant import Instant
-from exactpt.tiling.kinetic import KINDS, RebuildNeeded
 from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.moment import Moment
 from exactpt.tiling.plane_sweep import sweep_diagonals
 from exactpt.tiling.pointed import make_pointed, point_vertex
+from exactpt.tiling.repairs import RebuildNeeded
 
 __all__ = ["ShadowedTiling"]
 
@@ -46,8 +47,12 @@ class ShadowedTiling(FlippingTiling):
         flip_until_greedy(mesh, instant, mesh.flippable())
         return mesh
 
-    def _certify_everything(self) -> None:
+    def _clear_notes(self) -> None:
+        super()._clear_notes()
         self._turned: set[int] = set()
+
+    def _certify_everything(self) -> None:
+        self._turned.clear()
         super()._certify_everything()
         for v in range(len(self.vertices.all)):
             self._certify_turn(v)

@@ -1,0 +1,92 @@
+"""Where a point is, and what a ray hits first: walks from face to face."""
+
+from __future__ import annotations
+
+from exactpt.geometry.predicates import Point
+from exactpt.kernel.numbers import QQ
+from exactpt.query.answers import Hit, Place
+from exactpt.query.subdivision import OUTSIDE, Subdivision
+from exactpt.query.walk import On, Ray, Spot, next_leg
+
+__all__ = ["cast", "find", "place_of"]
+
+
+def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
+    """Where a point is, by a walk from the first node.
+
+    Returns:
+        The face, edge or node; and how many edges and nodes the walk has passed.
+    """
+    if not plane.points:
+        return Spot(On.FACE, OUTSIDE), 0
+    start = plane.points[0]
+    if p == start:
+        return Spot(On.NODE, 0), 0
+    if plane.out[0] < 0:
+        return Spot(On.FACE, OUTSIDE), 0
+    ray = Ray(plane, start, (p[0] - start[0], p[1] - start[1]))
+    spot, at, crossed = Spot(On.NODE, 0), QQ(0), 0
+    while True:
+        leg = next_leg(plane, ray, spot, at)
+        if leg.end is None or leg.at > 1:
+            return leg.through, crossed
+        if leg.at == 1:
+            return leg.end, crossed
+        spot, at, crossed = leg.end, leg.at, crossed + 1
+
+
+def place_of(plane: Subdivision, spot: Spot, crossed: int = 0) -> Place:
+    """A spot in terms of the scene."""
+    handle = spot.handle
+    if spot.on is On.NODE:
+        body, vertex = plane.node_name(handle)
+        return Place("vertex", body, vertex, crossed=crossed)
+    if spot.on is On.EDGE:
+        ends = plane.map.origin[handle], plane.map.origin[handle ^ 1]
+        if plane.boundary[handle >> 1]:
+            name = plane.names[plane.body[ends[0]]]
+            return Place("edge", name, edge=plane.edge_number(handle), crossed=crossed)
+        names = plane.node_name(min(ends)), plane.node_name(max(ends))
+        return Place("diagonal", diagonal=names, crossed=crossed)
+    if handle == OUTSIDE:
+        return Place("outside", crossed=crossed)
+    if handle >= 0:
+        return Place("tile", tile=handle, crossed=crossed)
+    return Place("body", plane.names[-2 - handle], crossed=crossed)
+
+
+def cast(
+    plane: Subdivision, origin: Point, direction: Point, limit: QQ | None = None
+) -> Hit | None:
+    """The first point of a ray that a body has, up to a parameter (None: no limit).
+
+    Every node belongs to a body, so what can be passed without a hit is the inside of a
+    diagonal alone.
+    """
+    spot, _ = find(plane, origin)
+    place = place_of(plane, spot)
+    if place.body is not None:
+        return Hit(place.body, place.vertex, place.edge, origin, QQ(0), 0)
+    if not plane.points:
+        return None
+    ray = Ray(plane, origin, direction)
+    if OUTSIDE not in plane.door:
+        return _cast_at_point(plane, ray, limit)
+    at, crossed = QQ(0), 0
+    while True:
+        leg = next_leg(plane, ray, spot, at)
+        if leg.end is None or (limit is not None and leg.at > limit):
+            return None
+        spot, at = leg.end, leg.at
+        place = place_of(plane, spot)
+        if place.body is not None:
+            return Hit(place.body, place.vertex, place.edge, ray.point(at), at, crossed)
+        crossed += 1
+
+
+def _cast_at_point(plane: Subdivision, ray: Ray, limit: QQ | None) -> Hit | None:
+    """The same in a scene of one point."""
+    at = ray.reaches(0)
+    if ray.side(0) != 0 or at < 0 or (limit is not None and at > limit):
+        return None
+    return Hit(plane.names[0], 0, None, plane.points[0], at, 0)

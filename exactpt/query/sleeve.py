@@ -1,0 +1,226 @@
+"""Shortest paths of a homotopy class: a sleeve of tiles, triangulated, pulled tight.
+
+A walk through free space is told, up to deformation, by the diagonals that it crosses;
+crossing one forth and back is none. The tiles between are triangulated, the sleeve of
+triangles runs from the one with the start to the one with the goal, and the funnel
+algorithm finds the shortest path in it. The sleeve may run over itself: it is a surface
+glued from triangles along their edges, which is all that the algorithm needs.
+
+Source: D. T. Lee, F. P. Preparata, *Euclidean shortest paths in the presence of
+rectilinear barriers*, Networks 14 (1984); J. Hershberger, J. Snoeyink, *Computing minimum
+length paths of a given homotopy class*, CGTA 4 (1994).
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+from typing import TypeAlias, final
+
+from exactpt.errors import AuditError
+from exactpt.geometry.predicates import Point, between, side
+from exactpt.query.subdivision import Subdivision
+
+__all__ = ["Sleeves", "pull_tight", "reduced", "triangulated"]
+
+Triangle: TypeAlias = tuple[int, int, int]
+Portal: TypeAlias = tuple[int, int]
+"""The nodes at the left and at the right end of an edge that a path crosses."""
+
+
+def reduced(doors: Sequence[int]) -> list[int]:
+    """A sequence of crossed half-edges (left to right) without steps forth and back."""
+    kept: list[int] = []
+    for h in doors:
+        if kept and kept[-1] == h ^ 1:
+            kept.pop()
+        else:
+            kept.append(h)
+    return kept
+
+
+@final
+class Sleeves:
+    """The triangulated tiles of a subdivision, each made when it is first needed."""
+
+    def __init__(self, plane: Subdivision) -> None:
+        self._plane = plane
+        self._tiles: dict[int, list[Triangle]] = {}
+
+    def doors(self, start: int, goal: int) -> list[int]:
+        """The fewest diagonals to cross from one tile to another.
+
+        Raises:
+            AuditError: if there is no way.
+        """
+        plane, m = self._plane, self._plane.map
+        came: dict[int, int] = {start: -1}
+        queue = deque([start])
+        while queue and goal not in came:
+            tile = queue.popleft()
+            for h in m.face(plane.door[tile]):
+                there = plane.face[h ^ 1]
+                if there >= 0 and not plane.boundary[h >> 1] and there not in came:
+                    came[there] = h
+                    queue.append(there)
+        if goal not in came:
+            raise AuditError(f"no way leads from tile {start} to tile {goal}")
+        doors = []
+        tile = goal
+        while came[tile] >= 0:
+            doors.append(came[tile])
+            tile = plane.face[came[tile]]
+        return doors[::-1]
+
+    def portals(self, start: Point, tile: int, doors: Sequence[int], goal: Point) -> list[Portal]:
+        """The edges of triangles between a point of a tile and one beyond the last door."""
+        plane, origin = self._plane, self._plane.map.origin
+        portals: list[Portal] = []
+        here = self._triangle_of(tile, start)
+        for h in doors:
+            u, v = origin[h], origin[h ^ 1]
+            portals += self._between(tile, here, self._triangle_at(tile, u, v))
+            portals.append((v, u))
+            tile = plane.face[h ^ 1]
+            here = self._triangle_at(tile, v, u)
+        return portals + self._between(tile, here, self._triangle_of(tile, goal))
+
+    def _triangles(self, tile: int) -> list[Triangle]:
+        known = self._tiles.get(tile)
+        if known is None:
+            m = self._plane.map
+            cycle = [m.origin[h] for h in m.face(self._plane.door[tile])]
+            known = self._tiles[tile] = triangulated(cycle, self._plane.points)
+        return known
+
+    def _triangle_of(self, tile: int, p: Point) -> int:
+        points = self._plane.points
+        for i, (a, b, c) in enumerate(self._triangles(tile)):
+            x, y, z = points[a], points[b], points[c]
+            if side(x, y, p) >= 0 and side(y, z, p) >= 0 and side(z, x, p) >= 0:
+                return i
+        raise AuditError(f"no triangle of tile {tile} has the point {p}")
+
+    def _triangle_at(self, tile: int, u: int, v: int) -> int:
+        for i, (a, b, c) in enumerate(self._triangles(tile)):
+            if (u, v) in ((a, b), (b, c), (c, a)):
+                return i
+        raise AuditError(f"no triangle of tile {tile} has the edge from {u} to {v}")
+
+    def _between(self, tile: int, start: int, goal: int) -> list[Portal]:
+        """The portals from one triangle of a tile to another."""
+        triangles = self._triangles(tile)
+        owner = {
+            edge: i for i, (a, b, c) in enumerate(triangles) for edge in ((a, b), (b, c), (c, a))
+        }
+        came: dict[int, tuple[int, Portal]] = {start: (-1, (-1, -1))}
+        queue = [start]
+        while goal not in came:
+            i = queue.pop()
+            a, b, c = triangles[i]
+            for u, v in ((a, b), (b, c), (c, a)):
+                j = owner.get((v, u))
+                if j is not None and j not in came:
+                    came[j] = (i, (v, u))
+                    queue.append(j)
+        portals = []
+        while goal != start:
+            goal, portal = came[goal]
+            portals.append(portal)
+        return portals[::-1]
+
+
+def triangulated(cycle: Sequence[int], points: Sequence[Point]) -> list[Triangle]:
+    """The triangles of a simple polygon (counter-clockwise), by cutting off its ears.
+
+    It may touch itself at vertices and along edges. Vertices with an angle of pi stay
+    vertices: no triangle has one inside an edge.
+    O(n^2) for a tile with n vertices and a bounded number of candidates at a time.
+    """
+    nodes = list(cycle)
+    triangles: list[Triangle] = []
+    i = misses = 0
+    while len(nodes) > 3:
+        n = len(nodes)
+        a, b, c = nodes[i - 1], nodes[i], nodes[(i + 1) % n]
+        if _is_ear(nodes, a, b, c, points):
+            triangles.append((a, b, c))
+            del nodes[i]
+            i, misses = (i - 1) % (n - 1), 0
+        else:
+            i, misses = (i + 1) % n, misses + 1
+            if misses > n:
+                raise AuditError(f"the polygon {nodes} is not simple")
+    triangles.append((nodes[0], nodes[1], nodes[2]))
+    return triangles
+
+
+def _is_ear(nodes: Sequence[int], a: int, b: int, c: int, points: Sequence[Point]) -> bool:
+    p, q, r = points[a], points[b], points[c]
+    if side(p, q, r) <= 0:
+        return False
+    return not any(
+        side(r, p, points[v]) >= 0 and side(p, q, points[v]) >= 0 and side(q, r, points[v]) >= 0
+        for v in nodes
+        if v not in (a, b, c)
+    )
+
+
+def pull_tight(
+    start: Point, goal: Point, portals: Sequence[Portal], points: Sequence[Point]
+) -> list[int]:
+    """The nodes at which the shortest path through portals bends, in order.
+
+    The funnel algorithm. A path that passes a node straight on does not bend there.
+    """
+    ends = [(points[l], points[r]) for l, r in portals] + [(goal, goal)]
+    nodes = [*portals, (-1, -1)]
+    path: list[tuple[Point, int]] = [(start, -1)]
+    apex = left = right = start
+    left_at = right_at = -1
+    i = 0
+    while i < len(ends):
+        l, r = ends[i]
+        if apex == right or side(apex, right, r) >= 0:
+            if apex in (right, left) or _opens(apex, left, r):
+                right, right_at = r, i
+            else:  # the right end has passed the left side: the path bends there
+                path.append((left, nodes[left_at][0]))
+                apex = right = left
+                i, right_at = left_at + 1, left_at
+                continue
+        if apex == left or side(apex, left, l) <= 0:
+            if apex in (left, right) or _opens(apex, l, right):
+                left, left_at = l, i
+            else:
+                path.append((right, nodes[right_at][1]))
+                apex = left = right
+                i, left_at = right_at + 1, right_at
+                continue
+        i += 1
+    path.append((goal, -1))
+    return _bends(path)
+
+
+def _opens(apex: Point, left: Point, right: Point) -> bool:
+    """Whether the right end is right of the left one, seen from the apex.
+
+    Or opposite to it: then the apex is on the portal.
+    """
+    turn = side(apex, left, right)
+    return turn < 0 or (turn == 0 and between(left, right, apex))
+
+
+def _bends(path: Sequence[tuple[Point, int]]) -> list[int]:
+    kept: list[tuple[Point, int]] = []
+    for p, node in path:
+        if kept and kept[-1][0] == p:
+            continue
+        while len(kept) > 1 and _is_straight(kept[-2][0], kept[-1][0], p):
+            kept.pop()
+        kept.append((p, node))
+    return [node for _, node in kept[1:] if node >= 0]
+
+
+def _is_straight(a: Point, b: Point, c: Point) -> bool:
+    return side(a, b, c) == 0 and between(a, c, b)

@@ -1,0 +1,147 @@
+"""The plane at one rational time, cut by the edges of bodies and by diagonals.
+
+What a query walks through: a planar map on the vertices of the scene, without copies of
+thin vertices and without faces that have no area (`exactpt.tiling.snapshot`), with exact
+coordinates. Its faces are the tiles of free space, the insides of the bodies, and what is
+outside the convex hull.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from functools import cmp_to_key
+from itertools import pairwise
+from typing import Final, final
+
+from exactpt.geometry.polygon import signed_area2
+from exactpt.geometry.predicates import Point
+from exactpt.kernel.numbers import QQ, sign
+from exactpt.planar.halfedge import PlanarMap
+from exactpt.tiling.snapshot import Snapshot
+
+__all__ = ["OUTSIDE", "Subdivision", "cross"]
+
+OUTSIDE: Final = -1
+"""The face outside the convex hull."""
+
+
+def cross(u: Point, v: Point) -> QQ:
+    """Positive if the direction v is to the left of u."""
+    return u[0] * v[1] - u[1] * v[0]
+
+
+@final
+class Subdivision:
+    """A planar map with coordinates.
+
+    Args:
+        snapshot: the tiling.
+        hidden: edges of it, as nodes (u, v) with u < v, that are left out: those inside
+            bodies.
+
+    Attributes:
+        snapshot: the tiling.
+        points: of each node, where it is.
+        map: half-edges between nodes; of a node that is all the scene, none.
+        face: of each half-edge, what is on its left: a tile (its number in the snapshot,
+            from 0), `OUTSIDE`, or the inside of body i as ``-2 - i``.
+        boundary: of each edge (half of the handle), whether a body has it.
+        out: of each node, one half-edge that starts there, or -1.
+        door: of each face, one half-edge with the face on its left.
+        names: of the bodies, in the order of the scene.
+        first: of each body, its first node; and at last the number of nodes.
+        body: of each node, its body.
+    """
+
+    def __init__(self, snapshot: Snapshot, hidden: Collection[tuple[int, int]] = ()) -> None:
+        self.snapshot = snapshot
+        self.points: list[Point] = [(node.x, node.y) for node in snapshot.nodes]
+        self.names: list[str] = []
+        self.first: list[int] = []
+        self.body: list[int] = []
+        for i, node in enumerate(snapshot.nodes):
+            if node.vertex == 0:
+                self.names.append(node.body)
+                self.first.append(i)
+            self.body.append(len(self.names) - 1)
+        self.first.append(len(self.points))
+        self.map = PlanarMap()
+        self.boundary: list[bool] = []
+        self.out: list[int] = [-1] * len(self.points)
+        self._link(hidden)
+        self.face: list[int] = [OUTSIDE] * len(self.map.origin)
+        self.door: dict[int, int] = {}
+        self._name_faces()
+
+    def direction(self, h: int) -> Point:
+        """The vector from the origin of a half-edge to its target."""
+        (a, b), (c, d) = self.points[self.map.origin[h]], self.points[self.map.origin[h ^ 1]]
+        return c - a, d - b
+
+    def edge_number(self, h: int) -> int:
+        """Of a half-edge of a body, the number of the edge: that of its first vertex."""
+        u, v = sorted((self.map.origin[h], self.map.origin[h ^ 1]))
+        return (u if v == u + 1 else v) - self.first[self.body[u]]
+
+    def node_name(self, node: int) -> tuple[str, int]:
+        """The body and the vertex of it that a node is."""
+        body = self.body[node]
+        return self.names[body], node - self.first[body]
+
+    def _link(self, hidden: Collection[tuple[int, int]]) -> None:
+        around: list[list[int]] = [[] for _ in self.points]
+        for edge in self.snapshot.edges:
+            if edge.kind == "boundary" or (edge.u, edge.v) not in hidden:
+                h = self.map.add_edge(edge.u, edge.v)
+                self.boundary.append(edge.kind == "boundary")
+                around[edge.u].append(h)
+                around[edge.v].append(h ^ 1)
+        for node, edges in enumerate(around):
+            if edges:
+                self.out[node] = edges[0]
+                fan = self._sorted(edges)
+                for h, following in pairwise([*fan, fan[0]]):
+                    # Who comes in against the later one goes on along the earlier one.
+                    self.map.link(following ^ 1, h)
+
+    def _sorted(self, edges: list[int]) -> list[int]:
+        """Half-edges out of a node, counter-clockwise from the direction (1, 0)."""
+        direction = {h: self.direction(h) for h in edges}
+        lower = {h: y < 0 or (y == 0 and x < 0) for h, (x, y) in direction.items()}
+
+        def order(g: int, h: int) -> int:
+            if lower[g] != lower[h]:
+                return 1 if lower[g] else -1
+            return -sign(cross(direction[g], direction[h]))
+
+        return sorted(edges, key=cmp_to_key(order))
+
+    def _name_faces(self) -> None:
+        names: dict[tuple[int, int], int] = {}
+        for i in range(len(self.names)):
+            names.update(dict.fromkeys(self._inner_edges(i), -2 - i))
+        for i, tile in enumerate(self.snapshot.faces):
+            names.update(dict.fromkeys(pairwise([*tile.nodes, tile.nodes[0]]), i))
+        origin = self.map.origin
+        for h in range(len(origin)):
+            face = names.get((origin[h], origin[h ^ 1]))
+            if face is not None:
+                self.face[h] = face
+                self.door[face] = h
+            else:
+                self.door[OUTSIDE] = h
+
+    def _inner_edges(self, body: int) -> Sequence[tuple[int, int]]:
+        """The edges of a body with an inside, with that on their left."""
+        nodes = list(range(self.first[body], self.first[body + 1]))
+        last = nodes[0], nodes[-1]
+        if len(nodes) < 3 or not self._has_edge(*last):
+            return []
+        if signed_area2([self.points[v] for v in nodes]) < 0:
+            nodes.reverse()
+        return list(pairwise([*nodes, nodes[0]]))
+
+    def _has_edge(self, u: int, v: int) -> bool:
+        """Whether a body has the edge between two nodes."""
+        m = self.map
+        return any(self.boundary[h >> 1] and m.target(h) == v for h in m.fan(self.out[u]))

@@ -1,0 +1,170 @@
+"""A ray through a subdivision, from face to face, exactly.
+
+Every decision is the sign of a rational, so rays through vertices, along edges and along
+straight chains need no special treatment: a ray is in a face, on an edge, or at a node,
+and each knows where the ray goes on.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import NamedTuple, final
+
+from exactpt.geometry.predicates import Point
+from exactpt.kernel.numbers import QQ, sign
+from exactpt.query.subdivision import Subdivision, cross
+
+__all__ = ["Leg", "On", "Ray", "Spot", "next_leg"]
+
+
+class On(Enum):
+    """What kind of thing a point is on."""
+
+    FACE = "face"
+    EDGE = "edge"
+    NODE = "node"
+
+
+class Spot(NamedTuple):
+    """Where a point is.
+
+    Attributes:
+        on: inside a face, inside an edge, or on a node.
+        handle: the face; a half-edge of the edge; the node.
+    """
+
+    on: On
+    handle: int
+
+
+class Leg(NamedTuple):
+    """A part of a ray.
+
+    Attributes:
+        through: the face, or the half-edge in the direction of the ray, that the open leg
+            is in.
+        end: where it ends, or None if it never does.
+        at: the parameter of the end: it is origin + at * direction.
+    """
+
+    through: Spot
+    end: Spot | None
+    at: QQ
+
+
+@final
+class Ray:
+    """The points origin + s * direction, s >= 0; the direction is not (0, 0)."""
+
+    __slots__ = ("_norm", "_points", "_sides", "direction", "origin")
+
+    def __init__(self, plane: Subdivision, origin: Point, direction: Point) -> None:
+        self.origin = origin
+        self.direction = direction
+        self._norm = direction[0] * direction[0] + direction[1] * direction[1]
+        self._points = plane.points
+        self._sides: dict[int, int] = {}
+
+    def side(self, node: int) -> int:
+        """1, 0 or -1 as a node is left of, on, or right of the line of the ray."""
+        known = self._sides.get(node)
+        if known is None:
+            (x, y), (ox, oy), (dx, dy) = self._points[node], self.origin, self.direction
+            known = self._sides[node] = sign(dx * (y - oy) - dy * (x - ox))
+        return known
+
+    def reaches(self, node: int) -> QQ:
+        """The parameter of a node on the line of the ray."""
+        (x, y), (ox, oy), (dx, dy) = self._points[node], self.origin, self.direction
+        return ((x - ox) * dx + (y - oy) * dy) / self._norm
+
+    def crosses(self, u: int, v: int) -> QQ:
+        """The parameter at which the line of the ray crosses the edge from u to v."""
+        a, b = self._points[u], self._points[v]
+        along = b[0] - a[0], b[1] - a[1]
+        return cross((a[0] - self.origin[0], a[1] - self.origin[1]), along) / cross(
+            self.direction, along
+        )
+
+    def point(self, at: QQ) -> Point:
+        """The point with a parameter."""
+        return (
+            self.origin[0] + at * self.direction[0],
+            self.origin[1] + at * self.direction[1],
+        )
+
+
+def next_leg(plane: Subdivision, ray: Ray, spot: Spot, at: QQ) -> Leg:
+    """The leg of a ray that begins on a spot, at a parameter."""
+    if spot.on is On.FACE:
+        return _through_face(plane, ray, spot.handle, plane.door[spot.handle], at)
+    if spot.on is On.EDGE:
+        h = spot.handle
+        turn = sign(cross(plane.direction(h), ray.direction))
+        if turn == 0:
+            return _along(plane, ray, h if _ahead(plane, ray, h) else h ^ 1)
+        h = h if turn > 0 else h ^ 1
+        return _through_face(plane, ray, plane.face[h], h, at)
+    h, along = _sector(plane, ray, spot.handle)
+    if along:
+        return _along(plane, ray, h)
+    return _through_face(plane, ray, plane.face[h], h, at)
+
+
+def _ahead(plane: Subdivision, ray: Ray, h: int) -> bool:
+    """Whether a half-edge on the line of the ray leads in its direction."""
+    (x, y), (dx, dy) = plane.direction(h), ray.direction
+    return x * dx + y * dy > 0
+
+
+def _along(plane: Subdivision, ray: Ray, h: int) -> Leg:
+    end = plane.map.target(h)
+    return Leg(Spot(On.EDGE, h), Spot(On.NODE, end), ray.reaches(end))
+
+
+def _sector(plane: Subdivision, ray: Ray, node: int) -> tuple[int, bool]:
+    """The half-edge out of a node whose sector the ray leaves in; whether along it.
+
+    The sector of h is between h and the next one counter-clockwise: the corner of the
+    face on the left of h.
+    """
+    fan = plane.map.fan(plane.out[node])
+    direction = ray.direction
+    turns = [sign(cross(plane.direction(h), direction)) for h in fan]
+    for h, turn in zip(fan, turns, strict=True):
+        if turn == 0 and _ahead(plane, ray, h):
+            return h, True
+    for i, h in enumerate(fan):
+        # The ray is left of this one and right of the next, or the sector is above pi.
+        g, after = fan[(i + 1) % len(fan)], turns[(i + 1) % len(fan)]
+        wide = len(fan) == 1 or not _is_below_pi(plane, h, g)
+        inside = (turns[i] > 0 or after < 0) if wide else (turns[i] > 0 and after < 0)
+        if inside or len(fan) == 1:
+            return h, False
+    return fan[0], False
+
+
+def _is_below_pi(plane: Subdivision, h: int, g: int) -> bool:
+    return cross(plane.direction(h), plane.direction(g)) > 0
+
+
+def _through_face(plane: Subdivision, ray: Ray, face: int, door: int, at: QQ) -> Leg:
+    """The leg through a face, given by one of its half-edges: to where its boundary is next."""
+    m = plane.map
+    best: QQ | None = None
+    end: Spot | None = None
+    h = door
+    while True:
+        u, v = m.origin[h], m.origin[h ^ 1]
+        s, t = ray.side(u), ray.side(v)
+        if s == 0:
+            when = ray.reaches(u)
+            if when > at and (best is None or when < best):
+                best, end = when, Spot(On.NODE, u)
+        elif s * t < 0:
+            when = ray.crosses(u, v)
+            if when > at and (best is None or when < best):
+                best, end = when, Spot(On.EDGE, h)
+        h = m.following[h]
+        if h == door:
+            return Leg(Spot(On.FACE, face), end, at if best is None else best)

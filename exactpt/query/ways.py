@@ -1,0 +1,93 @@
+"""Ways through free space: which tiles a walk passes, and the shortest path of its kind."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import final
+
+from exactpt.errors import InputError
+from exactpt.geometry.predicates import Point
+from exactpt.kernel.numbers import QQ
+from exactpt.query.answers import Path
+from exactpt.query.locate import find, place_of
+from exactpt.query.sleeve import Sleeves, pull_tight, reduced
+from exactpt.query.subdivision import OUTSIDE, Subdivision
+from exactpt.query.walk import On, Ray, next_leg
+
+__all__ = ["Ways"]
+
+
+@final
+class Ways:
+    """Paths inside the convex hull of a subdivision."""
+
+    def __init__(self, plane: Subdivision) -> None:
+        self._plane = plane
+        self._sleeves = Sleeves(plane)
+
+    def reach(self, points: Sequence[Point]) -> bool:
+        """Whether all points are inside the convex hull."""
+        plane = self._plane
+        return all(place_of(plane, find(plane, p)[0]).kind != "outside" for p in points)
+
+    def path(self, p: Point, q: Point) -> Path:
+        """The shortest of the paths that cross the fewest diagonals in the same order."""
+        if not self._plane.points:
+            return Path((p, q), (), 0)
+        first = self._tile(p)
+        return self._tight(p, first, self._sleeves.doors(first, self._tile(q)), q)
+
+    def shorten(self, points: Sequence[Point]) -> Path:
+        """The shortest path that a polyline can be deformed into."""
+        if not self._plane.points:
+            return Path((points[0], points[-1]), (), 0)
+        first = tile = self._tile(points[0])
+        doors: list[int] = []
+        for p, q in pairwise(points):
+            part = self._doors_along(p, tile, q)
+            doors += part
+            tile = self._plane.face[part[-1] ^ 1] if part else tile
+        return self._tight(points[0], first, reduced(doors), points[-1])
+
+    def _tile(self, p: Point) -> int:
+        """A tile that has a free point."""
+        plane = self._plane
+        spot, _ = find(plane, p)
+        place = place_of(plane, spot)
+        if place.body is not None:
+            raise InputError(f"the point ({p[0]}, {p[1]}) is not free: body {place.body!r} has it")
+        if spot.on is On.EDGE:
+            return max(plane.face[spot.handle], plane.face[spot.handle ^ 1])
+        return spot.handle
+
+    def _doors_along(self, p: Point, tile: int, q: Point) -> list[int]:
+        """The half-edges that a free segment crosses, from a tile with p to one with q."""
+        plane = self._plane
+        if p == q:
+            return []
+        ray = Ray(plane, p, (q[0] - p[0], q[1] - p[1]))
+        spot, _ = find(plane, p)
+        at, here = QQ(0), tile
+        doors: list[int] = []
+        while True:
+            leg = next_leg(plane, ray, spot, at)
+            there = leg.through.handle if leg.through.on is On.FACE else here
+            if spot.on is On.EDGE and there not in (here, OUTSIDE):
+                doors.append(spot.handle if plane.face[spot.handle] == here else spot.handle ^ 1)
+                here = there
+            if leg.end is None or leg.at >= 1:
+                self._tile(q)  # refuses what is not free
+                return doors
+            place = place_of(plane, leg.end)
+            if place.body is not None:
+                x, y = ray.point(leg.at)
+                raise InputError(f"the walk meets body {place.body!r} at ({x}, {y})")
+            spot, at = leg.end, leg.at
+
+    def _tight(self, start: Point, tile: int, doors: Sequence[int], goal: Point) -> Path:
+        plane = self._plane
+        portals = self._sleeves.portals(start, tile, doors, goal)
+        bends = pull_tight(start, goal, portals, plane.points)
+        points = (start, *(plane.points[v] for v in bends), goal)
+        return Path(points, tuple(plane.node_name(v) for v in bends), len(doors))

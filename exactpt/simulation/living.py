@@ -1,0 +1,179 @@
+"""Bodies and the tiling that is kept of them, both of which may change on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import final
+
+from exactpt.collision.initial import initial_touches
+from exactpt.collision.tilings import plan_tiling
+from exactpt.errors import InputError
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Motion
+from exactpt.motion.vertices import Vertices
+from exactpt.scene.scene import Scene
+from exactpt.simulation.event import Event
+from exactpt.simulation.plans import planned
+from exactpt.tiling.events import TilingEvent
+from exactpt.tiling.greedy.greedy import GreedyTiling
+from exactpt.tiling.kinetic import KineticTiling
+from exactpt.tiling.tiling import Tiling
+
+__all__ = ["LivingScene"]
+
+
+@final
+class LivingScene:
+    """A scene with its tiling, in which bodies get new plans, come and go.
+
+    Attributes:
+        asked: the tiling that was asked for: "auto" or one of `TILINGS`.
+        exact_only: whether the float filters are switched off.
+        kinetic: the tiling that is kept.
+        changes: how many plans have been set, and bodies added and removed.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        kinetic: Tiling,
+        asked: str,
+        *,
+        exact_only: bool,
+        changes: int = 0,
+    ) -> None:
+        self.asked = asked
+        self.exact_only = exact_only
+        self.kinetic = kinetic
+        self.changes = changes
+        self._end = scene
+        self._scene: Scene | None = scene
+        self._since = scene.start
+        self._bodies: list[Body] = []
+        self._number: dict[str, int] = {}
+        self._set_bodies(scene.bodies)
+
+    def _set_bodies(self, bodies: Sequence[Body]) -> None:
+        self._bodies = list(bodies)
+        self._number = {body.name: i for i, body in enumerate(bodies)}
+
+    @property
+    def scene(self) -> Scene:
+        """The bodies with their present plans, from the last change on; made when asked for."""
+        if self._scene is None:
+            self._scene = self._end.going_on(self._bodies, self._since)
+        return self._scene
+
+    def body(self, name: str) -> Body:
+        """The body with a name, with its present plan.
+
+        Raises:
+            InputError: if there is none.
+        """
+        return self._bodies[self._index(name)]
+
+    def _index(self, name: str) -> int:
+        if name not in self._number:
+            raise InputError(f"no body {name!r}")
+        return self._number[name]
+
+    def named(self, event: TilingEvent) -> Event:
+        """An event of the tiling, in terms of the scene."""
+        name = self.kinetic.vertices.name
+        time = event.time.exact or self.kinetic.certifier.resolve(event.time)
+        return Event(
+            time,
+            event.kind,
+            tuple((name(u), name(v)) for u, v in event.removed),
+            tuple((name(u), name(v)) for u, v in event.added),
+        )
+
+    def rational_now(self) -> QQ:
+        """The current time, at which something is to be changed.
+
+        Raises:
+            InputError: if it is not rational, or the end of the time span.
+        """
+        now = self.kinetic.now.simplified()
+        if not now.is_rational:
+            raise InputError(
+                f"plans change at rational times only, not at t = {float(now)!r}: "
+                "run until a rational time first"
+            )
+        if now.low >= self._end.end:
+            raise InputError(f"t = {now.low} is the end of the time span")
+        return now.low
+
+    def set_motions(self, plans: Mapping[str, Motion | Body]) -> list[Event]:
+        """See `Simulation.set_motions`; what changes at once."""
+        t = self.rational_now()
+        new = {self._index(name): planned(self.body(name), plan, t) for name, plan in plans.items()}
+        bodies = self._bodies[:]
+        for i, body in new.items():
+            bodies[i] = body
+        convex = isinstance(self.kinetic, GreedyTiling)
+        if not isinstance(self.kinetic, KineticTiling) or (
+            convex
+            and any(Vertices([body], t, self._end.end).bodies[0].is_tiled for body in new.values())
+        ):
+            return self._restart(bodies, t, len(new))
+        events = self.kinetic.change_plans(new, t)
+        self._bodies, self._since, self._scene = bodies, t, None
+        self.changes += len(new)
+        return [self.named(event) for event in events]
+
+    def add(self, body: Body) -> list[Event]:
+        """See `Simulation.add`; what changes at once."""
+        t = self.rational_now()
+        bodies = [*self._bodies, body]
+        scene = Scene(bodies, (t, self._end.end))  # names and shapes are checked here
+        for i, j in initial_touches(scene)[1]:
+            names = bodies[i].name, bodies[j].name
+            raise InputError(f"body {names[1]!r} touches body {names[0]!r} at t = {t}")
+        return self._restart(bodies, t, 1)
+
+    def remove(self, name: str) -> list[Event]:
+        """See `Simulation.remove`; what changes at once."""
+        t = self.rational_now()
+        i = self._index(name)
+        return self._restart([*self._bodies[:i], *self._bodies[i + 1 :]], t, 1)
+
+    def outlive_contacts(self) -> KineticTiling:
+        """The tiling, one that can go back from a contact; for "auto" of points it is changed.
+
+        Raises:
+            InputError: if another one was asked for.
+        """
+        if not isinstance(self.kinetic, KineticTiling):
+            if self.asked != "auto":
+                raise InputError(
+                    f'the tiling "{self.asked}" ends at the first contact; with on_contact use '
+                    'another one, such as "lazy"'
+                )
+            self.asked = "lazy"
+            self._restart(self._bodies, self.rational_now(), 0)
+            return self.outlive_contacts()
+        return self.kinetic
+
+    def _restart(self, bodies: Sequence[Body], t: QQ, changes: int) -> list[Event]:
+        """Build the tiling anew, with these bodies; one event tells the difference."""
+        before = self._diagonals()
+        scene = self._end.going_on(bodies, t)
+        kinetic = plan_tiling(scene, self.asked, t).start(t, exact_only=self.exact_only)
+        kinetic.take_over_counts(self.kinetic)
+        kinetic.stats.count("motion")
+        kinetic.stats.rebuilds += 1
+        self.kinetic, self._scene, self._since = kinetic, scene, t
+        self._set_bodies(bodies)
+        self.changes += changes
+        after = self._diagonals()
+        removed, added = sorted(before - after), sorted(after - before)
+        return [Event(AlgebraicNumber(t), "motion", tuple(removed), tuple(added))]
+
+    def _diagonals(self) -> set[tuple[str, str]]:
+        name = self.kinetic.vertices.name
+        mesh = self.kinetic.mesh
+        ends = (sorted(map(name, mesh.ends(h))) for h in mesh.diagonals())
+        return {(u, v) for u, v in ends if u != v}

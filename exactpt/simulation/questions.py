@@ -1,0 +1,113 @@
+"""The questions that a simulation answers about the free space now."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.query.answers import Hit, Path, Place, VertexName
+from exactpt.query.space import FreeSpace, PointLike
+from exactpt.tiling.snapshot import Snapshot
+from exactpt.tiling.tiling import Tiling
+
+__all__ = ["Questions"]
+
+
+class Questions(ABC):
+    """What can be asked of anything that has a space around bodies."""
+
+    _space: FreeSpace | None
+
+    @abstractmethod
+    def _asked(self) -> Tiling:
+        """The tiling that knows.
+
+        Raises:
+            InputError: if there is none.
+        """
+
+    def _forget_space(self) -> None:
+        """Time has passed, or something has changed."""
+        self._space = None
+
+    def space(self, at: Rational | None = None) -> FreeSpace:
+        """The space around the bodies, for any number of questions; made in O(n log n).
+
+        Args:
+            at: a rational time, from now to before the next event; by default now.
+
+        Raises:
+            InputError: if now is not rational and no time is given, the time is not
+                between now and the next event, or the run has ended with a contact.
+        """
+        kinetic = self._asked()
+        if at is None:
+            now = kinetic.now.simplified()
+            if not now.is_rational:
+                raise InputError(f"now, t = {float(now)!r}, is not rational: give a time")
+            t = now.low
+        else:
+            t = rational(at)
+            _check_between(kinetic, t)
+        if self._space is None or self._space.at != t:
+            self._space = FreeSpace(kinetic, t)
+        return self._space
+
+    def snapshot(self) -> Snapshot:
+        """The tiling at the current time, which must be rational.
+
+        Raises:
+            InputError: see `space`.
+        """
+        return self.space().snapshot
+
+    @property
+    def tiling(self) -> Snapshot:
+        """The same: ``simulation.tiling.faces``, ``simulation.tiling.diagonals``."""
+        return self.snapshot()
+
+    def locate(self, point: PointLike) -> Place:
+        """Where a point is now: see `FreeSpace.locate`."""
+        return self.space().locate(point)
+
+    def ray_cast(self, origin: PointLike, direction: PointLike) -> Hit | None:
+        """What a ray hits first now: see `FreeSpace.ray_cast`."""
+        return self.space().ray_cast(origin, direction)
+
+    def is_free(self, p: PointLike, q: PointLike) -> bool:
+        """Whether a segment meets no body now: see `FreeSpace.is_free`."""
+        return self.space().is_free(p, q)
+
+    def path(self, start: PointLike, goal: PointLike) -> Path:
+        """A shortest path of its kind now: see `FreeSpace.path`."""
+        return self.space().path(start, goal)
+
+    def shorten(self, walk: Sequence[PointLike]) -> Path:
+        """The shortest path that a walk can be deformed into now: see `FreeSpace.shorten`."""
+        return self.space().shorten(walk)
+
+    def hull(self) -> list[VertexName]:
+        """The convex hull of all bodies now: see `FreeSpace.hull`."""
+        return self.space().hull()
+
+    def relative_hull(self, body: str) -> list[VertexName]:
+        """The shortest loop around a body now: see `FreeSpace.relative_hull`."""
+        return self.space().relative_hull(body)
+
+    def neighbours(self, body: str) -> list[str]:
+        """The bodies next to a body now: see `FreeSpace.neighbours`."""
+        return self.space().neighbours(body)
+
+
+def _check_between(kinetic: Tiling, t: QQ) -> None:
+    following = kinetic.next_time()
+    late = t > kinetic.certifier.end
+    if following is not None:
+        number = following.exact or kinetic.certifier.resolve(following)
+        late = late or number.compare_rational(t) <= 0
+    if late or kinetic.now.compare_rational(t) > 0:
+        raise InputError(
+            f"t = {t} is not between now, t = {float(kinetic.now)!r}, and the next event"
+        )

@@ -1,0 +1,75 @@
+"""The figures of a run: as in the contract, and the measures of a kinetic data structure."""
+
+from __future__ import annotations
+
+from exactpt.scene.scene import Scene
+from exactpt.tiling.certificates import X_ORDER
+from exactpt.tiling.tiling import Tiling
+
+__all__ = ["report"]
+
+
+def report(scene: Scene, kinetic: Tiling | None, exact: int, filtered: int) -> dict[str, object]:
+    """The counts of a run so far.
+
+    Keys, besides those of the contract:
+
+    * ``by_kind``: events by kind. ``external``: those that change the tiling as others see
+      it; ``internal``: the rest (new motions, copies of thin vertices, extremes).
+    * ``pending``, ``most_pending``: certificates that may fail, now and at most.
+    * ``locality``: how many of them involve one body now, at most and on average.
+    * ``responsiveness``: certificates computed or skipped an event.
+    * ``efficiency``: all events to external ones.
+    * ``batches``: times at which several certificates failed; ``rebuilds``: how often the
+      tiling was built anew; ``flips``: repair flips.
+    * ``zeros``: certificates that were decided exactly because they vanish, now or for
+      ever; the other exact decisions were too close for floats.
+    """
+    data: dict[str, object] = {
+        "bodies": len(scene.bodies),
+        "vertices": scene.vertex_count,
+        "events": 0,
+        "certificates": 0,
+        "skipped": 0,
+        "exact": exact,
+        "filtered": filtered,
+    }
+    if kinetic is None:
+        return data
+    stats, certifier = kinetic.stats, kinetic.certifier
+    by_kind = dict(sorted(stats.events.items()))
+    internal = sum(by_kind.get(kind, 0) for kind in ("internal", "motion"))
+    external = stats.total - internal
+    touched = certifier.made + certifier.skipped
+    most, mean = _locality(kinetic)
+    return data | {
+        "events": stats.total,
+        "certificates": certifier.made,
+        "skipped": certifier.skipped,
+        "by_kind": by_kind,
+        "external": external,
+        "internal": internal,
+        "pending": len(kinetic.queue),
+        "most_pending": stats.most,
+        "locality": {"most": most, "mean": mean},
+        "responsiveness": touched / stats.total if stats.total else 0.0,
+        "efficiency": stats.total / external if external else 0.0,
+        "batches": stats.batches,
+        "rebuilds": stats.rebuilds,
+        "flips": stats.flips,
+        "zeros": certifier.zeros,
+    }
+
+
+def _locality(kinetic: Tiling) -> tuple[int, float]:
+    """The largest and the mean number of pending certificates that involve one body."""
+    vertices, queue = kinetic.vertices, kinetic.queue
+    counts = [0] * len(vertices.bodies)
+    for slot in queue.slots():
+        time = queue.pending(slot)
+        if time is None or time.a < 0:  # the end of a piece of motion
+            continue
+        ids = (time.a, time.b) if time.c == X_ORDER else (time.a, time.b, time.c)
+        for body in {vertices.all[v].body for v in ids if v >= 0}:
+            counts[body] += 1
+    return max(counts, default=0), sum(counts) / len(counts) if counts else 0.0

@@ -1,0 +1,152 @@
+"""What bodies may do when they touch: bounce, or stop. For `Simulation.run(on_contact=...)`.
+
+The contact is exact, the response is a choice: new velocities are computed from the
+exact ones, with the normal in doubles, and rounded to a grid (`exactpt.simulation.plans`).
+Whether the bodies then part, and when they meet again, the simulation decides exactly.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from typing import TYPE_CHECKING, Final, final
+
+from exactpt.kernel.integer_polynomial import derivative, evaluate
+from exactpt.kernel.numbers import QQ, Rational, nearest_float, rational
+from exactpt.motion.body import Body
+from exactpt.simulation.plans import GRID, moved, onward, translation_at
+
+if TYPE_CHECKING:
+    from exactpt.collision.contact import Contact, Pair
+    from exactpt.simulation.simulation import Simulation
+
+__all__ = ["Bounce", "stop"]
+
+ROUNDS: Final = 8
+
+
+def stop(simulation: Simulation, contact: Contact) -> None:
+    """Let all bodies of a contact stay where they are, in the shape they have."""
+    t = simulation.now.low
+    names = sorted({name for pair in contact.pairs for name in (pair.body, pair.other)})
+    plans = {}
+    for name in names:
+        body = simulation.body(name)
+        plans[name] = Body(name, body.at(t), closed=body.closed)
+    simulation.set_motions(plans)
+
+
+@final
+class Bounce:
+    """Elastic bounces of bodies of equal mass, and off bodies that never move.
+
+    Turns and changes of shape go on as they are; translations become linear.
+
+    Args:
+        fixed: names of bodies that stay as they are.
+        slowest: the least speed at which what touches parts, positive.
+        fastest: no coordinate of a velocity becomes larger; None for no limit.
+        grid: of the velocities.
+    """
+
+    def __init__(
+        self,
+        fixed: Collection[str] = (),
+        *,
+        slowest: Rational = "1/16",
+        fastest: Rational | None = None,
+        grid: Rational = GRID,
+    ) -> None:
+        self._fixed = frozenset(fixed)
+        self._slowest = nearest_float(rational(slowest))
+        self._fastest = math.inf if fastest is None else nearest_float(rational(fastest))
+        self._grid = rational(grid)
+
+    def __call__(self, simulation: Simulation, contact: Contact) -> None:
+        """Give the bodies of a contact velocities with which they part."""
+        t = simulation.now.low
+        names = sorted({name for pair in contact.pairs for name in (pair.body, pair.other)})
+        bodies = {name: simulation.body(name) for name in names}
+        change = {name: [0.0, 0.0] for name in names}
+        for _ in range(ROUNDS):
+            # One pair after the other, until all part: a vertex may touch several edges.
+            pushed = [self._push(pair, bodies, change, t) for pair in contact.pairs]
+            if not any(pushed):
+                break
+        plans = {}
+        for name in names:
+            if name not in self._fixed and any(change[name]):
+                plans[name] = self._plan(bodies[name], change[name], t)
+        simulation.set_motions(plans)
+
+    def _push(
+        self, pair: Pair, bodies: dict[str, Body], change: dict[str, list[float]], t: QQ
+    ) -> bool:
+        """Let one pair part, if it does not: equal and opposite pushes along the normal."""
+        free = [name for name in (pair.body, pair.other) if name not in self._fixed]
+        if pair.body == pair.other or not free:
+            return False
+        nx, ny = pair.normal or _between_centers(bodies[pair.body], bodies[pair.other], t)
+        ux, uy = _velocity(bodies[pair.body], pair.vertex, pair.point, t)
+        at = pair.other_vertex if pair.edge is None else pair.edge
+        vx, vy = _velocity(bodies[pair.other], at or 0, pair.point, t, edge=pair.edge is not None)
+        a, b = change[pair.body], change[pair.other]
+        approach = nx * (vx - ux) + ny * (vy - uy)
+        parting = nx * (a[0] - b[0]) + ny * (a[1] - b[1]) - approach
+        goal = max(abs(approach), self._slowest)
+        if parting >= self._slowest / 2:
+            return False
+        push = (goal - parting) / len(free)
+        for name, way in ((pair.body, 1.0), (pair.other, -1.0)):
+            if name in free:
+                change[name][0] += way * push * nx
+                change[name][1] += way * push * ny
+        return True
+
+    def _plan(self, body: Body, change: list[float], t: QQ) -> Body:
+        velocity = [
+            min(max(v + dv, -self._fastest), self._fastest)
+            for v, dv in zip(_translation_speed(body, t), change, strict=True)
+        ]
+        return moved(body, onward(body, t, velocity, grid=self._grid))
+
+
+def _velocity(
+    body: Body, vertex: int, point: tuple[float, float], t: QQ, *, edge: bool = False
+) -> tuple[float, float]:
+    """The velocity of a vertex, or of the point of the edge that begins there."""
+    tracks = body.piece_after(t).tracks
+    chosen = [tracks[vertex], tracks[(vertex + 1) % len(tracks)]] if edge else [tracks[vertex]]
+    ends = []
+    for track in chosen:
+        w = evaluate(track.w, t)
+        dw = evaluate(derivative(track.w), t)
+        parts = (
+            (evaluate(derivative(f), t) * w - evaluate(f, t) * dw) / (w * w)
+            for f in (track.x, track.y)
+        )
+        x, y = (nearest_float(v) for v in parts)
+        ends.append((x, y))
+    if not edge:
+        return ends[0]
+    a, b = (tuple(nearest_float(c) for c in track.at(t)) for track in chosen)
+    length = (b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2
+    s = ((point[0] - a[0]) * (b[0] - a[0]) + (point[1] - a[1]) * (b[1] - a[1])) / length
+    (ux, uy), (vx, vy) = ends
+    return ux + s * (vx - ux), uy + s * (vy - uy)
+
+
+def _translation_speed(body: Body, t: QQ) -> tuple[float, float]:
+    """The velocity that the motion's translation gives to every vertex."""
+    x, y = translation_at(body, t)
+    return nearest_float(x.derivative()(t)), nearest_float(y.derivative()(t))
+
+
+def _between_centers(a: Body, b: Body, t: QQ) -> tuple[float, float]:
+    """The direction from the middle of the vertices of b to that of a."""
+    (ax, ay), (bx, by) = (
+        [sum(nearest_float(p[k]) for p in body.at(t)) / body.size for k in (0, 1)]
+        for body in (a, b)
+    )
+    length = math.hypot(ax - bx, ay - by)
+    return ((ax - bx) / length, (ay - by) / length) if length else (1.0, 0.0)

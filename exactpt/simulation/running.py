@@ -1,0 +1,239 @@
+"""Running a scene: time that moves forward, from event to event, up to contacts and on."""
+
+from __future__ import annotations
+
+import time as clock
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from typing import Self
+
+from exactpt.collision.contact import Contact, contact_of
+from exactpt.collision.initial import initial_touches
+from exactpt.collision.tilings import plan_tiling
+from exactpt.errors import BudgetExceeded, InputError
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.counters import counters
+from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational
+from exactpt.scene.scene import Scene
+from exactpt.simulation.event import Event
+from exactpt.simulation.living import LivingScene
+from exactpt.simulation.questions import Questions
+from exactpt.simulation.report import report
+from exactpt.tiling.events import ContactFound
+from exactpt.tiling.tiling import Tiling
+
+__all__ = ["Running"]
+
+
+class Running(Questions):
+    """What `exactpt.Simulation` is, without changes of plans and files.
+
+    Args and attributes: see there.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        *,
+        tiling: str = "auto",
+        exact_only: bool = False,
+        max_events: int | None = None,
+        max_seconds: float | None = None,
+    ) -> None:
+        plan = plan_tiling(scene, tiling, scene.start)
+        self.contact: Contact | None = None
+        self.contacts: int = 0
+        self._given = scene, plan.name
+        self._margin = _margin_of(scene)
+        self._asked_for = tiling, exact_only
+        self._max_events = max_events
+        self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
+        self._counted = (counters.exact, counters.filtered)
+        self._events = 0
+        self._pending: deque[Event] = deque()
+        self._forget_space()
+        self._living: LivingScene | None = None
+        touches, overlaps = initial_touches(scene)
+        if overlaps:
+            self._end_with(contact_of(scene, AlgebraicNumber(scene.start), touches, overlaps))
+        else:
+            kinetic = plan.start(scene.start, exact_only=exact_only)
+            self._living = LivingScene(scene, kinetic, tiling, exact_only=exact_only)
+
+    @property
+    def scene(self) -> Scene:
+        """The bodies with their present plans; it starts at the last change of plans."""
+        return self._given[0] if self._living is None else self._living.scene
+
+    @property
+    def name(self) -> str:
+        """The name of the tiling."""
+        return self._given[1] if self._living is None else self._living.kinetic.name
+
+    @property
+    def now(self) -> AlgebraicNumber:
+        """The current time."""
+        if self._living is None:
+            return AlgebraicNumber(self.scene.start)
+        return self._living.kinetic.now
+
+    @property
+    def kinetic(self) -> Tiling | None:
+        """The tiling that is kept (None if bodies touch at the start); for `exactpt.render`.
+
+        At a contact it is the one just before.
+        """
+        return None if self._living is None else self._living.kinetic
+
+    @property
+    def stats(self) -> dict[str, object]:
+        """The figures of the run so far; see `exactpt.simulation.report`."""
+        exact, filtered = counters.exact - self._counted[0], counters.filtered - self._counted[1]
+        changes = 0 if self._living is None else self._living.changes
+        data = report(self.scene, self.kinetic, exact, filtered)
+        return data | {"contacts": self.contacts, "plans": changes}
+
+    # Time
+
+    def run(
+        self,
+        until: Rational | None = None,
+        *,
+        on_contact: Callable[[Self, Contact], object] | None = None,
+        margin: Rational | None = None,
+    ) -> Iterator[Event]:
+        """Process the events up to and including a time, by default the end of the span.
+
+        Yields every event as it has been processed. The first contact is the last of them,
+        unless ``on_contact`` is given: then the simulation goes back to a rational time
+        just before each contact and calls it with itself and the `Contact`. If it changes
+        plans (`set_motion`, `set_motions`, `remove`), the run goes on; else it ends there.
+
+        Args:
+            until: the last time.
+            on_contact: lets what touches bounce, stop or slide.
+            margin: how far before a contact that time is, at most; by default about 2^-80
+                of the time span. The time is the last multiple of the margin before the
+                contact, so that its numbers stay small; or one nearer to the contact if
+                something else happens in between.
+
+        Raises:
+            BudgetExceeded: if the bounds of the simulation are reached.
+            InputError: if the margin is not positive.
+        """
+        end = self.scene.end if until is None else min(rational(until), self.scene.end)
+        grid = self._margin if margin is None else rational(margin)
+        if grid <= 0:
+            raise InputError(f"the margin before contacts is not positive: {grid}")
+        if on_contact is not None and self.contact is None:
+            self._alive().outlive_contacts()
+        while True:
+            if self.contact is None:
+                self._check_budget()
+            if self._pending:
+                self._events += 1
+                yield self._pending.popleft()
+            elif self.contact is not None or not self._advance(end, on_contact, grid):
+                return
+
+    def step(self) -> list[Event]:
+        """Process the events of the next time at which there are any.
+
+        Returns:
+            The events; none if there are no more, and then now is the end.
+
+        Raises:
+            BudgetExceeded: if the bounds of the simulation are reached.
+        """
+        while not self._pending and self.contact is None:
+            self._check_budget()
+            if not self._advance(self.scene.end, None, QQ(1)):
+                break
+        events = list(self._pending)
+        self._pending.clear()
+        self._events += len(events)
+        return events
+
+    def run_to_contact(self) -> Contact | None:
+        """The first contact in the time span, or None; the fastest way to it."""
+        if self.contact is None:
+            kinetic = self._alive().kinetic
+            self._forget_space()
+            try:
+                for _ in kinetic.run():
+                    self._events += 1
+                    self._check_budget()
+            except ContactFound as found:
+                self._end_with(contact_of(self.scene, kinetic.now, found.touches))
+        return self.contact
+
+    def _advance(
+        self, end: QQ, on_contact: Callable[[Self, Contact], object] | None, grid: QQ
+    ) -> bool:
+        """Let the next time with events come; False if there is none up to the end."""
+        living = self._alive()
+        self._forget_space()
+        try:
+            events = living.kinetic.advance(end)
+        except ContactFound as found:
+            contact = contact_of(self.scene, living.kinetic.now, found.touches)
+            if on_contact is None:
+                self._end_with(contact)
+            else:
+                self._meet(contact, on_contact, grid)
+            return True
+        if events is None:
+            return False
+        self._pending.extend(map(living.named, events))
+        return True
+
+    def _meet(
+        self, contact: Contact, on_contact: Callable[[Self, Contact], object], grid: QQ
+    ) -> None:
+        """Call back just before a contact; without new plans, let it happen."""
+        living = self._alive()
+        kinetic = living.outlive_contacts()
+        kinetic.retreat(grid)
+        self.contacts += 1
+        self._pending.append(Event(contact.time, "contact"))
+        changes = living.changes
+        on_contact(self, contact)
+        if living.changes == changes:
+            self.contact = contact
+            with suppress(ContactFound):
+                kinetic.advance(self.scene.end)
+
+    def _end_with(self, contact: Contact) -> None:
+        self.contact = contact
+        self.contacts += 1
+        self._pending.append(Event(contact.time, "contact"))
+
+    def _check_budget(self) -> None:
+        late = self._deadline is not None and clock.monotonic() > self._deadline
+        many = self._max_events is not None and self._events >= self._max_events
+        if late or many:
+            reached = self.reached()
+            what = "time" if late else "number of events"
+            raise BudgetExceeded(f"the {what} is used up at t = {float(reached)!r}", reached)
+
+    def reached(self) -> QQ:
+        """A rational time at most now: up to it there is provably no contact."""
+        now = self.now
+        return now.low if now.is_rational else now.canonical_interval()[0]
+
+    def _alive(self) -> LivingScene:
+        if self._living is None:
+            raise InputError("the bodies touch at the start: there is no tiling")
+        return self._living
+
+    def _asked(self) -> Tiling:
+        if self.contact is not None:
+            raise InputError(f"no tiling at a contact, t = {float(self.contact.time)!r}")
+        return self._alive().kinetic
+
+
+def _margin_of(scene: Scene) -> QQ:
+    """About 2^-80 of the time span."""
+    span = scene.end - scene.start
+    return power_of_two(span.numerator.bit_length() - span.denominator.bit_length() - 80)

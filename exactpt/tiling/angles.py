@@ -1,0 +1,205 @@
+"""Certified angles: which sign every angle of a tiling has, and when it may lose it.
+
+Source: the paper, section 2.2. An angle of a face fails when its three vertices become
+collinear. One whose vertices belong to one rigid body never does; the three angles of a
+triangle vanish together and share one certificate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Final
+
+from exactpt.kernel.numbers import QQ
+from exactpt.kinetic.queue import EventTime
+from exactpt.motion.vertices import Vertex
+from exactpt.tiling.closing import close_at
+from exactpt.tiling.instant import Instant
+from exactpt.tiling.mesh import SOLID, Mesh
+from exactpt.tiling.moment import Moment
+from exactpt.tiling.tiling import Tiling
+
+__all__ = ["ANGLE", "CELL", "EXTREME", "KINDS", "MOTION", "SHRINK", "CertifiedTiling"]
+
+ANGLE: Final = 0
+CELL: Final = 1
+EXTREME: Final = 2
+MOTION: Final = 3
+SHRINK: Final = 4
+KINDS: Final = 16
+"""A slot of the queue is ``KINDS * handle + kind``."""
+
+
+class CertifiedTiling(Tiling):
+    """A tiling with a certificate for each angle that can fail.
+
+    Attributes:
+        mesh: the tiling just after the current time.
+    """
+
+    mesh: Mesh
+
+    def _set_up(self, mesh: Mesh, flat: Iterable[int]) -> None:
+        """Nothing is violated, and nothing pending."""
+        self.mesh = mesh
+        self._flat: set[int] = set(flat)
+        self._due: set[int] = set()
+        self._touched: set[int] = set()
+        self._careful: bool = False
+        self._undo: tuple[EventTime, list[tuple[int, EventTime]]] | None = None
+        self._clear_notes()
+
+    def _clear_notes(self) -> None:
+        """Forget what is noted during the repairs of one time."""
+
+    @property
+    def flat(self) -> set[int]:
+        """The half-edges whose angles are known to be straight for ever."""
+        return self._flat
+
+    def mesh_now(self, time: QQ) -> Mesh:
+        """The tiling at a rational time: the current one, or one before the next event."""
+        mesh = self.mesh.copy()
+        self._close(mesh, Instant(self.vertices, time, after=False))
+        return mesh
+
+    def _close(self, mesh: Mesh, instant: Instant) -> None:
+        """Make a tiling just after an instant the one at the instant."""
+        close_at(mesh, instant)
+
+    def _certify_everything(self) -> None:
+        self._flat.clear()
+        for slot in self.queue.slots():
+            if slot % KINDS not in (MOTION, SHRINK):
+                self.queue.cancel(slot)
+        watched = []
+        for h in self.mesh.map.half_edges():
+            if self.mesh.region[h] != SOLID:
+                if self._cannot_fail(h):
+                    self._certify(h)
+                else:
+                    watched.append(h)
+        answers = self.certifier.orientations([self._angle(h) for h in watched])
+        for h, (s, time) in zip(watched, answers, strict=True):
+            self._due.discard(h)
+            self._keep(h, s, time)
+        self.stats.most = max(self.stats.most, len(self.queue))
+
+    def _certify(self, h: int) -> None:
+        """Certify the angle of h; note it as due if it is violated just after now."""
+        mesh = self.mesh
+        self._due.discard(h)
+        self._flat.discard(h)
+        a, p, b = self._angle(h)
+        if self._cannot_fail(h):
+            self.certifier.skipped += 1
+            self.queue.cancel(KINDS * h + ANGLE)
+            # A rigid angle keeps its sign. One that is new may have the wrong mark only in
+            # the midst of simultaneous events.
+            if self._careful and mesh.region[h] != SOLID and self.certifier.rigid(a, p, b):
+                after = Moment(self.certifier, before=False)
+                if (after.sign(a, p, b) > 0) != mesh.corner[h]:
+                    self._due.add(h)
+            return
+        self._keep(h, *self.certifier.orientation(a, p, b))
+
+    def _cannot_fail(self, h: int) -> bool:
+        """Whether the angle of h needs no certificate of its own."""
+        a, p, b = self._angle(h)
+        return (
+            self.certifier.rigid(a, p, b)
+            or self.mesh.region[h] == SOLID
+            or a == b
+            or self._is_copy(h)
+        )
+
+    def _keep(self, h: int, s: int, time: EventTime | None) -> None:
+        """Schedule the failure of an angle; note it as due if it is violated just after now."""
+        slot = KINDS * h + ANGLE
+        if s == 0:
+            self._flat.add(h)
+        if (s > 0) != self.mesh.corner[h]:
+            self.queue.cancel(slot)
+            self._due.add(h)
+        elif time is None:
+            self.queue.cancel(slot)
+        else:
+            self.queue.schedule(slot, time)
+
+    def _is_copy(self, h: int) -> bool:
+        """Whether another half-edge of a triangular face stands for its three angles."""
+        m = self.mesh.map
+        g = m.following[h]
+        k = m.following[g]
+        return m.following[k] == h and (g < h or k < h) and self.mesh.corner[h]
+
+    def _recertify(self, slots: tuple[int, ...]) -> None:
+        """Certify changed angles; of faces that are or were triangles, all angles."""
+        m = self.mesh.map
+        self._touched.update(slots)
+        todo = dict.fromkeys(slots)
+        for h in slots:
+            if m.following[m.following[m.following[m.following[h]]]] == h or self._is_triangle(h):
+                todo.update(dict.fromkeys(m.face(h)))
+        for h in todo:
+            self._certify(h)
+
+    def _certify_body(self, i: int) -> list[int]:
+        """Certify anew whatever depends on a body; the angles that vanish now."""
+        m = self.mesh.map
+        angles: dict[int, None] = {}
+        for v in self.vertices.bodies[i].ring:
+            for h in m.fan(self.mesh.ring_edge[v]):
+                angles.update(dict.fromkeys((h, m.following[h], h ^ 1)))
+        vanishing = []
+        for h in angles:
+            zeros = self.certifier.zeros
+            self._certify(h)
+            if self.certifier.zeros > zeros:
+                vanishing.append(h)
+        return vanishing
+
+    def _cancel_edge(self, h: int) -> None:
+        """Forget the certificates of an edge that has been removed."""
+        for g in (h, h ^ 1):
+            self.queue.cancel(KINDS * g + ANGLE)
+            self._due.discard(g)
+            self._flat.discard(g)
+
+    def _angle(self, h: int) -> tuple[int, int, int]:
+        m = self.mesh.map
+        return m.origin[m.previous[h]], m.origin[h], m.origin[h ^ 1]
+
+    def _vertices_of(self, h: int) -> tuple[Vertex, Vertex, Vertex]:
+        a, p, b = self._angle(h)
+        v = self.vertices.all
+        return v[a], v[p], v[b]
+
+    def _is_triangle(self, h: int) -> bool:
+        m = self.mesh.map
+        return m.following[m.following[m.following[h]]] == h
+
+    def _straight_run(self, h: int) -> set[int]:
+        """The vertices of an angle, and on along chains that are straight for ever."""
+        m = self.mesh.map
+        run = set(self._angle(h))
+        for step in (m.following, m.previous):
+            g = step[h]
+            while g != h and self._is_flat(g):
+                g = step[g]
+                run.add(m.origin[g])
+        return run
+
+    def _has_flats(self, h: int) -> bool:
+        """Whether a chain that is straight for ever may be next to an angle."""
+        m = self.mesh.map
+        return bool(self._flat) or self._is_flat(m.following[h]) or self._is_flat(m.previous[h])
+
+    def _is_flat(self, h: int) -> bool:
+        """Whether the angle of h is straight for ever; of one body it has no certificate."""
+        a, p, b = self._angle(h)
+        return h in self._flat or (
+            a != b
+            and self.certifier.rigid(a, p, b)
+            and Moment(self.certifier, before=False).sign(a, p, b) == 0
+        )

@@ -1,0 +1,53 @@
+"""The inside of a body that begins to deform: cut into triangles, in place."""
+
+from __future__ import annotations
+
+from exactpt.errors import AuditError
+from exactpt.tiling.greedy.shadow import Predicates
+from exactpt.tiling.mesh import INSIDE, Mesh
+
+__all__ = ["tile_inside"]
+
+
+def tile_inside(mesh: Mesh, first: int, predicates: Predicates) -> None:
+    """Cut the solid inside of a body into triangles by cutting off its ears; O(n^2).
+
+    Args:
+        mesh: a tiling in which the face is `SOLID`.
+        first: a half-edge of the ring of the body.
+        predicates: of the time.
+
+    Raises:
+        AuditError: if the body is not simple then.
+    """
+    m = mesh.map
+    rest = m.face(first)
+    for h in rest:
+        mesh.region[h] = INSIDE
+        mesh.corner[h] = True
+    i = misses = 0
+    while len(rest) > 3:
+        before, h = rest[i - 1], rest[i]
+        if _is_ear(mesh, rest, before, h, predicates):
+            e = mesh.flip_in(m.following[h], before)
+            mesh.corner[e] = mesh.corner[e ^ 1] = True
+            rest[i - 1] = e ^ 1
+            del rest[i]
+            i, misses = (i - 1) % len(rest), 0
+        else:
+            i, misses = (i + 1) % len(rest), misses + 1
+            if misses > len(rest):
+                raise AuditError(f"the ring of half-edge {first} is not simple")
+
+
+def _is_ear(mesh: Mesh, rest: list[int], before: int, h: int, predicates: Predicates) -> bool:
+    """Whether the triangle at the origin of h lies inside, and no other vertex in it."""
+    sign, origin = predicates.sign, mesh.map.origin
+    a, b, c = origin[before], origin[h], origin[h ^ 1]
+    if sign(a, b, c) <= 0:
+        return False
+    return not any(
+        sign(c, a, v) >= 0 and sign(a, b, v) >= 0 and sign(b, c, v) >= 0
+        for v in (origin[g] for g in rest)
+        if v not in (a, b, c)
+    )

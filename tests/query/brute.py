@@ -1,0 +1,182 @@
+"""The other way to answer a query: every vertex and every edge of every body, no tiling.
+
+Written from the definitions in plain rational arithmetic; shares nothing with
+`exactpt.query` or the tilings.
+"""
+
+from itertools import pairwise
+
+
+def cross(o, a, b):
+    return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
+
+
+def on_segment(p, a, b):
+    return (
+        cross(a, b, p) == 0
+        and min(a[0], b[0]) <= p[0] <= max(a[0], b[0])
+        and min(a[1], b[1]) <= p[1] <= max(a[1], b[1])
+    )
+
+
+class OpenChain(list):
+    """The points of an open chain; those of any other body are in a plain list."""
+
+
+def points_of(scene, t):
+    """name -> points, at a time."""
+    at = scene.at(t)
+    return {b.name: at[b.name] if b.closed else OpenChain(at[b.name]) for b in scene.bodies}
+
+
+def edges_of(points):
+    """(number, a, b) of each edge; a body of one vertex has none, of two one."""
+    n = len(points)
+    count = n if n > 2 and not isinstance(points, OpenChain) else n - 1
+    return [(i, points[i], points[(i + 1) % n]) for i in range(count)]
+
+
+def winding(p, points):
+    """How often a polygon turns around a point that is not on it."""
+    total = 0
+    for _, a, b in edges_of(points):
+        if a[1] <= p[1] < b[1] and cross(a, b, p) > 0:
+            total += 1
+        elif b[1] <= p[1] < a[1] and cross(a, b, p) < 0:
+            total -= 1
+    return total
+
+
+def owner(p, scene):
+    """(body, vertex, edge) of the body that has a point, or None; scene: name -> points."""
+    for name, points in scene.items():
+        if p in points:
+            return name, points.index(p), None
+        for i, a, b in edges_of(points):
+            if on_segment(p, a, b):
+                return name, None, i
+        if len(points) > 2 and not isinstance(points, OpenChain) and winding(p, points):
+            return name, None, None
+    return None
+
+
+def first_hit(origin, direction, scene):
+    """(parameter, body, vertex, edge) of the first point of a ray in a body, or None."""
+    found = owner(origin, scene)
+    if found is not None:
+        return (0, *found)
+    (ox, oy), (dx, dy) = origin, direction
+    tip = (ox + dx, oy + dy)
+    best = None
+    for name, points in scene.items():
+        for i, p in enumerate(points):
+            if cross(origin, tip, p) == 0:
+                t = ((p[0] - ox) * dx + (p[1] - oy) * dy) / (dx * dx + dy * dy)
+                if t >= 0 and (best is None or t < best[0]):
+                    best = (t, name, i, None)
+        for i, a, b in edges_of(points):
+            if cross(origin, tip, a) * cross(origin, tip, b) < 0:
+                ex, ey = b[0] - a[0], b[1] - a[1]
+                t = ((a[0] - ox) * ey - (a[1] - oy) * ex) / (dx * ey - dy * ex)
+                if t >= 0 and (best is None or t < best[0]):
+                    best = (t, name, None, i)
+    return best
+
+
+def convex_hull(points):
+    """The strictly convex hull, counter-clockwise (gift wrapping)."""
+    start = here = min(points)
+    cycle = []
+    while True:
+        cycle.append(here)
+        best = None
+        for p in points:
+            if p == here:
+                continue
+            turn = 1 if best is None else -cross(here, best, p)
+            far = best is not None and cross(here, best, p) == 0 and on_segment(best, here, p)
+            if best is None or turn > 0 or far:
+                best = p
+        if best is None or best == start:
+            return cycle
+        here = best
+
+
+def crosses(p, q, scene):
+    """Whether the open segment from p to q goes through a body (touching is fine)."""
+    if p == q:
+        return False
+    d = (q[0] - p[0], q[1] - p[1])
+    stops = [0, 1]
+    for points in scene.values():
+        for _, a, b in edges_of(points):
+            if cross(p, q, a) * cross(p, q, b) < 0 and cross(a, b, p) * cross(a, b, q) < 0:
+                return True
+        level = [a for a in points if cross(p, q, a) == 0]
+        norm = d[0] ** 2 + d[1] ** 2
+        stops += [((a[0] - p[0]) * d[0] + (a[1] - p[1]) * d[1]) / norm for a in level]
+    stops = sorted(t for t in stops if 0 <= t <= 1)
+    for s, t in pairwise(stops):
+        m = (s + t) / 2
+        found = owner((p[0] + m * d[0], p[1] + m * d[1]), scene)
+        if found is not None and found[1:] == (None, None):
+            return True
+    return False
+
+
+def bends_around(before, here, after, points, vertex):
+    """Whether a path turns at a vertex of a body with the body on the inner side of the turn."""
+    turn = cross(before, here, after)
+    nearby = [
+        b if a == points[vertex] else a for _, a, b in edges_of(points) if points[vertex] in (a, b)
+    ]
+
+    def within(p):
+        a, b = cross(here, before, p), cross(here, after, p)
+        if turn == 0:  # back the way it came, around the end of a segment
+            return a == 0 and ahead(here, before, p)
+        return (a <= 0 <= b) if turn > 0 else (b <= 0 <= a)
+
+    return (turn != 0 or ahead(here, before, after)) and all(map(within, nearby))
+
+
+def ahead(o, a, p):
+    """Whether p, on the line through o and a, is on the side of a."""
+    return (a[0] - o[0]) * (p[0] - o[0]) + (a[1] - o[1]) * (p[1] - o[1]) > 0
+
+
+def inner_point(points, rng):
+    """A random point inside a polygon; the middle of the first edge of a chain; a point."""
+    n = len(points)
+    if n < 3 or isinstance(points, OpenChain):
+        ends = points[:2]
+        return tuple(sum(c) / len(ends) for c in zip(*ends, strict=True))
+    while True:
+        i = rng.randrange(n)
+        a, b, c = points[i - 1], points[i], points[(i + 1) % n]
+        u, v, w = (rng.randint(1, 997) for _ in range(3))
+        s, far = u + v + w, rng.choice([1, 2, 4, 8, 64])
+        m = tuple((a[k] * u + b[k] * v + c[k] * w) / s for k in (0, 1))
+        p = tuple(b[k] + (m[k] - b[k]) / far for k in (0, 1))
+        if owner(p, {"": points}) == ("", None, None):
+            return p
+
+
+def crossing_word(path, anchors):
+    """How a path passes above each anchor, reduced: equal for two paths with the same ends if
+    and only if one can be deformed into the other in the plane without the anchors.
+    """
+    word = []
+    for p, q in pairwise(path):
+        passed = []
+        for name, (x, y) in anchors.items():
+            if (p[0] < x) != (q[0] < x):
+                t = (x - p[0]) / (q[0] - p[0])
+                if p[1] + t * (q[1] - p[1]) > y:
+                    passed.append((t, name, 1 if p[0] < x else -1))
+        for _, name, way in sorted(passed):
+            if word and word[-1] == (name, -way):
+                word.pop()
+            else:
+                word.append((name, way))
+    return word
