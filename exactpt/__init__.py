@@ -8,20 +8,24 @@
 (AlgebraicNumber('4'), 'vertex-edge')
 """
 
-from exactpt.collision.contact import Contact, Pair
-from exactpt.collision.detector import first_contact
-from exactpt.errors import AuditError, BudgetExceeded, ExactPTError, InputError
-from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.polynomial import Polynomial
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
-from exactpt.query.answers import Hit, Path, Place
-from exactpt.query.space import FreeSpace
-from exactpt.scene.scene import Scene
-from exactpt.simulation.event import Event
-from exactpt.simulation.plans import onward
-from exactpt.simulation.responses import Bounce, stop
-from exactpt.simulation.simulation import Simulation
+from importlib import import_module
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from exactpt.collision.contact import Contact, Pair
+    from exactpt.collision.detector import first_contact
+    from exactpt.errors import AuditError, BudgetExceeded, ExactPTError, InputError
+    from exactpt.kernel.algebraic import AlgebraicNumber
+    from exactpt.kernel.polynomial import Polynomial
+    from exactpt.motion.body import Body
+    from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
+    from exactpt.query.answers import Hit, Path, Place
+    from exactpt.query.space import FreeSpace
+    from exactpt.scene.scene import Scene
+    from exactpt.simulation.event import Event
+    from exactpt.simulation.plans import onward
+    from exactpt.simulation.responses import Bounce, stop
+    from exactpt.simulation.simulation import Simulation
 
 __all__ = [
     "Affine",
@@ -49,3 +53,55 @@ __all__ = [
     "onward",
     "stop",
 ]
+
+_ROOMS: Final = {
+    "exactpt.collision.contact": (
+        "Contact",
+        "Pair",
+    ),
+    "exactpt.collision.detector": ("first_contact",),
+    "exactpt.errors": (
+        "AuditError",
+        "BudgetExceeded",
+        "ExactPTError",
+        "InputError",
+    ),
+    "exactpt.kernel.algebraic": ("AlgebraicNumber",),
+    "exactpt.kernel.polynomial": ("Polynomial",),
+    "exactpt.motion.body": ("Body",),
+    "exactpt.motion.motions": (
+        "Affine",
+        "Pieces",
+        "Rigid",
+        "Translation",
+    ),
+    "exactpt.query.answers": (
+        "Hit",
+        "Path",
+        "Place",
+    ),
+    "exactpt.query.space": ("FreeSpace",),
+    "exactpt.scene.scene": ("Scene",),
+    "exactpt.simulation.event": ("Event",),
+    "exactpt.simulation.plans": ("onward",),
+    "exactpt.simulation.responses": (
+        "Bounce",
+        "stop",
+    ),
+    "exactpt.simulation.simulation": ("Simulation",),
+}
+
+_ROOM_OF: Final = {name: room for room, names in _ROOMS.items() for name in names}
+
+
+def __getattr__(name: str) -> object:
+    """A public name, imported when it is first asked for (PEP 562): nothing else is paid for."""
+    if name not in _ROOM_OF:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value: object = getattr(import_module(_ROOM_OF[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -161,6 +161,7 @@ def simulate(
       exactpt simulate scene.json --events events.jsonl --until 5
     """
     from exactpt.scene.format import write_atomically
+    from exactpt.simulation.simulation import Simulation
 
     given = _load(scene, until)
     simulation = Simulation(given, tiling=tiling, max_events=max_events, max_seconds=max_seconds)

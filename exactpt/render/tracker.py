@@ -14,7 +14,7 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING, Final, NamedTuple, final
 
 from exactpt.render.palette import TINTS
-from exactpt.tiling.mesh import FREE, OUTER, SOLID
+from exactpt.tiling.mesh import FREE, INSIDE, OUTER, SOLID
 
 if TYPE_CHECKING:
     from exactpt.tiling.tiling import Tiling
@@ -191,9 +191,9 @@ class Tracker:
                 self._edges[key] = (kind, step)
 
     def _kind(self, members: Iterable[int]) -> str | None:
-        """What copies of an edge are together; None for a plain edge of a body, or nothing."""
+        """What copies of an edge are together; None for an edge or the inside of a body."""
         mesh = self._kinetic.mesh
-        edges = list(members)
+        edges = [e for e in members if mesh.boundary[e] or mesh.region[2 * e] != INSIDE]
         boundary = any(mesh.boundary[e] for e in edges)
         if any(mesh.is_hull(2 * e) for e in edges):
             return "rim" if boundary else "hull"
