@@ -123,12 +123,9 @@ class _Witness:
 
     def between(self, kinetic: Tiling) -> None:
         """Verify the tiling between now and the next event, if there is time between."""
-        following = kinetic.next_time()
-        if following is None:
-            return
-        number = following.exact or kinetic.certifier.resolve(following)
-        if kinetic.now.compare(number) < 0:
-            self.tiling(kinetic, rational_between(kinetic.now, number))
+        following = kinetic.next_number()
+        if following is not None and kinetic.now.compare(following) < 0:
+            self.tiling(kinetic, rational_between(kinetic.now, following))
 
     def tiling(self, kinetic: Tiling, at: QQ) -> None:
         """Verify the tiling at a time at which it holds."""

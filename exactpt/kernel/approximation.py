@@ -81,13 +81,24 @@ def rational_between(x: IsolatedRoot, y: IsolatedRoot) -> QQ:
 
     (The least such in size of the exponent; the leftmost if there are several.)
     """
-    bits = 0
-    while True:
-        grid = power_of_two(-bits)
-        candidate = (_floor_on_grid(x, grid) + 1) * grid
+    # What lies between on a grid does so on all finer ones: gallop, then bisect.
+    coarse, bits = -1, 0
+    while y.compare_rational(found := _next_on_grid(x, bits)) <= 0:
+        coarse, bits = bits, 2 * bits + 1
+    while bits - coarse > 1:
+        middle = (coarse + bits) // 2
+        candidate = _next_on_grid(x, middle)
         if y.compare_rational(candidate) > 0:
-            return candidate
-        bits += 1
+            bits, found = middle, candidate
+        else:
+            coarse = middle
+    return found
+
+
+def _next_on_grid(x: IsolatedRoot, bits: int) -> QQ:
+    """The least multiple of 2^-bits that is larger than x."""
+    grid = power_of_two(-bits)
+    return (_floor_on_grid(x, grid) + 1) * grid
 
 
 def _floor_on_grid(x: IsolatedRoot, grid: QQ) -> ZZ:

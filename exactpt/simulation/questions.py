@@ -102,11 +102,10 @@ class Questions(ABC):
 
 
 def _check_between(kinetic: Tiling, t: QQ) -> None:
-    following = kinetic.next_time()
-    late = t > kinetic.certifier.end
-    if following is not None:
-        number = following.exact or kinetic.certifier.resolve(following)
-        late = late or number.compare_rational(t) <= 0
+    following = kinetic.next_number()
+    late = t > kinetic.certifier.end or (
+        following is not None and following.compare_rational(t) <= 0
+    )
     if late or kinetic.now.compare_rational(t) > 0:
         raise InputError(
             f"t = {t} is not between now, t = {float(kinetic.now)!r}, and the next event"

@@ -46,7 +46,6 @@ class CertifiedTiling(Tiling):
         self._due: set[int] = set()
         self._touched: set[int] = set()
         self._careful: bool = False
-        self._undo: tuple[EventTime, list[tuple[int, EventTime]]] | None = None
         self._clear_notes()
 
     def _clear_notes(self) -> None:
@@ -76,7 +75,7 @@ class CertifiedTiling(Tiling):
         for h in self.mesh.map.half_edges():
             if self.mesh.region[h] != SOLID:
                 if self._cannot_fail(h):
-                    self._certify(h)
+                    self._skip(h)
                 else:
                     watched.append(h)
         answers = self.certifier.orientations([self._angle(h) for h in watched])
@@ -87,21 +86,27 @@ class CertifiedTiling(Tiling):
 
     def _certify(self, h: int) -> None:
         """Certify the angle of h; note it as due if it is violated just after now."""
-        mesh = self.mesh
         self._due.discard(h)
         self._flat.discard(h)
-        a, p, b = self._angle(h)
         if self._cannot_fail(h):
-            self.certifier.skipped += 1
-            self.queue.cancel(KINDS * h + ANGLE)
-            # A rigid angle keeps its sign. One that is new may have the wrong mark only in
-            # the midst of simultaneous events.
-            if self._careful and mesh.region[h] != SOLID and self.certifier.rigid(a, p, b):
+            self._skip(h)
+        else:
+            self._keep(h, *self.certifier.orientation(*self._angle(h)))
+
+    def _skip(self, h: int) -> None:
+        """An angle that cannot fail has no certificate; but its mark may be wrong.
+
+        A rigid angle keeps its sign. One that is new has the wrong mark only in the midst
+        of simultaneous events.
+        """
+        self.certifier.skipped += 1
+        self.queue.cancel(KINDS * h + ANGLE)
+        if self._careful and self.mesh.region[h] != SOLID:
+            a, p, b = self._angle(h)
+            if self.certifier.rigid(a, p, b):
                 after = Moment(self.certifier, before=False)
-                if (after.sign(a, p, b) > 0) != mesh.corner[h]:
+                if (after.sign(a, p, b) > 0) != self.mesh.corner[h]:
                     self._due.add(h)
-            return
-        self._keep(h, *self.certifier.orientation(a, p, b))
 
     def _cannot_fail(self, h: int) -> bool:
         """Whether the angle of h needs no certificate of its own."""

@@ -9,17 +9,18 @@ Source: the paper, section 2.2.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Final, Self
 
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.kernel.numbers import QQ, floor
+from exactpt.kernel.numbers import QQ, floor, power_of_two
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.angles import ANGLE, KINDS, MOTION, SHRINK
 from exactpt.tiling.contacts import touches
 from exactpt.tiling.events import ContactFound, TilingEvent
 from exactpt.tiling.inside import tile_inside
+from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.moment import Moment
 from exactpt.tiling.placement import nearer, strictly_between
@@ -31,6 +32,9 @@ if TYPE_CHECKING:
     from exactpt.tiling.events import Stats
 
 __all__ = ["KineticTiling"]
+
+MOST_TRIES: Final = 15
+"""How often a tiling is built anew before that is given up: 2^-(2^k) nearer at try k."""
 
 
 class KineticTiling(RepairedTiling):
@@ -71,12 +75,16 @@ class KineticTiling(RepairedTiling):
         self._recall()
         return self
 
+    def _set_up(self, mesh: Mesh, flat: Iterable[int]) -> None:
+        super()._set_up(mesh, flat)
+        self._undo: tuple[EventTime, list[tuple[int, EventTime]]] | None = None
+
     def _recall(self) -> None:
         """Find again what is known between two events and follows from the mesh."""
 
     def _build(self, time: QQ) -> None:
         """Make the tiling that holds just after a rational time."""
-        raise NotImplementedError
+        self.mesh = self.mesh_at(Instant(self.vertices, time, exact_only=self.certifier.exact_only))
 
     def _schedule_piece(self, i: int) -> None:
         """Schedule the end of a body's current piece, and the end of a segment by shrinking."""
@@ -252,41 +260,40 @@ class KineticTiling(RepairedTiling):
 
         A rational time is tried, and accepted if the tiling built there is valid just
         after now and no certificate of it fails in between; else one nearer to now.
+
+        Raises:
+            AuditError: if none is found: a contact now has been missed.
         """
         self.stats.rebuilds += 1
         before = {self._edge_key(h) for h in self.mesh.diagonals()}
-        now = self.certifier.exact_now
-        following = self.next_time()
+        now, following = self.now, self.next_number()
         later = self.certifier.end
-        if following is not None:
-            number = following.exact or self.certifier.resolve(following)
-            if number.compare_rational(later) < 0:
-                later = rational_between(now, number)
+        if following is not None and following.compare_rational(later) < 0:
+            later = rational_between(now, following)
         if now.compare_rational(later) >= 0:
             return
-        while True:
-            later = rational_between(now, AlgebraicNumber(later))
-            self._due.clear()
-            try:
-                self._build(later)
-                self._certify_everything()
-            except (AuditError, RebuildNeeded):
-                continue  # bodies overlap there, or the tiling was another one before
-            following = self.next_time()
-            if (
-                not self._due
-                and not self._has_more()
-                and (
-                    following is None
-                    or (following.exact or self.certifier.resolve(following)).compare_rational(
-                        later
-                    )
-                    > 0
-                )
-            ):
+        for k in range(MOST_TRIES):
+            width = (later - now.low) * power_of_two(-(1 << k))
+            now.refine_to(width / 2)
+            if self._build_anew(rational_between(now, AlgebraicNumber(now.high + width / 2))):
                 break
+        else:
+            raise AuditError(f"no tiling holds just after t = {float(now)!r}")
         after = {self._edge_key(h) for h in self.mesh.diagonals()}
         self._record("reflex", tuple(sorted(before - after)), tuple(sorted(after - before)))
+
+    def _build_anew(self, later: QQ) -> bool:
+        """Build and certify the tiling of a later time; whether it has held since now."""
+        self._due.clear()
+        try:
+            self._build(later)
+            self._certify_everything()
+        except (AuditError, RebuildNeeded):
+            return False  # bodies overlap there, or the tiling was another one before
+        following = self.next_number()
+        return not (self._due or self._has_more()) and (
+            following is None or following.compare_rational(later) > 0
+        )
 
     def _edge_key(self, h: int) -> tuple[int, int]:
         u, v = self.mesh.ends(h)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import final
 
-from exactpt.kernel.numbers import QQ
 from exactpt.tiling.build import build_mesh
 from exactpt.tiling.greedy.greedy import greedy_mesh
 from exactpt.tiling.greedy.vertical import VerticalDecomposition
@@ -20,10 +19,6 @@ __all__ = ["LazyTiling"]
 @final
 class LazyTiling(KineticTiling):
     """Starts greedy and repairs corners and bends alone."""
-
-    def _build(self, time: QQ) -> None:
-        instant = Instant(self.vertices, time, exact_only=self.certifier.exact_only)
-        self.mesh = self.mesh_at(instant)
 
     @classmethod
     def mesh_at(cls, instant: Instant) -> Mesh:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["Tiling"]
 
 
-class Tiling:
+class Tiling(ABC):
     """A tiling of the free space that is kept up to date as time goes on.
 
     Attributes:
@@ -51,13 +52,13 @@ class Tiling:
             """The tiling just after the current time."""
 
     @classmethod
+    @abstractmethod
     def mesh_at(cls, instant: Instant) -> Mesh:
         """The tiling of an instant."""
-        raise NotImplementedError
 
+    @abstractmethod
     def mesh_now(self, time: QQ) -> Mesh:
         """The tiling at a rational time: the current one, or one before the next event."""
-        raise NotImplementedError
 
     def take_over_counts(self, other: Tiling) -> None:
         """Go on counting where another tiling of the same run has stopped."""
@@ -82,6 +83,11 @@ class Tiling:
         for slot, its_time in entries:
             self.queue.schedule(slot, its_time)
         return time
+
+    def next_number(self) -> AlgebraicNumber | None:
+        """When the next certificates fail, exactly."""
+        time = self.next_time()
+        return None if time is None else time.exact or self.certifier.resolve(time)
 
     def run(self, until: QQ | None = None) -> Iterator[TilingEvent]:
         """Process all events up to and including a time (default: the end of the span).
@@ -129,6 +135,6 @@ class Tiling:
         events, self._events = self._events, []
         return events
 
+    @abstractmethod
     def _process(self, time: EventTime, entries: list[tuple[int, EventTime]]) -> None:
         """Let all events of one time happen."""
-        raise NotImplementedError

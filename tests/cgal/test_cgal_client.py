@@ -10,7 +10,7 @@ import pytest
 from cgal_tilings import as_tile, cyclic_pairs, random_map, random_tiling
 
 from exactpt import cgal
-from exactpt.cgal import BodyShape, CgalCheck, IsolatedRoot, find_program
+from exactpt.cgal import BodyShape, CgalCheck, IsolatedRoot, client, find_program
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -291,7 +291,7 @@ def test_a_variable_that_names_no_program(monkeypatch, name):
 
 def test_the_program_on_path_and_no_program(monkeypatch, tmp_path, program):
     monkeypatch.delenv("EXACTPT_CGAL_CHECK", raising=False)
-    monkeypatch.setattr(cgal, "__file__", str(tmp_path / "exactpt" / "cgal.py"))
+    monkeypatch.setattr(client, "__file__", str(tmp_path / "exactpt" / "cgal" / "client.py"))
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(InputError, match="cmake -S cgal_check -B cgal_check/build"):
         find_program()

@@ -58,7 +58,9 @@ def test_bad_calls(scene, monkeypatch, capsys, arguments, message):
     with pytest.raises(SystemExit) as left:
         main(["draw", str(scene), *arguments])
     assert left.value.code == 2
-    assert message in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert message in said
+    assert said.count("\n") == 1
     assert [path.name for path in scene.parent.iterdir()] == ["scene.json"]
 
 

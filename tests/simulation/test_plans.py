@@ -3,7 +3,6 @@
 from random import Random
 
 import pytest
-from tiling.audits import audit_at
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
@@ -16,6 +15,7 @@ from exactpt.scene.families.simple import star
 from exactpt.scene.scene import Scene
 from exactpt.simulation.plans import onward
 from exactpt.simulation.simulation import Simulation
+from fuzz.statics import audit_at
 
 
 def crowd(rng, count, *, stars=False, spacing=100, end=1000):
@@ -94,10 +94,7 @@ def some_plan(rng, body, t, *, deform=False, rigid=False):
 def audit(simulation):
     """The tiling just after now is the one that is built there."""
     kinetic = simulation.kinetic
-    following = kinetic.next_time()
-    end = AlgebraicNumber(simulation.scene.end)
-    if following is not None:
-        end = following.exact or kinetic.certifier.resolve(following)
+    end = kinetic.next_number() or AlgebraicNumber(simulation.scene.end)
     if kinetic.now.compare(end) < 0:
         audit_at(kinetic, rational_between(kinetic.now, end))
 

@@ -89,12 +89,7 @@ def run_and_audit(scene, *, exact_only=False, by_slope=False, each=None, **optio
     gaps = 0
     try:
         while True:
-            following = kinetic.next_time()
-            end = (
-                AlgebraicNumber(scene.end)
-                if following is None
-                else following.exact or kinetic.certifier.resolve(following)
-            )
+            end = kinetic.next_number() or AlgebraicNumber(scene.end)
             if kinetic.now.compare(end) < 0:
                 at = rational_between(kinetic.now, end)
                 audit_at(kinetic, at, scene if by_slope else None)

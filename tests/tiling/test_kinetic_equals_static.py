@@ -3,10 +3,10 @@
 from collections import Counter
 
 import pytest
-from audits import run_and_audit
 
 from exactpt.collision.tilings import TILINGS
 from exactpt.scene.generate import FAMILIES, generate
+from fuzz.statics import run_and_audit
 
 # At least 500 scenes, generic and degenerate (the slow run); some of each (the quick one).
 GENERIC = ("convex", "mixed_shapes", "ballistic", "turning", "deforming", "pieces", "keyframed")

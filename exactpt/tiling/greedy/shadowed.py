@@ -13,7 +13,6 @@ from collections.abc import Iterable
 from typing import Final, final
 
 from exactpt.errors import AuditError
-from exactpt.kernel.numbers import QQ
 from exactpt.tiling.angles import KINDS
 from exactpt.tiling.build import build_mesh
 from exactpt.tiling.greedy.flipping import FlippingTiling
@@ -35,9 +34,6 @@ class ShadowedTiling(FlippingTiling):
     """The canonical greedy tiling of simple polygons."""
 
     name = "greedy"
-
-    def _build(self, time: QQ) -> None:
-        self.mesh = self.mesh_at(Instant(self.vertices, time, exact_only=self.certifier.exact_only))
 
     @classmethod
     def mesh_at(cls, instant: Instant) -> Mesh:

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from typing import final
 
-from exactpt.kernel.numbers import QQ
 from exactpt.tiling.greedy.flipping import FlippingTiling
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import Mesh
@@ -25,9 +24,6 @@ class MixedTiling(FlippingTiling):
     """The mixed tiling: O(kappa log n) certificates of rigid polygons."""
 
     name = "mixed"
-
-    def _build(self, time: QQ) -> None:
-        self.mesh = self.mesh_at(Instant(self.vertices, time, exact_only=self.certifier.exact_only))
 
     @classmethod
     def mesh_at(cls, instant: Instant) -> Mesh:

@@ -57,13 +57,6 @@ class GeodesicTree:
     def __len__(self) -> int:
         return len(self.low)
 
-    def ancestors(self, node: int) -> list[int]:
-        """The node and all above it, up to `TOP`."""
-        path = [node]
-        while self.parent[path[-1]] >= 0:
-            path.append(self.parent[path[-1]])
-        return path
-
 
 @lru_cache(maxsize=256)
 def tree_of_size(size: int) -> GeodesicTree:

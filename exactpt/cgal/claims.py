@@ -1,0 +1,102 @@
+"""What the witness is asked about, and what it says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple, TypeAlias, cast, final
+
+from exactpt.errors import InputError
+from exactpt.geometry.polygon import signed_area2
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ, ZZ, Rational, rational, shorten
+from exactpt.scene.scene import Scene
+
+__all__ = ["BodyShape", "IsolatedRoot", "RootClaim", "Signs", "Tile", "Verdict", "exactly"]
+
+Tile: TypeAlias = Mapping[str, object]
+"""The contract's ``tile`` dictionary, as `json.load` gives it."""
+
+
+class BodyShape(NamedTuple):
+    """What a tile does not say of a body: how its vertices are joined.
+
+    Attributes:
+        name: as in the tile's vertices.
+        size: the number of vertices; all must be in the tile.
+        closed: with three vertices or more: a polygon, otherwise an open chain.
+        clockwise: whether a polygon's vertices are numbered clockwise; None: unknown,
+            and either is accepted.
+    """
+
+    name: str
+    size: int
+    closed: bool = True
+    clockwise: bool | None = None
+
+    @classmethod
+    def of_scene(cls, scene: Scene) -> list[BodyShape]:
+        """The shapes of all bodies, with the orientation at the start, which never changes."""
+        return [
+            cls(body.name, body.size, body.closed, signed_area2(body.at(scene.start)) < 0)
+            for body in scene.bodies
+        ]
+
+
+class IsolatedRoot(NamedTuple):
+    """A real root: the only one of ``polynomial`` (constant term first) in [low, high]."""
+
+    polynomial: Sequence[int]
+    low: QQ
+    high: QQ
+
+    @classmethod
+    def of_json(cls, time: Mapping[str, object]) -> IsolatedRoot:
+        """The contract's ``time`` object: its polynomial, low and high.
+
+        Raises:
+            InputError: if one of these is missing or no number.
+        """
+        try:
+            polynomial = [exactly(c) for c in cast("Iterable[object]", time["polynomial"])]
+            low, high = exactly(time["low"]), exactly(time["high"])
+        except (KeyError, TypeError, ValueError) as error:
+            raise InputError(f"not a time of the contract: {error}") from None
+        if any(c.denominator != 1 for c in polynomial):
+            raise InputError(f"not a polynomial over the integers: {shorten(time['polynomial'])}")
+        return cls([ZZ(c.numerator) for c in polynomial], low, high)
+
+
+RootClaim: TypeAlias = "IsolatedRoot | AlgebraicNumber"
+"""A real root as a caller may pass it."""
+
+
+class Signs(NamedTuple):
+    """The signs of a polynomial just before, at, and just after a root of another."""
+
+    before: int
+    at: int
+    after: int
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What the witness says of a claim.
+
+    Attributes:
+        ok: whether it holds.
+        reason: why not, in words, with indices of the request; empty if ``ok``.
+        stats: the figures of the answer, by name; empty if not ``ok``.
+    """
+
+    ok: bool
+    reason: str = ""
+    stats: Mapping[str, int] = field(default_factory=dict)
+
+
+def exactly(value: object) -> QQ:
+    """The rational; a float is refused: it says that a number was rounded on its way here."""
+    if isinstance(value, float):
+        raise InputError(f"not an exact number: {value!r}")
+    return rational(cast("Rational", value))

@@ -1,0 +1,154 @@
+"""Requests of the protocol (cgal_check/README.md), written from claims."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Final, TypedDict, cast
+
+from exactpt.cgal.claims import BodyShape, RootClaim, Tile, Verdict, exactly
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ, ZZ, Rational, rational, shorten
+
+__all__ = ["point_words", "polynomial_words", "root_words", "tiling_request"]
+
+_WRITTEN: Final = re.compile(r"-?[0-9]+(?:/[0-9]*[1-9][0-9]*)?", re.ASCII)
+
+
+class _TileVertex(TypedDict):
+    body: str
+    vertex: int
+    x: object
+    y: object
+
+
+class _TileEdge(TypedDict):
+    u: int
+    v: int
+    kind: str
+    hull: bool
+
+
+class _TileFace(TypedDict):
+    vertices: list[int]
+    corners: list[int]
+
+
+class _Tile(TypedDict):
+    # What we read of a tile; a caller's own type may have more.
+    vertices: list[_TileVertex]
+    edges: list[_TileEdge]
+    faces: list[_TileFace]
+    fan: list[list[int]]
+
+
+class _BadTileError(Exception):
+    """The tile contradicts itself or the bodies: a verdict, found before asking."""
+
+
+def tiling_request(word: str, tile: Tile, bodies: Iterable[BodyShape]) -> str | Verdict:
+    """The text of a request; or the verdict, where the tile does not even fit the bodies."""
+    parts = cast("_Tile", tile)
+    with_faces = word.startswith("tiling")
+    try:
+        lines = [word, *_vertex_lines(parts["vertices"])]
+        lines += _body_lines(parts["vertices"], [BodyShape(*shape) for shape in bodies])
+        index = range(len(parts["vertices"]))
+        lines += _edge_lines(parts["edges"], [] if with_faces else parts["fan"], index)
+        lines += _face_lines(parts["faces"], index) if with_faces else []
+    except _BadTileError as fault:
+        return Verdict(ok=False, reason=str(fault))
+    except KeyError as error:
+        raise InputError(f"not a tile of the contract: {error} is missing") from None
+    except (TypeError, ValueError) as error:
+        raise InputError(f"not a tile of the contract: {error}") from None
+    return "\n".join([*lines, "end\n"])
+
+
+def _vertex_lines(vertices: list[_TileVertex]) -> Iterator[str]:
+    yield f"vertices {len(vertices)}"
+    for vertex in vertices:
+        yield f"{_coordinate(vertex['x'])} {_coordinate(vertex['y'])}"
+
+
+def _body_lines(vertices: list[_TileVertex], shapes: list[BodyShape]) -> Iterator[str]:
+    place: dict[tuple[str, int], int] = {}
+    for i, vertex in enumerate(vertices):
+        if place.setdefault((vertex["body"], vertex["vertex"]), i) != i:
+            raise _BadTileError(f"vertex {i} is {vertex['body']!r}: {vertex['vertex']} again")
+    yield f"bodies {len(shapes)}"
+    for shape in shapes:
+        ring = [place.pop((shape.name, number), None) for number in range(shape.size)]
+        if None in ring:
+            missing = ring.index(None)
+            raise _BadTileError(f"body {shape.name!r}: vertex {missing} is not in the tile")
+        words = " ".join(map(str, reversed(ring) if shape.clockwise else ring))
+        if shape.size < 3:
+            yield f"{'point' if shape.size == 1 else 'segment'} {words}"
+        elif not shape.closed:
+            yield f"chain {shape.size} {words}"
+        else:
+            yield f"{'ring' if shape.clockwise is None else 'polygon'} {shape.size} {words}"
+    for (name, number), i in place.items():
+        raise _BadTileError(f"vertex {i} is of no body: {name!r}: {number}")
+
+
+def _edge_lines(edges: list[_TileEdge], fan: list[list[int]], index: range) -> Iterator[str]:
+    yield f"edges {len(edges) + len(fan)}"
+    for edge in edges:
+        ends, kind, hull = _indices((edge["u"], edge["v"]), index), edge["kind"], edge["hull"]
+        if kind not in {"boundary", "diagonal"} or not isinstance(hull, bool):
+            raise ValueError(f"edge {ends}: kind {shorten(kind)}, hull {shorten(hull)}")
+        yield f"{ends} {kind} {'hull' if hull else 'inner'}"
+    for u, v in fan:
+        yield f"{_indices((u, v), index)} diagonal inner"
+
+
+def _face_lines(faces: list[_TileFace], index: range) -> Iterator[str]:
+    yield f"faces {len(faces)}"
+    for i, face in enumerate(faces):
+        cycle, corners = face["vertices"], face["corners"]
+        if len(corners) != 3:
+            raise _BadTileError(f"face {i} is said to have {len(corners)} corners")
+        yield f"{len(cycle)} {_indices(cycle, index)} corners {_indices(corners, index)}"
+
+
+def _indices(vertices: Iterable[int], index: range) -> str:
+    words = []
+    for v in vertices:
+        if type(v) is not int:
+            raise TypeError(f"not the index of a vertex: {shorten(v)}")
+        if v not in index:
+            raise _BadTileError(f"there is no vertex {v} among {len(index)}")
+        words.append(str(v))
+    return " ".join(words)
+
+
+def _coordinate(value: object) -> str:
+    if isinstance(value, str) and _WRITTEN.fullmatch(value):
+        return value  # as the protocol wants it
+    return _rational_words(exactly(value))
+
+
+def _rational_words(value: QQ) -> str:
+    return f"{value.numerator}/{value.denominator}"
+
+
+def point_words(point: Sequence[Rational]) -> str:
+    """The exact coordinates of a point."""
+    x, y = point
+    return f"{_rational_words(rational(x))} {_rational_words(rational(y))}"
+
+
+def polynomial_words(f: Sequence[int]) -> str:
+    """A polynomial over the integers: how many coefficients, then these, constant first."""
+    if f and f[-1] == 0:
+        raise InputError("the leading coefficient of a polynomial is zero")
+    # ZZ, because Python refuses to write an int of more than 4,300 digits.
+    return " ".join(map(str, (len(f), *map(ZZ, f))))
+
+
+def root_words(root: RootClaim) -> str:
+    """A root: its polynomial and the interval that isolates it."""
+    low, high = _rational_words(root.low), _rational_words(root.high)
+    return f"polynomial {polynomial_words(root.polynomial)} between {low} {high}"

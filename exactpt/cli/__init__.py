@@ -1,0 +1,80 @@
+"""The command line: reads what was typed, calls the library, writes what came back."""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from exactpt.cli.contacts import collide, simulate
+from exactpt.cli.pictures import demo, draw
+from exactpt.cli.tilings import check, tile
+from exactpt.errors import AuditError, BudgetExceeded, InputError
+
+__all__ = ["cli", "main"]
+
+OK, BAD_INPUT, BROKEN, SPENT, INTERRUPTED = 0, 2, 3, 4, 130
+"""Exit codes; 1 is a command's own: a contact (collide --exit-code), or a failed check."""
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="exactpt")
+def cli() -> None:
+    """Exact collision detection of moving and deforming polygons in the plane."""
+
+
+for _command in (collide, simulate, tile, check, draw, demo):
+    cli.add_command(_command)
+
+
+def _report_bug(error: AuditError, arguments: Sequence[str]) -> None:
+    """Say that an invariant broke, and keep the scene that did it."""
+    scene = next((Path(a) for a in arguments if a.endswith(".json") and Path(a).is_file()), None)
+    click.echo(f"exactpt: an invariant broke: {error}", err=True)
+    if scene is not None:
+        with tempfile.NamedTemporaryFile(
+            "w", prefix="exactpt-bug-", suffix=".json", delete=False, encoding="utf-8"
+        ) as file:
+            file.write(scene.read_text(encoding="utf-8"))
+        click.echo(f"exactpt: the scene is saved in {file.name}", err=True)
+    click.echo(
+        "exactpt: this is a bug in exactpt; please report it with the command and the scene",
+        err=True,
+    )
+
+
+def _where_to_look(error: click.ClickException) -> str:
+    context = getattr(error, "ctx", None)
+    return f" (see {context.command_path} --help)" if context is not None else ""
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line and exit with its code."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        code = cli.main(given, prog_name="exactpt", standalone_mode=False)
+    except click.exceptions.NoArgsIsHelpError as error:
+        error.show()
+        code = BAD_INPUT
+    except click.ClickException as error:
+        click.echo(f"exactpt: {error.format_message()}{_where_to_look(error)}", err=True)
+        code = BAD_INPUT
+    except InputError as error:
+        click.echo(f"exactpt: {error}", err=True)
+        code = BAD_INPUT
+    except BudgetExceeded as error:
+        click.echo(f"exactpt: {error}", err=True)
+        code = SPENT
+    except AuditError as error:
+        _report_bug(error, given)
+        code = BROKEN
+    except (KeyboardInterrupt, click.Abort):
+        click.echo("exactpt: interrupted", err=True)
+        code = INTERRUPTED
+    except BrokenPipeError:
+        sys.stderr.close()
+        code = OK
+    sys.exit(code if isinstance(code, int) else OK)

@@ -1,0 +1,149 @@
+"""collide and simulate: when bodies first touch, and what happens until then."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load
+from exactpt.cli.words import answer_in_words, stats_in_words
+from exactpt.errors import BudgetExceeded
+from exactpt.kernel.numbers import QQ
+
+if TYPE_CHECKING:
+    from exactpt.collision.pairs import PairsSearch
+    from exactpt.scene.scene import Scene
+    from exactpt.simulation.simulation import Simulation
+
+__all__ = ["collide", "simulate"]
+
+
+@click.command()
+@SCENE
+@click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@click.option("--until", type=RATIONAL, help="Look no further than this time.")
+@TILING
+@click.option(
+    "--method",
+    default="kinetic",
+    show_default=True,
+    type=click.Choice(["kinetic", "pairs", "auto"]),
+    help="By a tiling, by a search over pairs, or whichever is expected to be faster.",
+)
+@click.option("--stats", is_flag=True, help="Print counts of events, certificates, decisions.")
+@click.option("--exit-code", is_flag=True, help="Return 1 if there is a contact.")
+@click.option("--exact-only", is_flag=True, help="Switch the float filters off.")
+@budget
+def collide(
+    scene: Path,
+    as_json: bool,
+    until: QQ | None,
+    tiling: str,
+    method: str,
+    stats: bool,
+    exit_code: bool,
+    exact_only: bool,
+    max_events: int | None,
+    max_seconds: float | None,
+) -> int:
+    """Find the first contact of a scene, exactly.
+
+    \b
+    Examples:
+      exactpt collide scene.json
+      exactpt collide scene.json --json --stats
+      exactpt collide scene.json --until 7/2 --exit-code && echo "no contact"
+    """
+    given = load(scene, until)
+    search = _search(
+        given, method, tiling, exact_only=exact_only, max_events=max_events, max_seconds=max_seconds
+    )
+    answer: dict[str, object] = {"contact": None, "until": str(given.end), "tiling": search.name}
+    try:
+        contact = search.run_to_contact()
+    except BudgetExceeded as spent:
+        if as_json:
+            answer |= {"stats": search.stats, "reached": str(spent.reached)}
+            click.echo(json.dumps(answer, indent=1))
+        else:
+            click.echo(f"no contact up to t = {spent.reached}")
+        raise
+    if as_json:
+        answer |= {"contact": contact and contact.to_json(), "stats": search.stats}
+        click.echo(json.dumps(answer, indent=1))
+    else:
+        click.echo("\n".join(answer_in_words(given, contact)))
+        if stats:
+            click.echo("\n".join(stats_in_words(search.stats)))
+    return 1 if exit_code and contact is not None else 0
+
+
+@click.command()
+@SCENE
+@click.option("--events", type=click.Path(path_type=Path), help="Write an event a line (JSON).")
+@click.option("--until", type=RATIONAL, help="Stop at this time.")
+@TILING
+@budget
+def simulate(
+    scene: Path,
+    events: Path | None,
+    until: QQ | None,
+    tiling: str,
+    max_events: int | None,
+    max_seconds: float | None,
+) -> int:
+    """Run a scene to the end of its time span or its first contact.
+
+    \b
+    Examples:
+      exactpt simulate scene.json
+      exactpt simulate scene.json --events events.jsonl --until 5
+    """
+    from exactpt.scene.format import write_atomically
+    from exactpt.simulation.simulation import Simulation
+
+    given = load(scene, until)
+    simulation = Simulation(given, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
+    lines: list[str] = []
+    try:
+        for event in simulation.run():
+            if events is not None:
+                lines.append(json.dumps(event.to_json()))  # noqa: PERF401 - kept if it stops early
+    finally:
+        if events is not None and not isinstance(sys.exception(), KeyboardInterrupt):
+            write_atomically(events, "".join(f"{line}\n" for line in lines))
+    click.echo("\n".join(answer_in_words(given, simulation.contact)))
+    click.echo("\n".join(stats_in_words(simulation.stats)))
+    return 0
+
+
+def _search(
+    scene: Scene,
+    method: str,
+    tiling: str,
+    *,
+    exact_only: bool,
+    max_events: int | None,
+    max_seconds: float | None,
+) -> Simulation | PairsSearch:
+    """What finds the first contact."""
+    from exactpt.collision.detector import prefers_pairs
+
+    if method == "pairs" or (method == "auto" and prefers_pairs(scene)):
+        from exactpt.collision.pairs import PairsSearch
+
+        return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds)
+    from exactpt.collision.tilings import tiling_for_contact
+    from exactpt.simulation.simulation import Simulation
+
+    return Simulation(
+        scene,
+        tiling=tiling_for_contact(scene, tiling),
+        exact_only=exact_only,
+        max_events=max_events,
+        max_seconds=max_seconds,
+    )

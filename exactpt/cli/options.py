@@ -1,0 +1,90 @@
+"""What several commands accept, and how it is read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import click
+
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ, parse_rational
+
+if TYPE_CHECKING:
+    from exactpt.scene.scene import Scene
+
+__all__ = ["MOMENT", "RATIONAL", "SCENE", "TILING", "budget", "load", "output"]
+
+
+class _Rational(click.ParamType[QQ]):
+    """A number of the scene format: 3, 1/3, 0.25, -3e-2."""
+
+    name = "number"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> QQ:
+        """The exact rational that was typed."""
+        try:
+            return parse_rational(str(value))
+        except InputError as error:
+            self.fail(str(error), param, ctx)
+
+
+class _Moment(click.ParamType["QQ | Literal['contact']"]):
+    """A number of the scene format, or the word "contact"."""
+
+    name = "number|contact"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> QQ | Literal["contact"]:
+        """The exact rational that was typed, or "contact"."""
+        return "contact" if value == "contact" else RATIONAL.convert(value, param, ctx)
+
+
+RATIONAL = _Rational()
+MOMENT = _Moment()
+SCENE = click.argument("scene", type=click.Path(path_type=Path), metavar="SCENE")
+TILING = click.option(
+    "--tiling",
+    default="auto",
+    show_default=True,
+    type=click.Choice(["auto", "incremental", "greedy", "mixed", "lazy"]),
+    help="Which tiling to keep.",
+)
+
+
+def budget(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The bounds that every command which simulates accepts."""
+    command = click.option(
+        "--max-seconds", type=click.FloatRange(min=0), help="Stop after this time (exit code 4)."
+    )(command)
+    return click.option(
+        "--max-events", type=click.IntRange(min=0), help="Stop after so many events (exit code 4)."
+    )(command)
+
+
+def output(
+    words: str, *, required: bool = False, default: Path | None = None
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """The option that names the file to write."""
+    names = ("-o", "--out", "--output", "output")
+    kind = click.Path(path_type=Path)
+    if default is None:
+        return click.option(*names, type=kind, help=words, required=required)
+    return click.option(*names, type=kind, help=words, default=default, show_default=True)
+
+
+def load(path: Path, until: QQ | None = None) -> Scene:
+    """The scene of a file, with the end of its time span brought forward to ``until``."""
+    from exactpt.scene.scene import Scene
+
+    scene = Scene.load(path)
+    if until is None:
+        return scene
+    try:
+        return scene.until(until)
+    except InputError as error:
+        raise InputError(f"--until: {error}") from None

@@ -1,0 +1,91 @@
+"""draw and demo: pictures and animations."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+import click
+
+from exactpt.cli.options import MOMENT, SCENE, TILING, budget, load, output
+from exactpt.cli.words import answer_in_words
+from exactpt.kernel.numbers import QQ
+
+__all__ = ["demo", "draw"]
+
+
+@click.command()
+@SCENE
+@output("The file: .svg or .png for a picture, .html for an animation.", required=True)
+@click.option(
+    "--at",
+    type=MOMENT,
+    help='When: a number, or "contact"; by default at the start.',
+)
+@click.option(
+    "--theme",
+    type=click.Choice(["auto", "light", "dark"]),
+    default="auto",
+    show_default=True,
+    help="Light or dark; auto: as the reader prefers (PNG: light).",
+)
+@TILING
+@budget
+def draw(
+    scene: Path,
+    output: Path,
+    at: QQ | Literal["contact"] | None,
+    theme: str,
+    tiling: str,
+    max_events: int | None,
+    max_seconds: float | None,
+) -> int:
+    """Draw a scene: a picture of it and its tiling at a time, or an animation.
+
+    An animation runs from the start to the first contact or the end, and is one file that
+    opens in any browser; with --at it begins there. PNG needs: pip install 'exactpt[draw]'.
+
+    \b
+    Examples:
+      exactpt draw scene.json -o start.svg
+      exactpt draw scene.json --at 5/2 -o then.png --theme dark
+      exactpt draw scene.json --at contact -o contact.svg
+      exactpt draw scene.json -o film.html
+    """
+    from exactpt.render.draw import draw as draw_scene
+
+    draw_scene(
+        load(scene),
+        output,
+        at=at,
+        tiling=tiling,
+        theme=theme,
+        max_events=max_events,
+        max_seconds=max_seconds,
+    )
+    return 0
+
+
+@click.command()
+@output("Where the animation goes.", default=Path("exactpt-demo.html"))
+def demo(output: Path) -> int:
+    """Run a packaged scene to its first contact and draw an animation of it.
+
+    \b
+    Example:
+      exactpt demo -o demo.html
+    """
+    from importlib.resources import files
+
+    from exactpt.render.film import film_of
+    from exactpt.render.page import page_of
+    from exactpt.scene.format import loads, write_atomically
+
+    given = loads((files("exactpt") / "data" / "demo.json").read_text(encoding="utf-8"))
+    film = film_of(given, tiling="auto")
+    bodies = ", ".join(body.name for body in given.bodies)
+    click.echo(f"{len(given.bodies)} bodies: {bodies}")
+    click.echo("\n".join(answer_in_words(given, film.contact)))
+    write_atomically(output, page_of(film, title="exactpt demo"))
+    click.echo(f"the animation is in {output}: open it in a browser")
+    return 0

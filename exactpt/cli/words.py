@@ -1,0 +1,41 @@
+"""Answers in words, as the commands print them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from exactpt.collision.contact import Contact
+    from exactpt.scene.scene import Scene
+
+__all__ = ["answer_in_words", "stats_in_words"]
+
+
+def answer_in_words(scene: Scene, contact: Contact | None) -> list[str]:
+    """The first contact: when, of which kind, what touches what and where."""
+    from exactpt.render.words import polynomial_in_words
+
+    if contact is None:
+        return [f"no contact from t = {scene.start} to t = {scene.end}"]
+    time = contact.time
+    root = f"root of {polynomial_in_words(time.polynomial)}"
+    exactly = str(time.low) if time.is_rational else root
+    lines = [f"first contact at t = {float(time)!r} ({exactly}), kind {contact.kind}"]
+    for pair in contact.pairs:
+        feature = f"vertex {pair.other_vertex}" if pair.edge is None else f"edge {pair.edge}"
+        x, y = pair.point
+        lines.append(
+            f"  vertex {pair.vertex} of {pair.body} on {feature} of {pair.other} at ({x}, {y})"
+        )
+    lines += [f"  {a} and {b} share a point" for a, b in contact.overlaps]
+    return lines
+
+
+def stats_in_words(stats: dict[str, object]) -> list[str]:
+    """A count a line."""
+    return [
+        f"  {key}: {', '.join(f'{k} {v}' for k, v in value.items()) or 'none'}"
+        if isinstance(value, dict)
+        else f"  {key}: {value}"
+        for key, value in stats.items()
+    ]
