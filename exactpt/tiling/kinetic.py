@@ -12,8 +12,8 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Final, Self
 
 from exactpt.errors import AuditError
-from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.kernel.numbers import QQ, floor, power_of_two
+from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
+from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.angles import ANGLE, KINDS, MOTION, SHRINK
@@ -112,11 +112,7 @@ class KineticTiling(RepairedTiling):
         self._undo = None
         for slot, time in entries:
             self.queue.schedule(slot, time)
-        contact.refine_to(grid)
-        m = floor(contact.high / grid)
-        while contact.compare_rational(m * grid) <= 0:
-            m -= 1
-        t = m * grid
+        t = multiple_before(contact, grid)
         if before.compare_rational(t) >= 0:
             t = rational_between(before, contact)
         self._move_to(t)
