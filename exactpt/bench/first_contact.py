@@ -1,0 +1,231 @@
+"""Run time against error in the time of the first contact, beside what a user would pick instead.
+
+The truth is planted, or found by the plain exact search where that ends in time; else it
+is what exactpt finds by two ways that have little in common.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from random import Random
+from statistics import median
+from typing import Final, NamedTuple, TypeAlias, final
+
+from exactpt.bench.methods.closed_form import CLOSED_FORM
+from exactpt.bench.methods.method import Answer, Method, UnsuitableScene, error_of
+from exactpt.bench.methods.own import EXACT_SEARCH, OWN
+from exactpt.bench.methods.with_ipctk import with_additive, with_tight_inclusion
+from exactpt.bench.methods.with_pymunk import with_pymunk
+from exactpt.bench.methods.with_shapely import with_shapely
+from exactpt.bench.output import Output, Row
+from exactpt.bench.shapes import (
+    clamp,
+    combs,
+    crowd,
+    deforming,
+    grazing,
+    spirals,
+    tangle,
+    thin_and_fast,
+)
+from exactpt.bench.timing import timed
+from exactpt.errors import AuditError
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.scene.scene import Scene
+
+__all__ = ["FAMILIES", "FULL", "QUICK", "Sizes", "run"]
+
+LEAST_ERROR: Final = 1e-17
+"""No error, where the axis is logarithmic."""
+
+PAIR_SECONDS: Final = 8e-6
+"""What the plain exact search takes for a vertex and an edge, about."""
+
+Family: TypeAlias = Callable[[int, Random], Scene]
+
+FAMILIES: Final[dict[str, Family]] = {
+    "sparse": partial(crowd, radius=60, end=2),
+    "dense": partial(crowd, radius=400, end=1),
+    "clamps": clamp,
+    "combs": lambda n, _: tangle(combs(n)),
+    "spirals": lambda n, _: tangle(spirals(n)),
+    "deforming": deforming,
+    "grazing": grazing,
+    "thin and fast": thin_and_fast,
+}
+"""Scenes by size: bodies of crowds, teeth of clamps, vertices of each comb and spiral."""
+
+PLANTED: Final = {"combs": AlgebraicNumber(14), "grazing": AlgebraicNumber(2)}
+"""Teeth 2 apart at a speed of 1/7; the apex of every throw."""
+
+
+class Sizes(NamedTuple):
+    """How much is asked.
+
+    Attributes:
+        sizes: of scenes, by family.
+        scenes: how many of each size.
+        steps: of the programs that take steps.
+        seconds: a method that took longer is not asked about larger scenes.
+    """
+
+    sizes: Mapping[str, Sequence[int]]
+    scenes: int
+    steps: Sequence[int]
+    seconds: float
+
+
+QUICK: Final = Sizes(
+    {
+        "sparse": (10, 100),
+        "dense": (10, 100),
+        "clamps": (5, 20),
+        "combs": (16, 64),
+        "spirals": (16, 64),
+        "deforming": (4, 16),
+        "grazing": (4, 16),
+        "thin and fast": (10, 50),
+    },
+    scenes=1,
+    steps=(100, 1000),
+    seconds=0.5,
+)
+FULL: Final = Sizes(
+    {
+        "sparse": (10, 100, 1000, 3000),
+        "dense": (10, 100, 1000, 3000),
+        "clamps": (5, 20, 100),
+        "combs": (64, 256, 1024),
+        "spirals": (64, 256, 1024),
+        "deforming": (4, 16, 64, 256),
+        "grazing": (4, 16, 64),
+        "thin and fast": (10, 100, 1000),
+    },
+    scenes=3,
+    steps=(100, 1000, 10_000),
+    seconds=5.0,
+)
+
+
+@final
+@dataclass(slots=True)
+class _Result:
+    """What a method said about the scenes of one size."""
+
+    seconds: list[float] = field(default_factory=list)
+    errors: list[float] = field(default_factory=list)
+    missed: int = 0
+    invented: int = 0
+
+    def add(self, answer: Answer, seconds: float, truth: AlgebraicNumber | None) -> None:
+        self.seconds.append(seconds)
+        if answer is None:
+            self.missed += truth is not None
+        elif truth is None:
+            self.invented += 1
+        else:
+            self.errors.append(error_of(answer, truth))
+
+
+def run(output: Output, sizes: Sizes, seed: int) -> None:
+    """Ask every method about every family, from small to large.
+
+    Raises:
+        AuditError: if an answer of exactpt is wrong.
+    """
+    methods = [m for m in _methods(sizes.steps) if m.package is None or output.has(m.package)]
+    rows: list[Row] = []
+    for family, of_family in sizes.sizes.items():
+        left = list(methods)
+        points: dict[str, list[tuple[float, float]]] = {}
+        for size in of_family:
+            output.progress(f"{family}, size {size}")
+            scenes = [FAMILIES[family](size, Random(f"{family}:{size}:{seed}:{i}"))
+                      for i in range(sizes.scenes)]  # fmt: skip
+            truths = [_truth(family, scene, sizes.seconds) for scene in scenes]
+            points = {}
+            for method in tuple(left):
+                result = _ask(method, scenes, [truth for truth, _ in truths], sizes.seconds)
+                if result is None:
+                    left.remove(method)
+                    continue
+                rows.append(_row(family, scenes, method, truths[0][1], result))
+                if median(result.seconds) > sizes.seconds:
+                    left.remove(method)
+                if result.errors:
+                    error = max(LEAST_ERROR, *result.errors)
+                    points.setdefault(method.name, []).append((error, median(result.seconds)))
+                    if method in OWN:
+                        points[f"exactpt {method.setting}"] = points.pop(method.name)
+        title = f"First contact, {family}, size {of_family[-1]}"
+        axes = ("error in the time of contact (10^-17: none)", "seconds of processor time")
+        output.lines(f"first-contact-{family.replace(' ', '-')}", title, axes, points)
+    output.table("first-contact", rows)
+
+
+def _methods(steps: Sequence[int]) -> list[Method]:
+    return [
+        *OWN,
+        EXACT_SEARCH,
+        CLOSED_FORM,
+        *(with_shapely(n, bisect=False) for n in steps),
+        *(with_shapely(n, bisect=True) for n in steps),
+        *(with_pymunk(n) for n in steps),
+        *(with_tight_inclusion(tolerance, 32) for tolerance in (1e-3, 1e-6)),
+        *(with_additive(rescaling, 32) for rescaling in (0.9, 0.9999)),
+    ]
+
+
+def _ask(
+    method: Method,
+    scenes: Sequence[Scene],
+    truths: Sequence[AlgebraicNumber | None],
+    seconds: float,
+) -> _Result | None:
+    """The answers about some scenes; None if the method is not for them, or would not end."""
+    if method is EXACT_SEARCH and _search_seconds(scenes[0]) > seconds:
+        return None
+    result = _Result()
+    for scene, truth in zip(scenes, truths, strict=True):
+        try:
+            question = method.prepare(scene)
+            result.add(*timed(question), truth)
+        except UnsuitableScene:
+            return None
+    if method in OWN and (result.missed or result.invented or any(result.errors)):
+        raise AuditError(f"{method.name} {method.setting} is wrong about {scenes}: {result}")
+    return result
+
+
+def _search_seconds(scene: Scene) -> float:
+    return PAIR_SECONDS * scene.vertex_count**2
+
+
+def _truth(family: str, scene: Scene, seconds: float) -> tuple[AlgebraicNumber | None, str]:
+    """The first contact of a scene, and how it is known."""
+    if family in PLANTED:
+        return PLANTED[family], "planted"
+    methods = [EXACT_SEARCH] if _search_seconds(scene) <= seconds else list(OWN)
+    answers = [method.prepare(scene)() for method in methods]
+    first = answers[0]
+    if isinstance(first, float) or any(answer != first for answer in answers):
+        raise AuditError(f"two ways disagree about {scene}: {answers}")
+    return first, methods[0].name if len(methods) == 1 else "two ways agree"
+
+
+def _row(family: str, scenes: Sequence[Scene], method: Method, truth: str, result: _Result) -> Row:
+    return {
+        "family": family,
+        "bodies": len(scenes[0].bodies),
+        "vertices": scenes[0].vertex_count,
+        "method": method.name,
+        "setting": method.setting,
+        "scenes": len(scenes),
+        "seconds": median(result.seconds),
+        "error": max(result.errors, default=None),
+        "missed": result.missed,
+        "invented": result.invented,
+        "truth": truth,
+    }
