@@ -80,7 +80,7 @@ def tangle(given: Tangle, *, shift: int = 0) -> Scene:
     """One of two outlines drifts, along the teeth or across the corridor; or so far away."""
     moved = [(x + shift, y) for x, y in given.second]
     drift = Translation([0, "1/7"], [0, "1/5"])
-    return Scene([Body("a", given.first), Body("b", moved, drift)], (0, 40))
+    return Scene([Body("a", given.first), Body("b", moved, drift)], (0, 41))
 
 
 def clamp(n: int, rng: Random) -> Scene:
@@ -122,7 +122,7 @@ def grazing(k: int, rng: Random) -> Scene:
         rise = QQ(8) if i == touching else QQ(8) - power_of_two(-40)
         outline = [(10 * i, 0), (10 * i + 4, 0), (10 * i + rng.choice([1, 2]), 2)]
         bodies.append(Body(f"b{i}", outline, Translation([0, "1/3"], [0, rise, -rise / 4])))
-    return Scene(bodies, (0, 4))
+    return Scene(bodies, (0, QQ(37, 10)))
 
 
 def thin_and_fast(k: int, rng: Random) -> Scene:

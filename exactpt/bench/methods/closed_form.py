@@ -6,6 +6,7 @@ What is written first when speed is asked for: no tolerance, no proof, in numpy.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,7 @@ from exactpt.scene.scene import Scene
 
 __all__ = ["CLOSED_FORM"]
 
-BLOCK = 1 << 18
+BLOCK: Final = 1 << 18
 """So many pairs at once."""
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from functools import partial
+from typing import Final
 
 from exactpt.bench.methods.method import Answer, Method
 from exactpt.collision.allpairs import first_contact_allpairs
@@ -31,11 +32,11 @@ def _prepare(ask: Callable[[Scene], Contact | None], scene: Scene) -> Callable[[
     return time_of_contact
 
 
-OWN = (
+OWN: Final = (
     Method("exactpt", "kinetic", partial(_prepare, partial(first_contact, method="kinetic"))),
     Method("exactpt", "pairs", partial(_prepare, partial(first_contact, method="pairs"))),
 )
 """What exactpt offers."""
 
-EXACT_SEARCH = Method("all pairs, exact", "", partial(_prepare, first_contact_allpairs))
+EXACT_SEARCH: Final = Method("all pairs, exact", "", partial(_prepare, first_contact_allpairs))
 """The reference."""

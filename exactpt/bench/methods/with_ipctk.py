@@ -8,7 +8,7 @@ processor times compare.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["with_additive", "with_tight_inclusion"]
 
-ITERATIONS = 1_000_000
+ITERATIONS: Final = 1_000_000
 
 
 def with_tight_inclusion(tolerance: float, pieces: int) -> Method:

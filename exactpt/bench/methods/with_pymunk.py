@@ -1,6 +1,7 @@
 """pymunk (Chipmunk) in time steps: bodies with velocities, until a collision begins.
 
-Simple polygons are decomposed into convex ones, as Chipmunk asks for. A velocity that
+Chipmunk asks for convex shapes: other polygons are cut into triangles by Shapely (its own
+decomposition covers more than the polygon where vertices are collinear). A velocity that
 changes is set before every step, so that each step ends where the motion does.
 """
 
@@ -8,10 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from exactpt.bench.methods.method import Answer, Method, UnsuitableScene
 from exactpt.bench.methods.moving import Floats, Moving, Shape
+from exactpt.bench.peers import is_installed
 from exactpt.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -19,7 +21,9 @@ if TYPE_CHECKING:
 
 __all__ = ["with_pymunk"]
 
-KIND = 1
+Vertex: TypeAlias = tuple[float, float]
+
+KIND: Final = 1
 """The collision type of everything."""
 
 
@@ -55,34 +59,34 @@ def _space(moving: Moving) -> tuple[pymunk.Space, list[pymunk.Body]]:
 
 def _parts(body: pymunk.Body, outline: Floats, shape: Shape) -> Sequence[pymunk.Shape]:
     import pymunk
-    from pymunk.autogeometry import convex_decomposition, is_closed
 
     points = [(float(x), float(y)) for x, y in outline]
     if shape.size == 1:
         return [pymunk.Circle(body, 0.0, points[0])]
     if not shape.closed:
         return [pymunk.Segment(body, p, q, 0.0) for p, q in pairwise(points)]
-    if _area(points) < 0.0:
-        points.reverse()
     if _is_convex(points):
         return [pymunk.Poly(body, points)]
-    ring = [*points, points[0]]
-    if not is_closed(ring):
-        raise UnsuitableScene("an outline that Chipmunk takes for open")
-    return [pymunk.Poly(body, part) for part in convex_decomposition(ring, 0.0)]
+    return [pymunk.Poly(body, triangle) for triangle in _triangles(points)]
 
 
-def _turn(p: tuple[float, float], q: tuple[float, float], r: tuple[float, float]) -> float:
+def _triangles(points: Sequence[Vertex]) -> list[list[Vertex]]:
+    if not is_installed("shapely"):
+        raise UnsuitableScene("bodies that are not convex, without Shapely to cut them")
+    import shapely
+
+    cut = shapely.constrained_delaunay_triangles(shapely.Polygon(points))
+    return [list(triangle.exterior.coords)[:3] for triangle in cut.geoms]
+
+
+def _turn(p: Vertex, q: Vertex, r: Vertex) -> float:
     return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 
 
-def _area(points: Sequence[tuple[float, float]]) -> float:
-    return sum(_turn(points[0], p, q) for p, q in pairwise(points[1:]))
-
-
-def _is_convex(points: Sequence[tuple[float, float]]) -> bool:
+def _is_convex(points: Sequence[Vertex]) -> bool:
     n = len(points)
-    return all(_turn(points[i - 2], points[i - 1], points[i]) >= 0.0 for i in range(n))
+    turns = [_turn(points[i - 2], points[i - 1], points[i]) for i in range(n)]
+    return min(turns) >= 0.0 or max(turns) <= 0.0
 
 
 def _first(

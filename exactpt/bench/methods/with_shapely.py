@@ -8,7 +8,7 @@ which bodies are first found to intersect is halved until doubles end, for these
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, final
+from typing import Any, Final, final
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from exactpt.scene.scene import Scene
 
 __all__ = ["with_shapely"]
 
-HALVINGS = 60
+HALVINGS: Final = 60
 
 
 @final
