@@ -78,8 +78,9 @@ class Output:
         self, name: str, title: str, axes: tuple[str, str], series: Mapping[str, Series]
     ) -> None:
         """Draw points joined by lines, a line a name, both axes logarithmic."""
-        if self.has("matplotlib"):
-            self.write(f"{name}.svg", draw_lines(title, axes, series))
+        drawn = {name: points for name, points in series.items() if points}
+        if drawn and self.has("matplotlib"):
+            self.write(f"{name}.svg", draw_lines(title, axes, drawn))
 
     def shares(
         self, name: str, title: str, rows: Sequence[str], columns: Sequence[str],

@@ -31,7 +31,7 @@ class Sizes(NamedTuple):
 
 
 QUICK: Final = Sizes(10, 200)
-FULL: Final = Sizes(200, 1000)
+FULL: Final = Sizes(100, 1000)
 
 
 @final
