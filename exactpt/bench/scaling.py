@@ -15,7 +15,7 @@ from typing import Final, NamedTuple
 
 from exactpt.bench.methods.own import fresh
 from exactpt.bench.output import Output, Row
-from exactpt.bench.shapes import PAIRS, crowd, tangle
+from exactpt.bench.shapes import TANGLES, crowd, tangle
 from exactpt.bench.timing import exponent, timed
 from exactpt.collision.tilings import TILINGS, start_tiling
 from exactpt.kernel.counters import counters
@@ -90,7 +90,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     families: dict[str, tuple[Sequence[int], Callable[[int], Scene]]] = {
         "convex crowd": (sizes.bodies, partial(_crowd, seed=seed))
     }
-    for name, make in PAIRS.items():
+    for name, make in TANGLES.items():
         families[name] = (sizes.vertices, lambda n, make=make: tangle(make(n)))  # type: ignore[misc]
         families[f"{name}, far apart"] = (
             sizes.vertices,

@@ -15,8 +15,18 @@ from exactpt.scene.families.shapes import box, cells, convex_polygon, velocity
 from exactpt.scene.families.simple import star
 from exactpt.scene.scene import Scene
 
-__all__ = ["PAIRS", "Tangle", "clamp", "combs", "crowd", "deforming", "grazing", "spirals"]
-__all__ += ["tangle", "thin_and_fast"]
+__all__ = [
+    "TANGLES",
+    "Tangle",
+    "clamp",
+    "combs",
+    "crowd",
+    "deforming",
+    "grazing",
+    "spirals",
+    "tangle",
+    "thin_and_fast",
+]
 
 
 class Tangle(NamedTuple):
@@ -72,7 +82,7 @@ def spirals(vertices: int) -> Tangle:
 
 TangleFamily: TypeAlias = Callable[[int], Tangle]
 
-PAIRS: Final[dict[str, TangleFamily]] = {"combs": combs, "spirals": spirals}
+TANGLES: Final[dict[str, TangleFamily]] = {"combs": combs, "spirals": spirals}
 """Two simple polygons with about so many vertices each."""
 
 

@@ -27,20 +27,16 @@ class Shape:
     Attributes:
         first, size: its vertices, by number.
         closed: whether it has an inside.
-        deforms: whether it does more than to translate or turn.
-        translates: whether it does no more than to translate.
+        deforms: whether it does more than to translate.
     """
 
-    __slots__ = ("closed", "deforms", "first", "size", "translates")
+    __slots__ = ("closed", "deforms", "first", "size")
 
-    def __init__(
-        self, first: int, size: int, *, closed: bool, deforms: bool, translates: bool
-    ) -> None:
+    def __init__(self, first: int, size: int, *, closed: bool, deforms: bool) -> None:
         self.first = first
         self.size = size
         self.closed = closed
         self.deforms = deforms
-        self.translates = translates
 
     @property
     def range(self) -> slice:
@@ -77,9 +73,7 @@ class Moving:
             rigid = all(t.frame is not None and t.frame == tracks[0].frame for t in tracks)
             first = len(xs)
             closed = body.closed and body.size > 2
-            self.shapes.append(
-                Shape(first, body.size, closed=closed, deforms=not rigid, translates=rigid)
-            )
+            self.shapes.append(Shape(first, body.size, closed=closed, deforms=not rigid))
             pairs += [(first + a, first + b) for a, b in edges(body.size, closed=body.closed)]
             xs += [_doubles(track.x, track.w) for track in tracks]
             ys += [_doubles(track.y, track.w) for track in tracks]

@@ -32,7 +32,7 @@ def with_pymunk(steps: int) -> Method:
 
     def prepare(scene: Scene) -> Callable[[], Answer]:
         moving = Moving(scene)
-        if not all(shape.translates for shape in moving.shapes):
+        if any(shape.deforms for shape in moving.shapes):
             raise UnsuitableScene("bodies that deform")
         space, bodies = _space(moving)
         return lambda: _first(moving, space, bodies, steps)
