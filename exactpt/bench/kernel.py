@@ -15,6 +15,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from exactpt.bench.output import Output, Row
+from exactpt.bench.plots import series_of
 from exactpt.bench.root_finders import END, EXACT, FILTER, FINDERS, Finder, exact_first
 from exactpt.bench.timing import microseconds
 from exactpt.errors import AuditError
@@ -60,14 +61,8 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     batches = [_batch_row(rng, d, n) for d in (1, 2) for n in sizes.batches]
     output.table("kernel-batches", batches)
     for bits in (sizes.bits[0], sizes.bits[-1]):
-        series = {
-            finder.name: [
-                (float(str(row["degree"])), float(str(row["us first root"])))
-                for row in rows
-                if row["program"] == finder.name and row["bits"] == bits
-            ]
-            for finder in finders
-        }
+        of_size = [row for row in rows if row["bits"] == bits]
+        series = series_of(of_size, "program", "degree", "us first root")
         title = f"First root, coefficients of {bits} bits"
         output.lines(f"kernel-{bits}", title, ("degree", "microseconds"), series)
 

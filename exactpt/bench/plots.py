@@ -9,11 +9,24 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["Series", "draw_lines", "draw_shares"]
+__all__ = ["Series", "draw_lines", "draw_shares", "series_of"]
 
 Series: TypeAlias = Sequence[tuple[float, float]]
 
 MARKERS: Final = "osD^v<>pPX*h8"
+
+
+def series_of(
+    rows: Iterable[Mapping[str, object]], line: str, x: str, y: str
+) -> dict[str, list[tuple[float, float]]]:
+    """The positive points (x, y) of a table, by what stands in another column."""
+    series: dict[str, list[tuple[float, float]]] = {}
+    for row in rows:
+        points = series.setdefault(str(row[line]), [])
+        at, value = (float(str(row[column] or 0)) for column in (x, y))
+        if at > 0 and value > 0:
+            points.append((at, value))
+    return series
 
 
 def draw_lines(title: str, axes: tuple[str, str], series: Mapping[str, Series]) -> str:

@@ -12,6 +12,7 @@ from random import Random
 from typing import Final, Literal, NamedTuple, TypeAlias
 
 from exactpt.bench.output import Output, Row
+from exactpt.bench.plots import series_of
 from exactpt.bench.point_scenes import FAMILIES, random_linear, swaps_beside_arc
 from exactpt.bench.timing import exponent, timed
 from exactpt.kernel.counters import counters
@@ -95,14 +96,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     output.table("points", rows)
     output.table("points-exponents", fits)
     output.table("points-chains", _chains(output, sizes, seed))
-    series = {
-        family: [
-            (float(str(row["points"])), float(str(row["changes of the IPT"])))
-            for row in rows
-            if row["family"] == family and row["changes of the IPT"]
-        ]
-        for family in FAMILIES
-    }
+    series = series_of(rows, "family", "points", "changes of the IPT")
     output.lines("points", "Changes of the IPT", ("points", "changes"), series)
 
 

@@ -15,7 +15,8 @@ from typing import Final, NamedTuple
 
 from exactpt.bench.methods.own import fresh
 from exactpt.bench.output import Output, Row
-from exactpt.bench.shapes import TANGLES, crowd, tangle
+from exactpt.bench.plots import series_of
+from exactpt.bench.shapes import TANGLES, TangleFamily, crowd, tangle
 from exactpt.bench.timing import exponent, timed
 from exactpt.collision.tilings import TILINGS, start_tiling
 from exactpt.kernel.counters import counters
@@ -91,11 +92,8 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
         "convex crowd": (sizes.bodies, partial(_crowd, seed=seed))
     }
     for name, make in TANGLES.items():
-        families[name] = (sizes.vertices, lambda n, make=make: tangle(make(n)))  # type: ignore[misc]
-        families[f"{name}, far apart"] = (
-            sizes.vertices,
-            lambda n, make=make: tangle(make(n), shift=100 * make(n).diameter),  # type: ignore[misc]
-        )
+        for where, far in (("", False), (", far apart", True)):
+            families[name + where] = (sizes.vertices, partial(_tangle, make, far=far))
     for family, (of_family, scene_of) in families.items():
         for tiling in TILINGS:
             runs = []
@@ -107,17 +105,12 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     output.table("scaling", rows)
     output.table("scaling-exponents", fits)
     crowds = [row for row in rows if row["family"] == "convex crowd"]
-    for column, axis in (("us an event", "microseconds an event"), ("pending", "certificates")):
-        series = {
-            tiling: [
-                (float(str(row["size"])), float(str(row[column])))
-                for row in crowds
-                if row["tiling"] == tiling and row[column]
-            ]
-            for tiling in TILINGS
-        }
-        name = f"scaling-{'events' if 'event' in column else 'certificates'}"
-        output.lines(name, f"Convex bodies: {axis}", ("bodies", axis), series)
+    for name, column, axis in (
+        ("events", "us an event", "microseconds an event"),
+        ("certificates", "pending", "certificates"),
+    ):
+        series = series_of(crowds, "tiling", "size", column)
+        output.lines(f"scaling-{name}", f"Convex bodies: {axis}", ("bodies", axis), series)
 
 
 def measure(scene: Scene, tiling: str, sizes: Sizes) -> Measured:
@@ -164,6 +157,11 @@ def _pass(kinetic: Tiling, events: int) -> None:
 
 def _crowd(k: int, seed: int) -> Scene:
     return crowd(k, Random(f"scaling:{k}:{seed}"), radius=60, end=100)
+
+
+def _tangle(make: TangleFamily, n: int, *, far: bool) -> Scene:
+    given = make(n)
+    return tangle(given, shift=100 * given.diameter if far else 0)
 
 
 def _row(family: str, tiling: str, scene: Scene, size: int, run: Measured) -> Row:

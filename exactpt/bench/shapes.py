@@ -18,6 +18,7 @@ from exactpt.scene.scene import Scene
 __all__ = [
     "TANGLES",
     "Tangle",
+    "TangleFamily",
     "clamp",
     "combs",
     "crowd",

@@ -14,6 +14,7 @@ from statistics import median
 from typing import Final, NamedTuple, TypeVar
 
 from exactpt.bench.output import Output, Row
+from exactpt.bench.plots import series_of
 from exactpt.bench.timing import timed
 from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
@@ -125,14 +126,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
             )
     output.table("stability", rows)
     for what, axis in (("digits", "digits"), ("degree", "degree of the motion")):
-        series = {
-            f"exactpt {method}": [
-                (float(str(row["by"])), float(str(row["ratio"])))
-                for row in rows
-                if row["what"] == what and row["method"] == method
-            ]
-            for method in METHODS
-        }
+        series = series_of((r for r in rows if r["what"] == what), "method", "by", "ratio")
         output.lines(f"stability-{what}", f"Cost against {axis}", (axis, "times the cost"), series)
 
 
