@@ -8,13 +8,15 @@ being nearly n. Long chains are walked along, or searched: both are measured.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from random import Random
 from typing import Final, Literal, NamedTuple, TypeAlias
 
+from exactpt.bench.methods.own import fresh
 from exactpt.bench.output import Output, Row
 from exactpt.bench.plots import series_of
 from exactpt.bench.point_scenes import FAMILIES, random_linear, swaps_beside_arc
-from exactpt.bench.timing import exponent, timed
+from exactpt.bench.timing import exponent, memory_of, timed
 from exactpt.kernel.counters import counters
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
@@ -49,6 +51,8 @@ class Measured(NamedTuple):
         seconds: of processor time.
         exact: decisions that needed exact arithmetic.
         steps: vertices of chains passed in searches.
+        start: seconds to build the tiling and certify it.
+        pending: certificates that may fail, at the start.
     """
 
     events: int
@@ -56,6 +60,8 @@ class Measured(NamedTuple):
     seconds: float
     exact: int
     steps: int
+    start: float
+    pending: int
 
     @property
     def per_event(self) -> float:
@@ -78,6 +84,9 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
                 {
                     "family": family,
                     "points": n,
+                    "start s": without[-1].start,
+                    "pending": without[-1].pending,
+                    "kilobytes": memory_of(partial(_start, fresh(scene))),
                     "changes of the IPT": without[-1].events,
                     "changes of the fan": with_fan[-1].fan,
                     "us an event": without[-1].per_event,
@@ -102,8 +111,8 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
 
 def measure(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> Measured:
     """Run a scene to its end, or its first contact."""
-    vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
-    tiling = IncrementalTiling(vertices, scene.start, scene.end, chains=chains, fan=fan)
+    tiling, start = timed(lambda: _start(scene, chains=chains, fan=fan))
+    pending = len(tiling.queue)
     exact = counters.exact
     _, seconds = timed(lambda: _pass(tiling))
     return Measured(
@@ -112,7 +121,14 @@ def measure(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> Meas
         seconds,
         counters.exact - exact,
         sum(tree.steps for tree in tiling.structure.trees),
+        start,
+        pending,
     )
+
+
+def _start(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> IncrementalTiling:
+    vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
+    return IncrementalTiling(vertices, scene.start, scene.end, chains=chains, fan=fan)
 
 
 def _pass(tiling: IncrementalTiling) -> None:

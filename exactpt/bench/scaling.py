@@ -7,7 +7,6 @@ logarithms, and stand beside what the paper bounds.
 
 from __future__ import annotations
 
-import tracemalloc
 from collections.abc import Callable, Sequence
 from functools import partial
 from random import Random
@@ -17,7 +16,7 @@ from exactpt.bench.methods.own import fresh
 from exactpt.bench.output import Output, Row
 from exactpt.bench.plots import series_of
 from exactpt.bench.shapes import TANGLES, TangleFamily, crowd, tangle
-from exactpt.bench.timing import exponent, timed
+from exactpt.bench.timing import exponent, memory_of, timed
 from exactpt.collision.tilings import TILINGS, start_tiling
 from exactpt.kernel.counters import counters
 from exactpt.scene.scene import Scene
@@ -66,7 +65,7 @@ class Measured(NamedTuple):
         events: up to the contact, the end, or the bound.
         seconds: of these events.
         exact: decisions in a thousand.
-        memory: bytes of everything that the start has made.
+        kilobytes: of everything that the start has made.
     """
 
     start: float
@@ -76,7 +75,7 @@ class Measured(NamedTuple):
     events: int
     seconds: float
     exact: float
-    memory: int
+    kilobytes: float
 
     @property
     def per_event(self) -> float:
@@ -119,12 +118,8 @@ def measure(scene: Scene, tiling: str, sizes: Sizes) -> Measured:
     runs = [_run_once(fresh(scene), tiling, sizes.events) for _ in range(sizes.runs)]
     best = min(runs, key=lambda m: m.start + m.seconds)
     given = fresh(scene)
-    tracemalloc.start()
-    kept = start_tiling(given, tiling, given.start)
-    memory = tracemalloc.get_traced_memory()[0]
-    tracemalloc.stop()
-    del kept
-    return best._replace(memory=memory)
+    kilobytes = memory_of(lambda: start_tiling(given, tiling, given.start))
+    return best._replace(kilobytes=kilobytes)
 
 
 def _run_once(scene: Scene, tiling: str, events: int) -> Measured:
@@ -141,7 +136,7 @@ def _run_once(scene: Scene, tiling: str, events: int) -> Measured:
         kinetic.stats.total,
         seconds,
         1000 * exact / max(1, exact + filtered),
-        0,
+        0.0,
     )
 
 
@@ -177,7 +172,7 @@ def _row(family: str, tiling: str, scene: Scene, size: int, run: Measured) -> Ro
         "events": run.events,
         "us an event": run.per_event,
         "exact in 1000": run.exact,
-        "kilobytes": run.memory / 1024,
+        "kilobytes": run.kilobytes,
     }
 
 
@@ -187,7 +182,7 @@ def _fit(family: str, tiling: str, sizes: Sequence[int], runs: Sequence[Measured
         "tiling": tiling,
         "p start": exponent(sizes, [run.start for run in runs]),
         "p pending": exponent(sizes, [run.pending for run in runs]),
-        "p memory": exponent(sizes, [run.memory for run in runs]),
+        "p memory": exponent(sizes, [run.kilobytes for run in runs]),
         "p us an event": exponent(sizes, [run.per_event for run in runs]),
         "bound": BOUNDS[tiling],
     }

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import gc
 import math
+import tracemalloc
 from collections.abc import Callable, Sequence
 from time import process_time
 from typing import TypeVar
 
-__all__ = ["exponent", "microseconds", "timed"]
+__all__ = ["exponent", "memory_of", "microseconds", "timed"]
 
 T = TypeVar("T")
 Q = TypeVar("Q")
@@ -33,6 +34,16 @@ def microseconds(ask: Callable[[Q], T], questions: Sequence[Q]) -> tuple[float, 
     passes = [timed(lambda: [ask(q) for q in questions]) for _ in range(3)]
     middle = sorted(seconds for _, seconds in passes)[1]
     return 1e6 * middle / max(1, len(questions)), passes[-1][0]
+
+
+def memory_of(make: Callable[[], object]) -> float:
+    """The kilobytes that something keeps, and what it has left in what it is made of."""
+    tracemalloc.start()
+    try:
+        kept = make()
+        return tracemalloc.get_traced_memory()[0] / 1024 if kept is not None else 0.0
+    finally:
+        tracemalloc.stop()
 
 
 def exponent(sizes: Sequence[float], values: Sequence[float]) -> float:

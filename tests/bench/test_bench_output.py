@@ -7,8 +7,8 @@ from bench_help import Results
 
 from exactpt.bench.machine import machine
 from exactpt.bench.peers import PEERS, is_installed
-from exactpt.bench.plots import draw_lines, draw_shares
-from exactpt.bench.timing import exponent, microseconds, timed
+from exactpt.bench.plots import draw_lines, draw_shares, series_of
+from exactpt.bench.timing import exponent, memory_of, microseconds, timed
 
 
 def test_a_table_is_written_and_told(tmp_path):
@@ -76,3 +76,12 @@ def test_timing_returns_the_answers():
     assert answer == 7
     assert seconds >= 0.0
     assert microseconds(lambda n: n + 1, [1, 2])[1] == [2, 3]
+
+
+def test_memory_is_that_of_what_is_kept():
+    assert 950 < memory_of(lambda: bytearray(1 << 20)) < 1100
+
+
+def test_lines_are_read_out_of_a_table():
+    rows = [{"a": "p", "x": 1, "y": 2.5}, {"a": "q", "x": "3", "y": 0}, {"a": "p", "x": 2, "y": 1}]
+    assert series_of(rows, "a", "x", "y") == {"p": [(1.0, 2.5), (2.0, 1.0)], "q": []}
