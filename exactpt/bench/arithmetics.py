@@ -126,7 +126,7 @@ class _Certified(Questions):
             Body(f"p{i}", [(p.x, p.y)], Translation([0, p.vx], [0, p.vy]))
             for i, p in enumerate(points)
         ]
-        vertices = Vertices(bodies, QQ(0), END)
+        vertices = Vertices.of(bodies, QQ(0), END)
         self._ids = [moving.ring[0] for moving in vertices.bodies]
         self._certifier = Certifier(vertices, QQ(0), END, exact_only=exact_only)
         self._queue = ExactQueue if exact_only else EventQueue

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Final
 
 from exactpt.bench.peers import PEERS
+from exactpt.kernel import filters
 
 __all__ = ["machine"]
 
@@ -16,10 +17,11 @@ OWN: Final = ("exactpt", "gmpy2", "numpy")
 
 
 def machine() -> list[str]:
-    """The processor, the system, and a version a package; a line each."""
+    """The processor and the system, how exactpt was built, a version a package; a line each."""
     versions = [f"{name} {_version(name)}" for name in (*OWN, *PEERS)]
     return [
         f"{_processor()}, {os.cpu_count()} processors, {platform.system()} {platform.release()}",
+        f"exactpt {'plain Python' if filters.__file__.endswith('.py') else 'compiled by mypyc'}",
         f"Python {platform.python_version()}, " + ", ".join(versions),
     ]
 

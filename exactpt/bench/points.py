@@ -128,7 +128,7 @@ def measure(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> Meas
 
 def _start(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> IncrementalTiling:
     vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
-    return IncrementalTiling(vertices, scene.start, scene.end, chains=chains, fan=fan)
+    return IncrementalTiling.begin(vertices, scene.start, scene.end, chains=chains, fan=fan)
 
 
 def _pass(tiling: IncrementalTiling) -> None:
