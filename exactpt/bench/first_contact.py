@@ -103,9 +103,9 @@ FULL: Final = Sizes(
         "grazing": (4, 16, 64),
         "thin and fast": (10, 100, 1000),
     },
-    scenes=3,
+    scenes=1,
     steps=(100, 1000, 10_000),
-    seconds=2.0,
+    seconds=1.0,
 )
 
 
