@@ -140,12 +140,14 @@ def test_stability_sees_another_answer(results, monkeypatch, alone):
 
 
 def test_scaling(results):
-    scaling.run(results.output, scaling.Sizes((4, 8), (16,), 30, 1), 0)
+    scaling.run(results.output, scaling.Sizes((4, 8), (16, 32), 30, 1), 0)
     rows = results.rows("scaling")
-    assert len(rows) == 3 * (2 + 4)
+    assert len(rows) == 3 * (2 + 2 * 4)
     crowds = [row for row in rows if row["family"] == "convex crowd"]
     assert all(int(row["most"]) <= 30 * int(row["size"]) for row in crowds)
     assert all(0 < int(row["pending"]) <= int(row["made"]) for row in crowds)
+    far = [r for r in rows if (r["family"], r["tiling"]) == ("combs, far apart", "mixed")]
+    assert [row["made"] for row in far] == ["16", "16"]
     assert len(results.rows("scaling-exponents")) == 3 * 5
 
 
