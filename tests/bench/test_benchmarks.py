@@ -41,16 +41,24 @@ def alone(monkeypatch):
         monkeypatch.setitem(sys.modules, module, None)
 
 
+@pytest.fixture
+def undrawn(monkeypatch):
+    """Plots take longer than all else."""
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+
+
 def plots(results):
     return [name for name in results.names() if name.endswith(".svg")]
 
 
 def test_wrong_answers_of_ours_are_none(results):
+    pytest.importorskip("matplotlib")
     wrong_answers.run(results.output, wrong_answers.Sizes(2, 50), 1)
     rows = [row for row in results.rows("wrong-answers") if row["method"] == "exactpt"]
     assert len(rows) == 2 * len(PLANTED)
     assert {(row["missed"], row["invented"], row["off"]) for row in rows} == {("0", "0", "0")}
     assert {row["scenes"] for row in rows} == {"2"}
+    assert plots(results) == ["wrong-answers.svg"]
 
 
 def test_a_wrong_answer_of_ours_is_an_error(results, monkeypatch, alone):
@@ -68,7 +76,7 @@ def test_methods_without_their_package_are_left_out(results, alone):
     assert skipped == ["shapely", "pymunk", "ipctk", "matplotlib"]
 
 
-def test_first_contact(results):
+def test_first_contact(results, undrawn):
     tiny = first_contact.Sizes(
         dict.fromkeys(first_contact.FAMILIES, (4,)) | {"combs": (16,), "spirals": (16,)},
         scenes=1,
@@ -108,7 +116,7 @@ def test_another_method_that_is_too_slow_is_not_asked_again(results, alone):
     assert asked == [("1", "exactpt")] * 2 + [("1", "all pairs, doubles")] + [("2", "exactpt")] * 2
 
 
-def test_arithmetic(results):
+def test_arithmetic(results, undrawn):
     arithmetic.run(results.output, arithmetic.Sizes(10, 5, (2, 100, None)), 0)
     rows = {(r["degeneracy"], r["arithmetic"]): r for r in results.rows("arithmetic")}
     assert len(rows) == 3 * len(ARITHMETICS)
@@ -124,11 +132,13 @@ def test_arithmetic(results):
 
 
 def test_stability(results):
+    pytest.importorskip("matplotlib")
     tiny = stability.Sizes(3, (-1000, 1000), (200,), (50,), (1, 3), (300,), 1)
     stability.run(results.output, tiny, 0)
     rows = results.rows("stability")
     assert len(rows) == 2 * (1 + 2 + 1 + 1 + 2 + 1)
     assert {row["same answer"] for row in rows} == {"yes"}
+    assert plots(results) == ["stability-digits.svg", "stability-degree.svg"]
 
 
 def test_stability_sees_another_answer(results, monkeypatch, alone):
@@ -138,7 +148,7 @@ def test_stability_sees_another_answer(results, monkeypatch, alone):
         stability.run(results.output, stability.Sizes(3, (10,), (), (), (), (), 1), 0)
 
 
-def test_scaling(results):
+def test_scaling(results, undrawn):
     scaling.run(results.output, scaling.Sizes((4, 8), (16, 32), 30, 1), 0)
     rows = results.rows("scaling")
     assert len(rows) == 3 * (2 + 2 * 4)
@@ -150,7 +160,7 @@ def test_scaling(results):
     assert len(results.rows("scaling-exponents")) == 3 * 5
 
 
-def test_points(results):
+def test_points(results, undrawn):
     points.run(results.output, points.Sizes((8, 16), (8,), (8,)), 0)
     rows = results.rows("points")
     assert len(rows) == 2 * 5
@@ -173,7 +183,7 @@ def test_skipping(results):
         assert 0 < int(row["paid"]) < int(row["without skipping"])
 
 
-def test_kernel(results):
+def test_kernel(results, undrawn):
     kernel.run(results.output, kernel.Sizes(3, (1, 2, 4), (32,), (5,)), 0)
     rows = results.rows("kernel")
     assert {row["program"] for row in rows} >= {"exactpt, exact", "exactpt, filter", "SymPy"}
