@@ -9,6 +9,7 @@ from pathlib import Path
 
 import click
 
+from exactpt.cli.bench import bench
 from exactpt.cli.contacts import collide, simulate
 from exactpt.cli.pictures import demo, draw
 from exactpt.cli.tilings import check, tile
@@ -26,7 +27,7 @@ def cli() -> None:
     """Exact collision detection of moving and deforming polygons in the plane."""
 
 
-for _command in (collide, simulate, tile, check, draw, demo):
+for _command in (collide, simulate, tile, check, draw, demo, bench):
     cli.add_command(_command)
 
 

@@ -53,7 +53,7 @@ def first_contact(
 def prefers_pairs(scene: Scene) -> bool:
     """Whether a search over pairs is expected to find the first contact sooner.
 
-    Measured (`benchmarks/first_contact.py`): once and from a cold start it does, up to
+    Measured (`exactpt bench first-contact`): once and from a cold start it does, up to
     three times, except where bodies deform; these near themselves are pairs in every slab.
     """
     pieces = (body.piece_after(scene.start).tracks for body in scene.bodies)
