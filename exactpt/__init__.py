@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from exactpt.collision.contact import Contact, Pair
     from exactpt.collision.detector import first_contact
     from exactpt.errors import AuditError, BudgetExceeded, ExactPTError, InputError
+    from exactpt.exchange.files import read_shapes, write_shapes
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.polynomial import Polynomial
     from exactpt.motion.body import Body
@@ -51,7 +52,9 @@ __all__ = [
     "Translation",
     "first_contact",
     "onward",
+    "read_shapes",
     "stop",
+    "write_shapes",
 ]
 
 _ROOMS: Final = {
@@ -65,6 +68,10 @@ _ROOMS: Final = {
         "BudgetExceeded",
         "ExactPTError",
         "InputError",
+    ),
+    "exactpt.exchange.files": (
+        "read_shapes",
+        "write_shapes",
     ),
     "exactpt.kernel.algebraic": ("AlgebraicNumber",),
     "exactpt.kernel.polynomial": ("Polynomial",),

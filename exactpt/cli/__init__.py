@@ -10,6 +10,7 @@ from pathlib import Path
 import click
 
 from exactpt.cli.contacts import collide, simulate
+from exactpt.cli.files import convert, generate
 from exactpt.cli.pictures import demo, draw
 from exactpt.cli.tilings import check, tile
 from exactpt.errors import AuditError, BudgetExceeded, InputError
@@ -26,7 +27,7 @@ def cli() -> None:
     """Exact collision detection of moving and deforming polygons in the plane."""
 
 
-for _command in (collide, simulate, tile, check, draw, demo):
+for _command in (demo, collide, simulate, tile, check, draw, convert, generate):
     cli.add_command(_command)
 
 
