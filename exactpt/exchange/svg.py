@@ -109,7 +109,7 @@ def _points(subpath: svgelements.Subpath, tolerance: float) -> list[Point]:
     import svgelements
 
     first = subpath[0]
-    found = [first.end if isinstance(first, svgelements.Move) else first.start]
+    found = [] if isinstance(first, svgelements.Move) else [first.start]
     for segment in subpath:
         if isinstance(segment, svgelements.Curve):
             count = _chord_count(segment, tolerance)
@@ -130,8 +130,9 @@ def _chord_count(curve: svgelements.Curve, tolerance: float) -> int:
     import svgelements
 
     if isinstance(curve, svgelements.Arc):
-        flat = max(-1.0, 1 - tolerance / max(curve.rx, curve.ry))
-        count = abs(curve.sweep) / (2 * math.acos(flat))
+        # Half the angle is acos(1 - tolerance / r), without the loss of digits.
+        ratio = min(2.0, tolerance / (max(curve.rx, curve.ry) or tolerance))
+        count = abs(curve.sweep) / (4 * math.asin(math.sqrt(ratio / 2)))
     else:
         points = [complex(p.x, p.y) for p in curve]
         bends = [
