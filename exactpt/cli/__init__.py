@@ -24,7 +24,21 @@ OK, BAD_INPUT, BROKEN, SPENT, INTERRUPTED = 0, 2, 3, 4, 130
 @click.group(context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="exactpt")
 def cli() -> None:
-    """Exact collision detection of moving and deforming polygons in the plane."""
+    """Exact collision detection of moving and deforming polygons in the plane.
+
+    \b
+    Examples:
+      exactpt demo
+      exactpt generate stars -o scene.json
+      exactpt collide scene.json
+      exactpt draw scene.json -o scene.html
+
+    Commands, options and files complete themselves with the tab key after (for bash; zsh and
+    fish likewise):
+
+    \b
+      eval "$(_EXACTPT_COMPLETE=bash_source exactpt)"
+    """
 
 
 for _command in (demo, collide, simulate, tile, check, draw, convert, generate):

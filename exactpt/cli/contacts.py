@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import click
 
 from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load
-from exactpt.cli.words import answer_in_words, stats_in_words
+from exactpt.cli.progress import QUIET, progress
+from exactpt.cli.words import answer_in_words, event_in_words, stats_in_words
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.numbers import QQ
 
@@ -86,12 +87,16 @@ def collide(
 @SCENE
 @click.option("--events", type=click.Path(path_type=Path), help="Write an event a line (JSON).")
 @click.option("--until", type=RATIONAL, help="Stop at this time.")
+@click.option("-v", "--verbose", is_flag=True, help="Print an event a line, in words.")
+@QUIET
 @TILING
 @budget
 def simulate(
     scene: Path,
     events: Path | None,
     until: QQ | None,
+    verbose: bool,
+    quiet: bool,
     tiling: str,
     max_events: int | None,
     max_seconds: float | None,
@@ -102,6 +107,7 @@ def simulate(
     Examples:
       exactpt simulate scene.json
       exactpt simulate scene.json --events events.jsonl --until 5
+      exactpt simulate scene.json --verbose --max-events 20
     """
     from exactpt.scene.format import write_atomically
     from exactpt.simulation.simulation import Simulation
@@ -110,14 +116,20 @@ def simulate(
     simulation = Simulation(given, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
     lines: list[str] = []
     try:
-        for event in simulation.run():
-            if events is not None:
-                lines.append(json.dumps(event.to_json()))  # noqa: PERF401 - kept if it stops early
+        with progress(given, "simulating", quiet=quiet or verbose) as reached:
+            for event in simulation.run():
+                if events is not None:
+                    lines.append(json.dumps(event.to_json()))
+                if verbose:
+                    click.echo(event_in_words(event))
+                if reached is not None:
+                    reached(event.time)
     finally:
         if events is not None and not isinstance(sys.exception(), KeyboardInterrupt):
             write_atomically(events, "".join(f"{line}\n" for line in lines))
-    click.echo("\n".join(answer_in_words(given, simulation.contact)))
-    click.echo("\n".join(stats_in_words(simulation.stats)))
+    if not quiet:
+        click.echo("\n".join(answer_in_words(given, simulation.contact)))
+        click.echo("\n".join(stats_in_words(simulation.stats)))
     return 0
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import click
 
 from exactpt.cli.options import RATIONAL, output
+from exactpt.cli.progress import QUIET
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 
@@ -50,6 +51,7 @@ _FEW = 3
     help="What to do with polygons that have holes.",
 )
 @click.option("--skip-invalid", is_flag=True, help="Leave out what cannot be a body, and say so.")
+@QUIET
 def convert(
     source: Path,
     target: Path,
@@ -58,6 +60,7 @@ def convert(
     tolerance: float,
     holes: Literal["refuse", "fill"],
     skip_invalid: bool,
+    quiet: bool,
 ) -> int:
     """Turn shapes into a scene at rest, or a scene at a time into shapes.
 
@@ -79,15 +82,19 @@ def convert(
     """
     from exactpt.exchange.files import read_shapes, write_shapes
 
+    def say(line: str) -> None:
+        if not quiet:
+            click.echo(f"left out: {line}", err=True)
+
     scene = read_shapes(
         source,
         time=time,
         tolerance=tolerance,
         holes=holes,
-        skipped=(lambda line: click.echo(f"left out: {line}", err=True)) if skip_invalid else None,
+        skipped=say if skip_invalid else None,
     )
     write_shapes(scene, target, at)
-    if target.suffix.lower() == ".json":
+    if target.suffix.lower() == ".json" and not quiet:
         click.echo(f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices: {target}")
         _say_what_touches(scene)
     return 0
