@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 from exactpt.errors import InputError
 from exactpt.exchange import geojson, svg, wkt
 from exactpt.exchange.shapes import Holes, Shape, scene_of, shapes_at
+from exactpt.kernel.numbers import rational
 from exactpt.scene.format import loads, save, write_atomically
 from exactpt.scene.json_values import parse_json
 
 if TYPE_CHECKING:
-    from exactpt.kernel.numbers import QQ, Rational
+    from exactpt.kernel.numbers import Rational
     from exactpt.scene.scene import Scene
 
 __all__ = ["ENDINGS", "read_shapes", "write_shapes"]
@@ -95,7 +96,7 @@ def _shapes_of(kind: Format, text: str, tolerance: float) -> Iterator[Shape]:
     return wkt.shapes_of(text) if kind == "wkt" else geojson.shapes_of(text)
 
 
-def write_shapes(scene: Scene, path: str | Path, at: QQ | None = None) -> None:
+def write_shapes(scene: Scene, path: str | Path, at: Rational | None = None) -> None:
     """Write the bodies at a time, as points, lines and polygons; a scene file as it is.
 
     Exact positions are rounded to the nearest doubles. That bodies touch or overlap then is
@@ -116,6 +117,6 @@ def write_shapes(scene: Scene, path: str | Path, at: QQ | None = None) -> None:
             raise InputError(f"{file}: a scene has all times: leave the time away")
         save(scene, file)
         return
-    shapes = shapes_at(scene, scene.start if at is None else at)
+    shapes = shapes_at(scene, scene.start if at is None else rational(at))
     writers = {"geojson": geojson.geojson_of, "wkt": wkt.wkt_of, "svg": svg.svg_of}
     write_atomically(file, writers[kind](shapes))
