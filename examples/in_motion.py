@@ -1,7 +1,5 @@
 """Shapes from a file, set in motion: a scene to run and to draw.
 
-    python examples/in_motion.py examples/shapes/africa.geojson --shrink 0.15 \\
-        --leave-out Lesotho -o africa.json
     python examples/in_motion.py examples/shapes/pond.svg --how swirl -o pond.json
     exactpt draw pond.json -o pond.html
 

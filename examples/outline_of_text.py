@@ -1,8 +1,8 @@
 """The outline of a text in a font, as an SVG drawing with a path for each letter.
 
-    pip install fonttools
-    python examples/outline_of_text.py exactpt -o letters.svg \
-        --font /usr/share/fonts/truetype/dejavu/DejaVuSerif.ttf
+    python examples/outline_of_text.py exactpt --font DejaVuSerif.ttf -o letters.svg
+
+It needs: pip install fonttools
 """
 
 from __future__ import annotations

@@ -1,46 +1,27 @@
 """What the documents tell a reader to type works, and what they point to is there."""
 
 import re
-import shlex
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from exactpt.cli import main
+import exactpt
+from docs.draw_gallery import blocks, run
 
 ROOT = Path(__file__).parents[2]
-GALLERY = (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
-def run(line):
-    command, *arguments = shlex.split(line)
-    if command == "python":
-        done = subprocess.run(
-            [sys.executable, *arguments], env={"PYTHONPATH": str(ROOT)}, check=False
-        )
-        assert done.returncode == 0, line
-        return
-    with pytest.raises(SystemExit) as left:
-        main(arguments)
-    assert left.value.code == 0, line
-
-
-@pytest.mark.parametrize("block", re.findall(r"```sh\n(.*?)```", GALLERY, re.DOTALL))
-def test_a_scene_of_the_gallery(block, tmp_path, monkeypatch):
+@pytest.mark.parametrize("block", blocks())
+def test_a_scene_of_the_gallery(block, tmp_path):
     """The commands run; what they draw of a generated scene is the picture in the gallery.
 
     (What libraries make of the shapes in files may differ in the last digit.)
     """
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    picture = run(block, tmp_path)
 
-    for line in block.splitlines():
-        run(line)
-
-    (picture,) = tmp_path.glob("*.svg")
     drawn = ROOT / "docs" / "gallery" / picture.name
     same = picture.read_text(encoding="utf-8") == drawn.read_text(encoding="utf-8")
     assert same or "exactpt generate" not in block
@@ -67,3 +48,13 @@ def test_the_rooms_of_the_readme_are_the_rooms():
     named = set(re.findall(r"^\| `exactpt/(\w+)` \|", README, re.MULTILINE))
 
     assert named == rooms
+
+
+def test_the_api_pages_have_every_public_name(tmp_path):
+    """What `make docs` runs."""
+    command = "-W ignore -m pdoc --docformat google --output-directory".split()
+    subprocess.run([sys.executable, *command, tmp_path, "exactpt"], cwd=ROOT, check=True)
+
+    page = (tmp_path / "exactpt.html").read_text(encoding="utf-8")
+
+    assert [name for name in exactpt.__all__ if f'id="{name}"' not in page] == []
