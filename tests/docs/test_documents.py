@@ -52,7 +52,7 @@ def test_the_rooms_of_the_readme_are_the_rooms():
 
 def test_the_api_pages_have_every_public_name(tmp_path):
     """What `make docs` runs."""
-    command = "-W ignore -m pdoc --docformat google --output-directory".split()
+    command = ["-W", "ignore", "-m", "pdoc", "--docformat", "google", "--output-directory"]
     subprocess.run([sys.executable, *command, tmp_path, "exactpt"], cwd=ROOT, check=True)
 
     page = (tmp_path / "exactpt.html").read_text(encoding="utf-8")
