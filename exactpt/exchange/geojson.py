@@ -39,6 +39,11 @@ def shapes_of(text: str) -> Iterator[Shape]:
     A feature is named by its property ``name`` or ``id`` (in any case), else by its own
     ``id``, else by its number.
 
+    >>> from exactpt.exchange.shapes import scene_of
+    >>> text = '{"type": "Polygon", "coordinates": [[[0, 0], [0.1, 0], [0, 2], [0, 0]]]}'
+    >>> scene_of(shapes_of(text)).bodies[0].at(0)
+    [(mpq(0,1), mpq(0,1)), (mpq(1,10), mpq(0,1)), (mpq(0,1), mpq(2,1))]
+
     Raises:
         InputError: one line that names the feature and what is wrong with it.
     """
