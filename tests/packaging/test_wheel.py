@@ -18,25 +18,25 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
-    """The wheel and the sdist of this checkout, made of what a distribution is made of."""
+    """The wheel and the sdist of this checkout, and the files of the package."""
     source = tmp_path_factory.mktemp("source")
     for name in ("pyproject.toml", "setup.py", "README.md", "LICENSE"):
         shutil.copy(ROOT / name, source)
     leave = shutil.ignore_patterns("__pycache__", "*.so")
     shutil.copytree(ROOT / "exactpt", source / "exactpt", ignore=leave)
+    files = {
+        path.relative_to(source).as_posix()
+        for path in (source / "exactpt").rglob("*")
+        if path.is_file()
+    }
     subprocess.run([sys.executable, "-m", "build", "-o", source / "dist", source], check=True)
     (wheel,) = source.glob("dist/*.whl")
     (sdist,) = source.glob("dist/*.tar.gz")
-    return wheel, sdist
+    return wheel, sdist, files
 
 
 def test_nothing_is_left_out(built):
-    wheel, sdist = built
-    files = {
-        path.relative_to(ROOT).as_posix()
-        for path in (ROOT / "exactpt").rglob("*")
-        if path.is_file() and path.suffix not in {".pyc", ".so"}
-    }
+    wheel, sdist, files = built
 
     with zipfile.ZipFile(wheel) as archive:
         inside = set(archive.namelist())
