@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Final
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact, Pair
     from exactpt.collision.detector import first_contact
+    from exactpt.collision.nearing import first_within
     from exactpt.errors import AuditError, BudgetExceeded, ExactPTError, InputError
     from exactpt.exchange.files import read_shapes, write_shapes
     from exactpt.kernel.algebraic import AlgebraicNumber
@@ -51,6 +52,7 @@ __all__ = [
     "Simulation",
     "Translation",
     "first_contact",
+    "first_within",
     "onward",
     "read_shapes",
     "stop",
@@ -63,6 +65,7 @@ _ROOMS: Final = {
         "Pair",
     ),
     "exactpt.collision.detector": ("first_contact",),
+    "exactpt.collision.nearing": ("first_within",),
     "exactpt.errors": (
         "AuditError",
         "BudgetExceeded",
