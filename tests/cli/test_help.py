@@ -23,9 +23,10 @@ def examples(command):
     return [re.split(r" (?:&&|\|\||#)", line)[0] for line in lines]
 
 
+MARKS = {"check": pytest.mark.cgal, "bench": pytest.mark.slow}
 COMMANDS = {"": cli, **cli.commands}
 EXAMPLES = [
-    pytest.param(line, marks=pytest.mark.cgal if name == "check" else [])
+    pytest.param(line, marks=MARKS.get(name, []))
     for name, command in COMMANDS.items()
     for line in examples(command)
 ]
