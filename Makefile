@@ -56,6 +56,7 @@ lint: $(VENV)/developing ## formatting, rules, types, imports
 
 pictures: $(VENV)/developing ## draw the pictures of the README and of docs/gallery.md anew
 	$(BIN)/exactpt draw exactpt/data/demo.json --at contact -o docs/first-contact.svg
+	$(BIN)/python docs/draw_demo.py
 	$(BIN)/python docs/draw_gallery.py
 
 docs: $(VENV)/developing ## the API pages, from the docstrings, in docs/api

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import exactpt
+from docs.draw_demo import drawn
 from docs.draw_gallery import blocks, run
 
 ROOT = Path(__file__).parents[2]
@@ -25,6 +26,10 @@ def test_a_scene_of_the_gallery(block, tmp_path):
     drawn = ROOT / "docs" / "gallery" / picture.name
     same = picture.read_text(encoding="utf-8") == drawn.read_text(encoding="utf-8")
     assert same or "exactpt generate" not in block
+
+
+def test_the_moving_picture_is_that_of_the_demo():
+    assert (ROOT / "docs" / "demo.svg").read_text(encoding="utf-8") == drawn()
 
 
 def test_the_code_of_the_readme_runs(capsys):
