@@ -32,7 +32,9 @@ _NAMES = "\n".join(f"      {name:14} {shows}" for name, shows in BENCHMARKS.item
 @click.argument("names", nargs=-1, type=click.Choice(list(BENCHMARKS)), metavar="[NAME]...")
 @output("The folder for tables and plots.", default=Path("bench"))
 @click.option("--quick", is_flag=True, help="Small sizes: about a minute in all.")
-@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True)
+@click.option(
+    "--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of the scenes."
+)
 def bench(names: tuple[str, ...], output: Path, quick: bool, seed: int) -> int:
     """Run benchmarks."""
     from exactpt.bench.catalogue import run
