@@ -3,24 +3,38 @@
 The polynomial is square-free, so it changes its sign at the root: a rational lies below
 the root if and only if the polynomial has there the sign that it has at the low end.
 
-Source: S. Basu, R. Pollack, M.-F. Roy, *Algorithms in Real Algebraic Geometry*,
-2nd ed., section 10.4 (real roots by isolating intervals).
+Sources: S. Basu, R. Pollack, M.-F. Roy, *Algorithms in Real Algebraic Geometry*,
+2nd ed., section 10.4 (real roots by isolating intervals); J. Abbott, *Quadratic interval
+refinement for real roots*, ACM Communications in Computer Algebra 48 (2014).
 """
 
 from __future__ import annotations
 
-from typing import Self
+from typing import Final, Self
 
 from exactpt.kernel.integer_polynomial import (
     IntPoly,
     derivative,
+    evaluate,
     negate,
     primitive,
     sign_at,
 )
-from exactpt.kernel.numbers import QQ, ZZ, Rational, floor, is_square, isqrt, rational
+from exactpt.kernel.numbers import (
+    QQ,
+    ZZ,
+    Rational,
+    floor,
+    is_square,
+    isqrt,
+    power_of_two,
+    rational,
+)
 
 __all__ = ["IsolatedRoot"]
+
+FIRST_STEPS: Final = 6
+"""So many steps halve the interval: most numbers are asked for no more."""
 
 
 class IsolatedRoot:
@@ -37,13 +51,14 @@ class IsolatedRoot:
             known to be rational. Where ``low < high``, neither end is a root.
     """
 
-    __slots__ = ("_below", "high", "low", "polynomial")
+    __slots__ = ("_below", "_bits", "high", "low", "polynomial")
 
     def __init__(self, value: Rational) -> None:
         self.polynomial: IntPoly
         self.low: QQ
         self.high: QQ
         self._below: int  # the sign of the polynomial at low
+        self._bits: int  # how many the next step may gain; below 1: one
         self._become(rational(value))
 
     @classmethod
@@ -69,6 +84,7 @@ class IsolatedRoot:
             self._become(QQ(-polynomial[0], polynomial[1]))
             return self
         self.polynomial, self.low, self.high = polynomial, low, high
+        self._bits = -FIRST_STEPS
         self._below = sign_at(polynomial, low)
         if sign_at(polynomial, high) == 0:
             self._become(high)
@@ -94,7 +110,7 @@ class IsolatedRoot:
     def _become(self, value: QQ) -> None:
         self.polynomial = (-ZZ(value.numerator), ZZ(value.denominator))
         self.low = self.high = value
-        self._below = 0
+        self._below = self._bits = 0
 
     @property
     def is_rational(self) -> bool:
@@ -102,7 +118,7 @@ class IsolatedRoot:
         return self.low == self.high
 
     def refine(self) -> None:
-        """Shrink the interval: to about the square of its width for degree 2, else to a half.
+        """Shrink the interval: to a half at least, near the root to the square of its width.
 
         (An interval around 0 is cut there: so 0 is found, and tiny numbers know their sign.)
         """
@@ -111,7 +127,29 @@ class IsolatedRoot:
         if len(self.polynomial) == 3:
             self._refine_quadratic()
             return
+        if self._bits > 1 and not self.low < 0 < self.high:
+            self._refine_by_secant()
+            return
         self.compare_rational(QQ(0) if self.low < 0 < self.high else (self.low + self.high) / 2)
+        self._bits = self._bits + 1 if self._bits < 1 else 4
+
+    def _refine_by_secant(self) -> None:
+        """Of 2^bits cells of equal width, try the one that the secant meets (Abbott's QIR).
+
+        Where the polynomial is nearly linear the root is in that cell, and the next step
+        tries the square of the number of cells; else the root of it, and the interval is
+        halved.
+        """
+        low, width = self.low, self.high - self.low
+        at_low, at_high = (abs(evaluate(self.polynomial, t)) for t in (low, self.high))
+        cell = width * power_of_two(-self._bits)
+        left = low + floor(at_low / (at_low + at_high) / power_of_two(-self._bits)) * cell
+        if self.compare_rational(left) > 0 > self.compare_rational(left + cell):
+            self._bits *= 2
+        else:
+            self._bits //= 2
+            if self.high - self.low > width / 2:
+                self.compare_rational((self.low + self.high) / 2)
 
     def _refine_quadratic(self) -> None:
         # (-c1 ± sqrt(d)) / 2 c2, the square root to as many bits as double the precision.

@@ -504,6 +504,40 @@ def test_refining_a_quadratic_doubles_the_digits():
     assert x.high - x.low < QQ(1, 2**2000)
 
 
+@pytest.mark.parametrize(
+    "polynomial, low, high",
+    [
+        ([-2, 0, 0, 1], 1, 2),
+        ([-1, *[0] * 11, 2**500], 0, 1),
+        # Two roots 2^-100 apart, and nearly flat there.
+        ([2**200 - 1, -(2**201), 2**200, -1], 1, 2),
+    ],
+)
+def test_refining_doubles_the_digits_in_the_end(polynomial, low, high):
+    x = AlgebraicNumber.root(as_int_poly(polynomial), QQ(low), QQ(high))
+    steps = 0
+    while x.high - x.low > QQ(1, 2**10_000):
+        x.refine()
+        steps += 1
+
+    assert steps < 400
+    assert sign_at(x.polynomial, x.low) * sign_at(x.polynomial, x.high) < 0
+
+
+@given(a=algebraics())
+def test_every_step_halves_the_interval(a):
+    x, root = a
+    assume(len(x.polynomial) > 3)
+    for _ in range(12):
+        before = x.high - x.low
+        cuts_at_zero = x.low < 0 < x.high
+
+        x.refine()
+
+        assert cuts_at_zero or x.high - x.low <= before / 2
+    assert_invariant(x, root)
+
+
 def test_bug_sympy_cannot_compare_a_root_with_a_near_rational():
     """The root was sought by its interval; SymPy gives up where that is 2^-400 wide."""
     f = as_int_poly([-(2**41), 2**40 + 1, 2**40])
