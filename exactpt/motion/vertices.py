@@ -7,7 +7,8 @@ its edges. So that every ring turns around an inside, thin bodies get an infinit
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from itertools import accumulate
 from typing import TYPE_CHECKING, Final, final
 
 from exactpt.geometry.polygon import signed_area2
@@ -32,7 +33,7 @@ class Vertex:
 
     Attributes:
         id: its position in `Vertices.all`.
-        body: the position of its body in the scene.
+        body: the position of its body in the scene; -1 if it is unused.
         index: the vertex of the scene that it is (the copies of a thin body share it).
         track: its path until the body's next breakpoint.
         image: the track in doubles.
@@ -87,7 +88,7 @@ class Vertices:
     With ``plain_points`` a point is a single vertex, without an inside or an offset.
 
     Attributes:
-        all: the vertices, by id; those of a body are consecutive.
+        all: the vertices, by id. A body that is removed leaves its ids to later ones.
         bodies: in the order of the scene.
         frame: in which the images are.
     """
@@ -101,6 +102,7 @@ class Vertices:
         self._end = end
         self.all: list[Vertex] = []
         self.bodies: list[MovingBody] = []
+        self._free: list[int] = []
         for i, body in enumerate(bodies):
             plain = plain_points and body.size == 1
             self._add(body, [0] if plain else _ring_indices(body, positions[i]), start)
@@ -110,8 +112,9 @@ class Vertices:
     def restored(
         cls,
         bodies: Sequence[Body],
-        rings: Sequence[Sequence[int]],
+        rings: Sequence[Mapping[int, int]],
         since: Sequence[QQ],
+        free: Sequence[int],
         frame: Frame,
         end: QQ,
     ) -> Vertices:
@@ -119,28 +122,67 @@ class Vertices:
 
         Args:
             bodies: with their present plans.
-            rings: of each body, which vertices of the scene its ring consists of.
+            rings: of each body, the ids of its ring and which vertex of the scene each is.
             since: when each body entered its piece.
+            free: the ids that removed bodies have left, the one to be used again first last.
             frame: of the run.
             end: of the time span.
         """
         self = cls.__new__(cls)
-        self.frame, self._end, self.all, self.bodies = frame, end, [], []
+        self.frame, self._end, self.bodies = frame, end, []
+        self.all = [_nobody(v) for v in range(sum(map(len, rings)) + len(free))]
         for body, ring, t in zip(bodies, rings, since, strict=True):
-            self._add(body, ring, t)
+            self._free = list(ring)[::-1]
+            self._add(body, list(ring.values()), t)
+        self._free = list(free)
         return self
+
+    def add(self, body: Body, t: QQ) -> int:
+        """Add a body as the last one, at a rational time; its number."""
+        i = len(self.bodies)
+        self._add(body, _ring_indices(body, body.at(t)), t)
+        self.bodies[i].is_tiled = self._may_pinch(i, t, self._end)
+        return i
+
+    def remove(self, i: int) -> None:
+        """Remove a body; the last one gets its number."""
+        for v in reversed(self.bodies[i].ring):
+            self.all[v] = _nobody(v)
+            self._free.append(v)
+        last = self.bodies.pop()
+        if i < len(self.bodies):
+            self.bodies[i] = last
+            for v in last.ring:
+                self.all[v].body = i
 
     def _add(self, body: Body, indices: Sequence[int], t: QQ) -> None:
         i, moving = len(self.bodies), MovingBody(body)
         self.bodies.append(moving)
         for index in indices:
-            vertex = Vertex(len(self.all), i, index, _NO_TRACK, _NO_IMAGE)
+            if not self._free:
+                self._free.append(len(self.all))
+                self.all.append(_nobody(len(self.all)))
+            vertex = self.all[self._free.pop()]
+            vertex.body, vertex.index = i, index
             moving.ring.append(vertex.id)
-            self.all.append(vertex)
         for behind, here in zip(moving.ring, [*moving.ring[1:], moving.ring[0]], strict=True):
             self.all[behind].ahead = here
             self.all[here].behind = behind
         self.enter_piece(i, t)
+
+    @property
+    def free(self) -> list[int]:
+        """The ids that removed bodies have left, the one to be used again first at the end."""
+        return self._free
+
+    def ids(self) -> list[int]:
+        """The ids in use, body by body."""
+        return [v for moving in self.bodies for v in moving.ring]
+
+    def nodes(self) -> list[int]:
+        """Of each id, its vertex among those of the scene, counted through; -1 if unused."""
+        first = list(accumulate((moving.body.size for moving in self.bodies), initial=0))
+        return [first[v.body] + v.index if v.body >= 0 else -1 for v in self.all]
 
     def _may_pinch(self, i: int, start: QQ, end: QQ) -> bool:
         """Whether the inside of a body must be tiled from a time on."""
@@ -204,6 +246,11 @@ class Vertices:
         """The name in event logs: ``"body:vertex"``."""
         vertex = self.all[vertex_id]
         return f"{self.bodies[vertex.body].body.name}:{vertex.index}"
+
+
+def _nobody(vertex_id: int) -> Vertex:
+    """A vertex that no body has."""
+    return Vertex(vertex_id, -1, -1, _NO_TRACK, _NO_IMAGE)
 
 
 def _deforms(images: Sequence[Image]) -> bool:

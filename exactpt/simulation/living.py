@@ -19,6 +19,8 @@ from exactpt.simulation.plans import planned
 from exactpt.tiling.events import TilingEvent
 from exactpt.tiling.greedy.greedy import GreedyTiling
 from exactpt.tiling.kinetic import KineticTiling
+from exactpt.tiling.populated import PopulatedTiling
+from exactpt.tiling.site import find_site
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["LivingScene"]
@@ -79,10 +81,18 @@ class LivingScene:
             raise InputError(f"no body {name!r}")
         return self._number[name]
 
-    def named(self, event: TilingEvent) -> Event:
-        """An event of the tiling, in terms of the scene."""
-        name = self.kinetic.vertices.name
+    def named(self, event: TilingEvent, gone: Mapping[int, str] | None = None) -> Event:
+        """An event of the tiling, in terms of the scene.
+
+        Args:
+            event: the event.
+            gone: the names of vertices that are no more.
+        """
         time = event.time.exact or self.kinetic.certifier.resolve(event.time)
+
+        def name(v: int) -> str:
+            return gone[v] if gone and v in gone else self.kinetic.vertices.name(v)
+
         return Event(
             time,
             event.kind,
@@ -127,18 +137,40 @@ class LivingScene:
     def add(self, body: Body) -> list[Event]:
         """See `Simulation.add`; what changes at once."""
         t = self.rational_now()
-        bodies = [*self._bodies, body]
-        scene = Scene(bodies, (t, self._end.end))  # names and shapes are checked here
-        for i, j in initial_touches(scene)[1]:
-            names = bodies[i].name, bodies[j].name
-            raise InputError(f"body {names[1]!r} touches body {names[0]!r} at t = {t}")
-        return self._restart(bodies, t, 1)
+        if body.name in self._number:
+            raise InputError(f"body {body.name!r}: the name is taken by another body")
+        alone = Scene([body], (t, self._end.end))  # its shape is checked here
+        kinetic = self.kinetic
+        if not isinstance(kinetic, PopulatedTiling) or not kinetic.takes(body, t):
+            bodies = [*self._bodies, body]
+            for i, j in initial_touches(alone.going_on(bodies, t))[1]:
+                names = bodies[i].name, bodies[j].name
+                raise InputError(f"body {names[1]!r} touches body {names[0]!r} at t = {t}")
+            return self._restart(bodies, t, 1)
+        site = find_site(kinetic.vertices, kinetic.mesh, body, t)
+        events = kinetic.add_body(body, t, site)
+        self._number[body.name] = len(self._bodies)
+        self._bodies.append(body)
+        self._since, self._scene = t, None
+        self.changes += 1
+        return [self.named(event) for event in events]
 
     def remove(self, name: str) -> list[Event]:
         """See `Simulation.remove`; what changes at once."""
         t = self.rational_now()
-        i = self._index(name)
-        return self._restart([*self._bodies[:i], *self._bodies[i + 1 :]], t, 1)
+        i, kinetic = self._index(name), self.kinetic
+        last = self._bodies.pop()
+        if i < len(self._bodies):
+            self._bodies[i] = last
+        self._number[last.name] = i
+        del self._number[name]
+        if not isinstance(kinetic, PopulatedTiling) or not kinetic.can_change_bodies:
+            return self._restart(self._bodies, t, 1)
+        gone = {v: kinetic.vertices.name(v) for v in kinetic.vertices.bodies[i].ring}
+        events = kinetic.remove_body(i, t)
+        self._since, self._scene = t, None
+        self.changes += 1
+        return [self.named(event, gone) for event in events]
 
     def outlive_contacts(self) -> KineticTiling:
         """The tiling, one that can go back from a contact; for "auto" of points it is changed.

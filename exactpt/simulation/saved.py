@@ -65,11 +65,12 @@ def tiling_to_json(kinetic: Tiling) -> Data:
         "bodies": [
             {
                 "since": str(moving.since),
-                "ring": [vertices.all[v].index for v in moving.ring],
+                "ring": [[v, vertices.all[v].index] for v in moving.ring],
                 "tiled": moving.is_tiled,
             }
             for moving in vertices.bodies
         ],
+        "free": list(vertices.free),
         "frame": _frame_to_json(vertices.frame),
         "counts": [certifier.made, certifier.skipped, certifier.zeros],
         "stats": {
@@ -96,8 +97,9 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], *, exact_only: bool) ->
     """The tiling with that state, of bodies with their plans."""
     vertices = Vertices.restored(
         bodies,
-        [body["ring"] for body in data["bodies"]],
+        [dict(body["ring"]) for body in data["bodies"]],
         [parse_rational(body["since"]) for body in data["bodies"]],
+        data["free"],
         _frame_from_json(data["frame"]),
         parse_rational(data["end"]),
     )

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cmp_to_key
-from typing import Final, final
+from typing import TYPE_CHECKING, Final, final
 
 from exactpt.geometry.predicates import Point, side
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -20,10 +20,22 @@ from exactpt.kernel.numbers import QQ, sign
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.exact import cross, orientation, x_order_terms
 
-__all__ = ["Instant"]
+if TYPE_CHECKING:
+    from exactpt.tiling.greedy.shadow import Predicates
+
+__all__ = ["Instant", "sorted_by_x"]
 
 U: Final = 2.0**-53
 TINY: Final = 1e-290
+
+
+def sorted_by_x(predicates: Predicates, ids: Iterable[int]) -> list[int]:
+    """Vertices from left to right."""
+
+    def order(a: int, b: int) -> int:
+        return 0 if a == b else -1 if predicates.left_of(a, b) else 1
+
+    return sorted(ids, key=cmp_to_key(order))
 
 
 @final
@@ -124,14 +136,6 @@ class Instant:
             return now
         v = self.vertices.all
         return self._number.sign_after(cross(v[a].track, v[b].track, v[c].track, v[d].track))
-
-    def sorted_by_x(self, ids: list[int]) -> list[int]:
-        """Vertices from left to right."""
-
-        def order(a: int, b: int) -> int:
-            return 0 if a == b else -1 if self.left_of(a, b) else 1
-
-        return sorted(ids, key=cmp_to_key(order))
 
     def middle(self, a: int, b: int, c: int) -> int:
         """Of three collinear vertices, the one between the others."""
