@@ -18,7 +18,6 @@ from exactpt.simulation.event import Event
 from exactpt.simulation.plans import planned
 from exactpt.tiling.events import TilingEvent
 from exactpt.tiling.greedy.greedy import GreedyTiling
-from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.populated import PopulatedTiling
 from exactpt.tiling.site import find_site
 from exactpt.tiling.tiling import Tiling
@@ -123,10 +122,8 @@ class LivingScene:
         bodies = self._bodies[:]
         for i, body in new.items():
             bodies[i] = body
-        convex = isinstance(self.kinetic, GreedyTiling)
-        if not isinstance(self.kinetic, KineticTiling) or (
-            convex
-            and any(Vertices([body], t, self._end.end).bodies[0].is_tiled for body in new.values())
+        if isinstance(self.kinetic, GreedyTiling) and any(
+            Vertices([body], t, self._end.end).bodies[0].is_tiled for body in new.values()
         ):
             return self._restart(bodies, t, len(new))
         events = self.kinetic.change_plans(new, t)
@@ -171,23 +168,6 @@ class LivingScene:
         self._since, self._scene = t, None
         self.changes += 1
         return [self.named(event, gone) for event in events]
-
-    def outlive_contacts(self) -> KineticTiling:
-        """The tiling, one that can go back from a contact; for "auto" of points it is changed.
-
-        Raises:
-            InputError: if another one was asked for.
-        """
-        if not isinstance(self.kinetic, KineticTiling):
-            if self.asked != "auto":
-                raise InputError(
-                    f'the tiling "{self.asked}" ends at the first contact; with on_contact use '
-                    'another one, such as "lazy"'
-                )
-            self.asked = "lazy"
-            self._restart(self._bodies, self.rational_now(), 0)
-            return self.outlive_contacts()
-        return self.kinetic
 
     def _restart(self, bodies: Sequence[Body], t: QQ, changes: int) -> list[Event]:
         """Build the tiling anew, with these bodies; one event tells the difference."""

@@ -126,8 +126,6 @@ class Running(Questions):
         grid = self._margin if margin is None else rational(margin)
         if grid <= 0:
             raise InputError(f"the margin before contacts is not positive: {grid}")
-        if on_contact is not None and self.contact is None:
-            self._alive().outlive_contacts()
         while True:
             if self.contact is None:
                 self._check_budget()
@@ -193,7 +191,7 @@ class Running(Questions):
     ) -> None:
         """Call back just before a contact; without new plans, let it happen."""
         living = self._alive()
-        kinetic = living.outlive_contacts()
+        kinetic = living.kinetic
         kinetic.retreat(grid)
         self.contacts += 1
         self._pending.append(Event(contact.time, "contact"))

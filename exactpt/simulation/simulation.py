@@ -75,9 +75,8 @@ class Simulation(Running):
         """Let bodies go on by other motions from now on; now must be rational.
 
         The work is for the certificates of these bodies, not for the scene. (Another kind of
-        tiling is built, once, if it is that of convex bodies and one need not stay convex;
-        that of points alone is built anew each time.) The events that this causes come
-        first in the next `run`.
+        tiling is built, once, if it is that of convex bodies and one need not stay convex.)
+        The events that this causes come first in the next `run`.
 
         Args:
             plans: by name, a motion of the body's shape; or a body of that name with as
@@ -90,7 +89,11 @@ class Simulation(Running):
         self._pending.extend(self._changeable().set_motions(plans))
 
     def add(self, body: Body) -> None:
-        """Add a body now, which must be rational. The tiling is built anew: O(n log n).
+        """Add a body now, which must be rational, as the last one.
+
+        The work is for the faces of the tiling that it meets, after a walk to them. The
+        mixed tiling and that of points are built anew, O(n log n); so is, once, that of
+        convex bodies when one comes that need not stay convex.
 
         Raises:
             InputError: if its name is taken, it is not simple, it touches another body,
@@ -99,7 +102,10 @@ class Simulation(Running):
         self._pending.extend(self._changeable().add(body))
 
     def remove(self, body: str) -> None:
-        """Remove a body now, which must be rational. The tiling is built anew: O(n log n).
+        """Remove a body now, which must be rational; the last one takes its place in the scene.
+
+        The work is for the faces of the tiling that it touches, and for the convex hull if
+        it is there. The mixed tiling and that of points are built anew, O(n log n).
 
         Raises:
             InputError: if there is no such body, now is not rational or is the end.

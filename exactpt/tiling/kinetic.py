@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Final, Self
 
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.kernel.numbers import QQ, floor, power_of_two
+from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.angles import ANGLE, KINDS, MOTION, SHRINK
@@ -75,10 +75,6 @@ class KineticTiling(RepairedTiling):
         self._recall()
         return self
 
-    def _set_up(self, mesh: Mesh, flat: Iterable[int]) -> None:
-        super()._set_up(mesh, flat)
-        self._undo: tuple[EventTime, list[tuple[int, EventTime]]] | None = None
-
     def _recall(self) -> None:
         """Find again what is known between two events and follows from the mesh."""
 
@@ -104,44 +100,8 @@ class KineticTiling(RepairedTiling):
         exact = AlgebraicNumber(moving.until)
         self.queue.schedule(slot, EventTime(low, high, -1, -1, -1, exact))
 
-    def retreat(self, grid: QQ) -> QQ:
-        """After `ContactFound`: go back to a rational time just before the contact.
-
-        Args:
-            grid: the time is the last multiple of it before the contact; or, if an event
-                is in between, a dyadic rational after that.
-
-        Returns:
-            The time. The tiling is the one that leads up to the contact.
-        """
-        if self._undo is None:
-            raise AuditError("there is no contact to go back from")
-        (time_before, entries), contact = self._undo, self.now
-        before = time_before.exact or self.certifier.resolve(time_before)
-        self._undo = None
-        for slot, time in entries:
-            self.queue.schedule(slot, time)
-        contact.refine_to(grid)
-        m = floor(contact.high / grid)
-        while contact.compare_rational(m * grid) <= 0:
-            m -= 1
-        t = m * grid
-        if before.compare_rational(t) >= 0:
-            t = rational_between(before, contact)
-        self._move_to(t)
-        return t
-
     def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent]:
-        """Let bodies go on by other plans; work for their certificates alone.
-
-        Args:
-            plans: by the number of the body, what it is from now on. Its positions now are
-                those that it has.
-            t: now.
-
-        Returns:
-            What changes at once.
-        """
+        """See `Tiling.change_plans`."""
         self._move_to(t)
         self._due.clear()
         self._touched.clear()

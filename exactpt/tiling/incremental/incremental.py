@@ -14,9 +14,9 @@ swept anew, with the signs just after that time too.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cmp_to_key
-from typing import Final, Literal, final
+from typing import Self, final
 
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -24,8 +24,10 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
-from exactpt.tiling.events import ContactFound, TilingEvent
+from exactpt.tiling.certificates import Certifier
+from exactpt.tiling.events import ContactFound, Stats, TilingEvent
 from exactpt.tiling.incremental.certified import KINDS, MOTION, ORDER, CertifiedStructure
+from exactpt.tiling.incremental.chains import PATIENCE, ChainKind, Chains
 from exactpt.tiling.incremental.contacts import coinciding
 from exactpt.tiling.incremental.fan import changes_of_exchange, fan_edges
 from exactpt.tiling.incremental.mesh import mesh_of
@@ -37,9 +39,6 @@ from exactpt.tiling.tiling import Tiling
 
 __all__ = ["IncrementalTiling"]
 
-PATIENCE: Final = 8
-"""Steps along chains for each event, and each point, before chains are made searchable."""
-
 
 @final
 class IncrementalTiling(Tiling):
@@ -50,9 +49,11 @@ class IncrementalTiling(Tiling):
         start: the time to begin with.
         end: the last time of interest.
         exact_only: decide everything by exact arithmetic.
-        chains: "linked" walks along chains, "searchable" searches them in O(log n);
-            "auto" walks until the steps of all walks exceed `PATIENCE` an event.
+        chains: see `Chains`.
         fan: count the changes of the fan triangulation too, in ``stats.fan``.
+
+    Attributes:
+        chains: how chains are kept at present.
     """
 
     name = "incremental"
@@ -64,23 +65,42 @@ class IncrementalTiling(Tiling):
         end: QQ,
         *,
         exact_only: bool = False,
-        chains: Literal["auto", "linked", "searchable"] = "auto",
+        chains: ChainKind = "auto",
         fan: bool = False,
     ) -> None:
         super().__init__(vertices, start, end, exact_only=exact_only)
-        self._chains = chains
-        self._fan = fan
-        self._mesh: Mesh | None = None
-        self._allowed: int = PATIENCE * len(vertices.all)
         structure = sweep_at(Instant(vertices, start, exact_only=exact_only))
-        if chains == "searchable":
-            structure.make_searchable()
-        self._certified = CertifiedStructure(structure, self.certifier, self.queue)
+        self._set_up(structure, Chains(chains, PATIENCE * len(vertices.all)), fan=fan)
+        self._certified.certify_everything()
         if any(self._certified.due):
             raise AuditError(f"violated at the start: {self._certified.due}")
         self.stats.most = len(self.queue)
         for p in range(len(vertices.all)):
             self._schedule_piece(p)
+
+    @classmethod
+    def restored(
+        cls,
+        certifier: Certifier,
+        vertices: Vertices,
+        structure: IncrementalStructure,
+        stats: Stats,
+        chains: Chains,
+    ) -> Self:
+        """A tiling that goes on between two events; what is pending is the caller's to schedule."""
+        self = cls.__new__(cls)
+        self._begin(vertices, certifier, stats)
+        self._set_up(structure, chains, fan=False)
+        return self
+
+    def _set_up(self, structure: IncrementalStructure, chains: Chains, *, fan: bool) -> None:
+        """Set the attributes; nothing is certified."""
+        self.chains = chains
+        self._fan = fan
+        self._mesh: Mesh | None = None
+        if chains.kind == "searchable":
+            structure.make_searchable()
+        self._certified = CertifiedStructure(structure, self.certifier, self.queue)
 
     @classmethod
     def vertices_of(cls, bodies: Sequence[Body], start: QQ, end: QQ) -> Vertices:
@@ -138,9 +158,24 @@ class IncrementalTiling(Tiling):
         time = EventTime(low, high, -1, -1, -1, AlgebraicNumber(moving.until))
         self.queue.schedule(slot, time)
 
+    def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent]:
+        """See `Tiling.change_plans`."""
+        self._move_to(t)
+        self._mesh = None
+        for p in sorted(plans):
+            self.vertices.set_plan(p, plans[p], t, self.certifier.end)
+            self._schedule_piece(p)
+            self._record("motion", (), ())
+        for p in sorted(plans):
+            self._certified.certify_point(p)
+        self._settle()
+        self.stats.most = max(self.stats.most, len(self.queue))
+        return self._reported()
+
     # Events
 
     def _process(self, time: EventTime, entries: list[tuple[int, EventTime]]) -> None:
+        self._undo = self.certifier.now, entries
         self.certifier.move_to(time, [(t.a, t.b, t.c) for _, t in entries])
         self._mesh = None
         slots = [slot for slot, _ in entries]
@@ -163,15 +198,13 @@ class IncrementalTiling(Tiling):
                 certified.certify_edge(kind, p)
         self._settle()
         self.stats.most = max(self.stats.most, len(self.queue))
-        if self._chains == "auto":
+        if self.chains.kind == "auto":
             self._judge_chains()
 
     def _judge_chains(self) -> None:
         """Make chains searchable if they have turned out to be long."""
-        self._allowed += PATIENCE
         upper, lower = self.structure.trees
-        if upper.steps + lower.steps > self._allowed:
-            self._chains = "searchable"
+        if self.chains.are_long(upper.steps + lower.steps):
             self.structure.make_searchable()
 
     def _change_motion(self, p: int) -> None:
@@ -273,7 +306,7 @@ class IncrementalTiling(Tiling):
         edges, fan = self._edges_of(*old.order), self._fan_edges()
         order = sorted(old.order, key=cmp_to_key(self._x_comparison))
         new = IncrementalStructure.sweep(order, self._certified.after)
-        if self._chains == "searchable":
+        if self.chains.kind == "searchable":
             new.make_searchable()
         self._certified.replace(new)
         if any(self._certified.due):
