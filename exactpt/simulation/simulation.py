@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import final
 
 from exactpt.errors import InputError
-from exactpt.kernel.counters import counters
+from exactpt.kernel.counters import Counts, counters
 from exactpt.kernel.numbers import parse_rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
@@ -172,15 +172,13 @@ class Simulation(Running):
             self._pending.extend(map(event_from_json, data["pending"]))
             self.contact = data["contact"] and contact_from_json(data["contact"])
             self.contacts = counts["contacts"]
-            self._counted = (
-                counters.exact - counts["exact"],
-                counters.filtered - counts["filtered"],
-            )
+            before = Counts(counts["exact"], counts["filtered"], counts["reasons"])
+            self._counted = counters.now().since(before)
         return self
 
     def to_json(self) -> dict[str, object]:
         """What `save` writes."""
-        living = self._living
+        living, counts = self._living, counters.now().since(self._counted)
         return {
             "exactpt-simulation": VERSION,
             "name": self.name,
@@ -193,8 +191,9 @@ class Simulation(Running):
             "counts": {
                 "contacts": self.contacts,
                 "changes": 0 if living is None else living.changes,
-                "exact": counters.exact - self._counted[0],
-                "filtered": counters.filtered - self._counted[1],
+                "exact": counts.exact,
+                "filtered": counts.filtered,
+                "reasons": dict(counts.reasons),
             },
             "state": None if living is None else tiling_to_json(living.kinetic),
         }

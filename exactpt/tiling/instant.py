@@ -19,6 +19,7 @@ from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
 from exactpt.kernel.numbers import QQ, sign
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.exact import cross, orientation, x_order_terms
+from exactpt.tiling.reasons import reason
 
 if TYPE_CHECKING:
     from exactpt.tiling.greedy.shadow import Predicates
@@ -95,10 +96,13 @@ class Instant:
             if det < -bound:
                 counters.filtered += 1
                 return -1
-        counters.exact += 1
         u, v, w = (self.vertices.all[i] for i in (a, b, c))
-        if u.track is not v.track and v.track is not w.track and w.track is not u.track:
-            s = side(*(self.positions[i] for i in (a, b, c)))
+        are_copies = u.track is v.track or v.track is w.track or w.track is u.track
+        s = 0 if are_copies else side(*(self.positions[i] for i in (a, b, c)))
+        is_zero = s == 0 and not are_copies
+        why = reason(u, v, w, is_zero=is_zero, exact_only=self._exact_only)
+        counters.count_exact("sign", why)
+        if not are_copies:
             together = u.image.motion == v.image.motion == w.image.motion >= 0
             if s or together or not self.after:
                 return s
