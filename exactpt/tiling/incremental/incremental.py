@@ -8,8 +8,9 @@ four new certificates of edges and three of the x-order.
 after that time, until no certificate is violated. By the lemma there, the result is then
 the structure of that moment, in whatever order it was reached. Exchanges come first, where
 they are possible: what stands in a vertical line then has its trees as they were just
-before. If nothing is possible, or more has happened than a sweep costs, the structure is
-swept anew, with the signs just after that time too.
+before. If nothing is possible, or there are many, points of one x are put in order together
+(`exactpt.tiling.incremental.columns`). If that does not help, or more has happened than a
+sweep costs, the structure is swept anew, with the signs just after that time too.
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.events import ContactFound, Stats, TilingEvent
 from exactpt.tiling.incremental.certified import KINDS, MOTION, ORDER, CertifiedStructure
 from exactpt.tiling.incremental.chains import PATIENCE, ChainKind, Chains
-from exactpt.tiling.incremental.contacts import coinciding
+from exactpt.tiling.incremental.columns import resweep
+from exactpt.tiling.incremental.contacts import coinciding, column_around
 from exactpt.tiling.incremental.fan import changes_of_exchange, fan_edges
 from exactpt.tiling.incremental.mesh import mesh_of
 from exactpt.tiling.incremental.static import holds_at, sweep_at
@@ -218,21 +220,29 @@ class IncrementalTiling(Tiling):
 
     def _settle(self) -> None:
         """Repair until nothing is violated just after now."""
-        upper, lower, order = self._certified.due
-        most = 16 + len(self.structure.order) // 4
+        n = len(self.structure.order)
         rounds = 0
-        while upper or lower or order:
+        while any(self._certified.due):
             rounds += 1
-            if rounds > most:
-                self._rebuild()
-            elif any(self._exchange(p) for p in sorted(order)):
+            if rounds <= 16 + n // 4 and self._mend():
                 continue
-            elif upper:
-                self._repair(UPPER, min(upper))
-            elif lower:
-                self._repair(LOWER, min(lower))
-            else:
+            if self._sweep_columns():
+                rounds = 0
+            elif rounds > 64 + n or not self._mend():
                 self._rebuild()
+
+    def _mend(self) -> bool:
+        """Let the event of one violated certificate happen; whether one was possible."""
+        upper, lower, order = self._certified.due
+        if any(self._exchange(p) for p in sorted(order)):
+            return True
+        if upper:
+            self._repair(UPPER, min(upper))
+        elif lower:
+            self._repair(LOWER, min(lower))
+        else:
+            return False
+        return True
 
     def _repair(self, side: int, b: int) -> None:
         """Move the edge whose certificate, that of b, is violated."""
@@ -280,6 +290,31 @@ class IncrementalTiling(Tiling):
         for c in order[max(i - 1, 0) : i + 2]:
             self._certified.certify_order(c)
         return True
+
+    def _sweep_columns(self) -> bool:
+        """Put all points of one x that are in the wrong order into theirs; whether any could."""
+        structure, certified = self.structure, self._certified
+        order, found = structure.order, False
+        for p in sorted(certified.due[ORDER], key=structure.rank.__getitem__):
+            if p not in certified.due[ORDER]:
+                continue  # of a column that has been swept
+            i, end = column_around(self.certifier, structure, p)
+            old = order[i:end]
+            new = sorted(old, key=cmp_to_key(self._x_comparison))
+            before, fan = self._edges_of(*old), self._fan_edges()
+            changed = resweep(structure, new, certified.after)
+            if changed is None:
+                continue
+            found = True
+            after = self._edges_of(*new)
+            self._record("x-order", tuple(sorted(before - after)), tuple(sorted(after - before)))
+            self.stats.fan += len(fan ^ self._fan_edges())
+            for side, edges in enumerate(changed):
+                for c in sorted(edges):
+                    certified.certify_edge(side, c)
+            for c in order[max(i - 1, 0) : end]:
+                certified.certify_order(c)
+        return found
 
     def _edges_of(self, *points: int) -> set[tuple[int, int]]:
         """The edges from some points to the left."""
