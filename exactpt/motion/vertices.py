@@ -7,14 +7,15 @@ its edges. So that every ring turns around an inside, thin bodies get an infinit
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from itertools import accumulate
+from collections.abc import Sequence
+from itertools import accumulate, count
 from typing import TYPE_CHECKING, Final, final
 
 from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.motion.convexity import stays_convex
-from exactpt.motion.frame import Frame, Image, frame_for
+from exactpt.motion.frame import Frame, frame_for
+from exactpt.motion.image import Image
 from exactpt.motion.thin import Offset, thin_offsets, thin_ring
 from exactpt.motion.track import Track
 
@@ -83,9 +84,15 @@ class MovingBody:
 
 @final
 class Vertices:
-    """The rings of all bodies from a time on.
+    """The rings of all bodies.
 
-    With ``plain_points`` a point is a single vertex, without an inside or an offset.
+    Args:
+        bodies: with their present plans.
+        rings: of each body, the ids of its ring, each with the vertex of the scene it is.
+        since: when each body entered its piece.
+        frame: of the run.
+        end: of the time span.
+        free: the ids that removed bodies have left, the one to be used again first last.
 
     Attributes:
         all: the vertices, by id. A body that is removed leaves its ids to later ones.
@@ -94,53 +101,52 @@ class Vertices:
     """
 
     def __init__(
-        self, bodies: Sequence[Body], start: QQ, end: QQ, *, plain_points: bool = False
-    ) -> None:
-        positions = [body.at(start) for body in bodies]
-        flat = [p for points in positions for p in points]
-        self.frame: Frame = frame_for(flat or [(QQ(0), QQ(0))], start, end)
-        self._end = end
-        self.all: list[Vertex] = []
-        self.bodies: list[MovingBody] = []
-        self._free: list[int] = []
-        for i, body in enumerate(bodies):
-            plain = plain_points and body.size == 1
-            self._add(body, [0] if plain else _ring_indices(body, positions[i]), start)
-            self.bodies[i].is_tiled = self._may_pinch(i, start, end)
-
-    @classmethod
-    def restored(
-        cls,
+        self,
         bodies: Sequence[Body],
-        rings: Sequence[Mapping[int, int]],
+        rings: Sequence[Sequence[tuple[int, int]]],
         since: Sequence[QQ],
-        free: Sequence[int],
         frame: Frame,
         end: QQ,
-    ) -> Vertices:
-        """The vertices of a run that goes on.
-
-        Args:
-            bodies: with their present plans.
-            rings: of each body, the ids of its ring and which vertex of the scene each is.
-            since: when each body entered its piece.
-            free: the ids that removed bodies have left, the one to be used again first last.
-            frame: of the run.
-            end: of the time span.
-        """
-        self = cls.__new__(cls)
-        self.frame, self._end, self.bodies = frame, end, []
-        self.all = [_nobody(v) for v in range(sum(map(len, rings)) + len(free))]
+        free: Sequence[int] = (),
+    ) -> None:
+        self.frame: Frame = frame
+        self._end: QQ = end
+        self.all: list[Vertex] = [_nobody(v) for v in range(sum(map(len, rings)) + len(free))]
+        self.bodies: list[MovingBody] = []
+        self._free: list[int] = list(free)
         for body, ring, t in zip(bodies, rings, since, strict=True):
-            self._free = list(ring)[::-1]
-            self._add(body, list(ring.values()), t)
-        self._free = list(free)
+            self._add(body, ring, t)
+
+    @classmethod
+    def of(
+        cls, bodies: Sequence[Body], start: QQ, end: QQ, *, plain_points: bool = False
+    ) -> Vertices:
+        """The rings of bodies from a time on.
+
+        With ``plain_points`` a point is a single vertex, without an inside or an offset.
+        """
+        positions = [body.at(start) for body in bodies]
+        flat = [p for points in positions for p in points]
+        ids = count()
+        rings = [
+            [(next(ids), 0)]
+            if plain_points and body.size == 1
+            else [(next(ids), index) for index in _ring_indices(body, points)]
+            for body, points in zip(bodies, positions, strict=True)
+        ]
+        frame = frame_for(flat or [(QQ(0), QQ(0))], start, end)
+        self = cls(bodies, rings, [start] * len(bodies), frame, end)
+        for i, moving in enumerate(self.bodies):
+            moving.is_tiled = self._may_pinch(i, start, end)
         return self
 
     def add(self, body: Body, t: QQ) -> int:
         """Add a body as the last one, at a rational time; its number."""
-        i = len(self.bodies)
-        self._add(body, _ring_indices(body, body.at(t)), t)
+        i, indices = len(self.bodies), _ring_indices(body, body.at(t))
+        while len(self._free) < len(indices):
+            self._free.insert(0, len(self.all))
+            self.all.append(_nobody(len(self.all)))
+        self._add(body, [(self._free.pop(), index) for index in indices], t)
         self.bodies[i].is_tiled = self._may_pinch(i, t, self._end)
         return i
 
@@ -155,16 +161,13 @@ class Vertices:
             for v in last.ring:
                 self.all[v].body = i
 
-    def _add(self, body: Body, indices: Sequence[int], t: QQ) -> None:
+    def _add(self, body: Body, ring: Sequence[tuple[int, int]], t: QQ) -> None:
         i, moving = len(self.bodies), MovingBody(body)
         self.bodies.append(moving)
-        for index in indices:
-            if not self._free:
-                self._free.append(len(self.all))
-                self.all.append(_nobody(len(self.all)))
-            vertex = self.all[self._free.pop()]
+        for vertex_id, index in ring:
+            vertex = self.all[vertex_id]
             vertex.body, vertex.index = i, index
-            moving.ring.append(vertex.id)
+            moving.ring.append(vertex_id)
         for behind, here in zip(moving.ring, [*moving.ring[1:], moving.ring[0]], strict=True):
             self.all[behind].ahead = here
             self.all[here].behind = behind

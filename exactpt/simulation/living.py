@@ -123,7 +123,7 @@ class LivingScene:
         for i, body in new.items():
             bodies[i] = body
         if isinstance(self.kinetic, GreedyTiling) and any(
-            Vertices([body], t, self._end.end).bodies[0].is_tiled for body in new.values()
+            Vertices.of([body], t, self._end.end).bodies[0].is_tiled for body in new.values()
         ):
             return self._restart(bodies, t, len(new))
         events = self.kinetic.change_plans(new, t)
@@ -186,6 +186,6 @@ class LivingScene:
 
     def _diagonals(self) -> set[tuple[str, str]]:
         name = self.kinetic.vertices.name
-        mesh = self.kinetic.mesh
+        mesh = self.kinetic.mesh_after()
         ends = (sorted(map(name, mesh.ends(h))) for h in mesh.diagonals())
         return {(u, v) for u, v in ends if u != v}

@@ -91,13 +91,13 @@ def tiling_to_json(kinetic: Tiling) -> Data:
 
 def tiling_from_json(data: Data, bodies: Sequence[Body], *, exact_only: bool) -> Tiling:
     """The tiling with that state, of bodies with their plans."""
-    vertices = Vertices.restored(
+    vertices = Vertices(
         bodies,
-        [dict(body["ring"]) for body in data["bodies"]],
+        [[(v, index) for v, index in body["ring"]] for body in data["bodies"]],
         [parse_rational(body["since"]) for body in data["bodies"]],
-        data["free"],
         _frame_from_json(data["frame"]),
         parse_rational(data["end"]),
+        data["free"],
     )
     vertices.frame.errors[:] = data["frame"]["errors"]
     for moving, body in zip(vertices.bodies, data["bodies"], strict=True):
@@ -119,12 +119,12 @@ def _kept(data: Data, certifier: Certifier, vertices: Vertices, stats: Stats) ->
     """The tiling, with nothing pending."""
     if data["kind"] == POINT_TILING:
         structure, chains = _structure_from_json(data["structure"]), Chains(*data["chains"])
-        return IncrementalTiling.restored(certifier, vertices, structure, stats, chains)
+        return IncrementalTiling(vertices, certifier, stats, structure, chains)
     kind = tiling_class(data["kind"], convex=data["convex"])
     if not issubclass(kind, KineticTiling):
         raise InputError(f"no tiling {data['kind']!r} can be restored")
-    mesh = _mesh_from_json(data["mesh"], vertices)
-    kinetic = kind.restored(certifier, vertices, mesh, stats, data["flat"])
+    kinetic = kind(vertices, certifier, stats)
+    kinetic.resume(_mesh_from_json(data["mesh"], vertices), data["flat"])
     if isinstance(kinetic, GreedyTiling):
         kinetic.cells = VerticalDecomposition(0)
         for name in _CELLS:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from exactpt.kernel import filters
 from exactpt.kernel.batch import Answers, quadratics
-from exactpt.motion.frame import Image
+from exactpt.motion.image import Image
 
 __all__ = ["linear_orientations", "orientation", "x_difference"]
 

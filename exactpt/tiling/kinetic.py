@@ -17,8 +17,9 @@ from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.angles import ANGLE, KINDS, MOTION, SHRINK
+from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.contacts import touches
-from exactpt.tiling.events import ContactFound, TilingEvent
+from exactpt.tiling.events import ContactFound, Stats, TilingEvent
 from exactpt.tiling.inside import tile_inside
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import Mesh
@@ -28,8 +29,6 @@ from exactpt.tiling.repairs import RebuildNeeded, RepairedTiling
 
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
-    from exactpt.tiling.certificates import Certifier
-    from exactpt.tiling.events import Stats
 
 __all__ = ["KineticTiling"]
 
@@ -49,31 +48,23 @@ class KineticTiling(RepairedTiling):
 
     name = "lazy"
 
-    def __init__(self, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool = False) -> None:
-        super().__init__(vertices, start, end, exact_only=exact_only)
-        self._set_up(Mesh(0), ())
+    @classmethod
+    def begin(cls, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool = False) -> Self:
+        """The tiling just after a time at which the bodies are disjoint."""
+        self = cls(vertices, Certifier(vertices, start, end, exact_only=exact_only), Stats())
         self._build(start)
         self._certify_everything()
         if self._due:
             raise AuditError(f"violated at the start: {sorted(self._due)}")
         for i in range(len(vertices.bodies)):
             self._schedule_piece(i)
-
-    @classmethod
-    def restored(
-        cls,
-        certifier: Certifier,
-        vertices: Vertices,
-        mesh: Mesh,
-        stats: Stats,
-        flat: Iterable[int],
-    ) -> Self:
-        """A tiling that goes on between two events; what is pending is the caller's to schedule."""
-        self = cls.__new__(cls)
-        self._begin(vertices, certifier, stats)
-        self._set_up(mesh, flat)
-        self._recall()
         return self
+
+    def resume(self, mesh: Mesh, flat: Iterable[int]) -> None:
+        """Go on with a mesh between two events; what is pending is the caller's to schedule."""
+        self.mesh = mesh
+        self._flat = set(flat)
+        self._recall()
 
     def _recall(self) -> None:
         """Find again what is known between two events and follows from the mesh."""

@@ -19,7 +19,7 @@ from exactpt.tiling.reasons import reason
 
 if TYPE_CHECKING:
     from exactpt.geometry.boxes import Boxes
-    from exactpt.motion.frame import Image
+    from exactpt.motion.image import Image
     from exactpt.motion.vertices import Vertex
     from exactpt.tiling.certificates import Certifier
 

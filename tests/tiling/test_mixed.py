@@ -31,7 +31,7 @@ def instants(family, count):
     for seed in range(count):
         scene = generate(family, seed)
         if not initial_touches(scene)[1]:
-            yield seed, Instant(Vertices(scene.bodies, scene.start, scene.end), scene.start)
+            yield seed, Instant(Vertices.of(scene.bodies, scene.start, scene.end), scene.start)
 
 
 @pytest.mark.parametrize("count", COUNTS)

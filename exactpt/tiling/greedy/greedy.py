@@ -136,7 +136,7 @@ class GreedyTiling(PopulatedTiling):
 
     def takes(self, body: Body, t: QQ) -> bool:
         """Whether a body can be added at a time: if it is convex from then on."""
-        alone = Vertices([body], t, self.certifier.end)
+        alone = Vertices.of([body], t, self.certifier.end)
         return Instant(alone, t).all_stay_convex()
 
     def _enter_body(self, i: int) -> None:

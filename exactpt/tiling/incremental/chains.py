@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final, Literal, TypeAlias, final
 
 __all__ = ["PATIENCE", "ChainKind", "Chains"]
@@ -14,18 +13,20 @@ PATIENCE: Final = 8
 
 
 @final
-@dataclass(slots=True)
 class Chains:
     """How chains are kept.
 
-    Attributes:
+    Args and attributes:
         kind: "linked" walks along chains, "searchable" searches them in O(log n); "auto"
             walks until the steps of all walks exceed what is allowed, `PATIENCE` an event.
         allowed: how many steps are allowed so far.
     """
 
-    kind: ChainKind
-    allowed: int
+    __slots__ = ("allowed", "kind")
+
+    def __init__(self, kind: ChainKind, allowed: int) -> None:
+        self.kind: ChainKind = kind
+        self.allowed: int = allowed
 
     def are_long(self, steps: int) -> bool:
         """After one more event: whether so many steps are too many; then search from now on."""

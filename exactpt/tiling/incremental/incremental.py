@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cmp_to_key
-from typing import Self, final
+from typing import final
 
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -48,10 +48,10 @@ class IncrementalTiling(Tiling):
 
     Args:
         vertices: the points.
-        start: the time to begin with.
-        end: the last time of interest.
-        exact_only: decide everything by exact arithmetic.
-        chains: see `Chains`.
+        certifier: at the current time.
+        stats: counts.
+        structure: the tiling just after the current time; nothing of it is certified.
+        chains: how chains are kept.
         fan: count the changes of the fan triangulation too, in ``stats.fan``.
 
     Attributes:
@@ -63,46 +63,53 @@ class IncrementalTiling(Tiling):
     def __init__(
         self,
         vertices: Vertices,
+        certifier: Certifier,
+        stats: Stats,
+        structure: IncrementalStructure,
+        chains: Chains,
+        *,
+        fan: bool = False,
+    ) -> None:
+        super().__init__(vertices, certifier, stats)
+        if chains.kind == "searchable":
+            structure.make_searchable()
+        self.chains: Chains = chains
+        self._fan: bool = fan
+        self._mesh: Mesh | None = None
+        self._certified = CertifiedStructure(structure, certifier, self.queue)
+
+    @classmethod
+    def begin(
+        cls,
+        vertices: Vertices,
         start: QQ,
         end: QQ,
         *,
         exact_only: bool = False,
         chains: ChainKind = "auto",
         fan: bool = False,
-    ) -> None:
-        super().__init__(vertices, start, end, exact_only=exact_only)
+    ) -> IncrementalTiling:
+        """The tiling of points just after a time at which no two are in one place.
+
+        Args:
+            vertices: the points.
+            start: the current time.
+            end: the last time of interest.
+            exact_only: decide everything by exact arithmetic.
+            chains: see `Chains`.
+            fan: count the changes of the fan triangulation too, in ``stats.fan``.
+        """
         structure = sweep_at(Instant(vertices, start, exact_only=exact_only))
-        self._set_up(structure, Chains(chains, PATIENCE * len(vertices.all)), fan=fan)
+        certifier = Certifier(vertices, start, end, exact_only=exact_only)
+        kept = Chains(chains, PATIENCE * len(vertices.all))
+        self = cls(vertices, certifier, Stats(), structure, kept, fan=fan)
         self._certified.certify_everything()
         if any(self._certified.due):
             raise AuditError(f"violated at the start: {self._certified.due}")
         self.stats.most = len(self.queue)
         for p in range(len(vertices.all)):
             self._schedule_piece(p)
-
-    @classmethod
-    def restored(
-        cls,
-        certifier: Certifier,
-        vertices: Vertices,
-        structure: IncrementalStructure,
-        stats: Stats,
-        chains: Chains,
-    ) -> Self:
-        """A tiling that goes on between two events; what is pending is the caller's to schedule."""
-        self = cls.__new__(cls)
-        self._begin(vertices, certifier, stats)
-        self._set_up(structure, chains, fan=False)
         return self
-
-    def _set_up(self, structure: IncrementalStructure, chains: Chains, *, fan: bool) -> None:
-        """Set the attributes; nothing is certified."""
-        self.chains = chains
-        self._fan = fan
-        self._mesh: Mesh | None = None
-        if chains.kind == "searchable":
-            structure.make_searchable()
-        self._certified = CertifiedStructure(structure, self.certifier, self.queue)
 
     @classmethod
     def vertices_of(cls, bodies: Sequence[Body], start: QQ, end: QQ) -> Vertices:
@@ -117,7 +124,7 @@ class IncrementalTiling(Tiling):
                     f"body {body.name!r}: has {body.size} vertices: "
                     "the incremental tiling is for points"
                 )
-        return Vertices(bodies, start, end, plain_points=True)
+        return Vertices.of(bodies, start, end, plain_points=True)
 
     @classmethod
     def mesh_at(cls, instant: Instant) -> Mesh:
@@ -129,8 +136,7 @@ class IncrementalTiling(Tiling):
         """The tiling just after the current time, as trees."""
         return self._certified.now
 
-    @property
-    def mesh(self) -> Mesh:
+    def mesh_after(self) -> Mesh:
         """The tiling just after the current time; made anew after every event."""
         if self._mesh is None:
             self._mesh = mesh_of(self.structure)
