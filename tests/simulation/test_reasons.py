@@ -13,6 +13,12 @@ from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 
 
+@pytest.fixture(autouse=True)
+def _with_filters(request):
+    if request.config.getoption("--exact-only"):
+        pytest.skip("is about what the filters leave open")
+
+
 def reasons_of(scene, **options):
     simulation = Simulation(scene, **options)
     list(simulation.run())
