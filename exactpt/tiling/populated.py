@@ -56,11 +56,12 @@ class PopulatedTiling(KineticTiling):
         region = Region(self.mesh, site.faces, site.crossed)
         region.add_ring(self.vertices, moving)
         is_whole = self._retile(region)
-        if moving.is_tiled:
-            first = self.mesh.ring_edge[moving.ring[0]]
-            tile_inside(self.mesh, first, Moment(self.certifier, before=False))
-            self._recertify(tuple(self._ring_angles(moving.ring)))
-        self._enter_body(i)
+        if is_whole:
+            if moving.is_tiled:
+                first = self.mesh.ring_edge[moving.ring[0]]
+                tile_inside(self.mesh, first, Moment(self.certifier, before=False))
+                self._recertify(tuple(self._ring_angles(moving.ring)))
+            self._enter_body(i)
         return self._resume(is_whole=is_whole)
 
     def remove_body(self, i: int, t: QQ) -> list[TilingEvent]:
@@ -80,7 +81,8 @@ class PopulatedTiling(KineticTiling):
         for v in ring:
             self.mesh.ring_edge[v] = NOTHING
         is_whole = self._retile(region)
-        self._leave_body(i)
+        if is_whole:
+            self._leave_body(i)
         last = len(self.vertices.bodies) - 1
         for kind in (MOTION, SHRINK):
             self._move_slot(KINDS * last + kind, KINDS * i + kind)

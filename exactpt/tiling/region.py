@@ -53,7 +53,7 @@ class Region:
 
     Args:
         mesh: the mesh; the edges are removed from it at once.
-        faces: a half-edge of every face.
+        faces: a half-edge of every face; none if there are no edges yet.
         gone: the edges to be removed, none of which borders another face.
     """
 
@@ -61,13 +61,11 @@ class Region:
         self.mesh = mesh
         m = mesh.map
         self._before: dict[int, _Angle] = {}
-        self._around = FREE if not mesh.ring_edges() else SOLID
         for first in faces:
             if first not in self._before:
-                face = m.face(first)
-                self._before.update((h, self._angle(h)) for h in face)
-                if mesh.region[first] == OUTER:
-                    self._around = FREE
+                self._before.update((h, self._angle(h)) for h in m.face(first))
+        is_unbounded = not self._before or any(mesh.region[h] == OUTER for h in self._before)
+        self._around = FREE if is_unbounded else SOLID
         self.gone = list(gone)
         lost = {g for h in self.gone for g in (h, h ^ 1)}
         self._rim = [h for h in self._before if h not in lost]

@@ -7,7 +7,7 @@ import pytest
 from test_plans import at, audit, crowd, some_plan, turn_back
 
 from exactpt.collision.initial import initial_touches
-from exactpt.errors import InputError
+from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid, Translation
@@ -15,6 +15,7 @@ from exactpt.scene.families.shapes import convex_polygon
 from exactpt.scene.families.simple import star
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
+from exactpt.tiling.region import Region
 
 LOCAL = ["greedy", "lazy"]
 
@@ -160,6 +161,25 @@ def test_the_last_body_goes_and_another_comes(tiling):
         audit(simulation)
     assert simulation.locate((QQ(1, 2), QQ(1, 2))).body == "b"
     assert simulation.neighbours("b") == ["c", "d"]
+
+
+@pytest.mark.plain
+@pytest.mark.parametrize("tiling", LOCAL)
+@pytest.mark.parametrize("stars", [False, True], ids=["convex", "stars"])
+def test_a_region_that_cannot_be_tiled_is_built_anew_with_the_rest(monkeypatch, tiling, stars):
+    def refuse(region, predicates):
+        raise AuditError
+
+    rng = Random("refused")
+    simulation = Simulation(crowd(rng, 9, stars=stars), tiling=tiling)
+    monkeypatch.setattr(Region, "tile", refuse)
+    body = simulation.body("b4")
+    for k in range(3):
+        simulation.remove("b4")
+        audit(simulation)
+        simulation.add(body)
+        audit(simulation)
+        assert simulation.stats["rebuilds"] == 2 * k + 2
 
 
 @pytest.mark.parametrize("tiling", LOCAL)
