@@ -8,6 +8,7 @@ from typing import Literal
 import click
 
 from exactpt.cli.options import MOMENT, SCENE, TILING, budget, load, output
+from exactpt.cli.progress import QUIET, progress
 from exactpt.cli.words import answer_in_words
 from exactpt.kernel.numbers import QQ
 
@@ -29,6 +30,7 @@ __all__ = ["demo", "draw"]
     show_default=True,
     help="Light or dark; auto: as the reader prefers (PNG: light).",
 )
+@QUIET
 @TILING
 @budget
 def draw(
@@ -36,6 +38,7 @@ def draw(
     output: Path,
     at: QQ | Literal["contact"] | None,
     theme: str,
+    quiet: bool,
     tiling: str,
     max_events: int | None,
     max_seconds: float | None,
@@ -54,15 +57,18 @@ def draw(
     """
     from exactpt.render.draw import draw as draw_scene
 
-    draw_scene(
-        load(scene),
-        output,
-        at=at,
-        tiling=tiling,
-        theme=theme,
-        max_events=max_events,
-        max_seconds=max_seconds,
-    )
+    given = load(scene)
+    with progress(given, "drawing", quiet=quiet) as reached:
+        draw_scene(
+            given,
+            output,
+            at=at,
+            tiling=tiling,
+            theme=theme,
+            max_events=max_events,
+            max_seconds=max_seconds,
+            reached=reached,
+        )
     return 0
 
 

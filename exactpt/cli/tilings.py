@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, output
+from exactpt.cli.progress import QUIET, progress
 from exactpt.kernel.numbers import QQ
 
 __all__ = ["check", "tile"]
@@ -63,11 +64,13 @@ def tile(
 @click.command()
 @SCENE
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
+@QUIET
 @TILING
 @budget
 def check(
     scene: Path,
     as_json: bool,
+    quiet: bool,
     tiling: str,
     max_events: int | None,
     max_seconds: float | None,
@@ -78,10 +81,19 @@ def check(
     Examples:
       exactpt check scene.json
       exactpt check scene.json --json
+      exactpt check scene.json --quiet || echo "CGAL disagrees"
     """
     from exactpt.check import check_scene
 
     given = load(scene)
-    report = check_scene(given, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
-    click.echo(json.dumps(report.to_json(), indent=1) if as_json else "\n".join(report.lines()))
+    with progress(given, "checking", quiet=quiet) as reached:
+        report = check_scene(
+            given,
+            tiling=tiling,
+            max_events=max_events,
+            max_seconds=max_seconds,
+            reached=reached,
+        )
+    if not quiet:
+        click.echo(json.dumps(report.to_json(), indent=1) if as_json else "\n".join(report.lines()))
     return 0 if report.ok else 1
