@@ -148,10 +148,11 @@ class EventQueue:
             return 1
         if s.a == t.a and s.b == t.b and s.c == t.c and s.low == t.low and s.high == t.high:
             return 0  # the same root of the same function
-        counters.exact += 1
         x = s.exact or self._resolver.resolve(s)
         y = t.exact or self._resolver.resolve(t)
-        return x.compare(y)
+        order = x.compare(y)
+        counters.count_exact("time", "close" if order else "zero")
+        return order
 
 
 @final
@@ -177,7 +178,7 @@ class ExactQueue(EventQueue):
         while heap:
             number, _, slot, time = heap[0]
             if live.get(slot) is time:
-                counters.exact += 1
+                counters.count_exact("time", "asked")
                 if first is not None and number.compare(first) > 0:
                     break
                 first = number

@@ -8,6 +8,7 @@ its edges. So that every ring turns around an inside, thin bodies get an infinit
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import accumulate, count
 from typing import TYPE_CHECKING, Final, final
 
 from exactpt.geometry.polygon import signed_area2
@@ -33,7 +34,7 @@ class Vertex:
 
     Attributes:
         id: its position in `Vertices.all`.
-        body: the position of its body in the scene.
+        body: the position of its body in the scene; -1 if it is unused.
         index: the vertex of the scene that it is (the copies of a thin body share it).
         track: its path until the body's next breakpoint.
         image: the track in doubles.
@@ -87,13 +88,14 @@ class Vertices:
 
     Args:
         bodies: with their present plans.
-        rings: of each body, which vertices of the scene its ring consists of.
+        rings: of each body, the ids of its ring, each with the vertex of the scene it is.
         since: when each body entered its piece.
         frame: of the run.
         end: of the time span.
+        free: the ids that removed bodies have left, the one to be used again first last.
 
     Attributes:
-        all: the vertices, by id; those of a body are consecutive.
+        all: the vertices, by id. A body that is removed leaves its ids to later ones.
         bodies: in the order of the scene.
         frame: in which the images are.
     """
@@ -101,15 +103,17 @@ class Vertices:
     def __init__(
         self,
         bodies: Sequence[Body],
-        rings: Sequence[Sequence[int]],
+        rings: Sequence[Sequence[tuple[int, int]]],
         since: Sequence[QQ],
         frame: Frame,
         end: QQ,
+        free: Sequence[int] = (),
     ) -> None:
         self.frame: Frame = frame
         self._end: QQ = end
-        self.all: list[Vertex] = []
+        self.all: list[Vertex] = [_nobody(v) for v in range(sum(map(len, rings)) + len(free))]
         self.bodies: list[MovingBody] = []
+        self._free: list[int] = list(free)
         for body, ring, t in zip(bodies, rings, since, strict=True):
             self._add(body, ring, t)
 
@@ -123,8 +127,11 @@ class Vertices:
         """
         positions = [body.at(start) for body in bodies]
         flat = [p for points in positions for p in points]
+        ids = count()
         rings = [
-            [0] if plain_points and body.size == 1 else _ring_indices(body, points)
+            [(next(ids), 0)]
+            if plain_points and body.size == 1
+            else [(next(ids), index) for index in _ring_indices(body, points)]
             for body, points in zip(bodies, positions, strict=True)
         ]
         frame = frame_for(flat or [(QQ(0), QQ(0))], start, end)
@@ -133,17 +140,52 @@ class Vertices:
             moving.is_tiled = self._may_pinch(i, start, end)
         return self
 
-    def _add(self, body: Body, indices: Sequence[int], t: QQ) -> None:
+    def add(self, body: Body, t: QQ) -> int:
+        """Add a body as the last one, at a rational time; its number."""
+        i, indices = len(self.bodies), _ring_indices(body, body.at(t))
+        while len(self._free) < len(indices):
+            self._free.insert(0, len(self.all))
+            self.all.append(_nobody(len(self.all)))
+        self._add(body, [(self._free.pop(), index) for index in indices], t)
+        self.bodies[i].is_tiled = self._may_pinch(i, t, self._end)
+        return i
+
+    def remove(self, i: int) -> None:
+        """Remove a body; the last one gets its number."""
+        for v in reversed(self.bodies[i].ring):
+            self.all[v] = _nobody(v)
+            self._free.append(v)
+        last = self.bodies.pop()
+        if i < len(self.bodies):
+            self.bodies[i] = last
+            for v in last.ring:
+                self.all[v].body = i
+
+    def _add(self, body: Body, ring: Sequence[tuple[int, int]], t: QQ) -> None:
         i, moving = len(self.bodies), MovingBody(body)
         self.bodies.append(moving)
-        for index in indices:
-            vertex = Vertex(len(self.all), i, index, _NO_TRACK, _NO_IMAGE)
-            moving.ring.append(vertex.id)
-            self.all.append(vertex)
+        for vertex_id, index in ring:
+            vertex = self.all[vertex_id]
+            vertex.body, vertex.index = i, index
+            moving.ring.append(vertex_id)
         for behind, here in zip(moving.ring, [*moving.ring[1:], moving.ring[0]], strict=True):
             self.all[behind].ahead = here
             self.all[here].behind = behind
         self.enter_piece(i, t)
+
+    @property
+    def free(self) -> list[int]:
+        """The ids that removed bodies have left, the one to be used again first at the end."""
+        return self._free
+
+    def ids(self) -> list[int]:
+        """The ids in use, body by body."""
+        return [v for moving in self.bodies for v in moving.ring]
+
+    def nodes(self) -> list[int]:
+        """Of each id, its vertex among those of the scene, counted through; -1 if unused."""
+        first = list(accumulate((moving.body.size for moving in self.bodies), initial=0))
+        return [first[v.body] + v.index if v.body >= 0 else -1 for v in self.all]
 
     def _may_pinch(self, i: int, start: QQ, end: QQ) -> bool:
         """Whether the inside of a body must be tiled from a time on."""
@@ -207,6 +249,11 @@ class Vertices:
         """The name in event logs: ``"body:vertex"``."""
         vertex = self.all[vertex_id]
         return f"{self.bodies[vertex.body].body.name}:{vertex.index}"
+
+
+def _nobody(vertex_id: int) -> Vertex:
+    """A vertex that no body has."""
+    return Vertex(vertex_id, -1, -1, _NO_TRACK, _NO_IMAGE)
 
 
 def _deforms(images: Sequence[Image]) -> bool:

@@ -63,11 +63,7 @@ class FreeSpace:
     @cached_property
     def _node(self) -> list[int]:
         """Of each vertex id, its node."""
-        first, total = [], 0
-        for moving in self._vertices.bodies:
-            first.append(total)
-            total += moving.body.size
-        return [first[v.body] + v.index for v in self._vertices.all]
+        return self._vertices.nodes()
 
     @cached_property
     def _hidden(self) -> set[tuple[int, int]]:

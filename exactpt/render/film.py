@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, final
 
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -100,8 +99,7 @@ def film_of(
     if kinetic is None:
         steps = (Step(simulation.now, [Change("contact", (), ())], ()),)
         return Film(scene, simulation.name, steps, (), (), simulation.contact)
-    first = list(accumulate((body.size for body in scene.bodies), initial=0))
-    node = [first[v.body] + v.index for v in kinetic.vertices.all]
+    node = kinetic.vertices.nodes()
     node_of = {kinetic.vertices.name(v): n for v, n in enumerate(node)}
     tracker = Tracker(kinetic, node)
     taken: list[Step] = []

@@ -18,7 +18,8 @@ from exactpt.simulation.event import Event
 from exactpt.simulation.plans import planned
 from exactpt.tiling.events import TilingEvent
 from exactpt.tiling.greedy.greedy import GreedyTiling
-from exactpt.tiling.kinetic import KineticTiling
+from exactpt.tiling.populated import PopulatedTiling
+from exactpt.tiling.site import find_site
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["LivingScene"]
@@ -79,10 +80,18 @@ class LivingScene:
             raise InputError(f"no body {name!r}")
         return self._number[name]
 
-    def named(self, event: TilingEvent) -> Event:
-        """An event of the tiling, in terms of the scene."""
-        name = self.kinetic.vertices.name
+    def named(self, event: TilingEvent, gone: Mapping[int, str] | None = None) -> Event:
+        """An event of the tiling, in terms of the scene.
+
+        Args:
+            event: the event.
+            gone: the names of vertices that are no more.
+        """
         time = event.time.exact or self.kinetic.certifier.resolve(event.time)
+
+        def name(v: int) -> str:
+            return gone[v] if gone and v in gone else self.kinetic.vertices.name(v)
+
         return Event(
             time,
             event.kind,
@@ -113,12 +122,8 @@ class LivingScene:
         bodies = self._bodies[:]
         for i, body in new.items():
             bodies[i] = body
-        convex = isinstance(self.kinetic, GreedyTiling)
-        if not isinstance(self.kinetic, KineticTiling) or (
-            convex
-            and any(
-                Vertices.of([body], t, self._end.end).bodies[0].is_tiled for body in new.values()
-            )
+        if isinstance(self.kinetic, GreedyTiling) and any(
+            Vertices.of([body], t, self._end.end).bodies[0].is_tiled for body in new.values()
         ):
             return self._restart(bodies, t, len(new))
         events = self.kinetic.change_plans(new, t)
@@ -129,35 +134,40 @@ class LivingScene:
     def add(self, body: Body) -> list[Event]:
         """See `Simulation.add`; what changes at once."""
         t = self.rational_now()
-        bodies = [*self._bodies, body]
-        scene = Scene(bodies, (t, self._end.end))  # names and shapes are checked here
-        for i, j in initial_touches(scene)[1]:
-            names = bodies[i].name, bodies[j].name
-            raise InputError(f"body {names[1]!r} touches body {names[0]!r} at t = {t}")
-        return self._restart(bodies, t, 1)
+        if body.name in self._number:
+            raise InputError(f"body {body.name!r}: the name is taken by another body")
+        alone = Scene([body], (t, self._end.end))  # its shape is checked here
+        kinetic = self.kinetic
+        if not isinstance(kinetic, PopulatedTiling) or not kinetic.takes(body, t):
+            bodies = [*self._bodies, body]
+            for i, j in initial_touches(alone.going_on(bodies, t))[1]:
+                names = bodies[i].name, bodies[j].name
+                raise InputError(f"body {names[1]!r} touches body {names[0]!r} at t = {t}")
+            return self._restart(bodies, t, 1)
+        site = find_site(kinetic.vertices, kinetic.mesh, body, t)
+        events = kinetic.add_body(body, t, site)
+        self._number[body.name] = len(self._bodies)
+        self._bodies.append(body)
+        self._since, self._scene = t, None
+        self.changes += 1
+        return [self.named(event) for event in events]
 
     def remove(self, name: str) -> list[Event]:
         """See `Simulation.remove`; what changes at once."""
         t = self.rational_now()
-        i = self._index(name)
-        return self._restart([*self._bodies[:i], *self._bodies[i + 1 :]], t, 1)
-
-    def outlive_contacts(self) -> KineticTiling:
-        """The tiling, one that can go back from a contact; for "auto" of points it is changed.
-
-        Raises:
-            InputError: if another one was asked for.
-        """
-        if not isinstance(self.kinetic, KineticTiling):
-            if self.asked != "auto":
-                raise InputError(
-                    f'the tiling "{self.asked}" ends at the first contact; with on_contact use '
-                    'another one, such as "lazy"'
-                )
-            self.asked = "lazy"
-            self._restart(self._bodies, self.rational_now(), 0)
-            return self.outlive_contacts()
-        return self.kinetic
+        i, kinetic = self._index(name), self.kinetic
+        last = self._bodies.pop()
+        if i < len(self._bodies):
+            self._bodies[i] = last
+        self._number[last.name] = i
+        del self._number[name]
+        if not isinstance(kinetic, PopulatedTiling) or not kinetic.can_change_bodies:
+            return self._restart(self._bodies, t, 1)
+        gone = {v: kinetic.vertices.name(v) for v in kinetic.vertices.bodies[i].ring}
+        events = kinetic.remove_body(i, t)
+        self._since, self._scene = t, None
+        self.changes += 1
+        return [self.named(event, gone) for event in events]
 
     def _restart(self, bodies: Sequence[Body], t: QQ, changes: int) -> list[Event]:
         """Build the tiling anew, with these bodies; one event tells the difference."""

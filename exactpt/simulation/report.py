@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from exactpt.kernel.counters import Counts
 from exactpt.scene.scene import Scene
 from exactpt.tiling.certificates import X_ORDER
 from exactpt.tiling.tiling import Tiling
@@ -9,7 +10,7 @@ from exactpt.tiling.tiling import Tiling
 __all__ = ["report"]
 
 
-def report(scene: Scene, kinetic: Tiling | None, exact: int, filtered: int) -> dict[str, object]:
+def report(scene: Scene, kinetic: Tiling | None, counts: Counts) -> dict[str, object]:
     """The counts of a run so far.
 
     Keys, besides those of the contract:
@@ -23,7 +24,13 @@ def report(scene: Scene, kinetic: Tiling | None, exact: int, filtered: int) -> d
     * ``batches``: times at which several certificates failed; ``rebuilds``: how often the
       tiling was built anew; ``flips``: repair flips.
     * ``zeros``: certificates that were decided exactly because they vanish, now or for
-      ever; the other exact decisions were too close for floats.
+      ever.
+    * ``reasons``: the exact decisions, by ``"what: why"``. What: "certificate" (a sign, and
+      when it may change), "sign" (in repairs and constructions), "time" (which of two
+      events is first), "place" (the order along a line, coincidence), "contact" (a vertex
+      on an edge). Why: "zero" (the answer is zero: collinear, level, at one time, touching),
+      "close" (it is not, but floats cannot tell), "copies" (of a vertex of a thin body),
+      "range" (numbers too large or too small for the filters), "asked" (filters off).
     """
     data: dict[str, object] = {
         "bodies": len(scene.bodies),
@@ -31,8 +38,9 @@ def report(scene: Scene, kinetic: Tiling | None, exact: int, filtered: int) -> d
         "events": 0,
         "certificates": 0,
         "skipped": 0,
-        "exact": exact,
-        "filtered": filtered,
+        "exact": counts.exact,
+        "filtered": counts.filtered,
+        "reasons": dict(counts.reasons),
     }
     if kinetic is None:
         return data

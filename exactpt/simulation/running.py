@@ -13,7 +13,7 @@ from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.counters import counters
+from exactpt.kernel.counters import Counts, counters
 from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
@@ -49,7 +49,7 @@ class Running(Questions):
         self._asked_for = tiling, exact_only
         self._max_events = max_events
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
-        self._counted = (counters.exact, counters.filtered)
+        self._counted: Counts = counters.now()
         self._events = 0
         self._pending: deque[Event] = deque()
         self._forget_space()
@@ -89,9 +89,8 @@ class Running(Questions):
     @property
     def stats(self) -> dict[str, object]:
         """The figures of the run so far; see `exactpt.simulation.report`."""
-        exact, filtered = counters.exact - self._counted[0], counters.filtered - self._counted[1]
         changes = 0 if self._living is None else self._living.changes
-        data = report(self.scene, self.kinetic, exact, filtered)
+        data = report(self.scene, self.kinetic, counters.now().since(self._counted))
         return data | {"contacts": self.contacts, "plans": changes}
 
     # Time
@@ -126,8 +125,6 @@ class Running(Questions):
         grid = self._margin if margin is None else rational(margin)
         if grid <= 0:
             raise InputError(f"the margin before contacts is not positive: {grid}")
-        if on_contact is not None and self.contact is None:
-            self._alive().outlive_contacts()
         while True:
             if self.contact is None:
                 self._check_budget()
@@ -193,7 +190,7 @@ class Running(Questions):
     ) -> None:
         """Call back just before a contact; without new plans, let it happen."""
         living = self._alive()
-        kinetic = living.outlive_contacts()
+        kinetic = living.kinetic
         kinetic.retreat(grid)
         self.contacts += 1
         self._pending.append(Event(contact.time, "contact"))

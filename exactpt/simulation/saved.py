@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
 from exactpt.collision.contact import Contact, Pair
-from exactpt.collision.tilings import tiling_class
+from exactpt.collision.tilings import POINT_TILING, tiling_class
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, ZZ, parse_rational
@@ -28,6 +28,9 @@ from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.events import Stats
 from exactpt.tiling.greedy.greedy import GreedyTiling
 from exactpt.tiling.greedy.vertical import VerticalDecomposition
+from exactpt.tiling.incremental.chains import Chains
+from exactpt.tiling.incremental.incremental import IncrementalTiling
+from exactpt.tiling.incremental.structure import IncrementalStructure
 from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.mixed.labels import Forest, LabelledMesh
@@ -44,17 +47,12 @@ __all__ = [
 Data: TypeAlias = "dict[str, Any]"
 """A JSON object that has been read; what is wrong with it shows where it is used."""
 
+_STATS = ("batches", "rebuilds", "flips", "most")
 _CELLS = ("vertex", "left", "right", "left_up", "left_down", "right_up", "right_down")
 
 
 def tiling_to_json(kinetic: Tiling) -> Data:
-    """The state of a tiling between two events.
-
-    Raises:
-        InputError: for the tiling of points alone.
-    """
-    if not isinstance(kinetic, KineticTiling):
-        raise InputError(f'a simulation with the tiling "{kinetic.name}" cannot be saved')
+    """The state of a tiling between two events."""
     certifier, stats, vertices = kinetic.certifier, kinetic.stats, kinetic.vertices
     data: Data = {
         "kind": kinetic.name,
@@ -65,41 +63,41 @@ def tiling_to_json(kinetic: Tiling) -> Data:
         "bodies": [
             {
                 "since": str(moving.since),
-                "ring": [vertices.all[v].index for v in moving.ring],
+                "ring": [[v, vertices.all[v].index] for v in moving.ring],
                 "tiled": moving.is_tiled,
             }
             for moving in vertices.bodies
         ],
+        "free": list(vertices.free),
         "frame": _frame_to_json(vertices.frame),
         "counts": [certifier.made, certifier.skipped, certifier.zeros],
-        "stats": {
-            "events": dict(stats.events),
-            "batches": stats.batches,
-            "rebuilds": stats.rebuilds,
-            "flips": stats.flips,
-            "most": stats.most,
-        },
-        "flat": sorted(kinetic.flat),
-        "mesh": _mesh_to_json(kinetic.mesh),
+        "stats": {"events": dict(stats.events)} | {name: getattr(stats, name) for name in _STATS},
         "queue": [
             [slot, _time_to_json(time)]
             for slot in kinetic.queue.slots()
             if (time := kinetic.queue.pending(slot)) is not None
         ],
     }
+    if isinstance(kinetic, KineticTiling):
+        data["flat"] = sorted(kinetic.flat)
+        data["mesh"] = _mesh_to_json(kinetic.mesh)
     if isinstance(kinetic, GreedyTiling):
         data["cells"] = {name: list(getattr(kinetic.cells, name)) for name in _CELLS}
+    if isinstance(kinetic, IncrementalTiling):
+        data["structure"] = _structure_to_json(kinetic.structure)
+        data["chains"] = [kinetic.chains.kind, kinetic.chains.allowed]
     return data
 
 
-def tiling_from_json(data: Data, bodies: Sequence[Body], *, exact_only: bool) -> KineticTiling:
+def tiling_from_json(data: Data, bodies: Sequence[Body], *, exact_only: bool) -> Tiling:
     """The tiling with that state, of bodies with their plans."""
     vertices = Vertices(
         bodies,
-        [body["ring"] for body in data["bodies"]],
+        [[(v, index) for v, index in body["ring"]] for body in data["bodies"]],
         [parse_rational(body["since"]) for body in data["bodies"]],
         _frame_from_json(data["frame"]),
         parse_rational(data["end"]),
+        data["free"],
     )
     vertices.frame.errors[:] = data["frame"]["errors"]
     for moving, body in zip(vertices.bodies, data["bodies"], strict=True):
@@ -109,8 +107,19 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], *, exact_only: bool) ->
     certifier.made, certifier.skipped, certifier.zeros = data["counts"]
     stats = Stats()
     stats.events = dict(data["stats"]["events"])
-    for name in ("batches", "rebuilds", "flips", "most"):
+    for name in _STATS:
         setattr(stats, name, data["stats"][name])
+    kinetic = _kept(data, certifier, vertices, stats)
+    for slot, time in data["queue"]:
+        kinetic.queue.schedule(slot, _time_from_json(time))
+    return kinetic
+
+
+def _kept(data: Data, certifier: Certifier, vertices: Vertices, stats: Stats) -> Tiling:
+    """The tiling, with nothing pending."""
+    if data["kind"] == POINT_TILING:
+        structure, chains = _structure_from_json(data["structure"]), Chains(*data["chains"])
+        return IncrementalTiling(vertices, certifier, stats, structure, chains)
     kind = tiling_class(data["kind"], convex=data["convex"])
     if not issubclass(kind, KineticTiling):
         raise InputError(f"no tiling {data['kind']!r} can be restored")
@@ -120,8 +129,6 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], *, exact_only: bool) ->
         kinetic.cells = VerticalDecomposition(0)
         for name in _CELLS:
             setattr(kinetic.cells, name, data["cells"][name])
-    for slot, time in data["queue"]:
-        kinetic.queue.schedule(slot, _time_from_json(time))
     return kinetic
 
 
@@ -205,6 +212,25 @@ def _mesh_from_json(data: Data, vertices: Vertices) -> Mesh:
     mesh.ring_edge = data["ring_edge"]
     mesh.audit()
     return mesh
+
+
+# The structure of points
+
+
+def _structure_to_json(structure: IncrementalStructure) -> Data:
+    return {
+        "order": list(structure.order),
+        "parents": [list(tree.parent) for tree in structure.trees],
+        "steps": [tree.steps for tree in structure.trees],
+    }
+
+
+def _structure_from_json(data: Data) -> IncrementalStructure:
+    upper, lower = data["parents"]
+    structure = IncrementalStructure.of(data["order"], (upper, lower))
+    for tree, steps in zip(structure.trees, data["steps"], strict=True):
+        tree.steps = steps
+    return structure
 
 
 # Events and contacts

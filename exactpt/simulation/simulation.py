@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import final
 
 from exactpt.errors import InputError
-from exactpt.kernel.counters import counters
+from exactpt.kernel.counters import Counts, counters
 from exactpt.kernel.numbers import parse_rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
@@ -75,9 +75,8 @@ class Simulation(Running):
         """Let bodies go on by other motions from now on; now must be rational.
 
         The work is for the certificates of these bodies, not for the scene. (Another kind of
-        tiling is built, once, if it is that of convex bodies and one need not stay convex;
-        that of points alone is built anew each time.) The events that this causes come
-        first in the next `run`.
+        tiling is built, once, if it is that of convex bodies and one need not stay convex.)
+        The events that this causes come first in the next `run`.
 
         Args:
             plans: by name, a motion of the body's shape; or a body of that name with as
@@ -90,7 +89,11 @@ class Simulation(Running):
         self._pending.extend(self._changeable().set_motions(plans))
 
     def add(self, body: Body) -> None:
-        """Add a body now, which must be rational. The tiling is built anew: O(n log n).
+        """Add a body now, which must be rational, as the last one.
+
+        The work is for the faces of the tiling that it meets, after a walk to them. The
+        mixed tiling and that of points are built anew, O(n log n); so is, once, that of
+        convex bodies when one comes that need not stay convex.
 
         Raises:
             InputError: if its name is taken, it is not simple, it touches another body,
@@ -99,7 +102,10 @@ class Simulation(Running):
         self._pending.extend(self._changeable().add(body))
 
     def remove(self, body: str) -> None:
-        """Remove a body now, which must be rational. The tiling is built anew: O(n log n).
+        """Remove a body now, which must be rational; the last one takes its place in the scene.
+
+        The work is for the faces of the tiling that it touches, and for the convex hull if
+        it is there. The mixed tiling and that of points are built anew, O(n log n).
 
         Raises:
             InputError: if there is no such body, now is not rational or is the end.
@@ -166,15 +172,13 @@ class Simulation(Running):
             self._pending.extend(map(event_from_json, data["pending"]))
             self.contact = data["contact"] and contact_from_json(data["contact"])
             self.contacts = counts["contacts"]
-            self._counted = (
-                counters.exact - counts["exact"],
-                counters.filtered - counts["filtered"],
-            )
+            before = Counts(counts["exact"], counts["filtered"], counts["reasons"])
+            self._counted = counters.now().since(before)
         return self
 
     def to_json(self) -> dict[str, object]:
         """What `save` writes."""
-        living = self._living
+        living, counts = self._living, counters.now().since(self._counted)
         return {
             "exactpt-simulation": VERSION,
             "name": self.name,
@@ -187,8 +191,9 @@ class Simulation(Running):
             "counts": {
                 "contacts": self.contacts,
                 "changes": 0 if living is None else living.changes,
-                "exact": counters.exact - self._counted[0],
-                "filtered": counters.filtered - self._counted[1],
+                "exact": counts.exact,
+                "filtered": counts.filtered,
+                "reasons": dict(counts.reasons),
             },
             "state": None if living is None else tiling_to_json(living.kinetic),
         }

@@ -23,7 +23,7 @@ def audit_angles(mesh: Mesh, predicates: Predicates) -> None:
         a, p, b = m.origin[m.previous[h]], m.origin[h], m.origin[h ^ 1]
         if mesh.region[h] != SOLID and a != b and (predicates.sign(a, p, b) > 0) != mesh.corner[h]:
             raise AuditError(f"angle {h} at vertices {a}, {p}, {b} is not as marked")
-    for h in mesh.ring_edge:
+    for h in mesh.ring_edges():
         audit_fan(mesh, h, predicates)
 
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import cmp_to_key
 
 from exactpt.errors import AuditError
+from exactpt.tiling.greedy.shadow import Predicates
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import FREE, INSIDE, OUTER, SOLID, Diagonal, Mesh
 
-__all__ = ["build_mesh"]
+__all__ = ["build_mesh", "fan_order"]
 
 
 def build_mesh(instant: Instant, diagonals: Iterable[Diagonal], mesh: Mesh | None = None) -> Mesh:
@@ -39,12 +40,12 @@ def build_mesh(instant: Instant, diagonals: Iterable[Diagonal], mesh: Mesh | Non
         fans = inside if region == INSIDE else around
         fans[u].append(h)
         fans[v].append(h ^ 1)
-    for v, edges in enumerate(around):
+    for v in instant.vertices.ids():
         # Counter-clockwise: to the next vertex of the ring, (the body and its diagonals),
         # to the vertex before, (free space and its diagonals).
         ahead, behind = mesh.ring_edge[v], mesh.ring_edge[vertices[v].behind] ^ 1
         within = _sorted_fan(instant, mesh, v, ahead, inside[v])
-        fan = [ahead, *within, behind, *_sorted_fan(instant, mesh, v, behind, edges)]
+        fan = [ahead, *within, behind, *_sorted_fan(instant, mesh, v, behind, around[v])]
         for h, following in zip(fan, [*fan[1:], fan[0]], strict=True):
             mesh.map.link(following ^ 1, h)
     _mark_angles(instant, mesh)
@@ -57,17 +58,28 @@ def _sorted_fan(
     """Half-edges out of v in counter-clockwise order from a reference direction."""
     if len(edges) < 2:
         return edges
-    target = {h: mesh.map.target(h) for h in edges}
-    base = mesh.map.target(reference)
-    # 1: angle from the reference below pi, 0: equal to it, -1: above.
-    half = {h: instant.sign(v, base, w) for h, w in target.items()}
+    return sorted(edges, key=cmp_to_key(fan_order(instant, mesh, v, reference)))
+
+
+def fan_order(
+    predicates: Predicates, mesh: Mesh, v: int, reference: int
+) -> Callable[[int, int], int]:
+    """Compares half-edges out of v: the angles from a reference direction, up to 2 pi."""
+    target, base = mesh.map.target, mesh.map.target(reference)
+    known: dict[int, int] = {}
+
+    def half(h: int) -> int:
+        """1: angle from the reference below pi, 0: equal to it, -1: above."""
+        if h not in known:
+            known[h] = predicates.sign(v, base, target(h))
+        return known[h]
 
     def order(g: int, h: int) -> int:
-        if half[g] != half[h]:
-            return half[h] - half[g]
-        return -instant.sign(v, target[g], target[h])
+        if half(g) != half(h):
+            return half(h) - half(g)
+        return -predicates.sign(v, target(g), target(h))
 
-    return sorted(edges, key=cmp_to_key(order))
+    return order
 
 
 def _mark_angles(instant: Instant, mesh: Mesh) -> None:

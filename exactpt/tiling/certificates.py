@@ -22,6 +22,7 @@ from exactpt.motion.incidence import orientation as base_orientation
 from exactpt.tiling import coefficients
 from exactpt.tiling.exact import orientation, x_order
 from exactpt.tiling.positions import Positions
+from exactpt.tiling.reasons import reason
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -225,11 +226,12 @@ class Certifier:
         return until
 
     def _exact_orientation(self, a: Vertex, b: Vertex, c: Vertex) -> tuple[int, EventTime | None]:
-        counters.exact += 1
         f = base_orientation(a.track, b.track, c.track)
         until, now = self._until(a, b, c), self.exact_now
+        s = now.sign_of(f) if f else 0
+        why = reason(a, b, c, is_zero=s == 0, exact_only=self.exact_only)
+        counters.count_exact("certificate", why)
         if f:
-            s = now.sign_of(f)
             if s == 0:
                 self.zeros += 1
                 s = now.sign_after(f)
@@ -306,8 +308,10 @@ class Certifier:
     def _exact_x_order(
         self, a: Vertex, b: Vertex, *, touching: bool
     ) -> tuple[int, EventTime | None]:
-        counters.exact += 1
         f, now = x_order(a, b), self.exact_now
+        s = now.sign_of(f) if f else 0
+        why = reason(a, b, is_zero=s == 0, exact_only=self.exact_only)
+        counters.count_exact("certificate", why)
         roots = roots_after(f, now, self._until(a, b))
         root = next((r for r in roots if touching or r.crossing), None)
         time = (
@@ -315,4 +319,4 @@ class Certifier:
             if root is None
             else self._event_time(root.time, (a.id, b.id, X_ORDER), crossing=root.crossing)
         )
-        return now.sign_after(f), time
+        return s or now.sign_after(f), time

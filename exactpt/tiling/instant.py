@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cmp_to_key
-from typing import Final, final
+from typing import TYPE_CHECKING, Final, final
 
 from exactpt.geometry.predicates import Point, side
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -19,11 +19,24 @@ from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
 from exactpt.kernel.numbers import QQ, sign
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.exact import cross, orientation, x_order_terms
+from exactpt.tiling.reasons import reason
 
-__all__ = ["Instant"]
+if TYPE_CHECKING:
+    from exactpt.tiling.greedy.shadow import Predicates
+
+__all__ = ["Instant", "sorted_by_x"]
 
 U: Final = 2.0**-53
 TINY: Final = 1e-290
+
+
+def sorted_by_x(predicates: Predicates, ids: Iterable[int]) -> list[int]:
+    """Vertices from left to right."""
+
+    def order(a: int, b: int) -> int:
+        return 0 if a == b else -1 if predicates.left_of(a, b) else 1
+
+    return sorted(ids, key=cmp_to_key(order))
 
 
 @final
@@ -83,10 +96,13 @@ class Instant:
             if det < -bound:
                 counters.filtered += 1
                 return -1
-        counters.exact += 1
         u, v, w = (self.vertices.all[i] for i in (a, b, c))
-        if u.track is not v.track and v.track is not w.track and w.track is not u.track:
-            s = side(*(self.positions[i] for i in (a, b, c)))
+        are_copies = u.track is v.track or v.track is w.track or w.track is u.track
+        s = 0 if are_copies else side(*(self.positions[i] for i in (a, b, c)))
+        is_zero = s == 0 and not are_copies
+        why = reason(u, v, w, is_zero=is_zero, exact_only=self._exact_only)
+        counters.count_exact("sign", why)
+        if not are_copies:
             together = u.image.motion == v.image.motion == w.image.motion >= 0
             if s or together or not self.after:
                 return s
@@ -124,14 +140,6 @@ class Instant:
             return now
         v = self.vertices.all
         return self._number.sign_after(cross(v[a].track, v[b].track, v[c].track, v[d].track))
-
-    def sorted_by_x(self, ids: list[int]) -> list[int]:
-        """Vertices from left to right."""
-
-        def order(a: int, b: int) -> int:
-            return 0 if a == b else -1 if self.left_of(a, b) else 1
-
-        return sorted(ids, key=cmp_to_key(order))
 
     def middle(self, a: int, b: int, c: int) -> int:
         """Of three collinear vertices, the one between the others."""

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Final, Self
 
 from exactpt.errors import AuditError
-from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
+from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.vertices import Vertices
@@ -47,10 +47,6 @@ class KineticTiling(RepairedTiling):
     """
 
     name = "lazy"
-
-    def __init__(self, vertices: Vertices, certifier: Certifier, stats: Stats) -> None:
-        super().__init__(vertices, certifier, stats)
-        self._undo: tuple[EventTime, list[tuple[int, EventTime]]] | None = None
 
     @classmethod
     def begin(cls, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool = False) -> Self:
@@ -95,40 +91,8 @@ class KineticTiling(RepairedTiling):
         exact = AlgebraicNumber(moving.until)
         self.queue.schedule(slot, EventTime(low, high, -1, -1, -1, exact))
 
-    def retreat(self, grid: QQ) -> QQ:
-        """After `ContactFound`: go back to a rational time just before the contact.
-
-        Args:
-            grid: the time is the last multiple of it before the contact; or, if an event
-                is in between, a dyadic rational after that.
-
-        Returns:
-            The time. The tiling is the one that leads up to the contact.
-        """
-        if self._undo is None:
-            raise AuditError("there is no contact to go back from")
-        (time_before, entries), contact = self._undo, self.now
-        before = time_before.exact or self.certifier.resolve(time_before)
-        self._undo = None
-        for slot, time in entries:
-            self.queue.schedule(slot, time)
-        t = multiple_before(contact, grid)
-        if before.compare_rational(t) >= 0:
-            t = rational_between(before, contact)
-        self._move_to(t)
-        return t
-
     def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent]:
-        """Let bodies go on by other plans; work for their certificates alone.
-
-        Args:
-            plans: by the number of the body, what it is from now on. Its positions now are
-                those that it has.
-            t: now.
-
-        Returns:
-            What changes at once.
-        """
+        """See `Tiling.change_plans`."""
         self._move_to(t)
         self._due.clear()
         self._touched.clear()

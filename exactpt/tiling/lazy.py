@@ -8,16 +8,16 @@ from exactpt.tiling.build import build_mesh
 from exactpt.tiling.greedy.greedy import greedy_mesh
 from exactpt.tiling.greedy.vertical import VerticalDecomposition
 from exactpt.tiling.instant import Instant
-from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.plane_sweep import sweep_diagonals
 from exactpt.tiling.pointed import make_pointed
+from exactpt.tiling.populated import PopulatedTiling
 
 __all__ = ["LazyTiling"]
 
 
 @final
-class LazyTiling(KineticTiling):
+class LazyTiling(PopulatedTiling):
     """Starts greedy and repairs corners and bends alone."""
 
     @classmethod

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from typing import Final, NamedTuple
 
 from exactpt.errors import AuditError
-from exactpt.planar.halfedge import PlanarMap
+from exactpt.planar.halfedge import NOTHING, PlanarMap
 
 __all__ = ["F2", "FREE", "INSIDE", "OUTER", "SOLID", "Diagonal", "Mesh", "Tile"]
 
@@ -52,7 +52,7 @@ class Mesh:
             three).
         boundary: of each edge (half of the handle), whether it is an edge of a body.
         ring_edge: of each vertex, the half-edge to the next one on its ring; the body is
-            on its left. It is never removed.
+            on its left. `NOTHING` for a vertex that no body has.
     """
 
     def __init__(self, vertices: int) -> None:
@@ -60,7 +60,7 @@ class Mesh:
         self.region: list[int] = []
         self.corner: list[bool] = []
         self.boundary: list[bool] = []
-        self.ring_edge: list[int] = [-1] * vertices
+        self.ring_edge: list[int] = [NOTHING] * vertices
 
     def add_edge(self, u: int, v: int, *, boundary: bool) -> int:
         """A new edge, not linked yet, with free space on both sides."""
@@ -113,6 +113,10 @@ class Mesh:
         """One half-edge (the even one) of every edge that no body has."""
         origin = self.map.origin
         return [h for h in range(0, len(origin), 2) if origin[h] >= 0 and not self.boundary[h >> 1]]
+
+    def ring_edges(self) -> list[int]:
+        """The half-edges of all rings, in the order of their origins."""
+        return [h for h in self.ring_edge if h != NOTHING]
 
     def faces(self, region: int = FREE) -> list[list[int]]:
         """The faces of a region as cycles of half-edges, each from its least half-edge."""

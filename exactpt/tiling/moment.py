@@ -8,9 +8,11 @@ from exactpt.kernel.counters import counters
 from exactpt.tiling import coefficients
 from exactpt.tiling.certificates import X_ORDER
 from exactpt.tiling.exact import cross, orientation, x_order
+from exactpt.tiling.reasons import reason
 
 if TYPE_CHECKING:
     from exactpt.kernel.integer_polynomial import IntPoly
+    from exactpt.motion.vertices import Vertex
     from exactpt.tiling.certificates import Certifier
 
 __all__ = ["Moment"]
@@ -49,7 +51,7 @@ class Moment:
             if s:
                 counters.filtered += 1
                 return s
-        return self._exact(orientation(va, vb, vc))
+        return self._exact(orientation(va, vb, vc), va, vb, vc)
 
     def left_of(self, a: int, b: int) -> bool:
         """Whether a comes before b from left to right."""
@@ -75,7 +77,7 @@ class Moment:
             if s:
                 counters.filtered += 1
                 return s > 0
-        return self._exact(x_order(va, vb)) > 0
+        return self._exact(x_order(va, vb), va, vb) > 0
 
     def turn(self, a: int, b: int, c: int, d: int) -> int:
         """1 if the direction from a to b turns left to that from c to d, -1 if right."""
@@ -86,14 +88,17 @@ class Moment:
             if s:
                 counters.filtered += 1
                 return s
-        return self._exact(cross(p.track, q.track, r.track, t.track))
+        return self._exact(cross(p.track, q.track, r.track, t.track), p, q, r, t)
 
     def _horizon(self) -> float:
         # Roots are not asked for; but the filter looks at an interval that is not empty.
         high = self._certifier.now_high
         return high + 1e-12 * (1.0 + abs(high))
 
-    def _exact(self, f: IntPoly) -> int:
-        counters.exact += 1
-        now = self._certifier.exact_now
+    def _exact(self, f: IntPoly, *vertices: Vertex) -> int:
+        now, exact_only = self._certifier.exact_now, self._certifier.exact_only
+        s = now.sign_of(f) if f else 0
+        counters.count_exact("sign", reason(*vertices, is_zero=s == 0, exact_only=exact_only))
+        if s:
+            return s
         return now.sign_before(f) if self._before else now.sign_after(f)

@@ -15,6 +15,7 @@ from exactpt.kernel.counters import counters
 from exactpt.kernel.integer_polynomial import add, multiply, subtract
 from exactpt.motion import incidence
 from exactpt.motion.incidence import difference
+from exactpt.tiling.reasons import reason
 
 if TYPE_CHECKING:
     from exactpt.geometry.boxes import Boxes
@@ -43,10 +44,11 @@ def coordinate_order(certifier: Certifier, a: Vertex, b: Vertex, axis: int) -> i
         if s:
             counters.filtered += 1
             return s
-    counters.exact += 1
     p, q = a.track, b.track
     f = difference(p.y, p.w, q.y, q.w) if axis else difference(p.x, p.w, q.x, q.w)
-    return certifier.exact_now.sign_of(f)
+    s = certifier.exact_now.sign_of(f)
+    counters.count_exact("place", reason(a, b, is_zero=s == 0, exact_only=certifier.exact_only))
+    return s
 
 
 def boxes_now(certifier: Certifier, vertices: Sequence[Vertex]) -> Boxes:
@@ -114,5 +116,7 @@ def lies_on(certifier: Certifier, v: Vertex, a: Vertex, b: Vertex) -> bool:
             return False
     if coincide(certifier, v, a) or coincide(certifier, v, b):
         return True
-    counters.exact += 1
-    return incidence.lies_on(v.track, a.track, b.track, certifier.exact_now)
+    is_on = incidence.lies_on(v.track, a.track, b.track, certifier.exact_now)
+    why = reason(v, a, b, is_zero=is_on, exact_only=certifier.exact_only)
+    counters.count_exact("contact", why)
+    return is_on

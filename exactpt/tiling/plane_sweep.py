@@ -18,7 +18,8 @@ from collections.abc import Iterable
 from functools import cmp_to_key
 from typing import final
 
-from exactpt.tiling.instant import Instant
+from exactpt.tiling.greedy.shadow import Predicates
+from exactpt.tiling.instant import Instant, sorted_by_x
 from exactpt.tiling.mesh import FREE, INSIDE, SOLID, Diagonal
 
 __all__ = ["Sweep", "SweptEdge", "body_edges", "sweep_diagonals"]
@@ -42,7 +43,7 @@ def sweep_diagonals(instant: Instant) -> list[Diagonal]:
 
     The insides of bodies that deform are tiled as well, those of rigid bodies not.
     """
-    return Sweep(instant, body_edges(instant), triangulate=False).run()
+    return Sweep(instant, body_edges(instant)).run()
 
 
 def body_edges(instant: Instant) -> list[SweptEdge]:
@@ -65,24 +66,34 @@ class Sweep:
     """A sweep over edges that do not cross.
 
     Args:
-        instant: the predicates.
+        predicates: of the time.
         edges: the edges; what is above each is tiled unless it is `SOLID`.
         triangulate: join a vertex to all of the chain that it sees, not by tangents only.
+        around: what is outside all edges.
     """
 
-    def __init__(self, instant: Instant, edges: Iterable[SweptEdge], *, triangulate: bool) -> None:
-        self.instant = instant
+    def __init__(
+        self,
+        predicates: Predicates,
+        edges: Iterable[SweptEdge],
+        *,
+        triangulate: bool = False,
+        around: int = FREE,
+    ) -> None:
+        self.predicates = predicates
         self.triangulate = triangulate
         self.diagonals: list[Diagonal] = []
         # From bottom to top; the first is no edge but the gap below all of them.
-        self.active: list[SweptEdge] = [SweptEdge(-1, -1, FREE)]
+        self.active: list[SweptEdge] = [SweptEdge(-1, -1, around)]
         self.starting: dict[int, list[SweptEdge]] = {}
+        self.ends: dict[int, None] = {}
         for edge in edges:
             self.starting.setdefault(edge.left, []).append(edge)
+            self.ends[edge.left] = self.ends[edge.right] = None
 
     def run(self) -> list[Diagonal]:
         """The diagonals of all gaps, from left to right."""
-        for v in self.instant.sorted_by_x(list(range(len(self.instant.vertices.all)))):
+        for v in sorted_by_x(self.predicates, self.ends):
             edges = self.starting.get(v, [])
             self._pass(v, self._from_bottom_to_top(edges))
         return self.diagonals
@@ -91,7 +102,7 @@ class Sweep:
         """Edges with a common left end."""
 
         def order(a: SweptEdge, b: SweptEdge) -> int:
-            return -self.instant.sign(a.left, a.right, b.right)
+            return -self.predicates.sign(a.left, a.right, b.right)
 
         return sorted(edges, key=cmp_to_key(order)) if len(edges) > 1 else edges
 
@@ -127,7 +138,7 @@ class Sweep:
         while low < high:
             middle = (low + high) // 2
             edge = self.active[middle]
-            if edge.right != v and self.instant.sign(edge.left, edge.right, v) > 0:
+            if edge.right != v and self.predicates.sign(edge.left, edge.right, v) > 0:
                 low = middle + 1
             else:
                 high = middle
@@ -141,7 +152,7 @@ class Sweep:
 
     def _sees(self, v: int, chain: list[int], i: int) -> bool:
         """Whether v sees the edge i of a chain: it is on its right, going up."""
-        return self.instant.sign(chain[i], chain[i + 1], v) < 0
+        return self.predicates.sign(chain[i], chain[i + 1], v) < 0
 
     def _split_chain(self, v: int, chain: list[int], region: int) -> tuple[list[int], list[int]]:
         """The chains below and above v in a gap that starts or goes on there."""
@@ -164,7 +175,7 @@ class Sweep:
         the chain turn to the left on the way up, so then it ends to the left as well, and
         the wedge at its upper end is less than pi.
         """
-        leans_left = len(chain) > 1 and self.instant.left_of(chain[1], chain[0])
+        leans_left = len(chain) > 1 and self.predicates.left_of(chain[1], chain[0])
         return 0 if leans_left else len(chain) - 1
 
     def _upper_end(self, v: int, chain: list[int], region: int) -> list[int]:

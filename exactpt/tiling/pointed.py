@@ -16,6 +16,7 @@ face has at least three, just one at the other).
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from exactpt.errors import AuditError
@@ -42,19 +43,33 @@ class Change(NamedTuple):
     angles: list[int]
 
 
-def make_pointed(mesh: Mesh, predicates: Predicates) -> None:
+def make_pointed(
+    mesh: Mesh, predicates: Predicates, nearby: Iterable[int] | None = None
+) -> list[Change]:
     """Remove and flip diagonals, in place, until every vertex is pointed that can be.
 
     Args:
         mesh: a pseudo-triangulation.
         predicates: of the time.
+        nearby: half-edges; only they and the vertices where they start are looked at, and
+            what follows from their changes.
+
+    Returns:
+        What was done, in order.
 
     Raises:
         AuditError: if the mesh is no pseudo-triangulation.
     """
-    _remove(mesh, predicates, mesh.diagonals())
-    for first in mesh.ring_edge:
-        point_vertex(mesh, first, predicates)
+    if nearby is None:
+        changes = _remove(mesh, predicates, mesh.diagonals())
+        rings = mesh.ring_edges()
+    else:
+        edges = list(nearby)
+        rings = [mesh.ring_edge[v] for v in sorted({mesh.map.origin[h] for h in edges})]
+        changes = _remove(mesh, predicates, [min(h, h ^ 1) for h in edges])
+    for first in rings:
+        changes += point_vertex(mesh, first, predicates)
+    return changes
 
 
 def point_vertex(mesh: Mesh, first: int, predicates: Predicates) -> list[Change]:

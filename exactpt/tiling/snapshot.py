@@ -148,13 +148,11 @@ class _Contraction:
         self.mesh = mesh
         self.at = at
         self.nodes: list[Node] = []
-        first = []
         for moving in vertices.bodies:
             body = moving.body
-            first.append(len(self.nodes))
             tracks = {vertices.all[v].index: vertices.all[v].track for v in moving.ring}
             self.nodes += [Node(body.name, i, *tracks[i].at(at)) for i in range(body.size)]
-        self.node = [first[v.body] + v.index for v in vertices.all]
+        self.node = vertices.nodes()
         self.cuts: dict[tuple[int, int], set[int]] = {}
 
     def snapshot(self, name: str) -> Snapshot:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Self
 
-from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.errors import AuditError
+from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.kinetic.queue import EventQueue, EventTime, ExactQueue
 from exactpt.motion.vertices import Vertices
@@ -14,6 +15,7 @@ from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.events import Stats, TilingEvent
 
 if TYPE_CHECKING:
+    from exactpt.motion.body import Body
     from exactpt.tiling.instant import Instant
     from exactpt.tiling.mesh import Mesh
 
@@ -40,6 +42,8 @@ class Tiling:
         )
         self.stats: Stats = stats
         self._events: list[TilingEvent] = []
+        # The time before the last one with events, and these: what `retreat` restores.
+        self._undo: tuple[EventTime, list[tuple[int, EventTime]]] | None = None
         self._until: tuple[QQ, float] = (certifier.end, vertices.frame.time(certifier.end)[0])
 
     @classmethod
@@ -132,6 +136,42 @@ class Tiling:
             return None
         self._process(*popped)
         return self._reported()
+
+    def retreat(self, grid: QQ) -> QQ:
+        """After `ContactFound`: go back to a rational time just before the contact.
+
+        Args:
+            grid: the time is the last multiple of it before the contact; or, if an event
+                is in between, a dyadic rational after that.
+
+        Returns:
+            The time. The tiling is the one that leads up to the contact.
+        """
+        if self._undo is None:
+            raise AuditError("there is no contact to go back from")
+        (time_before, entries), contact = self._undo, self.now
+        before = time_before.exact or self.certifier.resolve(time_before)
+        self._undo = None
+        for slot, time in entries:
+            self.queue.schedule(slot, time)
+        t = multiple_before(contact, grid)
+        if before.compare_rational(t) >= 0:
+            t = rational_between(before, contact)
+        self._move_to(t)
+        return t
+
+    @abstractmethod
+    def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent]:
+        """Let bodies go on by other plans; work for their certificates alone.
+
+        Args:
+            plans: by the number of the body, what it is from now on. Its positions now are
+                those that it has.
+            t: now.
+
+        Returns:
+            What changes at once.
+        """
 
     def _move_to(self, t: QQ) -> None:
         """Let a rational time be now; nothing happens up to it that has not been processed."""

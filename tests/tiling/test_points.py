@@ -175,6 +175,36 @@ def test_two_grids_pass_through_each_other(velocity, offset):
     assert contact is None
     assert gaps > 8
     assert kinetic.stats.total > 50
+    assert kinetic.stats.rebuilds == 0
+
+
+@pytest.mark.parametrize("chains", ["linked", "searchable"])
+@pytest.mark.parametrize("family", ["point_grids_passing", "simultaneous_swaps", "crossing_lines"])
+@pytest.mark.plain
+@pytest.mark.parametrize("refused", ["_mend", "_sweep_columns", "both"])
+def test_whatever_way_out_is_refused_the_structure_is_the_static_one(
+    monkeypatch, refused, family, chains
+):
+    """Exchanges one by one, columns as a whole, and the sweep anew lead to one structure."""
+    rebuilds = 0
+    for name in ("_mend", "_sweep_columns"):
+        if refused in (name, "both"):
+            monkeypatch.setattr(IncrementalTiling, name, lambda _: False)
+    for seed in range(6):
+        result = run_and_audit(generate(family, seed), chains=chains)
+        rebuilds += result[0].stats.rebuilds if result else 0
+    assert (rebuilds > 0) == (refused != "_sweep_columns" or family == "simultaneous_swaps")
+
+
+def test_a_column_that_passes_another_is_swept_not_exchanged_pair_by_pair():
+    """12 points pass 12 others at one time: 144 pairs, and far fewer certificates."""
+    column = [Body(f"s{j}", [(0, j)]) for j in range(12)]
+    moving = [Body(f"m{j}", [(-3, j + QQ(1, 2))], Translation([0, 1])) for j in range(12)]
+    ends = [Body("first", [(-9, 5)]), Body("last", [(9, 6)])]
+    kinetic, contact, _ = run_and_audit(Scene([*column, *moving, *ends], (0, 6)))
+    assert contact is None
+    assert kinetic.stats.rebuilds == 0
+    assert kinetic.stats.events["x-order"] < 60
 
 
 @pytest.mark.parametrize("size", [3, 6, 50])

@@ -17,9 +17,9 @@ from exactpt.errors import AuditError
 from exactpt.tiling.angles import KINDS
 from exactpt.tiling.greedy.shadow import flip_until_greedy, shadow, tangency
 from exactpt.tiling.instant import Instant
-from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.moment import Moment
+from exactpt.tiling.populated import PopulatedTiling
 from exactpt.tiling.repairs import RebuildNeeded
 
 __all__ = ["FlippingTiling"]
@@ -46,7 +46,7 @@ class _Shadow(NamedTuple):
     tangencies: list[tuple[int, int, int]]
 
 
-class FlippingTiling(KineticTiling):
+class FlippingTiling(PopulatedTiling):
     """A tiling that is greedy wherever its diagonals may be flipped."""
 
     def _close(self, mesh: Mesh, instant: Instant) -> None:

@@ -11,16 +11,20 @@ from typing import final
 
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.vertices import Vertices
 from exactpt.tiling.angles import CELL, EXTREME, KINDS
 from exactpt.tiling.build import build_mesh
+from exactpt.tiling.greedy import cells
 from exactpt.tiling.greedy.shadow import facing_visit, flip, flip_until_greedy, shadow
 from exactpt.tiling.greedy.sweep import greedy_diagonals
-from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition
+from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition, is_above, lower_chain
+from exactpt.tiling.greedy.vertical_view import seen_from
 from exactpt.tiling.instant import Instant
-from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.moment import Moment
 from exactpt.tiling.placement import coordinate_order
+from exactpt.tiling.populated import PopulatedTiling
 from exactpt.tiling.repairs import RebuildNeeded
 
 __all__ = ["GreedyTiling", "greedy_mesh"]
@@ -39,7 +43,7 @@ def greedy_mesh(instant: Instant, cells: VerticalDecomposition) -> tuple[Mesh, i
 
 
 @final
-class GreedyTiling(KineticTiling):
+class GreedyTiling(PopulatedTiling):
     """The canonical tiling of convex bodies: at any time the one that the sweep builds.
 
     Attributes:
@@ -127,6 +131,50 @@ class GreedyTiling(KineticTiling):
             for cell in sorted(self.cells.cells_of(arc)):
                 self._certify_cell(cell)
         return vanishing
+
+    # Bodies that come and go
+
+    def takes(self, body: Body, t: QQ) -> bool:
+        """Whether a body can be added at a time: if it is convex from then on."""
+        alone = Vertices.of([body], t, self.certifier.end)
+        return Instant(alone, t).all_stay_convex()
+
+    def _enter_body(self, i: int) -> None:
+        after = Moment(self.certifier, before=False)
+        chain = lower_chain(after, self.vertices.bodies[i].ring)
+        changed = cells.add_body(
+            self.cells,
+            after,
+            (chain[0], chain[-1]),
+            self._cell_around(chain[0], after),
+            lambda v: is_above(after, chain, v),
+        )
+        self._certify_extremes(i)
+        for cell in changed:
+            self._certify_cell(cell)
+
+    def _cell_around(self, v: int, after: Moment) -> int:
+        """The cell that a vertex which bounds none is in: over what it sees below, or under."""
+        for up in (False, True):
+            h = seen_from(self.mesh, after, v, up=up)
+            if h is not None:
+                arc = 2 * self.vertices.all[self.mesh.map.origin[h]].body
+                row = self.cells.right_down if up else self.cells.right_up
+                return cells.cell_along(self.cells, after, v, row[arc], over=not up)
+        return cells.cell_along(self.cells, after, v, self.cells.left.index(NO_ARC), over=True)
+
+    def _leave_body(self, i: int) -> None:
+        last = len(self.vertices.bodies) - 1
+        changed, spare = cells.remove_body(self.cells, Moment(self.certifier, before=False), i)
+        for k in range(4):
+            self._move_slot(KINDS * (4 * last + k) + EXTREME, KINDS * (4 * i + k) + EXTREME)
+        cells.rename_body(self.cells, last, i)
+        for cell in sorted(spare, reverse=True):
+            old = cells.rename_cell(self.cells, cell)
+            self._move_slot(KINDS * old + CELL, KINDS * cell + CELL)
+            changed = [cell if c == old else c for c in changed]
+        for cell in changed:
+            self._certify_cell(cell)
 
     def _recheck(self, slots: list[int]) -> None:
         for slot in slots:

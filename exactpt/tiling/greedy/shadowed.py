@@ -50,7 +50,7 @@ class ShadowedTiling(FlippingTiling):
     def _certify_everything(self) -> None:
         self._turned.clear()
         super()._certify_everything()
-        for v in range(len(self.vertices.all)):
+        for v in self.vertices.ids():
             self._certify_turn(v)
 
     def _certify_body(self, i: int) -> list[int]:
@@ -69,6 +69,15 @@ class ShadowedTiling(FlippingTiling):
         if self._turned:
             self._point_turned(after)
         super()._restore_greedy(after, diagonals)
+
+    def _enter_body(self, i: int) -> None:
+        for v in self.vertices.bodies[i].ring:
+            self._certify_turn(v)
+
+    def _leave_body(self, i: int) -> None:
+        for v in self.vertices.bodies[i].ring:
+            self.queue.cancel(KINDS * v + TURN)
+            self._turned.discard(v)
 
     def _certify_turn(self, v: int) -> None:
         """Certify that a vertex of a deforming polygon stays reflex, if it is."""

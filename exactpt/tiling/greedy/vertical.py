@@ -17,9 +17,10 @@ from __future__ import annotations
 
 from typing import Final, final
 
-from exactpt.tiling.instant import Instant
+from exactpt.tiling.greedy.shadow import Predicates
+from exactpt.tiling.instant import Instant, sorted_by_x
 
-__all__ = ["NO_ARC", "NO_CELL", "VerticalDecomposition"]
+__all__ = ["NO_ARC", "NO_CELL", "VerticalDecomposition", "is_above", "lower_chain"]
 
 NO_ARC: Final = -1
 NO_CELL: Final = -1
@@ -124,19 +125,19 @@ class VerticalDecomposition:
         self = cls(len(vertices.bodies))
         lower: list[list[int]] = []
         for i, body in enumerate(vertices.bodies):
-            chain = _lower_chain(instant, body.ring)
+            chain = lower_chain(instant, body.ring)
             lower.append(chain)
             self.vertex[2 * i], self.vertex[2 * i + 1] = chain[0], chain[-1]
         arc_of = {v: arc for arc, v in enumerate(self.vertex)}
         active: list[int] = []  # bodies on the sweep line, from bottom to top
         gaps = [self._new_cell(NO_ARC)]  # the cells between them
-        for v in instant.sorted_by_x(self.vertex):
+        for v in sorted_by_x(instant, self.vertex):
             arc = arc_of[v]
             if arc % 2 == 0:
                 low, high = 0, len(active)
                 while low < high:
                     middle = (low + high) // 2
-                    if _is_above(instant, lower[active[middle]], v):
+                    if is_above(instant, lower[active[middle]], v):
                         low = middle + 1
                     else:
                         high = middle
@@ -159,25 +160,25 @@ class VerticalDecomposition:
         return self
 
 
-def _lower_chain(instant: Instant, ring: list[int]) -> list[int]:
+def lower_chain(predicates: Predicates, ring: list[int]) -> list[int]:
     """The vertices of a convex ring from its leftmost to its rightmost, along the bottom."""
     n = len(ring)
     first = last = 0
     for i in range(1, n):
-        if instant.left_of(ring[i], ring[first]):
+        if predicates.left_of(ring[i], ring[first]):
             first = i
-        if instant.left_of(ring[last], ring[i]):
+        if predicates.left_of(ring[last], ring[i]):
             last = i
     return [ring[i % n] for i in range(first, first + (last - first) % n + 1)]
 
 
-def _is_above(instant: Instant, lower: list[int], v: int) -> bool:
+def is_above(predicates: Predicates, lower: list[int], v: int) -> bool:
     """Whether v, over or under a convex body on the same vertical, is over it."""
     low, high = 0, len(lower) - 1  # lower[low] is left of v, lower[high] is not
     while high - low > 1:
         middle = (low + high) // 2
-        if instant.left_of(lower[middle], v):
+        if predicates.left_of(lower[middle], v):
             low = middle
         else:
             high = middle
-    return instant.sign(lower[low], lower[high], v) >= 0
+    return predicates.sign(lower[low], lower[high], v) >= 0

@@ -41,7 +41,10 @@ class CertifiedStructure:
         self._queue = queue
         self.after = Moment(certifier, before=False)
         self.due: tuple[set[int], set[int], set[int]] = (set(), set(), set())
-        for p in structure.order:
+
+    def certify_everything(self) -> None:
+        """Certify all edges and all neighbours in the x-order."""
+        for p in self.now.order:
             self.certify_edge(UPPER, p)
             self.certify_edge(LOWER, p)
             self.certify_order(p)

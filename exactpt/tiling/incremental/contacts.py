@@ -17,7 +17,7 @@ from exactpt.tiling.certificates import X_ORDER, Certifier
 from exactpt.tiling.incremental.structure import IncrementalStructure
 from exactpt.tiling.placement import coordinate_order
 
-__all__ = ["coinciding"]
+__all__ = ["coinciding", "column_around"]
 
 
 def coinciding(
@@ -54,6 +54,19 @@ def coinciding(
             group = sorted(equal)
             found += [Touch(p, 0, q, -1, 0) for j, q in enumerate(group) for p in group[:j]]
     return sorted(found)
+
+
+def column_around(certifier: Certifier, structure: IncrementalStructure, p: int) -> tuple[int, int]:
+    """The ranks, from the one to before the other, of the points that have the x of p now."""
+    order, rank, vertex = structure.order, structure.rank, certifier.vertex
+    low = high = rank[p]
+    while low > 0 and not coordinate_order(certifier, vertex(order[low - 1]), vertex(p), 0):
+        low -= 1
+    while high + 1 < len(order) and not coordinate_order(
+        certifier, vertex(order[high + 1]), vertex(p), 0
+    ):
+        high += 1
+    return low, high + 1
 
 
 def _is_level(certifier: Certifier, p: int, q: int) -> bool:

@@ -6,14 +6,14 @@ from itertools import pairwise
 
 from exactpt.errors import AuditError
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
-from exactpt.tiling.instant import Instant
+from exactpt.tiling.instant import Instant, sorted_by_x
 
 __all__ = ["holds_at", "sweep_at"]
 
 
 def sweep_at(instant: Instant) -> IncrementalStructure:
     """The incremental pseudo-triangulation of an instant: O(n log n)."""
-    order = instant.sorted_by_x(list(range(len(instant.vertices.all))))
+    order = sorted_by_x(instant, range(len(instant.vertices.all)))
     return IncrementalStructure.sweep(order, instant)
 
 

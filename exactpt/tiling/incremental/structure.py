@@ -116,6 +116,15 @@ class IncrementalStructure:
                 hull.append(p)
         return cls(order, trees)
 
+    @classmethod
+    def of(cls, order: list[int], parents: tuple[list[int], list[int]]) -> IncrementalStructure:
+        """The structure with these points from left to right, which hang on these others."""
+        trees = TangentTree(len(order)), TangentTree(len(order))
+        for tree, parent in zip(trees, parents, strict=True):
+            for p in order[1:]:
+                tree.append(parent[p], p)
+        return cls(order, trees)
+
     def make_searchable(self) -> None:
         """From now on, search chains in O(log n)."""
         upper, lower = self.trees

@@ -25,6 +25,11 @@ class MixedTiling(FlippingTiling):
 
     name = "mixed"
 
+    @property
+    def can_change_bodies(self) -> bool:
+        """Not here: the geodesics around all other bodies may change."""
+        return False
+
     @classmethod
     def mesh_at(cls, instant: Instant) -> Mesh:
         """The mixed tiling of an instant."""

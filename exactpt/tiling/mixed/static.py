@@ -23,18 +23,14 @@ def mixed_mesh(instant: Instant) -> LabelledMesh:
     vertices = instant.vertices
     forest = Forest(vertices)
     by_ends = _geodesic_labels(instant, forest)
-    swept = Sweep(instant, _f2_edges(instant, forest, by_ends), triangulate=False).run()
-    boundary = {(u, vertices.all[u].ahead) for u in range(len(vertices.all))}
+    swept = Sweep(instant, _f2_edges(instant, forest, by_ends)).run()
+    boundary = {(u, vertices.all[u].ahead) for u in vertices.ids()}
     bridges = [
         Diagonal(u, v, FREE)
         for u, v in by_ends
         if (u, v) not in boundary and (v, u) not in boundary and (u < v or (v, u) not in by_ends)
     ]
-    inside = [
-        d
-        for d in Sweep(instant, body_edges(instant), triangulate=False).run()
-        if d.region == INSIDE
-    ]
+    inside = [d for d in Sweep(instant, body_edges(instant)).run() if d.region == INSIDE]
     mesh = LabelledMesh(len(vertices.all), forest)
     build_mesh(instant, [*bridges, *swept, *inside], mesh)
     for h in mesh.map.half_edges():

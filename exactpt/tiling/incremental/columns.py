@@ -1,0 +1,156 @@
+"""Points on one vertical line, all put in order anew at one time instead of pair by pair.
+
+When k points of one x change places, up to k (k - 1) / 2 exchanges would follow each other.
+But only these points are affected: of the points to the right, one that hangs in the upper
+tree on a point of the column hangs on the topmost, which is on the upper hull of the column
+and all to its left whatever the order in the column. So the sweep of the paper, section
+3.1, is run through the column alone: from the hull of the points to its left, which is the
+path from the last of them to the root.
+
+In the midst of other events of the same time the trees may not be as they should be yet.
+If points to the right would not find their place again, nothing is changed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+from exactpt.tiling.incremental.structure import IncrementalStructure, Predicates
+from exactpt.tiling.incremental.tree import NONE, TangentTree
+
+__all__ = ["resweep"]
+
+
+class _Swept(NamedTuple):
+    """The sweep of a column in one tree.
+
+    Attributes:
+        parents: where each point of the column hangs.
+        hull: the points of the column on the hull after it, from left to right.
+        covered: the points left of the column that are on the hull before it, not after.
+    """
+
+    parents: dict[int, int]
+    hull: list[int]
+    covered: list[int]
+
+
+def resweep(
+    structure: IncrementalStructure, column: Sequence[int], predicates: Predicates
+) -> tuple[set[int], set[int]] | None:
+    """Put points that follow each other in x-order into another order.
+
+    Args:
+        structure: the structure; changed in place.
+        column: the points in their new order.
+        predicates: of the time.
+
+    Returns:
+        Of each tree, the right ends of the edges that may need new certificates. None if
+        the rest of the structure does not allow it: nothing is changed then.
+    """
+    order, rank = structure.order, structure.rank
+    i = min(rank[p] for p in column)
+    upper, lower = structure.trees
+    before = order[i - 1] if i else NONE
+    above = _sweep(upper, before, column, predicates, wanted=1)
+    below = _sweep(lower, before, column, predicates, wanted=-1)
+    end = i + len(column)
+    if not (_fits(upper, above, rank, end) and _fits(lower, below, rank, end)):
+        return None
+    old = order[i:end]
+    changed = _hang(upper, above, old, rank), _hang(lower, below, old, rank)
+    order[i:end] = column
+    for k, p in enumerate(column, i):
+        rank[p] = k
+    return changed
+
+
+def _sweep(
+    tree: TangentTree, before: int, column: Sequence[int], predicates: Predicates, *, wanted: int
+) -> _Swept:
+    """Sweep through a column, without changing the tree.
+
+    Args:
+        tree: the upper or the lower one.
+        before: the last point left of the column.
+        column: its points in their new order.
+        predicates: of the time.
+        wanted: the sign of what is not convex.
+    """
+    parents: dict[int, int] = {}
+    hull: list[int] = []
+    covered: list[int] = []
+    left = before
+    for p in column:
+        while True:
+            last = hull[-1] if hull else left
+            if len(hull) > 1:
+                previous = hull[-2]
+            else:
+                previous = left if hull else tree.parent[left] if left >= 0 else NONE
+            if previous < 0 or predicates.sign(previous, last, p) != wanted:
+                break
+            if hull:
+                hull.pop()
+            else:
+                covered.append(left)
+                left = previous
+        parents[p] = last
+        hull.append(p)
+    return _Swept(parents, hull, covered)
+
+
+def _fits(tree: TangentTree, swept: _Swept, rank: list[int], end: int) -> bool:
+    """Whether the points right of a column still hang on the hull, in preorder."""
+    if any(tree.last[z] >= 0 and rank[tree.last[z]] >= end for z in swept.covered):
+        return False
+    ranks = [rank[c] for z in reversed(swept.hull) for c in _later(tree, z, rank, end)]
+    hidden = swept.parents.keys() - set(swept.hull)
+    return all(a < b for a, b in pairwise(ranks)) and not any(
+        _later(tree, z, rank, end) for z in hidden
+    )
+
+
+def _later(tree: TangentTree, z: int, rank: list[int], end: int) -> list[int]:
+    """The children of a point that are right of its column."""
+    children = []
+    c = tree.last[z]
+    while c >= 0 and rank[c] >= end:
+        children.append(c)
+        c = tree.before[c]
+    return children[::-1]
+
+
+def _hang(tree: TangentTree, swept: _Swept, old: list[int], rank: list[int]) -> set[int]:
+    """Let the points of a column hang where the sweep has found; changed edges.
+
+    Args:
+        tree: the upper or the lower one.
+        swept: the sweep.
+        old: the points in their old order.
+        rank: the ranks before.
+    """
+    parents, end = swept.parents, rank[old[-1]] + 1
+    changed = set(old)
+    later = {z: _later(tree, z, rank, end) for z in old}
+    for p in reversed(old):
+        changed.add(tree.before[p])
+        for c in reversed(later[p]):
+            tree.detach(c)
+        if tree.parent[p] >= 0:
+            tree.detach(p)
+    for p, z in parents.items():
+        following = [] if z in parents or z < 0 else _later(tree, z, rank, end)
+        if following:
+            tree.insert_before(following[0], p)
+        elif z >= 0:
+            tree.append(z, p)
+        changed.add(tree.before[p])
+    for p, children in later.items():
+        for c in children:
+            tree.append(p, c)
+            changed.add(c)
+    return {c for c in changed if c >= 0}

@@ -1,0 +1,169 @@
+"""A region of a mesh that is tiled anew: a few faces without the edges between them.
+
+The rest of the mesh stays as it is, handles included. Within the region a plane sweep
+(`exactpt.tiling.plane_sweep`) finds new diagonals, and the result is made pointed again;
+that may take out, or flip, diagonals of the tiles next to the region too.
+"""
+
+from __future__ import annotations
+
+from bisect import insort
+from collections.abc import Iterable
+from functools import cmp_to_key
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple, final
+
+from exactpt.errors import AuditError
+from exactpt.planar.halfedge import NOTHING
+from exactpt.tiling.build import fan_order
+from exactpt.tiling.greedy.shadow import Predicates
+from exactpt.tiling.mesh import FREE, OUTER, SOLID, Mesh
+from exactpt.tiling.plane_sweep import Sweep, SweptEdge
+from exactpt.tiling.pointed import make_pointed
+
+if TYPE_CHECKING:
+    from exactpt.motion.vertices import MovingBody, Vertices
+
+__all__ = ["Region", "Retiled"]
+
+
+class Retiled(NamedTuple):
+    """What tiling a region has done.
+
+    Attributes:
+        handles: of edges that are gone; a later edge may have them again.
+        removed, added: diagonals that have gone and come, as pairs of vertices, in order.
+        angles: the half-edges whose angles are new, or belong to a triangle or did.
+    """
+
+    handles: list[int]
+    removed: list[tuple[int, int]]
+    added: list[tuple[int, int]]
+    angles: list[int]
+
+
+class _Angle(NamedTuple):
+    ends: tuple[int, int, int]
+    in_triangle: bool
+
+
+@final
+class Region:
+    """Faces of a mesh that have been joined.
+
+    Args:
+        mesh: the mesh; the edges are removed from it at once.
+        faces: a half-edge of every face; none if there are no edges yet.
+        gone: the edges to be removed, none of which borders another face.
+    """
+
+    def __init__(self, mesh: Mesh, faces: Iterable[int], gone: Iterable[int]) -> None:
+        self.mesh = mesh
+        m = mesh.map
+        self._before: dict[int, _Angle] = {}
+        for first in faces:
+            if first not in self._before:
+                self._before.update((h, self._angle(h)) for h in m.face(first))
+        is_unbounded = not self._before or any(mesh.region[h] == OUTER for h in self._before)
+        self._around = FREE if is_unbounded else SOLID
+        self.gone = list(gone)
+        lost = {g for h in self.gone for g in (h, h ^ 1)}
+        self._rim = [h for h in self._before if h not in lost]
+        self._removed = [mesh.ends(h) for h in self.gone if not mesh.is_boundary(h)]
+        for h in self.gone:
+            m.remove_edge(h)
+
+    def add_ring(self, vertices: Vertices, moving: MovingBody) -> None:
+        """Put the ring of a new body into the region."""
+        mesh, m = self.mesh, self.mesh.map
+        mesh.ring_edge += [NOTHING] * (len(vertices.all) - len(mesh.ring_edge))
+        for v in moving.ring:
+            h = mesh.add_edge(v, vertices.all[v].ahead, boundary=True)
+            mesh.ring_edge[v] = h
+            mesh.region[h] = SOLID
+            self._rim.append(h ^ 1)
+        for v in moving.ring:
+            ahead, behind = mesh.ring_edge[v], mesh.ring_edge[vertices.all[v].behind] ^ 1
+            m.link(behind ^ 1, ahead)
+            m.link(ahead ^ 1, behind)
+
+    def tile(self, predicates: Predicates) -> Retiled:
+        """Tile the region.
+
+        Raises:
+            AuditError: if that is not possible: what is in it overlaps.
+        """
+        sweep = Sweep(predicates, self._edges(predicates), around=self._around)
+        added = [(u, v) for u, v, _ in sweep.run()]
+        new = self._insert(predicates, added)
+        inside = [*self._rim, *new]
+        self._mark(predicates, inside)
+        changes = make_pointed(self.mesh, predicates, inside)
+        m = self.mesh.map
+        angles = dict.fromkeys(h for h in inside if self._has_changed(h))
+        angles.update(dict.fromkeys(h for change in changes for h in change.angles))
+        return Retiled(
+            [change.handle for change in changes],
+            self._removed + [change.old for change in changes],
+            added + [change.new for change in changes if change.new is not None],
+            [h for h in angles if m.origin[h] >= 0],
+        )
+
+    def _angle(self, h: int) -> _Angle:
+        m = self.mesh.map
+        before = m.previous[h]
+        in_triangle = m.following[m.following[h]] == before
+        return _Angle((m.origin[before], m.origin[h], m.origin[h ^ 1]), in_triangle)
+
+    def _has_changed(self, h: int) -> bool:
+        return self.mesh.map.origin[h] >= 0 and self._before.get(h) != self._angle(h)
+
+    def _edges(self, predicates: Predicates) -> Iterable[SweptEdge]:
+        """The edges of the rim, from left to right, with what is above them."""
+        rim = set(self._rim)
+        done: set[int] = set()
+        for h in self._rim:
+            if h not in done:
+                done.update((h, h ^ 1))
+                g = h if predicates.left_of(*self.mesh.ends(h)) else h ^ 1
+                yield SweptEdge(*self.mesh.ends(g), FREE if g in rim else SOLID)
+
+    def _insert(self, predicates: Predicates, diagonals: Iterable[tuple[int, int]]) -> list[int]:
+        """Link new diagonals into the fans of their ends; their half-edges."""
+        mesh, m = self.mesh, self.mesh.map
+        new: dict[int, list[int]] = {}
+        for u, v in diagonals:
+            h = mesh.add_edge(u, v, boundary=False)
+            new.setdefault(u, []).append(h)
+            new.setdefault(v, []).append(h ^ 1)
+        for v, edges in new.items():
+            # Counter-clockwise, as in `build_mesh`: the body first, then free space.
+            fan = m.fan(mesh.ring_edge[v])
+            k = next(i for i, h in enumerate(fan) if i and mesh.is_boundary(h))
+            free, key = fan[k + 1 :], cmp_to_key(fan_order(predicates, mesh, v, fan[k]))
+            for h in edges:
+                insort(free, h, key=key)
+            for h, following in pairwise([*fan[: k + 1], *free, fan[0]]):
+                m.link(following ^ 1, h)
+        return [h for edges in new.values() for h in edges]
+
+    def _mark(self, predicates: Predicates, inside: list[int]) -> None:
+        """Mark the angles that are new, and say which face is outside of everything."""
+        mesh, m = self.mesh, self.mesh.map
+        for h in inside:
+            mesh.region[h] = FREE
+            angle = self._angle(h)
+            if h not in self._before or self._before[h].ends != angle.ends:
+                a, p, b = angle.ends
+                mesh.corner[h] = a == b or predicates.sign(a, p, b) > 0
+        seen: set[int] = set()
+        for h in inside:
+            if h not in seen:
+                face = m.face(h)
+                seen.update(face)
+                corners = sum(mesh.corner[g] for g in face)
+                if corners == 0:
+                    for g in face:
+                        mesh.region[g] = OUTER
+                elif corners != 3:
+                    raise AuditError(f"a face of the region has {corners} corners")

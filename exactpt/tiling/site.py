@@ -1,0 +1,168 @@
+"""Where a new body comes to lie in a tiling: the faces that it meets.
+
+From any face, others are looked at in the order of their distance (in floats, which say
+only where to look next) until one is found in which the body has a vertex; from there on,
+exactly, every diagonal that the body meets leads to the next face. All of it is decided at
+the given time, for closed faces and the closed body, so that nothing is missed where
+certificates vanish just then.
+"""
+
+from __future__ import annotations
+
+import heapq
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple, final
+
+from exactpt.errors import AuditError, InputError
+from exactpt.geometry.polygon import contains, edges, segments_meet
+from exactpt.geometry.predicates import Point, side
+from exactpt.tiling.mesh import INSIDE, OUTER, SOLID, Mesh
+
+if TYPE_CHECKING:
+    from exactpt.kernel.numbers import QQ
+    from exactpt.motion.body import Body
+    from exactpt.motion.vertices import Vertices
+
+__all__ = ["Site", "find_site"]
+
+
+class Site(NamedTuple):
+    """Where a body lies.
+
+    Attributes:
+        faces: a half-edge of every face that it meets.
+        crossed: the diagonals that it meets, each by one half-edge.
+    """
+
+    faces: list[int]
+    crossed: list[int]
+
+
+def find_site(vertices: Vertices, mesh: Mesh, body: Body, t: QQ) -> Site:
+    """Find the faces that a body which is not there yet meets.
+
+    Args:
+        vertices: the moving vertices.
+        mesh: their tiling just after a time.
+        body: whose site it is.
+        t: the time.
+
+    Raises:
+        InputError: if the body touches another one.
+    """
+    return _Search(vertices, mesh, body, t).site()
+
+
+@final
+class _Search:
+    def __init__(self, vertices: Vertices, mesh: Mesh, body: Body, t: QQ) -> None:
+        self.vertices = vertices
+        self.mesh = mesh
+        self.body = body
+        self.t = t
+        self.points: Sequence[Point] = body.at(t)
+        pairs = edges(body.size, closed=body.closed) or [(0, 0)]
+        self.edges = [(self.points[u], self.points[v]) for u, v in pairs]
+        self.low = min(p[0] for p in self.points), min(p[1] for p in self.points)
+        self.high = max(p[0] for p in self.points), max(p[1] for p in self.points)
+        self.known: dict[int, Point] = {}
+
+    def site(self) -> Site:
+        """The site of the body."""
+        if not self.vertices.bodies:
+            return Site([], [])
+        first = self._face_around(self.points[0])
+        faces, crossed, touched = [first[0]], dict[int, None](), set[int]()
+        if self.mesh.region[first[0]] in (SOLID, INSIDE):
+            touched.add(self._body_at(first[0]))
+        seen, todo = set(first), [first]
+        for face in todo:
+            for h in face:
+                if min(h, h ^ 1) in crossed or not self._meets(h):
+                    continue
+                if self.mesh.is_boundary(h):
+                    touched.add(self._body_at(h))
+                    continue
+                crossed[min(h, h ^ 1)] = None
+                if h ^ 1 not in seen:
+                    beyond = self.mesh.map.face(h ^ 1)
+                    seen.update(beyond)
+                    todo.append(beyond)
+                    faces.append(h ^ 1)
+        # A body that is swallowed whole is joined to what is outside of the new one, if
+        # anything is; so is the first face.
+        touched.update(
+            self._body_at(g) for h in [*crossed, first[0]] for g in (h, h ^ 1) if self._swallows(g)
+        )
+        if touched:
+            name = self.vertices.bodies[min(touched)].body.name
+            raise InputError(f"body {self.body.name!r} touches body {name!r} at t = {self.t}")
+        return Site(faces, list(crossed))
+
+    def _at(self, v: int) -> Point:
+        """Where a vertex is."""
+        if v not in self.known:
+            self.known[v] = self.vertices.all[v].track.at(self.t)
+        return self.known[v]
+
+    def _ends(self, h: int) -> tuple[Point, Point]:
+        u, v = self.mesh.ends(h)
+        return self._at(u), self._at(v)
+
+    def _body_at(self, h: int) -> int:
+        return self.vertices.all[self.mesh.map.origin[h]].body
+
+    def _face_around(self, p: Point) -> list[int]:
+        """The face that a point is in; of several that it borders, any one."""
+        m = self.mesh.map
+        seen: set[int] = set()
+        waiting = [(0.0, self.mesh.ring_edge[self.vertices.bodies[-1].ring[0]] ^ 1)]
+        target = self.vertices.frame.point(p)
+        while waiting:
+            _, first = heapq.heappop(waiting)
+            if first in seen:
+                continue
+            face = m.face(first)
+            seen.update(face)
+            # The one face that is unbounded turns around what is not in it.
+            if (self._turns(face, p) != 0) != (self.mesh.region[first] == OUTER):
+                return face
+            for h in face:
+                if h ^ 1 not in seen:
+                    heapq.heappush(waiting, (self._distance(h, target), h ^ 1))
+        raise AuditError(f"no face around ({p[0]}, {p[1]})")
+
+    def _distance(self, h: int, target: tuple[float, float]) -> float:
+        """About how far an edge is from a place in the frame."""
+        (ax, ay), (bx, by) = map(self.vertices.frame.point, self._ends(h))
+        dx, dy, px, py = bx - ax, by - ay, target[0] - ax, target[1] - ay
+        square = dx * dx + dy * dy
+        s = min(max((px * dx + py * dy) / square, 0.0), 1.0) if square > 0.0 else 0.0
+        return math.hypot(px - s * dx, py - s * dy)
+
+    def _turns(self, face: Sequence[int], p: Point) -> int:
+        """How often a face turns around a point, half-open in y as in `contains`."""
+        turns = 0
+        for h in face:
+            a, b = self._ends(h)
+            if (a[1] > p[1]) != (b[1] > p[1]):
+                s = side(a, b, p)
+                if b[1] > a[1]:
+                    turns += s > 0
+                else:
+                    turns -= s < 0
+        return turns
+
+    def _meets(self, h: int) -> bool:
+        """Whether the body meets the closed edge of a half-edge, other than inside itself."""
+        a, b = self._ends(h)
+        for axis in (0, 1):
+            if max(a[axis], b[axis]) < self.low[axis] or min(a[axis], b[axis]) > self.high[axis]:
+                return False
+        return any(segments_meet(a, b, c, d) for c, d in self.edges)
+
+    def _swallows(self, h: int) -> bool:
+        """Whether the origin of a half-edge is in the body."""
+        is_polygon = self.body.closed and self.body.size > 2
+        return is_polygon and contains(self.points, self._at(self.mesh.map.origin[h]))

@@ -1,0 +1,86 @@
+"""The exact decisions by what was decided, and why floats did not do."""
+
+from random import Random
+
+import pytest
+
+from exactpt.collision.tilings import TILINGS
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.scene.generate import generate
+from exactpt.scene.scene import Scene
+from exactpt.simulation.simulation import Simulation
+
+
+@pytest.fixture(autouse=True)
+def _with_filters(request):
+    if request.config.getoption("--exact-only"):
+        pytest.skip("is about what the filters leave open")
+
+
+def reasons_of(scene, **options):
+    simulation = Simulation(scene, **options)
+    list(simulation.run())
+    stats = simulation.stats
+    assert sum(stats["reasons"].values()) == stats["exact"]
+    return stats["reasons"], stats
+
+
+def points(*placed):
+    return [Body(f"p{i}", [at], Translation([0, v[0]], [0, v[1]])) for i, (at, v) in
+            enumerate(placed)]  # fmt: skip
+
+
+@pytest.mark.parametrize("tiling", TILINGS)
+@pytest.mark.parametrize("family", ["convex", "small_grid", "turning", "convoy"])
+def test_every_exact_decision_has_a_reason(tiling, family):
+    reasons, _ = reasons_of(generate(family, 1), tiling=tiling)
+
+    assert not any(key.endswith("asked") for key in reasons)
+
+
+def test_without_filters_the_reason_is_that():
+    reasons, stats = reasons_of(generate("convex", 1), exact_only=True)
+
+    assert stats["filtered"] == 0
+    assert {key for key in reasons if not key.endswith(": asked")} == set()
+
+
+def test_points_on_a_line_are_zeros():
+    """Three in a row for ever, at rest: nothing is merely close."""
+    reasons, _ = reasons_of(Scene(points(((0, 0), (0, 0)), ((1, 1), (0, 0)), ((2, 2), (0, 0)))))
+
+    assert {key for key in reasons if not key.endswith(": zero")} == set()
+    assert reasons["sign: zero"] > 0
+
+
+def test_points_that_nearly_meet_on_a_line_are_close():
+    """One passes the line of two others by 2^-60 of their distance."""
+    tiny = QQ(1, 1 << 60)
+    scene = Scene(points(((0, 0), (0, 0)), ((2, 2), (0, 0)), ((1, 1 + tiny), (0, 0))))
+    reasons, _ = reasons_of(scene)
+
+    assert sum(n for key, n in reasons.items() if key.endswith(": close")) > 0
+
+
+def test_huge_numbers_are_out_of_range():
+    """Two neighbours at a distance of 2^-300 of the scene's width."""
+    far = 1 << 300
+    apart = points(((0, 0), (1, 0)), ((far, 3), (0, 0)), ((-far, 1), (0, 0)))
+    near = [Body("near", [(2, 9)]), Body("up", [(5, 7)], Translation([0], [0, 1]))]
+    scene = Scene([*apart, *near], (0, 8))
+    reasons, _ = reasons_of(scene)
+
+    assert sum(n for key, n in reasons.items() if key.endswith(": range")) > 0
+
+
+def test_segments_have_copies():
+    rng = Random(1)
+    bodies = []
+    for i in range(4):
+        x, y = 10 * i, rng.randint(0, 20)
+        bodies.append(Body(f"s{i}", [(x, y), (x + 5, y + rng.randint(-3, 3))]))
+    reasons, _ = reasons_of(Scene(bodies), tiling="lazy")
+
+    assert sum(n for key, n in reasons.items() if key.endswith(": copies")) > 0
