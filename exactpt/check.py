@@ -105,7 +105,7 @@ def check_scene(
                     deadline is not None and clock.monotonic() > deadline
                 ):
                     reached = kinetic.now.canonical_interval()[0]
-                    raise BudgetExceeded(f"checked up to t = {float(reached)!r}", reached)
+                    raise BudgetExceeded("the budget of the check is used up", reached)
             witness.tiling(kinetic, scene.end)
         except ContactFound:
             witness.time(kinetic.now)

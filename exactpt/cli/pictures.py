@@ -7,6 +7,7 @@ from typing import Literal
 
 import click
 
+from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import MOMENT, SCENE, TILING, budget, load, output
 from exactpt.cli.words import answer_in_words
 from exactpt.kernel.numbers import QQ
@@ -54,15 +55,16 @@ def draw(
     """
     from exactpt.render.draw import draw as draw_scene
 
-    draw_scene(
-        load(scene),
-        output,
-        at=at,
-        tiling=tiling,
-        theme=theme,
-        max_events=max_events,
-        max_seconds=max_seconds,
-    )
+    with time_limit(max_seconds):
+        draw_scene(
+            load(scene),
+            output,
+            at=at,
+            tiling=tiling,
+            theme=theme,
+            max_events=max_events,
+            max_seconds=max_seconds,
+        )
     return 0
 
 
