@@ -7,9 +7,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 PACKAGES := g++ cmake libcgal-dev
 JOBS ?= 2
+COMPILED_TESTS := $(addprefix tests/,kernel kinetic motion planar tiling collision simulation)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-exact test-browser coverage lint quick pictures check-cgal clean
+.PHONY: help demo test test-slow test-exact test-browser compiled plain test-compiled coverage lint quick pictures check-cgal clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -32,6 +33,17 @@ test-exact: $(VENV)/developing ## the quick tests with the float filters switche
 test-browser: $(VENV)/developing ## the animation in a real browser (installs chromium)
 	@.ci/apt-install chromium chromium-driver
 	$(BIN)/python -m pytest -m browser
+
+compiled: $(VENV)/developing ## compile the hot rooms of this checkout (setup.py)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77'
+	$(BIN)/python setup.py --quiet build_ext --inplace
+
+plain: ## remove what `make compiled` made
+	find exactpt -name '*.so' -delete
+	rm -rf exactpt__mypyc*.so build
+
+test-compiled: compiled ## the quick tests of what is compiled
+	$(BIN)/python -m pytest -n $(JOBS) $(COMPILED_TESTS); status=$$?; $(MAKE) plain; exit $$status
 
 coverage: $(VENV)/developing cgal_check/build/cgal_check ## branches covered by the tests
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser" --cov=exactpt --cov-report=term:skip-covered

@@ -60,7 +60,7 @@ class Measured(NamedTuple):
 def measure(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> Measured:
     """Run a scene to its end, or its first contact."""
     vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
-    tiling = IncrementalTiling(vertices, scene.start, scene.end, chains=chains, fan=fan)
+    tiling = IncrementalTiling.begin(vertices, scene.start, scene.end, chains=chains, fan=fan)
     exact, begin = counters.exact, process_time()
     try:
         for _ in tiling.run():

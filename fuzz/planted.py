@@ -13,6 +13,7 @@ from typing import Any, Final
 from unittest.mock import patch
 
 from exactpt.collision import detector
+from exactpt.errors import InputError
 from exactpt.kernel import filters
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import negate
@@ -217,7 +218,13 @@ class Found:
 
 
 def hunt(bug: str, most: int = 150, witnesses: Sequence[str] = WITNESSES, seed: int = 0) -> Found:
-    """Look for a planted bug in the scenes of a campaign, at most so many."""
+    """Look for a planted bug in the scenes of a campaign, at most so many.
+
+    Raises:
+        InputError: if the package is compiled: then nothing can be planted.
+    """
+    if not filters.__file__.endswith(".py"):
+        raise InputError("mistakes are planted in the plain package only: make plain")
     began = clock.perf_counter()
     families = list(FAMILIES)
     for number in range(most):

@@ -80,19 +80,19 @@ def audit_at(kinetic: Tiling, at: QQ) -> None:
     """
     instant = Instant(kinetic.vertices, at)
     if kinetic.name == POINT_TILING:
-        kinetic.mesh.audit()  # its points have no rings
+        kinetic.mesh_after().audit()  # its points have no rings
     else:
-        audit_angles(kinetic.mesh, instant)
+        audit_angles(kinetic.mesh_after(), instant)
     if kinetic.name in FREE_TO_DIFFER:
         return
     if isinstance(kinetic, GreedyTiling):
         _audit_cells(kinetic.cells, VerticalDecomposition.at(instant), at)
     mesh, name = type(kinetic).mesh_at(instant), kinetic.vertices.name
-    static, kept = _diagonals(mesh), _diagonals(kinetic.mesh)
+    static, kept = _diagonals(mesh), _diagonals(kinetic.mesh_after())
     if static != kept:
         missing = [f"{name(u)} {name(v)}" for u, v in static if (u, v) not in kept]
         raise AuditError(f"t = {at}: kinetic is not static; missing: {', '.join(missing)}")
-    if _labels(mesh) != _labels(kinetic.mesh):
+    if _labels(mesh) != _labels(kinetic.mesh_after()):
         raise AuditError(f"t = {at}: other labels than the static ones")
 
 

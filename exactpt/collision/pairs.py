@@ -105,7 +105,7 @@ class PairsSearch:
     def _prepare(self) -> None:
         """Number the vertices and edges, and read the first tracks."""
         scene = self._scene
-        self._vertices = Vertices(scene.bodies, scene.start, scene.end)
+        self._vertices = Vertices.of(scene.bodies, scene.start, scene.end)
         ids: list[int] = []
         first_edge: list[tuple[int, int]] = []
         for moving, body in zip(self._vertices.bodies, scene.bodies, strict=True):

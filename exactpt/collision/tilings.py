@@ -46,7 +46,7 @@ class TilingPlan(NamedTuple):
 
     def start(self, time: QQ, *, exact_only: bool = False) -> Tiling:
         """The tiling just after a time at which the bodies are disjoint."""
-        return self.kind(self.vertices, time, self.end, exact_only=exact_only)
+        return self.kind.begin(self.vertices, time, self.end, exact_only=exact_only)
 
     def mesh_at(self, time: QQ) -> Mesh:
         """The tiling at a time."""
@@ -70,7 +70,7 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
 
         vertices = IncrementalTiling.vertices_of(scene.bodies, start, scene.end)
         return TilingPlan(POINT_TILING, IncrementalTiling, vertices, scene.end)
-    vertices = Vertices(scene.bodies, start, scene.end)
+    vertices = Vertices.of(scene.bodies, start, scene.end)
     convex = name in ("auto", "greedy") and Instant(vertices, start).all_stay_convex()
     if name == "auto":
         name = "greedy" if convex else "mixed"

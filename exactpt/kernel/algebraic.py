@@ -15,6 +15,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.approximation import (
     canonical_interval,
     enclosing_doubles,
+    multiple_before,
     nearest_double,
     rational_between,
 )
@@ -32,7 +33,7 @@ from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, sign
 if TYPE_CHECKING:
     from exactpt.kernel.sympy_door import Expression
 
-__all__ = ["AlgebraicNumber", "rational_between"]
+__all__ = ["AlgebraicNumber", "multiple_before", "rational_between"]
 
 FINE: Final = power_of_two(-100)
 """Where both intervals are narrower and still overlap, equality is decided by a gcd."""

@@ -16,7 +16,13 @@ from exactpt.kernel.sturm import count_roots, sturm_sequence
 if TYPE_CHECKING:
     from exactpt.kernel.isolated_root import IsolatedRoot
 
-__all__ = ["canonical_interval", "enclosing_doubles", "nearest_double", "rational_between"]
+__all__ = [
+    "canonical_interval",
+    "enclosing_doubles",
+    "multiple_before",
+    "nearest_double",
+    "rational_between",
+]
 
 
 def nearest_double(x: IsolatedRoot) -> float:
@@ -93,6 +99,12 @@ def rational_between(x: IsolatedRoot, y: IsolatedRoot) -> QQ:
         else:
             coarse = middle
     return found
+
+
+def multiple_before(x: IsolatedRoot, grid: QQ) -> QQ:
+    """The largest multiple of ``grid`` > 0 that is smaller than x."""
+    m = _floor_on_grid(x, grid)
+    return (m if x.compare_rational(m * grid) > 0 else m - 1) * grid
 
 
 def _next_on_grid(x: IsolatedRoot, bits: int) -> QQ:

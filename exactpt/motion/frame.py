@@ -13,47 +13,17 @@ from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING, Final, final
 
 from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of_two
+from exactpt.motion.image import Image
 
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.motion.track import Track
 
-__all__ = ["Frame", "Image", "frame_for"]
+__all__ = ["Frame", "frame_for"]
 
 U: Final = 2.0**-53
 SMALLEST: Final = 2.0**-100
 LARGEST: Final = 2.0**100
-
-
-@final
-class Image:
-    """The doubles next to the coefficients of a track, in a frame.
-
-    Coefficients that are 0 or of size 2^-100 to 2^100 are the nearest doubles; if one
-    is outside, ``x0`` and all others are NaN, which no filter accepts.
-
-    Attributes:
-        x0, x1, y0, y1: the constant and linear coefficients of a track that translates.
-        xs, ys: all its coefficients, of one length; ``degree`` + 1 each.
-        ws: the denominator's coefficients if the track turns, else empty (a constant
-            denominator is divided out).
-        degree: the degree of the path; of the numerators if it turns.
-        motion: vertices of equal ``motion`` keep their difference (translating) or
-            their distances (turning) for ever; -1 is equal to nothing.
-    """
-
-    __slots__ = ("degree", "motion", "ws", "x0", "x1", "xs", "y0", "y1", "ys")
-
-    def __init__(self, xs: list[float], ys: list[float], ws: list[float], motion: int) -> None:
-        self.xs = xs
-        self.ys = ys
-        self.ws = ws
-        self.degree: int = len(xs) - 1
-        self.x0: float = xs[0]
-        self.y0: float = ys[0]
-        self.x1: float = xs[1] if len(xs) > 1 else 0.0
-        self.y1: float = ys[1] if len(ys) > 1 else 0.0
-        self.motion: int = motion
 
 
 @final

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from exactpt.geometry.boxes import Boxes
-    from exactpt.motion.frame import Image
+    from exactpt.motion.image import Image
 
 __all__ = ["SweptBoxes"]
 

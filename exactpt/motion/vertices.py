@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Final, final
 from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.motion.convexity import stays_convex
-from exactpt.motion.frame import Frame, Image, frame_for
+from exactpt.motion.frame import Frame, frame_for
+from exactpt.motion.image import Image
 from exactpt.motion.thin import Offset, thin_offsets, thin_ring
 from exactpt.motion.track import Track
 
@@ -82,9 +83,14 @@ class MovingBody:
 
 @final
 class Vertices:
-    """The rings of all bodies from a time on.
+    """The rings of all bodies.
 
-    With ``plain_points`` a point is a single vertex, without an inside or an offset.
+    Args:
+        bodies: with their present plans.
+        rings: of each body, which vertices of the scene its ring consists of.
+        since: when each body entered its piece.
+        frame: of the run.
+        end: of the time span.
 
     Attributes:
         all: the vertices, by id; those of a body are consecutive.
@@ -93,41 +99,38 @@ class Vertices:
     """
 
     def __init__(
-        self, bodies: Sequence[Body], start: QQ, end: QQ, *, plain_points: bool = False
-    ) -> None:
-        positions = [body.at(start) for body in bodies]
-        flat = [p for points in positions for p in points]
-        self.frame: Frame = frame_for(flat or [(QQ(0), QQ(0))], start, end)
-        self._end = end
-        self.all: list[Vertex] = []
-        self.bodies: list[MovingBody] = []
-        for i, body in enumerate(bodies):
-            plain = plain_points and body.size == 1
-            self._add(body, [0] if plain else _ring_indices(body, positions[i]), start)
-            self.bodies[i].is_tiled = self._may_pinch(i, start, end)
-
-    @classmethod
-    def restored(
-        cls,
+        self,
         bodies: Sequence[Body],
         rings: Sequence[Sequence[int]],
         since: Sequence[QQ],
         frame: Frame,
         end: QQ,
-    ) -> Vertices:
-        """The vertices of a run that goes on.
-
-        Args:
-            bodies: with their present plans.
-            rings: of each body, which vertices of the scene its ring consists of.
-            since: when each body entered its piece.
-            frame: of the run.
-            end: of the time span.
-        """
-        self = cls.__new__(cls)
-        self.frame, self._end, self.all, self.bodies = frame, end, [], []
+    ) -> None:
+        self.frame: Frame = frame
+        self._end: QQ = end
+        self.all: list[Vertex] = []
+        self.bodies: list[MovingBody] = []
         for body, ring, t in zip(bodies, rings, since, strict=True):
             self._add(body, ring, t)
+
+    @classmethod
+    def of(
+        cls, bodies: Sequence[Body], start: QQ, end: QQ, *, plain_points: bool = False
+    ) -> Vertices:
+        """The rings of bodies from a time on.
+
+        With ``plain_points`` a point is a single vertex, without an inside or an offset.
+        """
+        positions = [body.at(start) for body in bodies]
+        flat = [p for points in positions for p in points]
+        rings = [
+            [0] if plain_points and body.size == 1 else _ring_indices(body, points)
+            for body, points in zip(bodies, positions, strict=True)
+        ]
+        frame = frame_for(flat or [(QQ(0), QQ(0))], start, end)
+        self = cls(bodies, rings, [start] * len(bodies), frame, end)
+        for i, moving in enumerate(self.bodies):
+            moving.is_tiled = self._may_pinch(i, start, end)
         return self
 
     def _add(self, body: Body, indices: Sequence[int], t: QQ) -> None:

@@ -82,5 +82,5 @@ def still_of(simulation: Simulation) -> Still:
     if kinetic is None:
         return Still(scene, at, None, contact)
     # Where it is not defined, the tiling is the one that ends or has just begun then.
-    mesh = kinetic.mesh_now(at) if contact is None and now.is_rational else kinetic.mesh
+    mesh = kinetic.mesh_now(at) if contact is None and now.is_rational else kinetic.mesh_after()
     return Still(scene, at, snapshot(kinetic.vertices, mesh, simulation.name, at), contact)

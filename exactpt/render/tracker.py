@@ -104,7 +104,7 @@ class Tracker:
 
     def update(self, step: int) -> None:
         """Note what has changed; from this step on it is as it is now."""
-        mesh = self._kinetic.mesh
+        mesh = self._kinetic.mesh_after()
         now = [mesh.map.origin, mesh.map.following, mesh.region, [*map(int, mesh.corner)]]
         changed: set[int] = set()
         for old, new in zip(self._seen, now, strict=True):
@@ -116,7 +116,8 @@ class Tracker:
         self._update_edges(ordered, step)
 
     def _update_tiles(self, changed: list[int], step: int) -> None:
-        mesh, m = self._kinetic.mesh, self._kinetic.mesh.map
+        mesh = self._kinetic.mesh_after()
+        m = mesh.map
         old = {h: self._tile_of[h] for h in changed}
         cycles: list[list[int]] = []
         found: set[int] = set()
@@ -140,7 +141,8 @@ class Tracker:
             self._leave(tile, step)
 
     def _enter(self, name: int, cycle: list[int], before: _Tile | None, step: int) -> None:
-        mesh, m = self._kinetic.mesh, self._kinetic.mesh.map
+        mesh = self._kinetic.mesh_after()
+        m = mesh.map
         around = [self._node[m.origin[h]] for h in cycle]
         nodes = [v for u, v in zip([around[-1], *around], around, strict=False) if u != v]
         corners = tuple(self._node[m.origin[h]] for h in cycle if mesh.corner[h])
@@ -167,7 +169,7 @@ class Tracker:
         return free[name % len(free)] if free else name % TINTS
 
     def _update_edges(self, changed: list[int], step: int) -> None:
-        m = self._kinetic.mesh.map
+        m = self._kinetic.mesh_after().map
         touched: dict[tuple[int, int], None] = {}
         for edge in dict.fromkeys(h >> 1 for h in changed):
             key = self._key_of.pop(edge, None)
@@ -192,7 +194,7 @@ class Tracker:
 
     def _kind(self, members: Iterable[int]) -> str | None:
         """What copies of an edge are together; None for an edge or the inside of a body."""
-        mesh = self._kinetic.mesh
+        mesh = self._kinetic.mesh_after()
         edges = [e for e in members if mesh.boundary[e] or mesh.region[2 * e] != INSIDE]
         boundary = any(mesh.boundary[e] for e in edges)
         if any(mesh.is_hull(2 * e) for e in edges):

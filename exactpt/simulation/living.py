@@ -116,7 +116,9 @@ class LivingScene:
         convex = isinstance(self.kinetic, GreedyTiling)
         if not isinstance(self.kinetic, KineticTiling) or (
             convex
-            and any(Vertices([body], t, self._end.end).bodies[0].is_tiled for body in new.values())
+            and any(
+                Vertices.of([body], t, self._end.end).bodies[0].is_tiled for body in new.values()
+            )
         ):
             return self._restart(bodies, t, len(new))
         events = self.kinetic.change_plans(new, t)
@@ -174,6 +176,6 @@ class LivingScene:
 
     def _diagonals(self) -> set[tuple[str, str]]:
         name = self.kinetic.vertices.name
-        mesh = self.kinetic.mesh
+        mesh = self.kinetic.mesh_after()
         ends = (sorted(map(name, mesh.ends(h))) for h in mesh.diagonals())
         return {(u, v) for u, v in ends if u != v}

@@ -94,7 +94,7 @@ def tiling_to_json(kinetic: Tiling) -> Data:
 
 def tiling_from_json(data: Data, bodies: Sequence[Body], *, exact_only: bool) -> KineticTiling:
     """The tiling with that state, of bodies with their plans."""
-    vertices = Vertices.restored(
+    vertices = Vertices(
         bodies,
         [body["ring"] for body in data["bodies"]],
         [parse_rational(body["since"]) for body in data["bodies"]],
@@ -114,9 +114,8 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], *, exact_only: bool) ->
     kind = tiling_class(data["kind"], convex=data["convex"])
     if not issubclass(kind, KineticTiling):
         raise InputError(f"no tiling {data['kind']!r} can be restored")
-    kinetic = kind.restored(
-        certifier, vertices, _mesh_from_json(data["mesh"], vertices), stats, data["flat"]
-    )
+    kinetic = kind(vertices, certifier, stats)
+    kinetic.resume(_mesh_from_json(data["mesh"], vertices), data["flat"])
     if isinstance(kinetic, GreedyTiling):
         kinetic.cells = VerticalDecomposition(0)
         for name in _CELLS:

@@ -7,13 +7,14 @@ triangle vanish together and share one certificate.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Final
 
 from exactpt.kernel.numbers import QQ
 from exactpt.kinetic.queue import EventTime
-from exactpt.motion.vertices import Vertex
+from exactpt.motion.vertices import Vertex, Vertices
+from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.closing import close_at
+from exactpt.tiling.events import Stats
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import SOLID, Mesh
 from exactpt.tiling.moment import Moment
@@ -37,12 +38,10 @@ class CertifiedTiling(Tiling):
         mesh: the tiling just after the current time.
     """
 
-    mesh: Mesh
-
-    def _set_up(self, mesh: Mesh, flat: Iterable[int]) -> None:
-        """Nothing is violated, and nothing pending."""
-        self.mesh = mesh
-        self._flat: set[int] = set(flat)
+    def __init__(self, vertices: Vertices, certifier: Certifier, stats: Stats) -> None:
+        super().__init__(vertices, certifier, stats)
+        self.mesh: Mesh = Mesh(0)
+        self._flat: set[int] = set()
         self._due: set[int] = set()
         self._touched: set[int] = set()
         self._careful: bool = False
@@ -55,6 +54,10 @@ class CertifiedTiling(Tiling):
     def flat(self) -> set[int]:
         """The half-edges whose angles are known to be straight for ever."""
         return self._flat
+
+    def mesh_after(self) -> Mesh:
+        """The tiling just after the current time: not a copy."""
+        return self.mesh
 
     def mesh_now(self, time: QQ) -> Mesh:
         """The tiling at a rational time: the current one, or one before the next event."""

@@ -12,13 +12,14 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Final, Self
 
 from exactpt.errors import AuditError
-from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.kernel.numbers import QQ, floor, power_of_two
+from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
+from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.angles import ANGLE, KINDS, MOTION, SHRINK
+from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.contacts import touches
-from exactpt.tiling.events import ContactFound, TilingEvent
+from exactpt.tiling.events import ContactFound, Stats, TilingEvent
 from exactpt.tiling.inside import tile_inside
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import Mesh
@@ -28,8 +29,6 @@ from exactpt.tiling.repairs import RebuildNeeded, RepairedTiling
 
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
-    from exactpt.tiling.certificates import Certifier
-    from exactpt.tiling.events import Stats
 
 __all__ = ["KineticTiling"]
 
@@ -49,35 +48,27 @@ class KineticTiling(RepairedTiling):
 
     name = "lazy"
 
-    def __init__(self, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool = False) -> None:
-        super().__init__(vertices, start, end, exact_only=exact_only)
-        self._set_up(Mesh(0), ())
+    def __init__(self, vertices: Vertices, certifier: Certifier, stats: Stats) -> None:
+        super().__init__(vertices, certifier, stats)
+        self._undo: tuple[EventTime, list[tuple[int, EventTime]]] | None = None
+
+    @classmethod
+    def begin(cls, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool = False) -> Self:
+        """The tiling just after a time at which the bodies are disjoint."""
+        self = cls(vertices, Certifier(vertices, start, end, exact_only=exact_only), Stats())
         self._build(start)
         self._certify_everything()
         if self._due:
             raise AuditError(f"violated at the start: {sorted(self._due)}")
         for i in range(len(vertices.bodies)):
             self._schedule_piece(i)
-
-    @classmethod
-    def restored(
-        cls,
-        certifier: Certifier,
-        vertices: Vertices,
-        mesh: Mesh,
-        stats: Stats,
-        flat: Iterable[int],
-    ) -> Self:
-        """A tiling that goes on between two events; what is pending is the caller's to schedule."""
-        self = cls.__new__(cls)
-        self._begin(vertices, certifier, stats)
-        self._set_up(mesh, flat)
-        self._recall()
         return self
 
-    def _set_up(self, mesh: Mesh, flat: Iterable[int]) -> None:
-        super()._set_up(mesh, flat)
-        self._undo: tuple[EventTime, list[tuple[int, EventTime]]] | None = None
+    def resume(self, mesh: Mesh, flat: Iterable[int]) -> None:
+        """Go on with a mesh between two events; what is pending is the caller's to schedule."""
+        self.mesh = mesh
+        self._flat = set(flat)
+        self._recall()
 
     def _recall(self) -> None:
         """Find again what is known between two events and follows from the mesh."""
@@ -121,11 +112,7 @@ class KineticTiling(RepairedTiling):
         self._undo = None
         for slot, time in entries:
             self.queue.schedule(slot, time)
-        contact.refine_to(grid)
-        m = floor(contact.high / grid)
-        while contact.compare_rational(m * grid) <= 0:
-            m -= 1
-        t = m * grid
+        t = multiple_before(contact, grid)
         if before.compare_rational(t) >= 0:
             t = rational_between(before, contact)
         self._move_to(t)

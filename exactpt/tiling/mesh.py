@@ -7,8 +7,7 @@ in the face on the left.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from copy import copy
-from typing import Final, NamedTuple, Self
+from typing import Final, NamedTuple
 
 from exactpt.errors import AuditError
 from exactpt.planar.halfedge import PlanarMap
@@ -223,13 +222,16 @@ class Mesh:
         self.region[e] = self.region[e ^ 1] = self.region[h]
         return e
 
-    def copy(self) -> Self:
+    def copy(self) -> Mesh:
         """An independent copy."""
-        other = copy(self)
+        other = Mesh(0)
+        self._copy_to(other)
+        return other
+
+    def _copy_to(self, other: Mesh) -> None:
         other.map = self.map.copy()
         other.region, other.corner = self.region[:], self.corner[:]
         other.boundary, other.ring_edge = self.boundary[:], self.ring_edge[:]
-        return other
 
     def audit(self) -> None:
         """Check links and marks.

@@ -67,7 +67,23 @@ class Moment:
 
     def turn(self, a: int, b: int, c: int, d: int) -> int:
         """1 if the direction from a to b turns left to that from c to d, -1 if right."""
-        return self._exact(cross(*(self._certifier.vertex(v).track for v in (a, b, c, d))))
+        certifier = self._certifier
+        p, q, r, t = (certifier.vertex(v) for v in (a, b, c, d))
+        if not certifier.exact_only:
+            s, _, _ = coefficients.turn(
+                p.image,
+                q.image,
+                r.image,
+                t.image,
+                certifier.errors,
+                certifier.now_low,
+                certifier.now_high,
+                self._horizon(),
+            )
+            if s:
+                counters.filtered += 1
+                return s
+        return self._exact(cross(p.track, q.track, r.track, t.track))
 
     def _horizon(self) -> float:
         # Roots are not asked for; but the filter looks at an interval that is not empty.

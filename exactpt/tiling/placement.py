@@ -18,7 +18,7 @@ from exactpt.motion.incidence import difference
 
 if TYPE_CHECKING:
     from exactpt.geometry.boxes import Boxes
-    from exactpt.motion.frame import Image
+    from exactpt.motion.image import Image
     from exactpt.motion.vertices import Vertex
     from exactpt.tiling.certificates import Certifier
 

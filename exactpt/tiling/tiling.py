@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["Tiling"]
 
 
-class Tiling(ABC):
+class Tiling:
     """A tiling of the free space that is kept up to date as time goes on.
 
     Attributes:
@@ -32,24 +32,31 @@ class Tiling(ABC):
 
     name = ""
 
-    def __init__(self, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool = False) -> None:
-        certifier = Certifier(vertices, start, end, exact_only=exact_only)
-        self._begin(vertices, certifier, Stats())
-
-    def _begin(self, vertices: Vertices, certifier: Certifier, stats: Stats) -> None:
-        """Set the attributes; nothing is pending."""
-        self.vertices = vertices
-        self.certifier = certifier
-        self.queue = ExactQueue(certifier) if certifier.exact_only else EventQueue(certifier)
-        self.stats = stats
+    def __init__(self, vertices: Vertices, certifier: Certifier, stats: Stats) -> None:
+        self.vertices: Vertices = vertices
+        self.certifier: Certifier = certifier
+        self.queue: EventQueue = (
+            ExactQueue(certifier) if certifier.exact_only else EventQueue(certifier)
+        )
+        self.stats: Stats = stats
         self._events: list[TilingEvent] = []
         self._until: tuple[QQ, float] = (certifier.end, vertices.frame.time(certifier.end)[0])
 
-    if TYPE_CHECKING:
+    @classmethod
+    @abstractmethod
+    def begin(cls, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool = False) -> Self:
+        """The tiling just after a time at which the bodies are disjoint.
 
-        @property
-        def mesh(self) -> Mesh:
-            """The tiling just after the current time."""
+        Args:
+            vertices: of the bodies, from ``start`` on.
+            start: the current time.
+            end: the last time of interest.
+            exact_only: decide everything by exact arithmetic.
+        """
+
+    @abstractmethod
+    def mesh_after(self) -> Mesh:
+        """The tiling just after the current time."""
 
     @classmethod
     @abstractmethod

@@ -93,6 +93,7 @@ def test_what_breaks_and_what_hangs_is_a_failure(monkeypatch):
     assert failure_of("reference", scene, patience=0.2).signature == "hangs"
 
 
+@pytest.mark.plain
 @pytest.mark.parametrize("bug", ["the wrong diagonal gives way", "vertical bitangents ignored"])
 def test_a_planted_bug_is_found(bug):
     found = hunt(bug, 60, ("static",))
@@ -101,6 +102,7 @@ def test_a_planted_bug_is_found(bug):
     assert bug in table([found])[1]
 
 
+@pytest.mark.plain
 @pytest.mark.slow
 @pytest.mark.parametrize("bug", PLANTED)
 def test_every_planted_bug_is_found(bug):
@@ -135,6 +137,7 @@ def test_the_command_line_asks_for_cgal():
     assert "--witness" in done.stderr
 
 
+@pytest.mark.plain
 def test_planted_from_the_command_line():
     done = fuzz("planted", "wrong diagonal")
 

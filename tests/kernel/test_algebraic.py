@@ -23,7 +23,7 @@ from oracles import (
 from strategies import algebraics, as_int_poly, as_rational, factors, fractions, int_polys, times
 
 from exactpt.errors import InputError
-from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
 from exactpt.kernel.integer_polynomial import sign_at
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.kernel.roots import roots_after
@@ -330,6 +330,16 @@ def test_bug_between_wide_intervals_every_integer_is_tried(monkeypatch):
     monkeypatch.setattr(AlgebraicNumber, "compare_rational", counted)
 
     assert rational_between(x, AlgebraicNumber(10**6)) == 100_001
+
+
+@given(a=algebraics(), grid=st.fractions(min_value="1/1000", max_value=1000))
+def test_multiple_before_is_the_last_one(a, grid):
+    (x, _), grid = a, QQ(grid)
+
+    before = multiple_before(x, grid)
+
+    assert (before / grid).denominator == 1
+    assert x.compare_rational(before) > 0 >= x.compare_rational(before + grid)
 
 
 @given(a=algebraics(), b=algebraics(), one=histories, two=histories)

@@ -91,7 +91,7 @@ def test_at_the_contact_the_film_shows_the_tiling_that_ends_there():
     list(simulation.run())
     at = near(simulation.contact.time, QQ(10))
     kinetic = simulation.kinetic
-    last = snapshot(kinetic.vertices, kinetic.mesh, "lazy", at)
+    last = snapshot(kinetic.vertices, kinetic.mesh_after(), "lazy", at)
     assert shown(film, len(film.steps)) == in_snapshot(last)
 
 

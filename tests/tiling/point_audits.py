@@ -85,7 +85,9 @@ def run_and_audit(scene, *, exact_only=False, by_slope=False, each=None, **optio
     if initial_touches(scene)[1]:
         return None
     vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
-    kinetic = IncrementalTiling(vertices, scene.start, scene.end, exact_only=exact_only, **options)
+    kinetic = IncrementalTiling.begin(
+        vertices, scene.start, scene.end, exact_only=exact_only, **options
+    )
     gaps = 0
     try:
         while True:

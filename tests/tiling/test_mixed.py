@@ -31,7 +31,7 @@ def instants(family, count):
     for seed in range(count):
         scene = generate(family, seed)
         if not initial_touches(scene)[1]:
-            yield seed, Instant(Vertices(scene.bodies, scene.start, scene.end), scene.start)
+            yield seed, Instant(Vertices.of(scene.bodies, scene.start, scene.end), scene.start)
 
 
 @pytest.mark.parametrize("count", COUNTS)
@@ -142,3 +142,64 @@ def test_far_apart_the_certificates_do_not_depend_on_the_vertices():
         made.add(kinetic.certifier.made)
     assert len(made) == 1
     assert made.pop() <= 30
+
+
+def bridges(mesh, vertices):
+    """How many edges join two bodies: in F1, of those the ones next to F2, and within F2."""
+    body, labels = [v.body for v in vertices.all], mesh.labels
+    found = [0, 0, 0]
+    for h in mesh.diagonals():
+        u, v = mesh.ends(h)
+        if mesh.region[h] == FREE and body[u] != body[v]:
+            nodes = (
+                mesh.forest.node(labels[h], labels[h ^ 1]),
+                mesh.forest.node(labels[h ^ 1], labels[h]),
+            )
+            labelled = bool(labels[h] or labels[h ^ 1])
+            found[0] += labelled
+            found[1] += labelled and -1 in nodes
+            found[2] += not labelled
+    return found
+
+
+@pytest.mark.parametrize("count", COUNTS)
+@pytest.mark.parametrize("family", sorted(FAMILIES))
+def test_around_f2_there_are_few_bridges(family, count):
+    """Paper, Lemma 5.2: O(k) bridge edges on the border of F2, and (Corollary 5.3) within."""
+    for _, instant in instants(family, count):
+        k = len(instant.vertices.bodies)
+        _, border, within = bridges(mixed_mesh(instant), instant.vertices)
+        assert border <= 6 * k
+        assert within <= 3 * k
+
+
+def hook(size, x, gap):
+    """A ring with a gap of 40 degrees around an angle: a polygon of twice ``size`` vertices."""
+    turns = [math.radians(gap + 20 + 320 * i / (size - 1)) for i in range(size)]
+    arcs = [(10_000, turns), (8_000, turns[::-1])]
+    return [(x + round(r * math.cos(a)), round(r * math.sin(a))) for r, arc in arcs for a in arc]
+
+
+def sizes_of(first, second):
+    """The bridges of the mixed tiling of two bodies, the second one moving; its certificates."""
+    bodies = [Body("a", first), Body("b", second, Translation([0, "1/7"], [0, "1/5"]))]
+    kinetic = start_tiling(Scene(bodies, (0, 8)), "mixed", QQ(0))
+    inner, _, outer = bridges(kinetic.mesh, kinetic.vertices)
+    assert len(kinetic.mesh.diagonals()) <= 2 * (len(first) + len(second))
+    assert kinetic.certifier.made <= 4 * (inner + outer) + 10 * 2
+    return inner
+
+
+def test_bridges_follow_what_separates_the_bodies():
+    """Paper, Lemma 5.5, Theorems 5.6 and 5.7, on bodies whose separators are known.
+
+    Two hooks, each with its end within the other, are kept apart by five links, however
+    many vertices they have; two combs whose teeth mesh, by four links a tooth.
+    """
+    for size in (8, 32, 128, 512):
+        found = sizes_of(hook(size, 0, 60), hook(size, 9_000, 240))
+        assert 5 <= found <= 5 + math.log2(size)
+        assert sizes_of(hook(size, 0, 60), hook(size, 90_000, 240)) == 0
+    for teeth in (4, 16, 64):
+        found = sizes_of(comb(teeth, 0, 0), comb(teeth, 4, 11, down=True))
+        assert 3 * teeth <= found <= 4 * teeth

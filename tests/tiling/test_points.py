@@ -122,7 +122,7 @@ def test_long_chains_are_searched():
     steps, ends = {}, set()
     for chains in ("linked", "searchable", "auto"):
         vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
-        kinetic = IncrementalTiling(vertices, scene.start, scene.end, chains=chains)
+        kinetic = IncrementalTiling.begin(vertices, scene.start, scene.end, chains=chains)
         for _ in kinetic.run():
             pass
         trees = kinetic.structure.trees
@@ -343,7 +343,7 @@ def test_theorem_3_4():
     for seed in range(3):
         scene = spread(40, seed)
         vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
-        kinetic = IncrementalTiling(vertices, scene.start, scene.end, fan=True)
+        kinetic = IncrementalTiling.begin(vertices, scene.start, scene.end, fan=True)
         for _ in kinetic.run():
             pass
         assert kinetic.stats.total < kinetic.stats.fan < 40 ** (7 / 3)

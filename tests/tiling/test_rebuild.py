@@ -9,6 +9,8 @@ from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.repairs import RebuildNeeded
 from fuzz.statics import run_and_audit
 
+pytestmark = pytest.mark.plain
+
 
 def refuse(*_):
     raise RebuildNeeded

@@ -29,9 +29,19 @@ SHADOW: Final = 8
 
 
 class _Shadow(NamedTuple):
-    """What is certified of a diagonal: its ends, those of its shadow, the tangencies there."""
+    """What is certified of a diagonal.
+
+    Attributes:
+        diagonal: its ends.
+        visits: of its shadow.
+        corners: whether each of them is one of its face.
+        crossing: the ends of its shadow.
+        tangencies: there.
+    """
 
     diagonal: tuple[int, int]
+    visits: tuple[int, int]
+    corners: tuple[bool, bool]
     crossing: tuple[int, int]
     tangencies: list[tuple[int, int, int]]
 
@@ -94,7 +104,7 @@ class FlippingTiling(KineticTiling):
         shadows: dict[int, tuple[int, int]] = {}
         candidates = [h for h in sorted(nearby) if m.origin[h] >= 0 and self.mesh.is_flippable(h)]
         try:
-            flips = flip_until_greedy(self.mesh, after, candidates, shadows)
+            flips = flip_until_greedy(self.mesh, after, candidates, shadows, self._is_known)
         except AuditError:
             raise RebuildNeeded from None
         for old, new, changed in flips:
@@ -103,11 +113,26 @@ class FlippingTiling(KineticTiling):
         if self._due:
             raise RebuildNeeded
         for h in sorted(nearby | shadows.keys()):
-            if m.origin[h] >= 0 and self.mesh.is_flippable(h):
-                self._certify_shadow(h, shadows[h], after)
-            else:
+            if m.origin[h] < 0 or not self.mesh.is_flippable(h):
                 self._cancel_shadow(h)
+            elif h in shadows:
+                self._certify_shadow(h, shadows[h], after)
         self._moved.clear()
+
+    def _is_known(self, h: int) -> bool:
+        """Whether the certificates of a diagonal have not failed, and are still the right ones.
+
+        A pseudo-quadrangle has two diagonals only. So what is tangent at both ends, as it
+        was, is the other one still, whatever has changed elsewhere in the two tiles. (Ends
+        that the two share are left out: the angle there is one of both tiles together.)
+        """
+        old = self._shadows.get(h)
+        return (
+            old is not None
+            and h not in self._moved
+            and not set(old.diagonal) & set(old.crossing)
+            and old == self._shadow_of(h, old.visits)
+        )
 
     def _near(self, half_edges: Iterable[int]) -> set[int]:
         """The edges of the tiles on both sides of these."""
@@ -141,8 +166,9 @@ class FlippingTiling(KineticTiling):
 
     def _shadow_of(self, h: int, visits: tuple[int, int]) -> _Shadow:
         m = self.mesh.map
+        corners = self.mesh.corner[visits[0]], self.mesh.corner[visits[1]]
         crossing = m.origin[visits[0]], m.origin[visits[1]]
-        return _Shadow(self.mesh.ends(h), crossing, tangency(self.mesh, h, visits))
+        return _Shadow(self.mesh.ends(h), visits, corners, crossing, tangency(self.mesh, h, visits))
 
     def _certify_spin(self, slot: int, u: int, v: int, after: Moment) -> None:
         a, b = (u, v) if after.left_of(u, v) else (v, u)

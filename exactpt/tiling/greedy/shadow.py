@@ -10,7 +10,7 @@ twice, so everything here is about visits, that is half-edges.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import NamedTuple, Protocol
 
 from exactpt.errors import AuditError
@@ -98,15 +98,17 @@ def tangency(mesh: Mesh, h: int, visits: tuple[int, int]) -> list[tuple[int, int
     """The four triples whose orientations keep a shadow edge tangent at both its ends.
 
     Of each end, with the neighbours before and after it on the boundary of the two faces
-    of h.
+    of h; none if these do not have both visits.
     """
-    cycle = _cycle(mesh, h, visits[0])
+    cycle = _cycle(mesh, h, mesh.map.following[h])
+    if visits[0] not in cycle or visits[1] not in cycle:
+        return []
     points = [mesh.map.origin[g] for g in cycle]
-    j = cycle.index(visits[1])
-    x, y = points[0], points[j]
+    i, j = cycle.index(visits[0]), cycle.index(visits[1])
+    x, y = points[i], points[j]
     return [
-        (x, points[1], y),
-        (x, y, points[-1]),
+        (x, points[(i + 1) % len(points)], y),
+        (x, y, points[i - 1]),
         (y, points[(j + 1) % len(points)], x),
         (y, x, points[j - 1]),
     ]
@@ -195,6 +197,7 @@ def flip_until_greedy(
     predicates: Predicates,
     candidates: Iterable[int],
     shadows: dict[int, tuple[int, int]] | None = None,
+    is_known: Callable[[int], bool] | None = None,
 ) -> list[Flip]:
     """Flip every diagonal whose shadow has smaller theta, until there is none.
 
@@ -206,7 +209,8 @@ def flip_until_greedy(
         predicates: of that time.
         candidates: half-edges of the diagonals to look at first.
         shadows: gets the visits of the shadow of each diagonal that was looked at and is
-            still there.
+            still there, and not known.
+        is_known: whether a diagonal is known to have a shadow of larger theta.
 
     Returns:
         The flips, in order.
@@ -221,6 +225,10 @@ def flip_until_greedy(
         h = todo.popleft()
         waiting.discard(h)
         if mesh.is_fixed(h) or mesh.map.origin[h] < 0 or mesh.is_hull(h):
+            continue
+        if is_known is not None and is_known(h):
+            if shadows is not None:
+                shadows.pop(h, None)  # of before a flip nearby
             continue
         visits = shadow(mesh, h, predicates)
         if visits is None:

@@ -24,7 +24,8 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
-from exactpt.tiling.events import ContactFound, TilingEvent
+from exactpt.tiling.certificates import Certifier
+from exactpt.tiling.events import ContactFound, Stats, TilingEvent
 from exactpt.tiling.incremental.certified import KINDS, MOTION, ORDER, CertifiedStructure
 from exactpt.tiling.incremental.contacts import coinciding
 from exactpt.tiling.incremental.fan import changes_of_exchange, fan_edges
@@ -43,22 +44,34 @@ PATIENCE: Final = 8
 
 @final
 class IncrementalTiling(Tiling):
-    """The canonical tiling of points: at any time the one that the sweep builds.
-
-    Args:
-        vertices: the points.
-        start: the time to begin with.
-        end: the last time of interest.
-        exact_only: decide everything by exact arithmetic.
-        chains: "linked" walks along chains, "searchable" searches them in O(log n);
-            "auto" walks until the steps of all walks exceed `PATIENCE` an event.
-        fan: count the changes of the fan triangulation too, in ``stats.fan``.
-    """
+    """The canonical tiling of points: at any time the one that the sweep builds."""
 
     name = "incremental"
 
     def __init__(
         self,
+        vertices: Vertices,
+        certifier: Certifier,
+        structure: IncrementalStructure,
+        *,
+        chains: Literal["auto", "linked", "searchable"],
+        fan: bool,
+    ) -> None:
+        super().__init__(vertices, certifier, Stats())
+        self._chains: str = chains
+        self._fan: bool = fan
+        self._mesh: Mesh | None = None
+        self._allowed: int = PATIENCE * len(vertices.all)
+        self._certified = CertifiedStructure(structure, certifier, self.queue)
+        if any(self._certified.due):
+            raise AuditError(f"violated at the start: {self._certified.due}")
+        self.stats.most = len(self.queue)
+        for p in range(len(vertices.all)):
+            self._schedule_piece(p)
+
+    @classmethod
+    def begin(
+        cls,
         vertices: Vertices,
         start: QQ,
         end: QQ,
@@ -66,21 +79,23 @@ class IncrementalTiling(Tiling):
         exact_only: bool = False,
         chains: Literal["auto", "linked", "searchable"] = "auto",
         fan: bool = False,
-    ) -> None:
-        super().__init__(vertices, start, end, exact_only=exact_only)
-        self._chains = chains
-        self._fan = fan
-        self._mesh: Mesh | None = None
-        self._allowed: int = PATIENCE * len(vertices.all)
+    ) -> IncrementalTiling:
+        """The tiling of points just after a time at which no two are in one place.
+
+        Args:
+            vertices: the points.
+            start: the current time.
+            end: the last time of interest.
+            exact_only: decide everything by exact arithmetic.
+            chains: "linked" walks along chains, "searchable" searches them in O(log n);
+                "auto" walks until the steps of all walks exceed `PATIENCE` an event.
+            fan: count the changes of the fan triangulation too, in ``stats.fan``.
+        """
         structure = sweep_at(Instant(vertices, start, exact_only=exact_only))
         if chains == "searchable":
             structure.make_searchable()
-        self._certified = CertifiedStructure(structure, self.certifier, self.queue)
-        if any(self._certified.due):
-            raise AuditError(f"violated at the start: {self._certified.due}")
-        self.stats.most = len(self.queue)
-        for p in range(len(vertices.all)):
-            self._schedule_piece(p)
+        certifier = Certifier(vertices, start, end, exact_only=exact_only)
+        return cls(vertices, certifier, structure, chains=chains, fan=fan)
 
     @classmethod
     def vertices_of(cls, bodies: Sequence[Body], start: QQ, end: QQ) -> Vertices:
@@ -95,7 +110,7 @@ class IncrementalTiling(Tiling):
                     f"body {body.name!r}: has {body.size} vertices: "
                     "the incremental tiling is for points"
                 )
-        return Vertices(bodies, start, end, plain_points=True)
+        return Vertices.of(bodies, start, end, plain_points=True)
 
     @classmethod
     def mesh_at(cls, instant: Instant) -> Mesh:
@@ -107,8 +122,7 @@ class IncrementalTiling(Tiling):
         """The tiling just after the current time, as trees."""
         return self._certified.now
 
-    @property
-    def mesh(self) -> Mesh:
+    def mesh_after(self) -> Mesh:
         """The tiling just after the current time; made anew after every event."""
         if self._mesh is None:
             self._mesh = mesh_of(self.structure)

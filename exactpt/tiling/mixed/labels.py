@@ -198,7 +198,8 @@ class LabelledMesh(Mesh):
 
     def copy(self) -> LabelledMesh:
         """An independent copy, of the same trees."""
-        other = super().copy()
+        other = LabelledMesh(0, self.forest)
+        self._copy_to(other)
         other.labels = self.labels[:]
         return other
 

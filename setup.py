@@ -1,0 +1,54 @@
+"""Compiles the hot rooms by mypyc, where mypyc and a C compiler are found.
+
+The sources are the same; without a compiler the package is plain Python and works as
+well, slower. An editable install stays plain, so that what is edited is what runs;
+`python setup.py build_ext --inplace` compiles a checkout, and `make plain` undoes it.
+
+Not compiled is what computes with the integers of GMP: for the type checker they are
+``int``, which mypyc would take at its word.
+"""
+
+import sys
+from glob import glob
+
+from setuptools import Extension, setup
+
+ROOMS = [
+    "exactpt/kernel/counters.py",
+    "exactpt/kernel/filters.py",
+    "exactpt/kernel/rounding.py",
+    "exactpt/kernel/windows.py",
+    "exactpt/kinetic/queue.py",
+    "exactpt/motion/image.py",
+    "exactpt/motion/vertices.py",
+    "exactpt/planar/halfedge.py",
+    "exactpt/tiling/*.py",
+    "exactpt/tiling/*/*.py",
+]
+EXACT = {
+    "exactpt/tiling/closing.py",
+    "exactpt/tiling/exact.py",
+    "exactpt/tiling/greedy/slope.py",
+}
+
+
+def extensions() -> list[Extension]:
+    """The compiled modules; none if mypyc is missing or the install is editable."""
+    if "editable_wheel" in sys.argv:
+        return []
+    try:
+        from mypyc.build import mypycify
+    except ImportError:
+        return []
+    found = sorted(path for pattern in ROOMS for path in glob(pattern))
+    modules = [path for path in found if path not in EXACT and not path.endswith("__init__.py")]
+    options = ["--config-file=", "--ignore-missing-imports", "--follow-imports=silent"]
+    compiled: list[Extension] = mypycify(
+        [*options, *modules], opt_level="2", debug_level="0", group_name="exactpt"
+    )
+    for extension in compiled:
+        extension.optional = True
+    return compiled
+
+
+setup(ext_modules=extensions())
