@@ -35,7 +35,7 @@ def vertices(draw, motions=linear, least=3):
         dx, dy = draw(fractions), draw(fractions)
         shape = [(x + dx, y + dy) for x, y in draw(st.sampled_from(SHAPES))]
         bodies.append(Body(f"b{i}", shape, draw(st.sampled_from(pool))))
-    return Vertices(bodies, START, END)
+    return Vertices.of(bodies, START, END)
 
 
 def place(vertex, t):
