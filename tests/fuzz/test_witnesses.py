@@ -2,11 +2,14 @@
 
 import pytest
 
+from exactpt.collision.tilings import TILINGS
 from exactpt.scene.generate import FAMILIES, POINTS
 from fuzz.cases import failure_of
 from fuzz.excerpt import scene_of
+from fuzz.statics import run_and_audit
 from fuzz.witnesses import WITNESSES
 
+GENERIC = ("convex", "mixed_shapes", "ballistic", "turning", "deforming", "pieces", "keyframed")
 QUICK = ("reference", "static", "filters")
 
 
@@ -16,6 +19,21 @@ def test_no_witness_objects(family):
         scene = scene_of(family, seed)
         for witness in QUICK:
             assert failure_of(witness, scene, seed) is None
+
+
+@pytest.mark.parametrize("tiling", TILINGS)
+@pytest.mark.parametrize("family", GENERIC)
+def test_what_is_generic_needs_no_rebuild(family, tiling):
+    """A repair that is left out or done wrongly would be made good by one, and go unseen."""
+    events = 0
+    for seed in range(1, 9):
+        run = run_and_audit(scene_of(family, seed), tiling, middle=False)
+        if run is not None:
+            stats = run.kinetic.stats
+            events += stats.total
+            assert (stats.rebuilds, stats.flips) == (0, 0)
+
+    assert events
 
 
 @pytest.mark.slow
