@@ -10,7 +10,7 @@ JOBS ?= 2
 COMPILED_TESTS := $(addprefix tests/,kernel kinetic motion planar tiling collision simulation)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-exact test-browser compiled plain test-compiled coverage lint quick pictures check-cgal clean
+.PHONY: help demo test test-slow test-exact test-browser compiled plain test-compiled coverage lint quick pictures docs package check-cgal clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -54,8 +54,17 @@ lint: $(VENV)/developing ## formatting, rules, types, imports
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
-pictures: $(VENV)/installed ## draw docs/first-contact.svg anew, the picture of the README
+pictures: $(VENV)/developing ## draw the pictures of the README and of docs/gallery.md anew
 	$(BIN)/exactpt draw exactpt/data/demo.json --at contact -o docs/first-contact.svg
+	$(BIN)/python docs/draw_demo.py
+	$(BIN)/python docs/draw_gallery.py
+
+docs: $(VENV)/developing ## the API pages, from the docstrings, in docs/api
+	$(BIN)/python -W ignore -m pdoc --docformat google --output-directory docs/api exactpt
+
+package: $(VENV)/developing ## build the wheel and the sdist in dist, and try them in an empty environment
+	$(BIN)/python -m build
+	$(BIN)/python -m pytest -m slow tests/packaging
 
 check-cgal: cgal_check/build/cgal_check ## build the independent witness
 

@@ -14,7 +14,9 @@ from typing import TYPE_CHECKING, Final
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact, Pair
     from exactpt.collision.detector import first_contact
+    from exactpt.collision.nearing import first_within
     from exactpt.errors import AuditError, BudgetExceeded, ExactPTError, InputError
+    from exactpt.exchange.files import read_shapes, write_shapes
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.polynomial import Polynomial
     from exactpt.motion.body import Body
@@ -50,8 +52,11 @@ __all__ = [
     "Simulation",
     "Translation",
     "first_contact",
+    "first_within",
     "onward",
+    "read_shapes",
     "stop",
+    "write_shapes",
 ]
 
 _ROOMS: Final = {
@@ -60,11 +65,16 @@ _ROOMS: Final = {
         "Pair",
     ),
     "exactpt.collision.detector": ("first_contact",),
+    "exactpt.collision.nearing": ("first_within",),
     "exactpt.errors": (
         "AuditError",
         "BudgetExceeded",
         "ExactPTError",
         "InputError",
+    ),
+    "exactpt.exchange.files": (
+        "read_shapes",
+        "write_shapes",
     ),
     "exactpt.kernel.algebraic": ("AlgebraicNumber",),
     "exactpt.kernel.polynomial": ("Polynomial",),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time as clock
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import final
 
@@ -72,12 +73,20 @@ def check_scene(
     tiling: str = "auto",
     max_events: int | None = None,
     max_seconds: float | None = None,
+    reached: Callable[[AlgebraicNumber], None] | None = None,
 ) -> Report:
     """Simulate a scene, and have CGAL verify what the tiling was and when it changed.
 
     The tiling at the start, at a rational time between any two consecutive event times,
     and at the end; each event time is one real root of its polynomial in its interval, and
     later than the one before.
+
+    Args:
+        scene: what moves.
+        tiling: which tiling to keep.
+        max_events: see `exactpt.Simulation`.
+        max_seconds: see `exactpt.Simulation`.
+        reached: is told of each event time when it has been checked.
 
     Raises:
         InputError: if the program cgal_check is missing.
@@ -101,11 +110,13 @@ def check_scene(
                     break
                 report.events += len(events)
                 witness.time(kinetic.now)
+                if reached is not None:
+                    reached(kinetic.now)
                 if (max_events is not None and report.events > max_events) or (
                     deadline is not None and clock.monotonic() > deadline
                 ):
-                    reached = kinetic.now.canonical_interval()[0]
-                    raise BudgetExceeded("the budget of the check is used up", reached)
+                    low = kinetic.now.canonical_interval()[0]
+                    raise BudgetExceeded("the budget of the check is used up", low)
             witness.tiling(kinetic, scene.end)
         except ContactFound:
             witness.time(kinetic.now)

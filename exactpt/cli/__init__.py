@@ -9,7 +9,9 @@ from pathlib import Path
 
 import click
 
+from exactpt.cli.bench import bench
 from exactpt.cli.contacts import collide, simulate
+from exactpt.cli.files import convert, generate
 from exactpt.cli.pictures import demo, draw
 from exactpt.cli.tilings import check, tile
 from exactpt.errors import AuditError, BudgetExceeded, InputError
@@ -23,10 +25,24 @@ OK, BAD_INPUT, BROKEN, SPENT, INTERRUPTED = 0, 2, 3, 4, 130
 @click.group(context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="exactpt")
 def cli() -> None:
-    """Exact collision detection of moving and deforming polygons in the plane."""
+    """Exact collision detection of moving and deforming polygons in the plane.
+
+    \b
+    Examples:
+      exactpt demo
+      exactpt generate stars -o scene.json
+      exactpt collide scene.json
+      exactpt draw scene.json -o scene.html
+
+    Commands, options and files complete themselves with the tab key after (for bash; zsh and
+    fish likewise):
+
+    \b
+      eval "$(_EXACTPT_COMPLETE=bash_source exactpt)"
+    """
 
 
-for _command in (collide, simulate, tile, check, draw, demo):
+for _command in (demo, collide, simulate, tile, check, draw, convert, generate, bench):
     cli.add_command(_command)
 
 

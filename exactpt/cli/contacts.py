@@ -11,8 +11,9 @@ import click
 
 from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load
-from exactpt.cli.words import answer_in_words, stats_in_words
-from exactpt.errors import BudgetExceeded
+from exactpt.cli.progress import QUIET, progress
+from exactpt.cli.words import answer_in_words, event_in_words, stats_in_words
+from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import QQ
 
 if TYPE_CHECKING:
@@ -35,6 +36,12 @@ __all__ = ["collide", "simulate"]
     type=click.Choice(["kinetic", "pairs", "auto"]),
     help="By a tiling, by a search over pairs, or whichever is expected to be faster.",
 )
+@click.option(
+    "--ignore",
+    multiple=True,
+    metavar="NAME,NAME...",
+    help="Bodies that may overlap each other; for --method pairs or auto.",
+)
 @click.option("--stats", is_flag=True, help="Print counts of events, certificates, decisions.")
 @click.option("--exit-code", is_flag=True, help="Return 1 if there is a contact.")
 @click.option("--exact-only", is_flag=True, help="Switch the float filters off.")
@@ -45,6 +52,7 @@ def collide(
     until: QQ | None,
     tiling: str,
     method: str,
+    ignore: tuple[str, ...],
     stats: bool,
     exit_code: bool,
     exact_only: bool,
@@ -58,6 +66,7 @@ def collide(
       exactpt collide scene.json
       exactpt collide scene.json --json --stats
       exactpt collide scene.json --until 7/2 --exit-code && echo "no contact"
+      exactpt collide scene.json --method pairs --ignore boat,buoy --ignore ball,wheel
     """
     given: Scene | None = None
     search: Simulation | PairsSearch | None = None
@@ -70,6 +79,7 @@ def collide(
                 given,
                 method,
                 tiling,
+                ignoring=[names.split(",") for names in ignore],
                 exact_only=exact_only,
                 max_events=max_events,
                 max_seconds=max_seconds,
@@ -100,12 +110,16 @@ def collide(
 @SCENE
 @click.option("--events", type=click.Path(path_type=Path), help="Write an event a line (JSON).")
 @click.option("--until", type=RATIONAL, help="Stop at this time.")
+@click.option("-v", "--verbose", is_flag=True, help="Print an event a line, in words.")
+@QUIET
 @TILING
 @budget
 def simulate(
     scene: Path,
     events: Path | None,
     until: QQ | None,
+    verbose: bool,
+    quiet: bool,
     tiling: str,
     max_events: int | None,
     max_seconds: float | None,
@@ -116,6 +130,7 @@ def simulate(
     Examples:
       exactpt simulate scene.json
       exactpt simulate scene.json --events events.jsonl --until 5
+      exactpt simulate scene.json --verbose --max-events 20
     """
     from exactpt.scene.format import write_atomically
     from exactpt.simulation.simulation import Simulation
@@ -129,9 +144,14 @@ def simulate(
             simulation = Simulation(
                 given, tiling=tiling, max_events=max_events, max_seconds=max_seconds
             )
-            for event in simulation.run():
-                if events is not None:
-                    lines.append(json.dumps(event.to_json()))  # noqa: PERF401 - kept if it stops early
+            with progress(given, "simulating", quiet=quiet or verbose) as reached:
+                for event in simulation.run():
+                    if events is not None:
+                        lines.append(json.dumps(event.to_json()))
+                    if verbose:
+                        click.echo(event_in_words(event))
+                    if reached is not None:
+                        reached(event.time)
             told = [*answer_in_words(given, simulation.contact), *stats_in_words(simulation.stats)]
     except BudgetExceeded as spent:
         _tell_how_far(spent, simulation)
@@ -140,7 +160,8 @@ def simulate(
         interrupted = isinstance(sys.exception(), KeyboardInterrupt)
         if events is not None and simulation is not None and not interrupted:
             write_atomically(events, "".join(f"{line}\n" for line in lines))
-    click.echo("\n".join(told))
+    if not quiet:
+        click.echo("\n".join(told))
     return 0
 
 
@@ -155,6 +176,7 @@ def _search(
     method: str,
     tiling: str,
     *,
+    ignoring: list[list[str]],
     exact_only: bool,
     max_events: int | None,
     max_seconds: float | None,
@@ -162,10 +184,12 @@ def _search(
     """What finds the first contact."""
     from exactpt.collision.detector import prefers_pairs
 
-    if method == "pairs" or (method == "auto" and prefers_pairs(scene)):
+    if ignoring and method == "kinetic":
+        raise InputError("--ignore: a tiling watches all bodies: add --method pairs")
+    if method == "pairs" or (method == "auto" and (ignoring or prefers_pairs(scene))):
         from exactpt.collision.pairs import PairsSearch
 
-        return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds)
+        return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds, ignoring=ignoring)
     from exactpt.collision.tilings import tiling_for_contact
     from exactpt.simulation.simulation import Simulation
 

@@ -9,6 +9,7 @@ import click
 
 from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import MOMENT, SCENE, TILING, budget, load, output
+from exactpt.cli.progress import QUIET, progress
 from exactpt.cli.words import answer_in_words
 from exactpt.kernel.numbers import QQ
 
@@ -30,6 +31,7 @@ __all__ = ["demo", "draw"]
     show_default=True,
     help="Light or dark; auto: as the reader prefers (PNG: light).",
 )
+@QUIET
 @TILING
 @budget
 def draw(
@@ -37,6 +39,7 @@ def draw(
     output: Path,
     at: QQ | Literal["contact"] | None,
     theme: str,
+    quiet: bool,
     tiling: str,
     max_events: int | None,
     max_seconds: float | None,
@@ -56,15 +59,18 @@ def draw(
     from exactpt.render.draw import draw as draw_scene
 
     with time_limit(max_seconds):
-        draw_scene(
-            load(scene),
-            output,
-            at=at,
-            tiling=tiling,
-            theme=theme,
-            max_events=max_events,
-            max_seconds=max_seconds,
-        )
+        given = load(scene)
+        with progress(given, "drawing", quiet=quiet) as reached:
+            draw_scene(
+                given,
+                output,
+                at=at,
+                tiling=tiling,
+                theme=theme,
+                max_events=max_events,
+                max_seconds=max_seconds,
+                reached=reached,
+            )
     return 0
 
 

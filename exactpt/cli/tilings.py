@@ -9,6 +9,7 @@ import click
 
 from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, output
+from exactpt.cli.progress import QUIET, progress
 from exactpt.kernel.numbers import QQ
 
 __all__ = ["check", "tile"]
@@ -65,11 +66,13 @@ def tile(
 @click.command()
 @SCENE
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
+@QUIET
 @TILING
 @budget
 def check(
     scene: Path,
     as_json: bool,
+    quiet: bool,
     tiling: str,
     max_events: int | None,
     max_seconds: float | None,
@@ -80,11 +83,20 @@ def check(
     Examples:
       exactpt check scene.json
       exactpt check scene.json --json
+      exactpt check scene.json --quiet || echo "CGAL disagrees"
     """
     from exactpt.check import check_scene
 
     with time_limit(max_seconds):
         given = load(scene)
-        report = check_scene(given, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
-    click.echo(json.dumps(report.to_json(), indent=1) if as_json else "\n".join(report.lines()))
+        with progress(given, "checking", quiet=quiet) as reached:
+            report = check_scene(
+                given,
+                tiling=tiling,
+                max_events=max_events,
+                max_seconds=max_seconds,
+                reached=reached,
+            )
+    if not quiet:
+        click.echo(json.dumps(report.to_json(), indent=1) if as_json else "\n".join(report.lines()))
     return 0 if report.ok else 1

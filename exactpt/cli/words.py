@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact
     from exactpt.scene.scene import Scene
+    from exactpt.simulation.event import Event
 
-__all__ = ["answer_in_words", "stats_in_words"]
+__all__ = ["answer_in_words", "event_in_words", "stats_in_words"]
 
 
 def answer_in_words(scene: Scene, contact: Contact | None) -> list[str]:
@@ -29,6 +30,12 @@ def answer_in_words(scene: Scene, contact: Contact | None) -> list[str]:
         )
     lines += [f"  {a} and {b} share a point" for a, b in contact.overlaps]
     return lines
+
+
+def event_in_words(event: Event) -> str:
+    """An event: when, of which kind, which edges of the tiling went and came."""
+    changes = [f"-{u}~{v}" for u, v in event.removed] + [f"+{u}~{v}" for u, v in event.added]
+    return " ".join([f"t = {float(event.time)!r}", event.kind, *changes])
 
 
 def stats_in_words(stats: dict[str, object]) -> list[str]:

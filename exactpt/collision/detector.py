@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterable
 from typing import Final
 
 from exactpt.collision.contact import Contact, contact_of
@@ -19,7 +20,12 @@ METHODS: Final = ("kinetic", "pairs", "auto")
 
 
 def first_contact(
-    scene: Scene, *, method: str = "kinetic", tiling: str = "auto", exact_only: bool = False
+    scene: Scene,
+    *,
+    method: str = "kinetic",
+    tiling: str = "auto",
+    exact_only: bool = False,
+    ignoring: Iterable[Collection[str]] = (),
 ) -> Contact | None:
     """The first contact in the closed time span of a scene, or None.
 
@@ -30,13 +36,21 @@ def first_contact(
         tiling: which tiling to keep, one of `TILINGS`; "auto" is "incremental" for points
             alone, else "lazy", which has the fewest events.
         exact_only: decide everything by exact arithmetic, without the float filters.
+        ignoring: groups of names; bodies of one group do not touch each other, whatever they
+            do. A tiling has no place for bodies that overlap: this needs "pairs" or "auto".
+
+    Raises:
+        InputError: if there is no such method, tiling or body.
     """
     if method not in METHODS:
         raise InputError(f"no method {method!r}; there are: {', '.join(METHODS)}")
-    if method == "pairs" or (method == "auto" and prefers_pairs(scene)):
+    groups = list(ignoring)
+    if groups and method == "kinetic":
+        raise InputError("a tiling watches all bodies: to ignore some, use method='pairs'")
+    if method == "pairs" or (method == "auto" and (groups or prefers_pairs(scene))):
         from exactpt.collision.pairs import PairsSearch
 
-        return PairsSearch(scene, exact_only=exact_only).run_to_contact()
+        return PairsSearch(scene, exact_only=exact_only, ignoring=groups).run_to_contact()
     touches, overlaps = initial_touches(scene)
     if overlaps:
         return contact_of(scene, AlgebraicNumber(scene.start), touches, overlaps)
@@ -53,7 +67,7 @@ def first_contact(
 def prefers_pairs(scene: Scene) -> bool:
     """Whether a search over pairs is expected to find the first contact sooner.
 
-    Measured (`benchmarks/first_contact.py`): once and from a cold start it does, up to
+    Measured (`exactpt bench first-contact`): once and from a cold start it does, up to
     three times, except where bodies deform; these near themselves are pairs in every slab.
     """
     pieces = (body.piece_after(scene.start).tracks for body in scene.bodies)

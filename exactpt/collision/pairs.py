@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import heapq
 import time as clock
+from collections.abc import Collection, Iterable
 from typing import Final, TypeAlias, final
 
 import numpy as np
@@ -20,7 +21,7 @@ from numpy.typing import NDArray
 
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
-from exactpt.errors import BudgetExceeded
+from exactpt.errors import BudgetExceeded, InputError
 from exactpt.geometry.boxes import overlapping_pairs
 from exactpt.geometry.polygon import edges
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -52,6 +53,7 @@ class PairsSearch:
         scene: what moves.
         exact_only: decide everything by exact arithmetic, without the float filters.
         max_seconds: give up after this time.
+        ignoring: groups of names; bodies of one group may overlap each other all the time.
 
     Attributes:
         name: of the tiling: there is none.
@@ -61,12 +63,18 @@ class PairsSearch:
     name = None
 
     def __init__(
-        self, scene: Scene, *, exact_only: bool = False, max_seconds: float | None = None
+        self,
+        scene: Scene,
+        *,
+        exact_only: bool = False,
+        max_seconds: float | None = None,
+        ignoring: Iterable[Collection[str]] = (),
     ) -> None:
         self._scene = scene
         self._exact_only = exact_only
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
         self._counted = (counters.exact, counters.filtered)
+        self._group: Indices = np.array(_groups(scene, ignoring), dtype=np.int64)
         self.certificates = 0
         self._passed: QQ | None = None
 
@@ -95,8 +103,10 @@ class PairsSearch:
         """
         scene = self._scene
         initial, overlaps = initial_touches(scene)
+        overlaps = [(i, j) for i, j in overlaps if not self._ignores(i, j)]
         if overlaps:
-            return contact_of(scene, AlgebraicNumber(scene.start), initial, overlaps)
+            seen = [touch for touch in initial if not self._ignores(touch.body, touch.other)]
+            return contact_of(scene, AlgebraicNumber(scene.start), seen, overlaps)
         if not scene.bodies:
             return None
         self._prepare()
@@ -187,8 +197,13 @@ class PairsSearch:
         together = (motion >= 0) & (motion == self._motion[a]) & (motion == self._motion[b])
         rigid = (self._body[v] == self._body[a]) & ~self._deforms[self._body[v]]
         # The start of an edge stands for the edge itself, which may shrink to a point.
-        may: NDArray[np.bool_] = ~(together | rigid | (v == b))
+        i, j = self._body[v], self._body[a]
+        ignored = (self._group[i] == self._group[j]) & (i != j)
+        may: NDArray[np.bool_] = ~(together | rigid | ignored | (v == b))
         return may
+
+    def _ignores(self, i: int, j: int) -> bool:
+        return i != j and bool(self._group[i] == self._group[j])
 
     def _search(self, now: QQ, later: QQ, near: tuple[Indices, Indices]) -> Contact | None:
         """The first contact in (now, later]."""
@@ -221,4 +236,20 @@ class PairsSearch:
             return None
         certifier.move_to(EventTime(*self._vertices.frame.enclosure(best), -1, -1, -1, best), [])
         found = touches(certifier, self._vertices, range(len(self._vertices.all)))
-        return contact_of(self._scene, best, found)
+        return contact_of(
+            self._scene, best, [t for t in found if not self._ignores(t.body, t.other)]
+        )
+
+
+def _groups(scene: Scene, ignoring: Iterable[Collection[str]]) -> list[int]:
+    """The group of each body, by number; a body in none is one of its own."""
+    number = {body.name: i for i, body in enumerate(scene.bodies)}
+    group = list(range(len(number)))
+    for k, names in enumerate(ignoring, start=len(group)):
+        for name in names:
+            if name not in number:
+                raise InputError(f"there is no body {name!r} to ignore others")
+            if group[number[name]] >= len(number):
+                raise InputError(f"body {name!r} is in two groups that ignore each other")
+            group[number[name]] = k
+    return group

@@ -12,6 +12,7 @@ import math
 import operator
 import re
 from fractions import Fraction
+from numbers import Real
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 import gmpy2
@@ -133,8 +134,8 @@ def show(*numbers: QQ) -> str:
 def rational(value: Rational) -> QQ:
     """The exact rational that ``value`` denotes.
 
-    Accepts ints, Fractions, gmpy2 ``mpz`` and ``mpq``, numpy integers, finite
-    floats (their exact binary value), and the strings of `parse_rational`.
+    Accepts ints, Fractions, gmpy2 ``mpz`` and ``mpq``, numpy integers, finite floats,
+    numpy's too (their exact binary value), and the strings of `parse_rational`.
 
     Raises:
         InputError: for anything else (booleans, NaN, infinities, inexact ``mpfr``).
@@ -152,8 +153,12 @@ def rational(value: Rational) -> QQ:
     try:
         if hasattr(value, "numerator") and hasattr(value, "denominator"):
             return QQ(ZZ(int(value.numerator)), ZZ(int(value.denominator)))
+        if isinstance(value, Real) and hasattr(value, "as_integer_ratio"):  # numpy.float32
+            return QQ(*map(int, value.as_integer_ratio()))
         # numpy integers have no denominator
         return QQ(ZZ(operator.index(value)))  # type: ignore[arg-type]
+    except (OverflowError, ValueError):
+        raise InputError(f"not a finite number: {value!r}") from None
     except TypeError:  # arrays have an __index__, classes a numerator, that is none
         raise InputError(f"not a number: {shorten(value)}") from None
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from numbers import Real
 from typing import TYPE_CHECKING, ClassVar, Final, final
 
 from exactpt.errors import InputError
@@ -134,6 +135,6 @@ def polynomial(value: Polynomial | Rational | Iterable[Rational]) -> Polynomial:
         return value
     if isinstance(value, Iterable) and not isinstance(value, str):
         return Polynomial(value)
-    if isinstance(value, (str, int, float)) or hasattr(value, "numerator"):
+    if isinstance(value, (str, Real)) or hasattr(value, "numerator"):
         return Polynomial([value])
     raise InputError(f"not a polynomial: {value!r}")

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, NamedTuple, TypeAlias, final
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, rational, shorten, show
 from exactpt.kernel.polynomial import Polynomial, polynomial
 from exactpt.motion.motions import REST, Coefficients, Motion, Pieces, Position, SimpleMotion
 from exactpt.motion.track import Track
+
+if TYPE_CHECKING:
+    from exactpt.exchange.shapely_door import BaseGeometry
 
 __all__ = ["Body", "BodyPiece", "Keyframe", "VertexLike"]
 
@@ -87,6 +90,30 @@ class Body:
         if not self._shapes[0][1]:
             raise InputError(f"body {shorten(name)}: at least one vertex is needed")
         self._check_continuity()
+
+    @classmethod
+    def from_shapely(
+        cls,
+        geometry: BaseGeometry,
+        name: str,
+        motion: Motion = REST,
+        *,
+        holes: Literal["refuse", "fill"] = "refuse",
+    ) -> Body:
+        """The body of a shapely point, line or polygon; coordinates at their exact value.
+
+        Args:
+            geometry: of one part; `Scene.from_shapely` takes several.
+            name: of the body.
+            motion: carries the shape; at rest if not given.
+            holes: "refuse" a polygon with holes, or "fill" them.
+
+        Raises:
+            InputError: if the geometry is not one part, or cannot be a body.
+        """
+        from exactpt.exchange.shapely_door import body_from
+
+        return body_from(geometry, name, motion, holes)
 
     @property
     def size(self) -> int:

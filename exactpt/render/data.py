@@ -52,7 +52,7 @@ def data_of(film: Film, *, at: AlgebraicNumber | QQ | None = None) -> dict[str, 
         "steps": [_step(step, time_bits) for step in film.steps],
         "edges": [list(edge) for edge in sorted(film.edges, key=lambda e: (e.first, e.u, e.v))],
         "tiles": [
-            [list(t.nodes), list(t.corners), t.tint, t.inside, t.first, t.last]
+            [list(t.nodes), list(t.corners), t.tint, t.inside, *t.place, t.first, t.last]
             for t in sorted(film.tiles, key=lambda t: (t.first, t.nodes))
         ],
         "contact": None if film.contact is None else _contact(film.contact, scene),

@@ -15,6 +15,7 @@ from exactpt.render.svg import svg_of
 from exactpt.scene.format import write_atomically
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from exactpt.kernel.algebraic import AlgebraicNumber
@@ -36,6 +37,7 @@ def draw(
     theme: str = "auto",
     max_events: int | None = None,
     max_seconds: float | None = None,
+    reached: Callable[[AlgebraicNumber], None] | None = None,
 ) -> None:
     """Draw a scene into a file, whose ending says what: a picture or an animation.
 
@@ -47,6 +49,7 @@ def draw(
         theme: "light", "dark" or "auto" (as the reader prefers; PNG: light).
         max_events: see `Simulation`.
         max_seconds: see `Simulation`.
+        reached: is told of the times that the run of an animation reaches.
 
     Raises:
         InputError: if the ending is none of `ENDINGS`, or there is nothing to draw then.
@@ -56,7 +59,13 @@ def draw(
     if ending not in ENDINGS:
         raise InputError(f"{path}: a drawing ends in one of {', '.join(ENDINGS)}")
     if ending == ".html":
-        film = film_of(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
+        film = film_of(
+            scene,
+            tiling=tiling,
+            max_events=max_events,
+            max_seconds=max_seconds,
+            reached=reached,
+        )
         first = _shown_first(film, at)
         write_atomically(path, page_of(film, title=path.stem, at=first, theme=theme))
         return

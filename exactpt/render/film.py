@@ -11,6 +11,8 @@ from exactpt.render.tracker import EdgeSpan, TileSpan, Tracker
 from exactpt.simulation.simulation import Simulation
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from exactpt.collision.contact import Contact
     from exactpt.kinetic.queue import EventTime
     from exactpt.scene.scene import Scene
@@ -79,8 +81,16 @@ def film_of(
     tiling: str = "auto",
     max_events: int | None = None,
     max_seconds: float | None = None,
+    reached: Callable[[AlgebraicNumber], None] | None = None,
 ) -> Film:
     """Run a scene, and keep what its animation needs.
+
+    Args:
+        scene: what moves.
+        tiling: which tiling to keep.
+        max_events: see `Simulation`.
+        max_seconds: see `Simulation`.
+        reached: is told of the times that the run reaches.
 
     Raises:
         BudgetExceeded: if the bounds are reached.
@@ -103,6 +113,8 @@ def film_of(
             taken[-1].changes.append(change)
             continue
         latest = now
+        if reached is not None:
+            reached(event.time)
         certificate = tuple(node[v] for v in (now.a, now.b, now.c) if v >= 0)
         taken.append(Step(event.time, [change], certificate))
         if simulation.contact is None:

@@ -21,6 +21,8 @@ Pixel: TypeAlias = tuple[float, float]
 
 NAMED: Final = 40
 """The most bodies that are still labelled with their names."""
+_LETTER: Final = 8.0
+"""Pixels that a letter of the news takes, on average or more."""
 
 
 @final
@@ -127,7 +129,8 @@ def frame_of(still: Still) -> Frame:
     caption, news = time_in_words(still.at), ""
     if still.contact is not None:
         caption = f"first contact at {time_in_words(still.contact.time)}"
-        news = contact_in_words(still.contact)
+        both, one = (contact_in_words(still.contact, limit=n) for n in (2, 1))
+        news = both if len(both) * _LETTER < window.width else one
         marks = tuple(_mark(pair, pixels) for pair in still.contact.pairs)
     return Frame(window, caption, news, note, tiles, shapes, lines, marks)
 

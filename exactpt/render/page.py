@@ -24,6 +24,7 @@ SCRIPTS: Final = (
     "chart",
     "camera",
     "pen",
+    "shadow",
     "painter",
     "picker",
     "player",

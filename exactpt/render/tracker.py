@@ -8,13 +8,14 @@ looked at. A tile that changes passes its tint on to the tile that has most of i
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Final, NamedTuple, final
 
 from exactpt.render.palette import TINTS
-from exactpt.tiling.mesh import FREE, INSIDE, OUTER, SOLID
+from exactpt.tiling.mesh import F2, FREE, INSIDE, OUTER, SOLID, Tile
+from exactpt.tiling.mixed.labels import Label, LabelledMesh
 
 if TYPE_CHECKING:
     from exactpt.tiling.tiling import Tiling
@@ -42,13 +43,15 @@ class TileSpan(NamedTuple):
     """A tile after step ``first`` until step ``last`` (None: to the end).
 
     ``nodes`` run counter-clockwise; ``corners`` are the three of them with angles below pi;
-    ``inside`` tells whether it is part of a body.
+    ``inside`` tells whether it is part of a body; ``place`` whose relative hull it is in, and
+    at which level.
     """
 
     nodes: tuple[int, ...]
     corners: tuple[int, ...]
     tint: int
     inside: bool
+    place: Tile
     first: int
     last: int | None
 
@@ -60,7 +63,14 @@ class _Tile:
     corners: tuple[int, ...]
     tint: int
     inside: bool
+    place: Tile
     since: int
+
+    def span(self, last: int | None) -> TileSpan:
+        """The tile until a step."""
+        return TileSpan(
+            self.nodes, self.corners, self.tint, self.inside, self.place, self.since, last
+        )
 
 
 @final
@@ -76,6 +86,7 @@ class Tracker:
         self._kinetic = kinetic
         self._node = node
         self._seen: list[list[int]] = [[], [], [], []]
+        self._labels: list[Label] = []
         self._tile_of: list[int] = []
         self._tiles: dict[int, _Tile] = {}
         self._made = 0
@@ -89,10 +100,7 @@ class Tracker:
     @property
     def tiles(self) -> list[TileSpan]:
         """All tiles so far."""
-        here = [
-            TileSpan(t.nodes, t.corners, t.tint, t.inside, t.since, None)
-            for t in self._tiles.values()
-        ]
+        here = [tile.span(None) for tile in self._tiles.values()]
         return [tile for tile in self._gone_tiles + here if len(tile.nodes) > 2]
 
     @property
@@ -110,6 +118,11 @@ class Tracker:
         for old, new in zip(self._seen, now, strict=True):
             changed.update(_differences(old, new))
         self._seen = [array[:] for array in now]
+        if isinstance(mesh, LabelledMesh):  # a label places the tiles on both sides of its edge
+            changed.update(
+                h ^ side for h in _differences(self._labels, mesh.labels) for side in (0, 1)
+            )
+            self._labels = mesh.labels[:]
         self._tile_of += [-1] * (len(now[0]) - len(self._tile_of))
         ordered = sorted(changed)
         self._update_tiles(ordered, step)
@@ -146,20 +159,20 @@ class Tracker:
         around = [self._node[m.origin[h]] for h in cycle]
         nodes = [v for u, v in zip([around[-1], *around], around, strict=False) if u != v]
         corners = tuple(self._node[m.origin[h]] for h in cycle if mesh.corner[h])
+        inside = mesh.region[cycle[0]] != FREE
+        place = F2 if inside else mesh.tile(cycle[0])
         if before is not None:
-            if set(before.corners) == set(corners) and _same_cycle(before.nodes, nodes):
+            is_same = set(before.corners) == set(corners) and before.place == place
+            if is_same and _same_cycle(before.nodes, nodes):
                 self._tiles[name] = before
                 return
             self._leave(before, step)
         tint = before.tint if before is not None else self._new_tint(name, cycle)
-        inside = mesh.region[cycle[0]] != FREE
-        self._tiles[name] = _Tile(tuple(nodes), corners, tint, inside, step)
+        self._tiles[name] = _Tile(tuple(nodes), corners, tint, inside, place, step)
 
     def _leave(self, tile: _Tile, step: int) -> None:
         if tile.since < step:
-            self._gone_tiles.append(
-                TileSpan(tile.nodes, tile.corners, tile.tint, tile.inside, tile.since, step)
-            )
+            self._gone_tiles.append(tile.span(step))
 
     def _new_tint(self, name: int, cycle: list[int]) -> int:
         """A tint that no tile next to it has, if there is one."""
@@ -202,7 +215,7 @@ class Tracker:
         return None if boundary or not edges else "diagonal"
 
 
-def _differences(old: list[int], new: list[int]) -> list[int]:
+def _differences(old: Sequence[object], new: Sequence[object]) -> list[int]:
     """Where two lists differ. Chunks are compared first: nearly all of them are equal."""
     return [
         i

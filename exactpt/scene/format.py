@@ -1,8 +1,4 @@
-"""Scenes as JSON: read with every refusal of the contract, written exactly.
-
-Numbers never pass through a float: JSON numbers reach `parse_rational` as the text
-that is in the file.
-"""
+"""Scenes as JSON: read with every refusal of the contract, written exactly."""
 
 from __future__ import annotations
 
@@ -10,12 +6,11 @@ import contextlib
 import json
 import os
 import tempfile
-from collections.abc import Iterable
 from pathlib import Path
-from typing import Final, TypeAlias
+from typing import Final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, parse_rational, shorten
+from exactpt.kernel.numbers import QQ, shorten
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import (
@@ -28,25 +23,20 @@ from exactpt.motion.motions import (
     SimpleMotion,
     Translation,
 )
+from exactpt.scene.json_values import (
+    Json,
+    Number,
+    a_list,
+    an_object,
+    exact_number,
+    parse_json,
+    shown,
+)
 from exactpt.scene.scene import Scene
 
 __all__ = ["load", "loads", "save", "to_json", "write_atomically"]
 
 VERSION: Final = 1
-MOST_DIGITS: Final = 10_000
-"""Numerators and denominators have no more: exact arithmetic would not end with many more."""
-MOST_BITS: Final = 33_220
-"""The length of the largest number with so many digits."""
-
-
-class _Number(str):
-    """The text of a JSON number."""
-
-    __slots__ = ()
-
-
-Json: TypeAlias = "bool | str | list[Json] | dict[str, Json] | None"
-"""A parsed JSON value; numbers are `_Number`, so they stay text."""
 
 
 def load(path: Path) -> Scene:
@@ -74,39 +64,20 @@ def loads(text: str) -> Scene:
         InputError: one line that names the body, the key and the value.
     """
     try:
-        data: Json = json.loads(
-            text,
-            parse_int=_Number,
-            parse_float=_Number,
-            parse_constant=_Number,  # NaN and the infinities: refused where they stand
-            object_pairs_hook=_unique_keys,
-        )
-        return _scene(data)
-    except json.JSONDecodeError as error:
-        where = f"line {error.lineno}, column {error.colno}"
-        raise InputError(f"not JSON: {error.msg} at {where}") from None
+        return _scene(parse_json(text))
     except RecursionError:
         raise InputError("not a scene: nested too deeply") from None
 
 
-def _unique_keys(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
-    result: dict[str, Json] = {}
-    for key, value in pairs:
-        if key in result:
-            raise InputError(f"the key {shorten(key)} is there twice")
-        result[key] = value
-    return result
-
-
 def _scene(data: Json) -> Scene:
-    top = _object(data, "scene", required=["exactpt", "time", "bodies"])
-    if top["exactpt"] != _Number(VERSION) or not isinstance(top["exactpt"], _Number):
+    top = an_object(data, "scene", required=["exactpt", "time", "bodies"])
+    if top["exactpt"] != Number(VERSION) or not isinstance(top["exactpt"], Number):
         raise InputError(
-            f'"exactpt": this version reads format {VERSION}, not {_show(top["exactpt"])}'
+            f'"exactpt": this version reads format {VERSION}, not {shown(top["exactpt"])}'
         )
-    span = _list(top["time"], '"time"', length=2)
-    time = [_number(span[0], '"time"[0]'), _number(span[1], '"time"[1]')]
-    bodies = [_body(b, i) for i, b in enumerate(_list(top["bodies"], '"bodies"'))]
+    span = a_list(top["time"], '"time"', length=2)
+    time = [exact_number(span[0], '"time"[0]'), exact_number(span[1], '"time"[1]')]
+    bodies = [_body(b, i) for i, b in enumerate(a_list(top["bodies"], '"bodies"'))]
     return Scene(bodies, time)
 
 
@@ -115,20 +86,20 @@ def _body(data: Json, index: int) -> Body:
     if isinstance(data, dict) and isinstance(data.get("name"), str):
         where = f"body {shorten(str(data['name']))}"
     allowed = {"vertices", "motion", "closed", "keyframes"}
-    body = _object(data, where, required=["name"], optional=allowed)
+    body = an_object(data, where, required=["name"], optional=allowed)
     name = body["name"]
-    if not isinstance(name, str) or isinstance(name, _Number) or not _is_text(name):
-        raise InputError(f'{where}: "name": not a text: {_show(name)}')
+    if not isinstance(name, str) or isinstance(name, Number) or not _is_text(name):
+        raise InputError(f'{where}: "name": not a text: {shown(name)}')
     if ("vertices" in body) == ("keyframes" in body):
         raise InputError(f'{where}: needs either "vertices" or "keyframes"')
     closed = body.get("closed", True)
     if not isinstance(closed, bool):
-        raise InputError(f'{where}: "closed": not true or false: {_show(closed)}')
+        raise InputError(f'{where}: "closed": not true or false: {shown(closed)}')
     motion = _motion(body["motion"], f'{where}: "motion"') if "motion" in body else REST
     if "keyframes" in body:
         frames = _keyframes(body["keyframes"], f'{where}: "keyframes"')
         return Body(name, motion=motion, closed=closed, keyframes=frames)
-    rows = _list(body["vertices"], f'{where}: "vertices"')
+    rows = a_list(body["vertices"], f'{where}: "vertices"')
     if not rows:
         raise InputError(f'{where}: "vertices": at least one is needed')
     vertices = [_vertex(row, f"{where}: vertex {i}") for i, row in enumerate(rows)]
@@ -145,39 +116,42 @@ def _is_text(name: str) -> bool:
 
 def _vertex(data: Json, where: str) -> Position:
     if isinstance(data, dict):
-        _object(data, where, optional={"x", "y"})
+        an_object(data, where, optional={"x", "y"})
         return _coordinate(data, "x", where), _coordinate(data, "y", where)
-    x, y = _list(data, where, length=2)
-    return Polynomial([_number(x, f"{where}: x")]), Polynomial([_number(y, f"{where}: y")])
+    x, y = a_list(data, where, length=2)
+    at = exact_number(x, f"{where}: x"), exact_number(y, f"{where}: y")
+    return Polynomial([at[0]]), Polynomial([at[1]])
 
 
 def _keyframes(data: Json, where: str) -> list[tuple[QQ, list[tuple[QQ, QQ]]]]:
-    rows = _list(data, where)
+    rows = a_list(data, where)
     if not rows:
         raise InputError(f"{where}: at least one is needed")
     frames = []
     for i, row in enumerate(rows):
         at = f"{where}[{i}]"
-        frame = _object(row, at, required=["t", "vertices"])
+        frame = an_object(row, at, required=["t", "vertices"])
         points = []
-        for j, point in enumerate(_list(frame["vertices"], f'{at}: "vertices"')):
-            x, y = _list(point, f"{at}: vertex {j}", length=2)
-            points.append((_number(x, f"{at}: vertex {j}: x"), _number(y, f"{at}: vertex {j}: y")))
+        for j, point in enumerate(a_list(frame["vertices"], f'{at}: "vertices"')):
+            x, y = a_list(point, f"{at}: vertex {j}", length=2)
+            points.append(
+                (exact_number(x, f"{at}: vertex {j}: x"), exact_number(y, f"{at}: vertex {j}: y"))
+            )
         if not points:
             raise InputError(f'{at}: "vertices": at least one is needed')
-        frames.append((_number(frame["t"], f'{at}: "t"'), points))
+        frames.append((exact_number(frame["t"], f'{at}: "t"'), points))
     return frames
 
 
 def _motion(data: Json, where: str) -> Motion:
     if isinstance(data, dict) and "pieces" in data:
-        _object(data, where, required=["pieces"])
+        an_object(data, where, required=["pieces"])
         pieces: list[tuple[QQ | None, SimpleMotion]] = []
-        rows = _list(data["pieces"], f'{where}: "pieces"')
+        rows = a_list(data["pieces"], f'{where}: "pieces"')
         for i, row in enumerate(rows):
             at = f'{where}: "pieces"[{i}]'
-            piece = _object(row, at, required=["motion"], optional={"until"})
-            until = _number(piece["until"], f'{at}: "until"') if "until" in piece else None
+            piece = an_object(row, at, required=["motion"], optional={"until"})
+            until = exact_number(piece["until"], f'{at}: "until"') if "until" in piece else None
             if (until is None) != (i == len(rows) - 1):
                 raise InputError(f'{at}: "until" belongs to every piece but the last')
             pieces.append((until, _simple_motion(piece["motion"], f'{at}: "motion"')))
@@ -190,27 +164,27 @@ def _motion(data: Json, where: str) -> Motion:
 
 def _simple_motion(data: Json, where: str) -> SimpleMotion:
     if isinstance(data, dict) and "rigid" in data:
-        _object(data, where, required=["rigid"])
+        an_object(data, where, required=["rigid"])
         at = f'{where}: "rigid"'
-        rigid = _object(data["rigid"], at, required=["half_turn"], optional={"pivot", "x", "y"})
-        pivot = _list(rigid.get("pivot", [_Number("0"), _Number("0")]), f'{at}: "pivot"', length=2)
+        rigid = an_object(data["rigid"], at, required=["half_turn"], optional={"pivot", "x", "y"})
+        pivot = a_list(rigid.get("pivot", [Number("0"), Number("0")]), f'{at}: "pivot"', length=2)
         return Rigid(
             _coordinate(rigid, "half_turn", at),
-            pivot=[_number(c, f'{at}: "pivot"') for c in pivot],
+            pivot=[exact_number(c, f'{at}: "pivot"') for c in pivot],
             x=_coordinate(rigid, "x", at),
             y=_coordinate(rigid, "y", at),
         )
     if isinstance(data, dict) and "affine" in data:
-        _object(data, where, required=["affine"])
+        an_object(data, where, required=["affine"])
         at = f'{where}: "affine"'
-        affine = _object(data["affine"], at, required=["matrix"], optional={"x", "y"})
-        rows = _list(affine["matrix"], f'{at}: "matrix"', length=2)
+        affine = an_object(data["affine"], at, required=["matrix"], optional={"x", "y"})
+        rows = a_list(affine["matrix"], f'{at}: "matrix"', length=2)
         matrix = [
-            [_polynomial(p, f'{at}: "matrix"') for p in _list(row, f'{at}: "matrix"', length=2)]
+            [_polynomial(p, f'{at}: "matrix"') for p in a_list(row, f'{at}: "matrix"', length=2)]
             for row in rows
         ]
         return Affine(matrix, x=_coordinate(affine, "x", at), y=_coordinate(affine, "y", at))
-    translation = _object(data, where, optional={"x", "y"})
+    translation = an_object(data, where, optional={"x", "y"})
     return Translation(_coordinate(translation, "x", where), _coordinate(translation, "y", where))
 
 
@@ -219,53 +193,7 @@ def _coordinate(data: dict[str, Json], key: str, where: str) -> Polynomial:
 
 
 def _polynomial(data: Json, where: str) -> Polynomial:
-    return Polynomial([_number(c, where) for c in _list(data, where)])
-
-
-def _number(data: Json, where: str) -> QQ:
-    if not isinstance(data, str):
-        raise InputError(f"{where}: not a number: {_show(data)}")
-    try:
-        value = QQ(0) if len(data) > 3 * MOST_DIGITS else parse_rational(data)
-    except InputError as error:
-        raise InputError(f"{where}: {error}") from None
-    bits = max(value.numerator.bit_length(), value.denominator.bit_length())
-    if len(data) > 3 * MOST_DIGITS or bits > MOST_BITS:
-        raise InputError(f"{where}: more than {MOST_DIGITS} digits: {shorten(str(data))}")
-    return value
-
-
-def _list(data: Json, where: str, length: int | None = None) -> list[Json]:
-    if not isinstance(data, list):
-        raise InputError(f"{where}: not a list: {_show(data)}")
-    if length is not None and len(data) != length:
-        raise InputError(f"{where}: {length} entries are needed, not {len(data)}: {_show(data)}")
-    return data
-
-
-def _object(
-    data: Json,
-    where: str,
-    required: Iterable[str] = (),
-    optional: Iterable[str] = (),
-) -> dict[str, Json]:
-    if not isinstance(data, dict):
-        raise InputError(f"{where}: not an object: {_show(data)}")
-    for key in required:
-        if key not in data:
-            raise InputError(f'{where}: the key "{key}" is missing')
-    unknown = set(data) - set(required) - set(optional)
-    if unknown:
-        raise InputError(
-            f"{where}: unknown key {shorten(min(unknown))}: {_show(data[min(unknown)])}"
-        )
-    return data
-
-
-def _show(data: Json) -> str:
-    if isinstance(data, _Number):
-        return shorten(str(data))[1:-1]
-    return shorten(json.loads(json.dumps(data)) if isinstance(data, (list, dict)) else data)
+    return Polynomial([exact_number(c, where) for c in a_list(data, where)])
 
 
 def _text(value: QQ) -> str:

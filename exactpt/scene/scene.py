@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import final
+from typing import TYPE_CHECKING, Literal, final
 
 from exactpt.errors import InputError
 from exactpt.geometry.polygon import first_self_touch, signed_area2
 from exactpt.kernel.numbers import QQ, Rational, rational, shorten, show
 from exactpt.motion.body import Body
+
+if TYPE_CHECKING:
+    from exactpt.exchange.shapely_door import BaseGeometry
 
 __all__ = ["Scene"]
 
@@ -86,6 +89,40 @@ class Scene:
     def at(self, t: Rational) -> dict[str, list[tuple[QQ, QQ]]]:
         """The exact vertex positions of every body at a rational time, by name."""
         return {body.name: body.at(t) for body in self.bodies}
+
+    @classmethod
+    def from_shapely(
+        cls,
+        geometries: Iterable[BaseGeometry] | Mapping[str, BaseGeometry],
+        time: Sequence[Rational] = (0, 1),
+        *,
+        holes: Literal["refuse", "fill"] = "refuse",
+    ) -> Scene:
+        """The scene at rest of shapely geometries: a body for each part of each.
+
+        Args:
+            geometries: by name, or in order; coordinates are taken at their exact value.
+            time: the start and the end of the scene.
+            holes: "refuse" polygons with holes, or "fill" them.
+
+        Raises:
+            InputError: if a geometry cannot be a body (see `exactpt.read_shapes`).
+        """
+        from exactpt.exchange.shapely_door import scene_from
+
+        return scene_from(geometries, time, holes)
+
+    def to_shapely(self, t: Rational) -> dict[str, BaseGeometry]:
+        """The bodies at a rational time as shapely geometries, by name.
+
+        Coordinates are the nearest doubles.
+
+        Raises:
+            InputError: if the time is outside the time span.
+        """
+        from exactpt.exchange.shapely_door import geometries_of
+
+        return geometries_of(self, rational(t))
 
     def until(self, end: Rational) -> Scene:
         """The scene up to an earlier end (a later one changes nothing).

@@ -21,6 +21,7 @@ from exactpt.motion.incidence import difference
 from exactpt.motion.incidence import orientation as base_orientation
 from exactpt.tiling import coefficients
 from exactpt.tiling.exact import orientation, x_order
+from exactpt.tiling.positions import Positions
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -51,6 +52,7 @@ class Certifier:
         skipped: how many have not, since they cannot fail.
         zeros: how many of those made anew were found to vanish now, or for ever.
         errors: bounds on the coefficients of the images, see `Frame`.
+        positions: of the vertices now, in doubles.
     """
 
     def __init__(self, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool) -> None:
@@ -68,12 +70,15 @@ class Certifier:
         self.now: EventTime = EventTime(low, high, -1, -1, -1, AlgebraicNumber(start))
         self.now_low: float = low
         self.now_high: float = high
+        self.positions: Positions = Positions(self.errors)
+        self.positions.move_to(low, high)
 
     def move_to(self, time: EventTime, roots: list[tuple[int, int, int]]) -> None:
         """Make this time the current one; ``roots``: triples whose orientation vanishes then."""
         self.now = time
         self.now_low = time.low
         self.now_high = time.high
+        self.positions.move_to(time.low, time.high)
         self.roots_now = roots
 
     def vertex(self, vertex_id: int) -> Vertex:
@@ -101,6 +106,7 @@ class Certifier:
         time.low, time.high = frame.enclosure(number)
         if time is self.now:
             self.now_low, self.now_high = time.low, time.high
+            self.positions.move_to(time.low, time.high)
         return number
 
     def rigid(self, a: int, b: int, c: int) -> bool:

@@ -18,7 +18,7 @@ from exactpt.kernel import filters
 from exactpt.kernel.batch import Answers, quadratics
 from exactpt.motion.image import Image
 
-__all__ = ["linear_orientations", "orientation", "turn", "x_difference"]
+__all__ = ["linear_orientations", "orientation", "x_difference"]
 
 U: Final = 2.0**-53
 K: Final = 8.0 * U
@@ -169,21 +169,13 @@ def _any_degree(
     horizon: float,
     at_root: bool,  # noqa: FBT001
 ) -> filters.Answer:
-    """Translations of any degree."""
-    ux, uy = _differences(a.xs, b.xs, a, b), _differences(a.ys, b.ys, a, b)
-    vx, vy = _differences(a.xs, c.xs, a, c), _differences(a.ys, c.ys, a, c)
-    values, bounds = _cross_product(ux, uy, vx, vy, errors)
-    return _answer(values, bounds, now_low, now_high, horizon, at_root)
-
-
-def _cross_product(
-    ux: list[float], uy: list[float], vx: list[float], vy: list[float], errors: list[float]
-) -> tuple[list[float], list[float]]:
-    """u x v of two differences of translations, and bounds on the errors.
+    """Translations of any degree.
 
     A coefficient is a sum of at most 2n products, each right to three units: 2n + 3
     units, and 4n + 8 cover the rounding of the bound.
     """
+    ux, uy = _differences(a.xs, b.xs, a, b), _differences(a.ys, b.ys, a, b)
+    vx, vy = _differences(a.xs, c.xs, a, c), _differences(a.ys, c.ys, a, c)
     n = len(ux) + len(vx) - 1
     values, bounds = [0.0] * n, [0.0] * n
     unit = (4 * n + 8) * U
@@ -198,50 +190,7 @@ def _cross_product(
                 + di * (abs(vxj) + abs(vyj) + 2.0 * dj)
                 + dj * (abs(uxi) + abs(uyi))
             )
-    return values, bounds
-
-
-def turn(
-    a: Image,
-    b: Image,
-    c: Image,
-    d: Image,
-    errors: list[float],
-    now_low: float,
-    now_high: float,
-    horizon: float,
-) -> filters.Answer:
-    """The filter's answer for the cross product (b - a) x (d - c), not known to vanish now."""
-    if a.ws or b.ws or c.ws or d.ws:
-        values, bounds = _turning_cross_product(a, b, c, d)
-    else:
-        ux, uy = _differences(a.xs, b.xs, a, b), _differences(a.ys, b.ys, a, b)
-        vx, vy = _differences(c.xs, d.xs, c, d), _differences(c.ys, d.ys, c, d)
-        values, bounds = _cross_product(ux, uy, vx, vy, errors)
-    return _answer(values, bounds, now_low, now_high, horizon, at_root=False)
-
-
-def _turning_cross_product(
-    a: Image, b: Image, c: Image, d: Image
-) -> tuple[list[float], list[float]]:
-    """The same times all (positive) denominators.
-
-    A product of four coefficients, each right to one unit, is right to seven; it goes
-    through at most 2n sums: 2n + 7 units, and 4n + 16 cover the rounding of the bound.
-    """
-    aw, bw, cw, dw = a.ws or ONE, b.ws or ONE, c.ws or ONE, d.ws or ONE
-    ux, size_ux = _minor(b.xs, aw, a.xs, bw)
-    uy, size_uy = _minor(b.ys, aw, a.ys, bw)
-    vx, size_vx = _minor(d.xs, cw, c.xs, dw)
-    vy, size_vy = _minor(d.ys, cw, c.ys, dw)
-    n = len(ux) + len(vx) - 1
-    values, sizes = [0.0] * n, [0.0] * n
-    for i in range(len(ux)):
-        for j in range(len(vx)):
-            values[i + j] += ux[i] * vy[j] - uy[i] * vx[j]
-            sizes[i + j] += size_ux[i] * size_vy[j] + size_uy[i] * size_vx[j]
-    unit = (4 * n + 16) * U
-    return values, [unit * s for s in sizes]
+    return _answer(values, bounds, now_low, now_high, horizon, at_root)
 
 
 def _turning(

@@ -28,8 +28,14 @@ class Moment:
         """1 if a, b, c turn left, -1 if right, 0 if collinear for ever (counts as right)."""
         certifier = self._certifier
         va, vb, vc = certifier.vertex(a), certifier.vertex(b), certifier.vertex(c)
+        if not certifier.exact_only:
+            s = certifier.positions.sign(va, vb, vc)
+            if s:
+                counters.filtered += 1
+                return s
         copies = va.track is vb.track or vb.track is vc.track or va.track is vc.track
-        if not (certifier.exact_only or copies or certifier.vanishes_now(a, b, c)):
+        vanishes = certifier.vanishes_now(a, b, c)
+        if not (certifier.exact_only or copies or (vanishes and self._before)):
             s, _, _ = coefficients.orientation(
                 va.image,
                 vb.image,
@@ -38,7 +44,7 @@ class Moment:
                 certifier.now_low,
                 certifier.now_high,
                 self._horizon(),
-                False,  # noqa: FBT003
+                vanishes,
             )
             if s:
                 counters.filtered += 1
@@ -49,8 +55,14 @@ class Moment:
         """Whether a comes before b from left to right."""
         certifier = self._certifier
         va, vb = certifier.vertex(a), certifier.vertex(b)
-        known = certifier.vanishes_now(a, b, X_ORDER)
-        if not (certifier.exact_only or va.track is vb.track or known):
+        if not certifier.exact_only:
+            s = certifier.positions.order(va, vb, 0)
+            if s:
+                counters.filtered += 1
+                return s > 0
+        vanishes = certifier.vanishes_now(a, b, X_ORDER)
+        copies = va.track is vb.track
+        if not (certifier.exact_only or copies or (vanishes and self._before)):
             s, _, _ = coefficients.x_difference(
                 va.image,
                 vb.image,
@@ -58,7 +70,7 @@ class Moment:
                 certifier.now_low,
                 certifier.now_high,
                 self._horizon(),
-                False,  # noqa: FBT003
+                vanishes,
             )
             if s:
                 counters.filtered += 1
@@ -70,16 +82,7 @@ class Moment:
         certifier = self._certifier
         p, q, r, t = (certifier.vertex(v) for v in (a, b, c, d))
         if not certifier.exact_only:
-            s, _, _ = coefficients.turn(
-                p.image,
-                q.image,
-                r.image,
-                t.image,
-                certifier.errors,
-                certifier.now_low,
-                certifier.now_high,
-                self._horizon(),
-            )
+            s = certifier.positions.turn(p, q, r, t)
             if s:
                 counters.filtered += 1
                 return s

@@ -18,7 +18,6 @@ from exactpt.motion.incidence import difference
 
 if TYPE_CHECKING:
     from exactpt.geometry.boxes import Boxes
-    from exactpt.motion.image import Image
     from exactpt.motion.vertices import Vertex
     from exactpt.tiling.certificates import Certifier
 
@@ -40,7 +39,7 @@ def coordinate_order(certifier: Certifier, a: Vertex, b: Vertex, axis: int) -> i
     if a.track is b.track:
         return 0
     if not certifier.exact_only:
-        s = _float_order(certifier, a.image, b.image, axis)
+        s = certifier.positions.order(a, b, axis)
         if s:
             counters.filtered += 1
             return s
@@ -50,52 +49,12 @@ def coordinate_order(certifier: Certifier, a: Vertex, b: Vertex, axis: int) -> i
     return certifier.exact_now.sign_of(f)
 
 
-def _float_order(certifier: Certifier, a: Image, b: Image, axis: int) -> int:
-    """The certain sign on all of [now_low, now_high], or 0."""
-    if a.ws or b.ws:
-        return 0
-    va, ea = _value(certifier, a.ys if axis else a.xs)
-    vb, eb = _value(certifier, b.ys if axis else b.xs)
-    difference = vb - va
-    bound = ea + eb + 4.0 * U * abs(difference)
-    return 1 if difference > bound else -1 if difference < -bound else 0
-
-
-def _value(certifier: Certifier, cs: Sequence[float]) -> tuple[float, float]:
-    """A coordinate in the frame now, and a bound on its error anywhere in [now_low, now_high].
-
-    Horner's rule at the middle m of the enclosure, on coefficients off by at most
-    errors[i] (and one unit): the value is off by sum((4n + 8) u |c_i| + errors[i]) |m|^i;
-    within the enclosure, of half-width r, it moves by less than r sum(i |c_i| T^(i-1)),
-    T = |m| + r.
-    """
-    low, high = certifier.now_low, certifier.now_high
-    errors = certifier.errors
-    m = 0.5 * (low + high)
-    r = high - low
-    reach = abs(m) + r
-    value, bound, slope, error = 0.0, 0.0, 0.0, 0.0
-    for i in range(len(cs) - 1, -1, -1):
-        slope = slope * reach + bound
-        value = value * m + cs[i]
-        bound = bound * reach + abs(cs[i])
-        error = error * reach + errors[i]
-    unit = (4 * len(cs) + 8) * U
-    return value, (unit * bound + error + r * slope) * (1.0 + 1e-10)
-
-
 def boxes_now(certifier: Certifier, vertices: Sequence[Vertex]) -> Boxes:
-    """Boxes that contain the positions now, in the frame; of turning bodies the whole plane."""
+    """Boxes that contain the positions now, in the frame."""
     boxes = np.empty((len(vertices), 4))
     for i, vertex in enumerate(vertices):
-        image = vertex.image
-        if image.ws:
-            boxes[i] = (-np.inf, np.inf, -np.inf, np.inf)
-            continue
-        x, dx = _value(certifier, image.xs)
-        y, dy = _value(certifier, image.ys)
-        dx += 4.0 * U * abs(x)
-        dy += 4.0 * U * abs(y)
+        x, y, error = certifier.positions.of(vertex)
+        dx, dy = error + 4.0 * U * abs(x), error + 4.0 * U * abs(y)
         boxes[i] = (x - dx, x + dx, y - dy, y + dy)
     return boxes
 

@@ -159,6 +159,20 @@ def test_rational_takes_every_numpy_integer(kind):
         assert type(exact) is type(QQ())
 
 
+@pytest.mark.parametrize("kind", [np.float16, np.float32, np.float64, np.longdouble])
+def test_rational_takes_every_numpy_float(kind):
+    """Only float64 is a Python float; others were refused."""
+    value = kind(1) / kind(3)
+
+    exact = rational(value)
+
+    assert exact == QQ(*map(int, value.as_integer_ratio()))
+    assert type(exact) is type(QQ())
+    for bad in (kind("nan"), kind("inf")):
+        with pytest.raises(InputError, match="not a finite number"):
+            rational(bad)
+
+
 def test_rational_takes_sympy_rationals():
     assert rational(sympy.Rational(-2, 3)) == QQ(-2, 3)
     assert rational(sympy.Integer(5)) == 5

@@ -4,6 +4,7 @@ import math
 import shutil
 import time
 import warnings
+from itertools import accumulate
 
 import pytest
 from render_scenes import demo
@@ -14,7 +15,10 @@ from exactpt.render.fixed import near
 from exactpt.render.frame import frame_of
 from exactpt.render.page import page_of
 from exactpt.render.still import still
+from exactpt.scene.generate import generate
 from exactpt.simulation.simulation import Simulation
+from exactpt.tiling.greedy.shadow import shadow
+from exactpt.tiling.moment import Moment
 
 pytestmark = pytest.mark.browser
 
@@ -135,13 +139,58 @@ def test_scrubbing_and_speed(page):
     assert 0 < float(click(page, "play")["time"]) - before < 0.01
 
 
-@pytest.mark.parametrize("layer", ["tiles", "edges", "next", "names"])
+@pytest.mark.parametrize("layer", ["tiles", "edges", "bridges", "shadows", "next", "names"])
 def test_layers(page, layer):
-    assert pressed(page, f"layer-{layer}")
+    was_on = layer not in {"bridges", "shadows"}
+    assert pressed(page, f"layer-{layer}") == was_on
     before = pixels(page)
     click(page, f"layer-{layer}")
-    assert not pressed(page, f"layer-{layer}")
+    assert pressed(page, f"layer-{layer}") != was_on
     assert pixels(page) != before
+
+
+def test_layers_by_keys(page):
+    for key, layer in {"d": "edges", "b": "bridges", "s": "shadows", "x": "next"}.items():
+        before = pressed(page, f"layer-{layer}")
+        press(page, key)
+        assert pressed(page, f"layer-{layer}") != before
+
+
+@pytest.mark.parametrize("at", [QQ(0), QQ(1, 3), QQ(11, 7)])
+def test_shadow_edges_are_those_of_the_engine(browser, tmp_path, at):
+    """Of polygons; a point or segment is thin in the engine, and has shadows of its own there."""
+    scene = generate("stars", 6)
+    path = tmp_path / "stars.html"
+    path.write_text(page_of(film_of(scene, tiling="greedy"), at=at), encoding="utf-8")
+    simulation = Simulation(scene, tiling="greedy")
+    for _ in simulation.run(at):
+        pass
+    kinetic = simulation.kinetic
+    after = Moment(kinetic.certifier, before=False)
+    first = list(accumulate((body.size for body in scene.bodies), initial=0))
+    node = [first[v.body] + v.index for v in kinetic.vertices.all]
+    mesh = kinetic.mesh
+    expected = {}
+    for h in mesh.flippable():
+        visits = shadow(mesh, h, after)
+        edge = tuple(sorted(node[v] for v in mesh.ends(h)))
+        expected[edge] = sorted(node[mesh.map.origin[g]] for g in visits)
+
+    browser.get(path.as_uri())
+    state(browser)
+    found = {
+        (u, v): sorted(browser.execute_script("return exactpt.shadow(...arguments)", u, v))
+        for u, v in expected
+    }
+
+    assert len(expected) > 10
+    assert found == expected
+    assert browser.get_log("browser") == []
+
+
+def test_a_hull_edge_has_no_shadow(page):
+    u, v, _ = next(edge for edge in state(page)["edges"] if edge[2] != "diagonal")
+    assert page.execute_script("return exactpt.shadow(...arguments)", u, v) is None
 
 
 def pixels(page):

@@ -29,13 +29,14 @@ def cycle(nodes):
 
 def shown(film, step):
     """The free tiles and the edges that the animation shows after a step."""
-    tiles = {cycle(t.nodes) for t in alive(film.tiles, step) if not t.inside}
+    tiles = {(cycle(t.nodes), *t.place) for t in alive(film.tiles, step) if not t.inside}
     edges = {(e.u, e.v, e.kind) for e in alive(film.edges, step)}
     return tiles, edges
 
 
-def in_snapshot(snap):
-    tiles = {cycle(f.nodes) for f in snap.faces}
+def in_snapshot(snap, scene):
+    number = {body.name: i for i, body in enumerate(scene.bodies)} | {None: -1}
+    tiles = {(cycle(f.nodes), number[f.body], f.level or 0) for f in snap.faces}
     edges = {
         (e.u, e.v, "diagonal" if not e.hull else "rim" if e.kind == "boundary" else "hull")
         for e in snap.edges
@@ -53,6 +54,11 @@ SCENES = [
         for seed in (1, 2)
     ),
     *(pytest.param(generate(f, 1), "lazy", id=f) for f in ("turning_stars", "blobs", "combs")),
+    *(
+        pytest.param(generate(family, seed), "mixed", id=f"{family}-{seed}-mixed")
+        for family in ("stars", "turning_stars", "combs", "spirals", "nested")
+        for seed in (4, 7)
+    ),
 ]
 
 
@@ -71,7 +77,7 @@ def test_between_events_the_film_shows_the_snapshot(scene, tiling):
         at = rational_between(before, after)
         for _ in simulation.run(at):
             pass
-        assert shown(film, step) == in_snapshot(simulation.snapshot())
+        assert shown(film, step) == in_snapshot(simulation.snapshot(), scene)
 
 
 @pytest.mark.parametrize("scene, tiling", SCENES)
@@ -92,7 +98,7 @@ def test_at_the_contact_the_film_shows_the_tiling_that_ends_there():
     at = near(simulation.contact.time, QQ(10))
     kinetic = simulation.kinetic
     last = snapshot(kinetic.vertices, kinetic.mesh_after(), "lazy", at)
-    assert shown(film, len(film.steps)) == in_snapshot(last)
+    assert shown(film, len(film.steps)) == in_snapshot(last, demo())
 
 
 def test_positions_in_the_data_are_exact():

@@ -125,6 +125,8 @@ class Controls {
       c: () => stage.visitContact(),
       a: () => stage.replayApproach(),
       d: () => this.toggleLayer("edges"),
+      b: () => this.toggleLayer("bridges"),
+      s: () => this.toggleLayer("shadows"),
       x: () => this.toggleLayer("next"),
       n: () => this.toggleLayer("names"),
       t: () => this.toggleTheme(),

@@ -24,8 +24,8 @@ class Film {
     this.rows = this.steps.flatMap((step, i) =>
       step.changes.map((change, j) => ({ step: i + 1, order: j, change })));
     this.edges = data.edges.map(([u, v, kind, from, until]) => ({ u, v, kind, from, until }));
-    this.tiles = data.tiles.map(([nodes, corners, tint, inside, from, until]) =>
-      ({ nodes, corners, tint, inside, from, until }));
+    this.tiles = data.tiles.map(([nodes, corners, tint, inside, body, level, from, until]) =>
+      ({ nodes, corners, tint, inside, body, level, from, until }));
     this.state = { step: -1, edges: [], tiles: [] };
   }
 
@@ -52,6 +52,19 @@ class Film {
       this.state = { step, edges: this.edges.filter(here), tiles: this.tiles.filter(here) };
     }
     return this.state;
+  }
+
+  /** The free tiles after so many steps, each by its edges "from,to", itself on their left. */
+  leftOf(step) {
+    const state = this.after(step);
+    state.leftOf ??= new Map(state.tiles.filter((tile) => !tile.inside).flatMap((tile) =>
+      tile.nodes.map((u, i) => [`${u},${tile.nodes[(i + 1) % tile.nodes.length]}`, tile])));
+    return state.leftOf;
+  }
+
+  /** Whether an edge of the tiling joins two bodies. */
+  isBridge({ u, v, kind }) {
+    return kind !== "rim" && this.nodes[u].body !== this.nodes[v].body;
   }
 
   /** Whether the picture is that of the contact. */

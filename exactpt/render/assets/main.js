@@ -90,6 +90,11 @@ window.exactpt = {
     return pen.visible(u, v)
       .map(([x, y]) => [stage.camera.width / 2 + x, stage.camera.height / 2 - y]);
   },
+  /** The ends of the shadow of an edge; null if it has none. */
+  shadow(u, v) {
+    const edge = film.after(player.step).edges.find((e) => e.u === u && e.v === v);
+    return shadowOf(edge, film.leftOf(player.step), stage.painter.pen);
+  },
   /** How long it takes to paint so many frames, in milliseconds each. */
   timing(frames) {
     const start = performance.now();

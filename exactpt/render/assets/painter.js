@@ -1,5 +1,8 @@
 // The painter: tiles, bodies, edges, what has just changed, what fails next, the contact.
 
+/** How strong the tiles in a relative hull have the colour of its body, from outside inwards. */
+const LEVELS = [0.16, 0.28, 0.4];
+
 class Painter {
   constructor(canvas, film) {
     this.canvas = canvas;
@@ -48,10 +51,13 @@ class Painter {
     if (view.layers.tiles) this.tiles(tiles.filter((tile) => tile.inside), 0.4);
     if (view.hover?.tile) this.tile(view.hover.tile);
     if (view.layers.edges) this.edges(edges);
+    if (view.layers.bridges) this.bridges(edges);
+    if (view.layers.shadows) this.shadows(edges, view.step);
     this.outlines();
     if (view.layers.next) this.certificate(film.steps[view.step]?.certificate ?? []);
     if (view.flash) this.flash(view.flash);
     if (view.hover) this.hover(view.hover);
+    if (view.hover?.edge) this.shadows([view.hover.edge], view.step);
     if (view.layers.names) this.names();
     if (film.isContact(view.step, view.time)) this.contact(view.pulse);
   }
@@ -71,7 +77,9 @@ class Painter {
     for (const tile of tiles) {
       context.beginPath();
       pen.polygon(tile.nodes);
-      context.fillStyle = colours[`tint${tile.tint}`];
+      const body = this.film.bodies[tile.body];
+      context.fillStyle = body ? body.colour : colours[`tint${tile.tint}`];
+      context.globalAlpha = body ? LEVELS[tile.level % LEVELS.length] : alpha;
       context.fill();
     }
     context.globalAlpha = 1;
@@ -125,6 +133,24 @@ class Painter {
       for (const { u, v, kind } of edges) if (kind !== "diagonal" === isHull) pen.segment(u, v);
       this.stroke(colour, width);
     }
+  }
+
+  /** The edges that join two bodies. */
+  bridges(edges) {
+    this.context.beginPath();
+    for (const edge of edges) if (this.film.isBridge(edge)) this.pen.segment(edge.u, edge.v);
+    this.stroke(this.colours.accent, 2.2);
+  }
+
+  /** Of each edge that can be flipped, the one that would take its place. */
+  shadows(edges, step) {
+    const { context, colours, film, pen } = this;
+    context.beginPath();
+    for (const edge of edges) {
+      const found = shadowOf(edge, film.leftOf(step), pen);
+      if (found) pen.segment(...found);
+    }
+    this.stroke(colours.soft, 1.4, [6, 4]);
   }
 
   /** What has just gone is dashed, what has come is thick. */

@@ -55,12 +55,13 @@ function described(film, chart, picked, time, digits) {
     return [`${what} ${film.name(u)} – ${film.name(v)}`, ...lifetime(film, from, until)];
   }
   if (picked.tile) {
-    const { nodes, corners, inside, from, until } = picked.tile;
+    const { nodes, corners, inside, body, level, from, until } = picked.tile;
     const bends = nodes.length - corners.length;
     const what = bends ? `pseudo-triangle with ${bends} reflex vert${bends > 1 ? "ices" : "ex"}`
       : "triangle";
     return [
       inside ? `${what}, inside a body` : what,
+      ...(body < 0 ? [] : [`inside the relative hull of ${film.bodies[body].name}, level ${level}`]),
       `corners ${corners.map((v) => film.name(v)).join(", ")}`,
       ...lifetime(film, from, until),
     ];

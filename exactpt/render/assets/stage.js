@@ -10,7 +10,10 @@ class Stage {
     this.chart = new Chart(film);
     this.camera = new Camera(film);
     this.painter = new Painter(canvas, film);
-    this.layers = { tiles: true, edges: true, next: true, names: film.bodies.length <= 12 };
+    const isSmall = film.bodies.length <= 12;
+    this.layers = {
+      tiles: true, edges: true, bridges: false, shadows: false, next: true, names: isSmall,
+    };
     this.hovered = null;
     this.follow = false;
     this.flight = null;

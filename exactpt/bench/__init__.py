@@ -1,0 +1,1 @@
+"""Benchmarks: how fast, how exact, and beside what a user would pick instead."""

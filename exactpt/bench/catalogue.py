@@ -1,0 +1,37 @@
+"""The benchmarks by name, each imported when it is run."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from exactpt.bench.output import Output
+
+__all__ = ["BENCHMARKS", "run"]
+
+BENCHMARKS: Final[dict[str, str]] = {
+    "first-contact": "run time against error in the time of the first contact",
+    "wrong-answers": "contacts missed, invented and late, close to degeneracy",
+    "arithmetic": "wrong signs, orders and structures by kind of number",
+    "stability": "the same answer, and its cost, for extreme input",
+    "scaling": "events, certificates, time and memory against the size of a scene",
+    "points": "changes of the tilings of moving points beside the paper's bounds",
+    "skipping": "what is never computed, beside a run that computes all of it",
+    "kernel": "first roots and their order, beside python-flint, SymPy and mpmath",
+}
+"""Each with what it shows."""
+
+
+def run(name: str, output: Output, *, quick: bool, seed: int) -> None:
+    """Run one benchmark.
+
+    Args:
+        name: one of `BENCHMARKS`.
+        output: where its tables and plots go.
+        quick: sizes that take seconds, not minutes.
+        seed: of all that is random.
+    """
+    module = import_module(f"exactpt.bench.{name.replace('-', '_')}")
+    output.begin(name, BENCHMARKS[name])
+    module.run(output, module.QUICK if quick else module.FULL, seed)

@@ -1,0 +1,154 @@
+"""First roots and the order of times: exactpt beside SymPy, FLINT and mpmath.
+
+Each program is asked for the first root in (0, 2] of the same random polynomials (those
+that have one), then for the order of neighbouring pairs of these roots. A second table
+sets the filters of degree 1 and 2 beside their batch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from random import Random
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+
+from exactpt.bench.output import Output, Row
+from exactpt.bench.plots import series_of
+from exactpt.bench.root_finders import END, EXACT, FILTER, FINDERS, Finder, exact_first
+from exactpt.bench.timing import microseconds
+from exactpt.errors import AuditError
+from exactpt.kernel import batch, filters
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.integer_polynomial import IntPoly
+from exactpt.kernel.numbers import QQ, ZZ
+from exactpt.kernel.roots import roots_after
+
+__all__ = ["FULL", "QUICK", "Sizes", "run"]
+
+NEAR: Final = 1e-9
+"""A value within this of the root, relatively, is right."""
+
+
+class Sizes(NamedTuple):
+    """How much is asked: polynomials of each degree and coefficient size, sizes of batches."""
+
+    polynomials: int
+    degrees: Sequence[int]
+    bits: Sequence[int]
+    batches: Sequence[int]
+
+
+QUICK: Final = Sizes(5, (1, 2, 4, 12), (32, 256), (10, 100, 1000))
+FULL: Final = Sizes(40, (1, 2, 4, 6, 12), (32, 64, 256, 2048), (10, 30, 100, 1000, 10_000))
+
+
+def run(output: Output, sizes: Sizes, seed: int) -> None:
+    """Ask every program the same.
+
+    Raises:
+        AuditError: if exactpt's answers contradict each other, or SymPy's order.
+    """
+    rng = Random(f"kernel:{seed}")
+    finders = [f for f in FINDERS if f.package is None or output.has(f.package)]
+    rows: list[Row] = []
+    for degree in sizes.degrees:
+        for bits in sizes.bits:
+            output.progress(f"degree {degree}, {bits} bits")
+            rows += _rows(finders, degree, bits, _polynomials(rng, degree, bits, sizes.polynomials))
+    output.table("kernel", rows)
+    batches = [_batch_row(rng, d, n) for d in (1, 2) for n in sizes.batches]
+    output.table("kernel-batches", batches)
+    for bits in (sizes.bits[0], sizes.bits[-1]):
+        of_size = [row for row in rows if row["bits"] == bits]
+        series = series_of(of_size, "program", "degree", "us first root")
+        title = f"First root, coefficients of {bits} bits"
+        output.lines(f"kernel-{bits}", title, ("degree", "microseconds"), series)
+
+
+def _polynomials(rng: Random, degree: int, bits: int, count: int) -> list[IntPoly]:
+    """Random integer polynomials with a root in (0, END]."""
+    found: list[IntPoly] = []
+    while len(found) < count:
+        f = [rng.randint(-(2**bits), 2**bits) for _ in range(degree)] + [rng.randint(1, 2**bits)]
+        p = tuple(map(ZZ, f))
+        if next(roots_after(p, AlgebraicNumber(0), QQ(END)), None):
+            found.append(p)
+    return found
+
+
+def _rows(finders: Sequence[Finder], degree: int, bits: int, fs: Sequence[IntPoly]) -> list[Row]:
+    truth = [exact_first(f) for f in fs]
+    order = [x.compare(y) < 0 for x, y in pairwise(truth)]
+    equal, same = microseconds(
+        lambda f: AlgebraicNumber.root(*f).compare(AlgebraicNumber.root(*f)),
+        [(x.polynomial, x.low, x.high) for x in truth],
+    )
+    if any(same):
+        raise AuditError("a number is not equal to itself")
+    rows: list[Row] = []
+    for finder in finders:
+        polys = [finder.convert(f) for f in fs]
+        cost, answers = microseconds(finder.first, polys)
+        right = _right(finder, answers, truth)
+        decided = [answer is not None for answer in answers]
+        if right is not None and (
+            (finder is EXACT and right < len(fs)) or (finder is FILTER and right < sum(decided))
+        ):
+            raise AuditError(f"degree {degree}, {bits} bits: {finder.name} is wrong")
+        comparing = _order(finder, polys, order)
+        rows.append(
+            {
+                "degree": degree,
+                "bits": bits,
+                "program": finder.name,
+                "us first root": cost,
+                "answered": sum(decided) / len(fs),
+                "to 1e-9": None if right is None else right / len(fs),
+                "us order": comparing,
+                "us equal": equal if finder is EXACT else None,
+            }
+        )
+    return rows
+
+
+def _right(finder: Finder, answers: Sequence[Any], truth: Sequence[AlgebraicNumber]) -> int | None:
+    """How many answers are values near the root."""
+    value = finder.value
+    if value is None:
+        return None
+    return sum(
+        answer is not None and abs(value(answer) - float(x)) <= NEAR * abs(float(x))
+        for answer, x in zip(answers, truth, strict=True)
+    )
+
+
+def _order(finder: Finder, polys: Sequence[Any], truth: Sequence[bool]) -> float | None:
+    """Microseconds a comparison of two roots."""
+    numbers, before = finder.numbers, finder.before
+    if numbers is None or before is None:
+        return None
+    values = [numbers(f) for f in polys]
+    if any(value is None for value in values):
+        return None
+    cost, answers = microseconds(lambda pair: before(*pair), list(pairwise(values)))
+    if finder.name in ("exactpt, exact", "SymPy") and answers != truth:
+        raise AuditError(f"{finder.name} orders roots in another way")
+    return cost
+
+
+def _batch_row(rng: Random, degree: int, count: int) -> Row:
+    """Microseconds a polynomial: the scalar filter, and the batch of so many."""
+    ask: Callable[..., filters.Answer] = filters.linear if degree == 1 else filters.quadratic
+    ask_all: Callable[..., batch.Answers] = batch.linears if degree == 1 else batch.quadratics
+    rows = []
+    for _ in range(count):
+        c = [rng.uniform(-1, 1) for _ in range(degree + 1)]
+        rows.append((*c, *(abs(x) * 2.0**-50 for x in c), 0.0, 0.0, float(END), False))
+    columns = [np.array(column) for column in zip(*rows, strict=True)]
+    one, answers = microseconds(lambda row: ask(*row), rows)
+    together, results = microseconds(lambda c: ask_all(*c), [columns] * max(1, 2000 // count))
+    if [s for s, _, _ in answers] != results[0].signs.tolist():
+        raise AuditError("the batch and the scalar filter disagree")
+    return {"degree": degree, "batch": count, "us scalar": one, "us batch": together / count}

@@ -1,0 +1,105 @@
+"""A scene in doubles: what programs that know no exact numbers are given."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeAlias, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exactpt.bench.methods.method import UnsuitableScene
+from exactpt.geometry.polygon import edges
+from exactpt.kernel.integer_polynomial import IntPoly
+from exactpt.kernel.numbers import QQ, nearest_float
+from exactpt.scene.scene import Scene
+
+__all__ = ["Floats", "Indices", "Moving", "Shape"]
+
+Floats: TypeAlias = NDArray[np.float64]
+Indices: TypeAlias = NDArray[np.int32]
+
+
+@final
+class Shape:
+    """One body.
+
+    Attributes:
+        first, size: its vertices, by number.
+        closed: whether it has an inside.
+        deforms: whether it does more than to translate.
+    """
+
+    __slots__ = ("closed", "deforms", "first", "size")
+
+    def __init__(self, first: int, size: int, *, closed: bool, deforms: bool) -> None:
+        self.first = first
+        self.size = size
+        self.closed = closed
+        self.deforms = deforms
+
+    @property
+    def range(self) -> slice:
+        """Its vertices."""
+        return slice(self.first, self.first + self.size)
+
+
+@final
+class Moving:
+    """All vertices as polynomials with the nearest doubles for coefficients.
+
+    Attributes:
+        shapes: one a body.
+        body: the body of each vertex.
+        edges: pairs of vertices.
+        x, y: coefficients, a row a vertex, the constant first.
+        start, end: the time span.
+
+    Raises:
+        UnsuitableScene: if motions come in pieces, or bodies turn.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.shapes: list[Shape] = []
+        pairs: list[tuple[int, int]] = []
+        xs: list[list[float]] = []
+        ys: list[list[float]] = []
+        for body in scene.bodies:
+            if any(scene.start < t < scene.end for t in body.breakpoints):
+                raise UnsuitableScene("motions in pieces")
+            tracks = body.piece_after(scene.start).tracks
+            if any(len(track.w) > 1 for track in tracks):
+                raise UnsuitableScene("bodies that turn")
+            rigid = all(t.frame is not None and t.frame == tracks[0].frame for t in tracks)
+            first = len(xs)
+            closed = body.closed and body.size > 2
+            self.shapes.append(Shape(first, body.size, closed=closed, deforms=not rigid))
+            pairs += [(first + a, first + b) for a, b in edges(body.size, closed=body.closed)]
+            xs += [_doubles(track.x, track.w) for track in tracks]
+            ys += [_doubles(track.y, track.w) for track in tracks]
+        width = max(map(len, (*xs, *ys)), default=1)
+        self.x: Floats = np.array([c + [0.0] * (width - len(c)) for c in xs])
+        self.y: Floats = np.array([c + [0.0] * (width - len(c)) for c in ys])
+        self.edges: Indices = np.array(pairs, dtype=np.int32).reshape(-1, 2)
+        self.body: Indices = np.repeat(
+            np.arange(len(self.shapes), dtype=np.int32), [shape.size for shape in self.shapes]
+        )
+        self.start, self.end = float(scene.start), float(scene.end)
+
+    @property
+    def degree(self) -> int:
+        """The degree of the motion."""
+        return int(self.x.shape[1]) - 1
+
+    def at(self, t: float, vertices: slice | Sequence[int] = slice(None)) -> Floats:
+        """The positions at a time, a row a vertex."""
+        positions = np.stack((self.x[vertices, -1], self.y[vertices, -1]), axis=1)
+        for i in range(self.degree - 1, -1, -1):
+            positions *= t
+            positions[:, 0] += self.x[vertices, i]
+            positions[:, 1] += self.y[vertices, i]
+        return positions
+
+
+def _doubles(f: IntPoly, w: IntPoly) -> list[float]:
+    return [nearest_float(QQ(c, w[0])) for c in f] or [0.0]

@@ -1,0 +1,42 @@
+"""exactpt's own ways: by a tiling, by pairs, and the plain exact search over all pairs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from functools import partial
+from typing import Final
+
+from exactpt.bench.methods.method import Answer, Method
+from exactpt.collision.allpairs import first_contact_allpairs
+from exactpt.collision.contact import Contact
+from exactpt.collision.detector import first_contact
+from exactpt.scene.format import loads, to_json
+from exactpt.scene.scene import Scene
+
+__all__ = ["EXACT_SEARCH", "OWN", "fresh"]
+
+
+def fresh(scene: Scene) -> Scene:
+    """The scene as if just loaded: nothing has been computed of it."""
+    return loads(json.dumps(to_json(scene)))
+
+
+def _prepare(ask: Callable[[Scene], Contact | None], scene: Scene) -> Callable[[], Answer]:
+    given = fresh(scene)
+
+    def time_of_contact() -> Answer:
+        contact = ask(given)
+        return None if contact is None else contact.time
+
+    return time_of_contact
+
+
+OWN: Final = (
+    Method("exactpt", "kinetic", partial(_prepare, partial(first_contact, method="kinetic"))),
+    Method("exactpt", "pairs", partial(_prepare, partial(first_contact, method="pairs"))),
+)
+"""What exactpt offers."""
+
+EXACT_SEARCH: Final = Method("all pairs, exact", "", partial(_prepare, first_contact_allpairs))
+"""The reference."""

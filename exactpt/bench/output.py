@@ -1,0 +1,117 @@
+"""Where the results of a benchmark go: text at once, tables as CSV, plots as SVG."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TypeAlias, final
+
+from exactpt.bench.peers import is_installed
+from exactpt.bench.plots import Series, draw_lines, draw_shares
+from exactpt.scene.format import write_atomically
+
+__all__ = ["Cell", "Output", "Row"]
+
+Cell: TypeAlias = "str | int | float | None"
+Row: TypeAlias = Mapping[str, Cell]
+"""A row of a table: cells by column."""
+
+
+@final
+class Output:
+    """A folder that results are written to, and a voice that tells them at once.
+
+    Args:
+        folder: made if it is not there.
+        say: takes the lines of results.
+        progress: takes lines that tell what is being done.
+
+    Attributes:
+        written: the files, in order.
+    """
+
+    def __init__(
+        self, folder: Path, say: Callable[[str], None], progress: Callable[[str], None]
+    ) -> None:
+        folder.mkdir(parents=True, exist_ok=True)
+        self._folder = folder
+        self._skipped: set[str] = set()
+        self.say = say
+        self.progress = progress
+        self.written: list[Path] = []
+
+    def begin(self, name: str, shows: str) -> None:
+        """Head the results of a benchmark."""
+        self.say(f"\n{name}: {shows}")
+
+    def has(self, package: str) -> bool:
+        """Whether a peer is installed; if not, it is said once that it is skipped."""
+        if is_installed(package):
+            return True
+        if package not in self._skipped:
+            self._skipped.add(package)
+            self.say(f"skipped: {package} is not installed (pip install 'exactpt[bench]')")
+        return False
+
+    def table(self, name: str, rows: Sequence[Row], tell: Sequence[Row] = ()) -> None:
+        """Write and tell a table; all rows have the columns of the first.
+
+        Args:
+            name: of the file, without its ending.
+            rows: at least one.
+            tell: the same in a form that reads better, if there is one.
+        """
+        columns = list(rows[0])
+        text = io.StringIO()
+        writer = csv.DictWriter(text, columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+        self.write(f"{name}.csv", text.getvalue())
+        self.say("")
+        told = tell or rows
+        for line in _aligned(list(told[0]), told):
+            self.say(line)
+
+    def lines(
+        self, name: str, title: str, axes: tuple[str, str], series: Mapping[str, Series]
+    ) -> None:
+        """Draw points joined by lines, a line a name, both axes logarithmic."""
+        drawn = {name: points for name, points in series.items() if points}
+        if drawn and self.has("matplotlib"):
+            self.write(f"{name}.svg", draw_lines(title, axes, drawn))
+
+    def shares(
+        self, name: str, title: str, rows: Sequence[str], columns: Sequence[str],
+        values: Sequence[Sequence[float | None]],
+    ) -> None:  # fmt: skip
+        """Draw a table of shares from 0 to 1 as a field of colours; None: not asked."""
+        if self.has("matplotlib"):
+            self.write(f"{name}.svg", draw_shares(title, rows, columns, values))
+
+    def write(self, name: str, content: str) -> None:
+        """Write a file of the folder; it is complete or not there."""
+        path = self._folder / name
+        write_atomically(path, content)
+        self.written.append(path)
+
+
+def _aligned(columns: Sequence[str], rows: Sequence[Row]) -> list[str]:
+    """A table as text: words to the left, numbers to the right."""
+    numeric = [all(not isinstance(row[c], str) for row in rows) for c in columns]
+    cells = [list(columns), *([_shown(row[c]) for c in columns] for row in rows)]
+    widths = [max(len(line[i]) for line in cells) for i in range(len(columns))]
+    return [
+        "  ".join(
+            cell.rjust(width) if right else cell.ljust(width)
+            for cell, width, right in zip(line, widths, numeric, strict=True)
+        ).rstrip()
+        for line in cells
+    ]
+
+
+def _shown(cell: Cell) -> str:
+    if cell is None:
+        return "-"
+    return f"{cell:.4g}" if isinstance(cell, float) else str(cell)

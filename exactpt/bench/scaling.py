@@ -1,0 +1,188 @@
+"""Events, certificates, time and memory of every tiling of bodies against the size of a scene.
+
+Crowds of convex bodies grow in number; two combs and two spirals grow in vertices, close
+and a hundred diameters apart. Exponents p are fitted to c n^p by least squares over the
+logarithms, and stand beside what the paper bounds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from random import Random
+from typing import Final, NamedTuple
+
+from exactpt.bench.methods.own import fresh
+from exactpt.bench.output import Output, Row
+from exactpt.bench.plots import series_of
+from exactpt.bench.shapes import TANGLES, TangleFamily, crowd, tangle
+from exactpt.bench.timing import exponent, memory_of, timed
+from exactpt.collision.tilings import TILINGS, start_tiling
+from exactpt.kernel.counters import counters
+from exactpt.scene.scene import Scene
+from exactpt.tiling.events import ContactFound
+from exactpt.tiling.tiling import Tiling
+
+__all__ = ["FULL", "QUICK", "Measured", "Sizes", "measure", "run"]
+
+BOUNDS: Final = {
+    "greedy": "30 k certificates for convex bodies",
+    "mixed": "O(kappa log n) certificates",
+    "lazy": "4 certificates a bridge edge",
+}
+"""What is proved of k bodies with n vertices; a bridge edge joins two bodies, and kappa is
+the least number of links of a subdivision that separates the bodies."""
+
+
+class Sizes(NamedTuple):
+    """How much is measured.
+
+    Attributes:
+        bodies: of crowds.
+        vertices: of each of two interlocked polygons.
+        events: after which a run is left.
+        runs: of which the fastest counts.
+    """
+
+    bodies: Sequence[int]
+    vertices: Sequence[int]
+    events: int
+    runs: int
+
+
+QUICK: Final = Sizes((10, 30, 100), (16, 64), 200, 1)
+FULL: Final = Sizes((10, 20, 50, 100, 200, 500, 1000), (16, 64, 256, 1024), 1000, 3)
+
+
+class Measured(NamedTuple):
+    """A run of a tiling.
+
+    Attributes:
+        start: seconds to build it and certify it.
+        certificates: made at the start.
+        pending: certificates that may fail, at the start.
+        most: the largest number of these.
+        events: up to the contact, the end, or the bound.
+        seconds: of these events.
+        exact: decisions in a thousand.
+        kilobytes: of everything that the start has made.
+    """
+
+    start: float
+    certificates: int
+    pending: int
+    most: int
+    events: int
+    seconds: float
+    exact: float
+    kilobytes: float
+
+    @property
+    def per_event(self) -> float:
+        """Microseconds an event; 0 without events."""
+        return 1e6 * self.seconds / self.events if self.events else 0.0
+
+
+def run(output: Output, sizes: Sizes, seed: int) -> None:
+    """Measure every tiling on every family."""
+    rows: list[Row] = []
+    fits: list[Row] = []
+    families: dict[str, tuple[Sequence[int], Callable[[int], Scene]]] = {
+        "convex crowd": (sizes.bodies, partial(_crowd, seed=seed))
+    }
+    for name, make in TANGLES.items():
+        for where, far in (("", False), (", far apart", True)):
+            families[name + where] = (sizes.vertices, partial(_tangle, make, far=far))
+    for family, (of_family, scene_of) in families.items():
+        for tiling in TILINGS:
+            runs = []
+            for n in of_family:
+                output.progress(f"{family}, {tiling}, size {n}")
+                runs.append(measure(scene_of(n), tiling, sizes))
+                rows.append(_row(family, tiling, scene_of(n), n, runs[-1]))
+            fits.append(_fit(family, tiling, of_family, runs))
+    output.table("scaling", rows)
+    output.table("scaling-exponents", fits)
+    crowds = [row for row in rows if row["family"] == "convex crowd"]
+    for name, column, axis in (
+        ("events", "us an event", "microseconds an event"),
+        ("certificates", "pending", "certificates"),
+    ):
+        series = series_of(crowds, "tiling", "size", column)
+        output.lines(f"scaling-{name}", f"Convex bodies: {axis}", ("bodies", axis), series)
+
+
+def measure(scene: Scene, tiling: str, sizes: Sizes) -> Measured:
+    """The fastest of some runs, and the memory of another one."""
+    start_tiling(fresh(scene), tiling, scene.start)  # what is imported on first use
+    runs = [_run_once(fresh(scene), tiling, sizes.events) for _ in range(sizes.runs)]
+    best = min(runs, key=lambda m: m.start + m.seconds)
+    given = fresh(scene)
+    kilobytes = memory_of(lambda: start_tiling(given, tiling, given.start))
+    return best._replace(kilobytes=kilobytes)
+
+
+def _run_once(scene: Scene, tiling: str, events: int) -> Measured:
+    exact, filtered = counters.exact, counters.filtered
+    kinetic, start = timed(lambda: start_tiling(scene, tiling, scene.start))
+    certificates, pending = kinetic.certifier.made, len(kinetic.queue)
+    _, seconds = timed(lambda: _pass(kinetic, events))
+    exact, filtered = counters.exact - exact, counters.filtered - filtered
+    return Measured(
+        start,
+        certificates,
+        pending,
+        max(pending, kinetic.stats.most),
+        kinetic.stats.total,
+        seconds,
+        1000 * exact / max(1, exact + filtered),
+        0.0,
+    )
+
+
+def _pass(kinetic: Tiling, events: int) -> None:
+    """Let events happen, up to a contact or a number of them."""
+    try:
+        for _ in kinetic.run():
+            if kinetic.stats.total >= events:
+                return
+    except ContactFound:
+        return
+
+
+def _crowd(k: int, seed: int) -> Scene:
+    return crowd(k, Random(f"scaling:{k}:{seed}"), radius=60, end=100)
+
+
+def _tangle(make: TangleFamily, n: int, *, far: bool) -> Scene:
+    given = make(n)
+    return tangle(given, shift=100 * given.diameter if far else 0)
+
+
+def _row(family: str, tiling: str, scene: Scene, size: int, run: Measured) -> Row:
+    return {
+        "family": family,
+        "tiling": tiling,
+        "size": size,
+        "vertices": scene.vertex_count,
+        "start s": run.start,
+        "made": run.certificates,
+        "pending": run.pending,
+        "most": run.most,
+        "events": run.events,
+        "us an event": run.per_event,
+        "exact in 1000": run.exact,
+        "kilobytes": run.kilobytes,
+    }
+
+
+def _fit(family: str, tiling: str, sizes: Sequence[int], runs: Sequence[Measured]) -> Row:
+    return {
+        "family": family,
+        "tiling": tiling,
+        "p start": exponent(sizes, [run.start for run in runs]),
+        "p pending": exponent(sizes, [run.pending for run in runs]),
+        "p memory": exponent(sizes, [run.kilobytes for run in runs]),
+        "p us an event": exponent(sizes, [run.per_event for run in runs]),
+        "bound": BOUNDS[tiling],
+    }

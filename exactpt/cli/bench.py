@@ -1,0 +1,59 @@
+"""bench: the benchmarks, as tables and plots."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+from exactpt.bench.catalogue import BENCHMARKS
+from exactpt.cli.options import output
+
+__all__ = ["bench"]
+
+_NAMES = "\n".join(f"      {name:14} {shows}" for name, shows in BENCHMARKS.items())
+
+
+@click.command(
+    help=f"""Run benchmarks, all of them if none is named; tables (CSV) and plots (SVG).
+
+    \b
+{_NAMES}
+
+    Other programs take part where they are installed: pip install 'exactpt[bench]'.
+
+    \b
+    Examples:
+      exactpt bench --quick
+      exactpt bench wrong-answers kernel -o results
+    """
+)
+@click.argument("names", nargs=-1, type=click.Choice(list(BENCHMARKS)), metavar="[NAME]...")
+@output("The folder for tables and plots.", default=Path("bench"))
+@click.option("--quick", is_flag=True, help="Small sizes: about a minute in all.")
+@click.option(
+    "--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of the scenes."
+)
+def bench(names: tuple[str, ...], output: Path, quick: bool, seed: int) -> int:
+    """Run benchmarks."""
+    from exactpt.bench.catalogue import run
+    from exactpt.bench.machine import machine
+    from exactpt.bench.output import Output
+    from exactpt.errors import InputError
+
+    def progress(line: str) -> None:
+        if sys.stderr.isatty():
+            click.echo(line, err=True)
+
+    try:
+        results = Output(output, click.echo, progress)
+    except OSError as error:
+        raise InputError(f"{output}: {error.strerror}") from None
+    about = [*machine(), f"seed {seed}, {'quick' if quick else 'full'} sizes"]
+    click.echo("\n".join(about))
+    results.write("machine.txt", "\n".join(about) + "\n")
+    for name in names or BENCHMARKS:
+        run(name, results, quick=quick, seed=seed)
+    click.echo(f"\n{len(results.written)} files are in {output}")
+    return 0

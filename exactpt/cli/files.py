@@ -1,0 +1,162 @@
+"""convert and generate: scenes from files of shapes, and ready ones of each kind."""
+
+from __future__ import annotations
+
+import json
+from difflib import get_close_matches
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import click
+
+from exactpt.cli.options import RATIONAL, output
+from exactpt.cli.progress import QUIET
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ
+
+if TYPE_CHECKING:
+    from exactpt.scene.scene import Scene
+
+__all__ = ["convert", "generate"]
+
+_FEW = 3
+"""So many pairs of bodies that touch are named."""
+
+
+@click.command()
+@click.argument("source", type=click.Path(path_type=Path), metavar="IN")
+@click.argument("target", type=click.Path(path_type=Path), metavar="OUT")
+@click.option("--at", type=RATIONAL, help="When, if OUT is no scene; by default at the start.")
+@click.option(
+    "--time",
+    type=RATIONAL,
+    nargs=2,
+    default=("0", "1"),
+    show_default=True,
+    metavar="START END",
+    help="The time span of a scene that is made.",
+)
+@click.option(
+    "--tolerance",
+    type=float,
+    default=0.1,
+    show_default=True,
+    help="SVG: how far chords may be from their curve, in units of the drawing.",
+)
+@click.option(
+    "--holes",
+    type=click.Choice(["refuse", "fill"]),
+    default="refuse",
+    show_default=True,
+    help="What to do with polygons that have holes.",
+)
+@click.option("--skip-invalid", is_flag=True, help="Leave out what cannot be a body, and say so.")
+@QUIET
+def convert(
+    source: Path,
+    target: Path,
+    at: QQ | None,
+    time: tuple[QQ, QQ],
+    tolerance: float,
+    holes: Literal["refuse", "fill"],
+    skip_invalid: bool,
+    quiet: bool,
+) -> int:
+    """Turn shapes into a scene at rest, or a scene at a time into shapes.
+
+    The endings say the formats: .geojson, .wkt (needs: pip install 'exactpt[shapely]'), .svg
+    (needs: pip install 'exactpt[svg]'), and .json for a scene; a .json that is read may be
+    GeoJSON too. Each part of a shape becomes a body, named by the property name or id, or by
+    the id in an SVG. A line that ends where it began becomes a polygon.
+
+    Numbers in GeoJSON and WKT are read as the decimals that they are. Points of an SVG are
+    computed in doubles, which are taken at their exact value; there, y points up, as in a
+    scene. Shapes are written as the doubles nearest to the exact positions.
+
+    \b
+    Examples:
+      exactpt convert countries.geojson scene.json --time 0 10
+      exactpt convert drawing.svg scene.json --tolerance 0.01 --holes fill
+      exactpt convert parcels.wkt scene.json --skip-invalid
+      exactpt convert scene.json then.geojson --at 5/2
+    """
+    from exactpt.exchange.files import read_shapes, write_shapes
+
+    def say(line: str) -> None:
+        if not quiet:
+            click.echo(f"left out: {line}", err=True)
+
+    scene = read_shapes(
+        source,
+        time=time,
+        tolerance=tolerance,
+        holes=holes,
+        skipped=say if skip_invalid else None,
+    )
+    write_shapes(scene, target, at)
+    if target.suffix.lower() == ".json" and not quiet:
+        click.echo(f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices: {target}")
+        _say_what_touches(scene)
+    return 0
+
+
+def _say_what_touches(scene: Scene) -> None:
+    from exactpt.collision.initial import initial_touches
+
+    _, pairs = initial_touches(scene)
+    if pairs:
+        names = [body.name for body in scene.bodies]
+        some = [f"{names[i]} and {names[j]}" for i, j in pairs[:_FEW]]
+        more = [f"{len(pairs) - _FEW} more pairs"] if len(pairs) > _FEW else []
+        click.echo(
+            f"bodies touch at the start, so that the first contact is there: "
+            f"{', '.join(some + more)}",
+            err=True,
+        )
+
+
+class _WithFamilies(click.Command):
+    """A command whose help ends with the families, a line each."""
+
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """The families, by what moves."""
+        super().format_epilog(ctx, formatter)
+        from exactpt.scene.generate import CONVEX, POINTS, SIMPLE
+
+        rooms = {"Convex bodies": CONVEX, "Simple polygons": SIMPLE, "Points": POINTS}
+        for room, families in rooms.items():
+            with formatter.section(room):
+                formatter.write_dl(
+                    [(name, family.__doc__ or "") for name, family in families.items()]
+                )
+
+
+@click.command(cls=_WithFamilies)
+@click.argument("family")
+@click.option("--seed", type=int, default=0, show_default=True, help="Another seed, another scene.")
+@output("The scene file; by default standard output.")
+def generate(family: str, seed: int, output: Path | None) -> int:
+    """Make a ready scene of a family, the same for a seed on every machine.
+
+    Many families lean to the degenerate: bodies that touch, slide along each other, or meet
+    all at one time.
+
+    \b
+    Examples:
+      exactpt generate stars -o stars.json
+      exactpt generate grids_passing --seed 7 -o grids.json
+    """
+    from exactpt.scene.format import save, to_json
+    from exactpt.scene.generate import FAMILIES, POINTS
+    from exactpt.scene.generate import generate as generated
+
+    names = FAMILIES | POINTS
+    if family not in names:
+        near = get_close_matches(family, names, n=3) or ["convex"]
+        raise InputError(f"no family {family!r}: perhaps {' or '.join(near)} (all: --help)")
+    scene = generated(family, seed)
+    if output is None:
+        click.echo(json.dumps(to_json(scene), indent=1))
+    else:
+        save(scene, output)
+    return 0

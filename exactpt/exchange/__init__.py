@@ -1,0 +1,1 @@
+"""Shapes that others keep in their files and libraries, as bodies at rest, and back."""

@@ -1,0 +1,122 @@
+"""Files of shapes: the ending says the format, for a ``.json`` its content."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+
+from exactpt.errors import InputError
+from exactpt.exchange import geojson, svg, wkt
+from exactpt.exchange.shapes import Holes, Shape, scene_of, shapes_at
+from exactpt.kernel.numbers import rational
+from exactpt.scene.format import loads, save, write_atomically
+from exactpt.scene.json_values import parse_json
+
+if TYPE_CHECKING:
+    from exactpt.kernel.numbers import Rational
+    from exactpt.scene.scene import Scene
+
+__all__ = ["ENDINGS", "read_shapes", "write_shapes"]
+
+Format: TypeAlias = Literal["scene", "geojson", "wkt", "svg"]
+
+ENDINGS: Final[dict[str, Format]] = {
+    ".geojson": "geojson",
+    ".wkt": "wkt",
+    ".svg": "svg",
+    ".json": "scene",
+}
+"""The format of a file by its ending; a ``.json`` that is read may be GeoJSON too."""
+
+
+def read_shapes(
+    path: str | Path,
+    *,
+    time: Sequence[Rational] = (0, 1),
+    tolerance: float = 0.1,
+    holes: Holes = "refuse",
+    skipped: Callable[[str], None] | None = None,
+) -> Scene:
+    """The scene at rest of a GeoJSON, WKT or SVG file: a body for each part of a shape.
+
+    Decimals in GeoJSON and WKT are read as the decimals that they are. In SVG, curves become
+    chords, y points up, and coordinates are the exact values of doubles.
+
+    Args:
+        path: ends in one of `ENDINGS`. A scene file is read as it is.
+        time: the start and the end of the scene.
+        tolerance: how far chords may be from a curve of an SVG, in units of the drawing.
+        holes: "refuse" polygons with holes, or "fill" them.
+        skipped: is told of each shape that cannot be a body, which is then left out; without
+            it such a shape is an error.
+
+    Raises:
+        InputError: one line that names the file, the shape and what is wrong with it.
+    """
+    file = Path(path)
+    kind = _format(file)
+    try:
+        text = file.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
+        raise InputError(f"{file}: cannot be read: {reason}") from None
+
+    def tell(line: str) -> None:
+        if skipped is not None:
+            skipped(f"{file}: {line}")
+
+    try:
+        if kind == "scene" and not _is_geojson(text):
+            return loads(text)
+        shapes = _shapes_of(kind, text, tolerance)
+        return scene_of(shapes, time=time, holes=holes, skipped=skipped and tell)
+    except InputError as error:
+        raise InputError(f"{file}: {error}") from None
+
+
+def _format(path: Path) -> Format:
+    kind = ENDINGS.get(path.suffix.lower())
+    if kind is None:
+        raise InputError(f"{path}: a file of shapes ends in one of {', '.join(ENDINGS)}")
+    return kind
+
+
+def _is_geojson(text: str) -> bool:
+    try:
+        data = parse_json(text)
+    except RecursionError:
+        return False
+    return isinstance(data, dict) and "exactpt" not in data and data.get("type") in geojson.TYPES
+
+
+def _shapes_of(kind: Format, text: str, tolerance: float) -> Iterator[Shape]:
+    if kind == "svg":
+        return svg.shapes_of(text, tolerance)
+    return wkt.shapes_of(text) if kind == "wkt" else geojson.shapes_of(text)
+
+
+def write_shapes(scene: Scene, path: str | Path, at: Rational | None = None) -> None:
+    """Write the bodies at a time, as points, lines and polygons; a scene file as it is.
+
+    Exact positions are rounded to the nearest doubles. That bodies touch or overlap then is
+    not looked at: the shapes are where their motions put them.
+
+    Args:
+        scene: the bodies.
+        path: ends in one of `ENDINGS`; the file is complete or not there.
+        at: when; by default at the start.
+
+    Raises:
+        InputError: if the time is outside the time span, or the file cannot be written.
+    """
+    file = Path(path)
+    kind = _format(file)
+    if kind == "scene":
+        if at is not None:
+            raise InputError(f"{file}: a scene has all times: leave the time away")
+        save(scene, file)
+        return
+    shapes = shapes_at(scene, scene.start if at is None else rational(at))
+    writers = {"geojson": geojson.geojson_of, "wkt": wkt.wkt_of, "svg": svg.svg_of}
+    write_atomically(file, writers[kind](shapes))

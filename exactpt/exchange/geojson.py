@@ -1,0 +1,148 @@
+"""GeoJSON (RFC 7946): read exactly, each number the decimal that is written; and written.
+
+The structure is a tree of lists, so that the package needs no library for it; a library
+would hand the coordinates over as floats. A third coordinate (the height) is dropped.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Final
+
+from exactpt.errors import InputError
+from exactpt.exchange.shapes import Kind, Shape, rounded
+from exactpt.geometry.polygon import signed_area2
+from exactpt.kernel.numbers import shorten
+from exactpt.scene.json_values import Json, Number, a_list, exact_number, parse_json, shown
+
+if TYPE_CHECKING:
+    from exactpt.geometry.predicates import Point
+
+__all__ = ["TYPES", "geojson_of", "shapes_of"]
+
+_PARTS: Final[dict[str, Kind]] = {"Point": "point", "LineString": "line", "Polygon": "polygon"}
+TYPES: Final = {
+    "Feature",
+    "FeatureCollection",
+    "GeometryCollection",
+    *_PARTS,
+    *(f"Multi{kind}" for kind in _PARTS),
+}
+"""What the key "type" says in a GeoJSON object."""
+_TYPE_OF: Final = {kind: name for name, kind in _PARTS.items()}
+
+
+def shapes_of(text: str) -> Iterator[Shape]:
+    """The shapes of a GeoJSON text: one for each part, named by its feature.
+
+    A feature is named by its property ``name`` or ``id`` (in any case), else by its own
+    ``id``, else by its number.
+
+    >>> from exactpt.exchange.shapes import scene_of
+    >>> text = '{"type": "Polygon", "coordinates": [[[0, 0], [0.1, 0], [0, 2], [0, 0]]]}'
+    >>> scene_of(shapes_of(text)).bodies[0].at(0)
+    [(mpq(0,1), mpq(0,1)), (mpq(1,10), mpq(0,1)), (mpq(0,1), mpq(2,1))]
+
+    Raises:
+        InputError: one line that names the feature and what is wrong with it.
+    """
+    try:
+        data = parse_json(text)
+        if not isinstance(data, dict) or data.get("type") not in TYPES:
+            raise InputError(f"not GeoJSON: {shown(data)}")
+        if data["type"] == "FeatureCollection":
+            for i, feature in enumerate(a_list(data.get("features"), '"features"')):
+                yield from _of_feature(feature, f"feature {i}")
+        elif data["type"] == "Feature":
+            yield from _of_feature(data, "feature")
+        else:
+            yield from _of_geometry(data, "geometry", "body")
+    except RecursionError:
+        raise InputError("not GeoJSON: nested too deeply") from None
+
+
+def _of_feature(data: Json, where: str) -> Iterator[Shape]:
+    if not isinstance(data, dict) or data.get("type") != "Feature":
+        raise InputError(f"{where}: not a feature: {shown(data)}")
+    name = _name(data) or where
+    if name != where:
+        where = f"{where} ({shorten(name)[1:-1]})"
+    if data.get("geometry") is None:
+        raise InputError(f"{where}: it has no geometry: remove it")
+    yield from _of_geometry(data["geometry"], where, name)
+
+
+def _name(feature: dict[str, Json]) -> str:
+    properties = feature.get("properties")
+    keys = properties if isinstance(properties, dict) else {}
+    lowered = {key.lower(): value for key, value in reversed(keys.items())}
+    for value in (lowered.get("name"), lowered.get("id"), feature.get("id")):
+        if isinstance(value, str) and value.strip():
+            return value.encode(errors="replace").decode()
+    return ""
+
+
+def _of_geometry(data: Json, where: str, name: str) -> Iterator[Shape]:
+    if not isinstance(data, dict) or data.get("type") not in TYPES:
+        raise InputError(f"{where}: not a geometry: {shown(data)}")
+    kind = str(data["type"])
+    if kind == "GeometryCollection":
+        for i, part in enumerate(a_list(data.get("geometries"), f'{where}: "geometries"')):
+            yield from _of_geometry(part, f"{where}, geometry {i}", name)
+        return
+    at = f'{where}: "coordinates"'
+    coordinates = data.get("coordinates")
+    single = kind.removeprefix("Multi")
+    if single not in _PARTS:
+        raise InputError(f"{where}: a {kind} is inside of a geometry")
+    if single == kind:
+        yield _part(_PARTS[kind], coordinates, where, name)
+        return
+    for i, part in enumerate(a_list(coordinates, at)):
+        yield _part(_PARTS[single], part, f"{where}, part {i}", name)
+
+
+def _part(kind: Kind, data: Json, where: str, name: str) -> Shape:
+    if kind == "point":
+        return Shape(where, name, kind, [_point(data, where)])
+    if kind == "line":
+        return Shape(where, name, kind, _points(data, where))
+    rings = [_points(ring, f"{where}, ring {i}") for i, ring in enumerate(a_list(data, f"{where}"))]
+    return Shape(where, name, kind, rings[0] if rings else (), rings[1:])
+
+
+def _points(data: Json, where: str) -> list[Point]:
+    return [_point(p, f"{where}, position {i}") for i, p in enumerate(a_list(data, where))]
+
+
+def _point(data: Json, where: str) -> Point:
+    numbers = a_list(data, where)
+    if len(numbers) < 2 or not all(isinstance(n, Number) for n in numbers):
+        raise InputError(f"{where}: not a position: {shown(data)}")
+    return exact_number(numbers[0], where), exact_number(numbers[1], where)
+
+
+def geojson_of(shapes: Iterable[Shape]) -> str:
+    """Shapes as a collection of features; coordinates are the nearest doubles.
+
+    Polygons run counter-clockwise, as GeoJSON wants them.
+    """
+    features = [
+        {
+            "type": "Feature",
+            "properties": {"name": shape.name},
+            "geometry": {"type": _TYPE_OF[shape.kind], "coordinates": _coordinates(shape)},
+        }
+        for shape in shapes
+    ]
+    return json.dumps({"type": "FeatureCollection", "features": features}, indent=1) + "\n"
+
+
+def _coordinates(shape: Shape) -> object:
+    if shape.kind == "point":
+        return rounded(shape)[0]
+    if shape.kind == "line":
+        return rounded(shape)
+    ring = rounded(shape) if signed_area2(shape.points) >= 0 else rounded(shape)[::-1]
+    return [[*ring, ring[0]]]

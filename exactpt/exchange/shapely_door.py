@@ -1,0 +1,136 @@
+"""To and from shapely: the one module that imports it, itself imported only when called.
+
+A coordinate of shapely is a double, and is taken at its exact value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import islice
+from typing import TYPE_CHECKING, Final
+
+from numpy import errstate
+
+from exactpt.errors import InputError
+from exactpt.exchange.shapes import Holes, Kind, Shape, body_of, rounded, scene_of, shapes_at
+from exactpt.kernel.numbers import rational, shorten
+
+try:
+    import shapely
+    from shapely.geometry.base import BaseGeometry
+except ImportError:
+    raise InputError("this needs shapely: pip install 'exactpt[shapely]'") from None
+
+if TYPE_CHECKING:
+    from exactpt.geometry.predicates import Point
+    from exactpt.kernel.numbers import QQ, Rational
+    from exactpt.motion.body import Body
+    from exactpt.motion.motions import Motion
+    from exactpt.scene.scene import Scene
+
+__all__ = [
+    "BaseGeometry",
+    "body_from",
+    "geometries_of",
+    "read_wkt",
+    "scene_from",
+    "shapes_of_geometry",
+]
+
+_KINDS: Final[dict[str, Kind]] = {
+    "Point": "point",
+    "LineString": "line",
+    "LinearRing": "line",
+    "Polygon": "polygon",
+}
+
+
+def read_wkt(text: str, where: str) -> tuple[BaseGeometry, int, int]:
+    """The geometry of a text, the number of its points, and that of coordinates of each.
+
+    Raises:
+        InputError: if it is not well-known text.
+    """
+    try:
+        with errstate(over="ignore"):  # the text keeps numbers that no double can
+            geometry = shapely.from_wkt(text)
+    except (shapely.errors.ShapelyError, NotImplementedError) as error:
+        reason = shorten(str(error).split("Exception: ")[-1].strip())
+        raise InputError(f"{where}: not well-known text: {reason[1:-1]}") from None
+    size = shapely.get_num_coordinates(geometry)
+    return geometry, size, shapely.get_coordinate_dimension(geometry)
+
+
+def shapes_of_geometry(
+    geometry: object, where: str, name: str, points: Sequence[Point] | None = None
+) -> Iterator[Shape]:
+    """The shapes of a geometry, one for each part; a collection's may be of several kinds.
+
+    Args:
+        geometry: any of shapely's.
+        where: for messages.
+        name: that every part wants.
+        points: exactly what the geometry's coordinates stand for, in its order.
+
+    Raises:
+        InputError: if it is no geometry, or empty.
+    """
+    if not isinstance(geometry, BaseGeometry):
+        raise InputError(f"{where}: not a shapely geometry: {shorten(geometry)}")
+    if points is None:
+        points = [
+            (rational(float(x)), rational(float(y))) for x, y in shapely.get_coordinates(geometry)
+        ]
+    left = iter(points)
+    for i, part in enumerate(_parts(geometry)):
+        at = where if part is geometry else f"{where}, part {i}"
+        rings = [part] if part.geom_type != "Polygon" else [part.exterior, *part.interiors]
+        taken = [list(islice(left, shapely.get_num_coordinates(ring))) for ring in rings]
+        yield Shape(at, name, _KINDS[part.geom_type], taken[0], taken[1:])
+
+
+def _parts(geometry: BaseGeometry) -> Iterator[BaseGeometry]:
+    """The geometry's parts, parts of parts too, in the order of its coordinates."""
+    if geometry.geom_type in _KINDS:
+        yield geometry
+    else:
+        for part in shapely.get_parts(geometry):
+            yield from _parts(part)
+
+
+def body_from(geometry: object, name: str, motion: Motion, holes: Holes) -> Body:
+    """The body of a geometry of one part; see `Body.from_shapely`."""
+    shapes = list(shapes_of_geometry(geometry, "geometry", name))
+    if len(shapes) != 1:
+        raise InputError(
+            f"geometry {name!r} has {len(shapes)} parts, and a body has one: see Scene.from_shapely"
+        )
+    return body_of(shapes[0], name, motion, holes=holes)
+
+
+def scene_from(
+    geometries: Iterable[object] | Mapping[str, object], time: Sequence[Rational], holes: Holes
+) -> Scene:
+    """The scene at rest of geometries; see `Scene.from_shapely`."""
+    if isinstance(geometries, Mapping):
+        named = [(str(name), geometry) for name, geometry in geometries.items()]
+    else:
+        named = [(f"body {i}", geometry) for i, geometry in enumerate(geometries)]
+    shapes = (
+        shape
+        for i, (name, geometry) in enumerate(named)
+        for shape in shapes_of_geometry(geometry, f"geometry {i}", name)
+    )
+    return scene_of(shapes, time=time, holes=holes)
+
+
+def geometries_of(scene: Scene, at: QQ) -> dict[str, BaseGeometry]:
+    """The bodies at a time, by name; see `Scene.to_shapely`."""
+    return {shape.name: _geometry(shape) for shape in shapes_at(scene, at)}
+
+
+def _geometry(shape: Shape) -> BaseGeometry:
+    points = rounded(shape)
+    if shape.kind == "point":
+        return shapely.Point(points[0])
+    return shapely.LineString(points) if shape.kind == "line" else shapely.Polygon(points)

@@ -1,0 +1,169 @@
+"""SVG drawings: outlines of paths and basic shapes in and out; curves become chords.
+
+svgelements reads the drawing (styles, transforms, copies); y points up from then on. What
+is computed here, points of curves and transformed ones, is rounded to doubles, which are
+taken at their exact value.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Final
+from xml.etree import ElementTree as Xml
+
+from exactpt.errors import InputError
+from exactpt.exchange.shapes import Shape, nested, rounded
+from exactpt.kernel.numbers import rational, shorten
+
+if TYPE_CHECKING:
+    import svgelements
+
+    from exactpt.geometry.predicates import Point
+
+__all__ = ["shapes_of", "svg_of"]
+
+_NAMESPACE: Final = "http://www.w3.org/2000/svg"
+_MOST_CHORDS: Final = 100_000
+"""Of one curve; more are a mistake in the tolerance."""
+
+
+def shapes_of(text: str, tolerance: float) -> Iterator[Shape]:
+    """The outlines of a drawing, in the units of its ``viewBox``, named by their ``id``.
+
+    A subpath that closes is a polygon, with those inside of it as holes (the even-odd
+    rule); an open one is a line, filled or not. Text and pictures are left out.
+
+    Args:
+        text: the drawing.
+        tolerance: how far, in units of the drawing, chords may be from their curve.
+
+    Raises:
+        InputError: if it is no drawing, or the tolerance is not positive.
+    """
+    if not (math.isfinite(tolerance) and tolerance > 0):
+        raise InputError(f"the tolerance is a positive number: {tolerance}")
+    for i, (name, path) in enumerate(_paths(text)):
+        where = f"outline {i}" + (f" (id {name})" if name else "")
+        try:
+            subpaths = [(_points(sub, tolerance), sub[-1]) for sub in path.as_subpaths()]
+        except InputError as error:
+            raise InputError(f"{where}: {error}") from None
+        yield from _of_subpaths(subpaths, where, name or f"outline {i}")
+
+
+def _of_subpaths(
+    subpaths: Sequence[tuple[list[Point], svgelements.PathSegment]], where: str, name: str
+) -> Iterator[Shape]:
+    import svgelements
+
+    rings: list[list[Point]] = []
+    others: list[Shape] = []
+    for points, last in subpaths:
+        if isinstance(last, svgelements.Move):
+            continue  # a pen that is moved and never put down
+        if len(set(points)) == 1:
+            others.append(Shape(where, name, "point", points[:1]))
+        elif isinstance(last, svgelements.Close) or points[0] == points[-1]:
+            rings.append(points)
+        else:
+            others.append(Shape(where, name, "line", points))
+    for outer, holes in nested(rings):
+        yield Shape(where, name, "polygon", rings[outer], [rings[h] for h in holes])
+    yield from others
+
+
+def _paths(text: str) -> Iterator[tuple[str, svgelements.Path]]:
+    """The outlines that are shown, with the id of each, in user units of the drawing."""
+    try:
+        import svgelements
+    except ImportError:
+        raise InputError("this needs svgelements: pip install 'exactpt[svg]'") from None
+
+    try:
+        root = Xml.fromstring(text)
+    except Xml.ParseError as error:
+        raise InputError(f"not XML: {error}") from None
+    if root.tag not in ("svg", f"{{{_NAMESPACE}}}svg"):
+        raise InputError(f"not a drawing: its first element is {root.tag}")
+    box = root.get("viewBox", "").replace(",", " ").split()
+    if len(box) == 4:  # shown at this size, a unit of the drawing is a unit
+        root.set("viewBox", f"0 0 {box[2]} {box[3]}")
+        root.set("width", box[2])
+        root.set("height", box[3])
+    source = io.StringIO(Xml.tostring(root, encoding="unicode"))
+    try:
+        drawing = svgelements.SVG.parse(source, on_error="raise")
+        for element in drawing.elements():
+            if isinstance(element, svgelements.Shape):
+                path = svgelements.Path(element)
+                path.reify()
+                yield element.id or "", path
+    except (ValueError, TypeError, IndexError) as error:
+        raise InputError(f"not a drawing that can be read: {shorten(error)}") from None
+
+
+def _points(subpath: svgelements.Subpath, tolerance: float) -> list[Point]:
+    """The corners of a subpath and the ends of its chords, y upwards."""
+    import svgelements
+
+    first = subpath[0]
+    found = [] if isinstance(first, svgelements.Move) else [first.start]
+    for segment in subpath:
+        if isinstance(segment, svgelements.Curve):
+            count = _chord_count(segment, tolerance)
+            found += [segment.point(k / count) for k in range(1, count)]
+        if segment.end is not None:
+            found.append(segment.end)
+    return [(rational(float(p.x)), rational(-float(p.y))) for p in found]
+
+
+def _chord_count(curve: svgelements.Curve, tolerance: float) -> int:
+    """How many chords, between equally spaced parameters, stay within the tolerance.
+
+    A curve with second derivative at most M is within M / (8 n^2) of its n chords. A Bezier
+    curve of degree d has M <= d (d - 1) times its largest second difference. An ellipse is
+    the unit circle stretched by at most its larger radius r, and a chord over the angle a
+    of the unit circle is within 1 - cos(a / 2) of it.
+    """
+    import svgelements
+
+    if isinstance(curve, svgelements.Arc):
+        # Half the angle is acos(1 - tolerance / r), without the loss of digits.
+        ratio = min(2.0, tolerance / (max(curve.rx, curve.ry) or tolerance))
+        count = abs(curve.sweep) / (4 * math.asin(math.sqrt(ratio / 2)))
+    else:
+        points = [complex(p.x, p.y) for p in curve]
+        bends = [
+            abs(a - 2 * b + c) for a, b, c in zip(points, points[1:], points[2:], strict=False)
+        ]
+        degree = len(points) - 1
+        count = math.sqrt(degree * (degree - 1) * max(bends) / (8 * tolerance))
+    if not count <= _MOST_CHORDS:
+        raise InputError(f"a curve needs more than {_MOST_CHORDS} chords: raise the tolerance")
+    return max(1, math.ceil(float(count)))
+
+
+def svg_of(shapes: Iterable[Shape]) -> str:
+    """Shapes as a drawing of paths with ids; coordinates are the nearest doubles."""
+    drawn = [(shape, [(x, 0.0 - y) for x, y in rounded(shape)]) for shape in shapes]
+    xs, ys = ([p[axis] for _, points in drawn for p in points] or [0.0] for axis in (0, 1))
+    box = (min(xs), min(ys), (max(xs) - min(xs)) or 1.0, (max(ys) - min(ys)) or 1.0)
+    root = Xml.Element("svg", xmlns=_NAMESPACE, viewBox=" ".join(map(repr, box)))
+    for shape, points in drawn:
+        end = "" if shape.kind == "line" else " Z"
+        Xml.SubElement(
+            root,
+            "path",
+            {
+                "id": shape.name,
+                "d": f"M {' L '.join(f'{x!r} {y!r}' for x, y in points)}{end}",
+                "fill": "silver" if shape.kind == "polygon" else "none",
+                "stroke": "black",
+                "stroke-linecap": "round",
+                "vector-effect": "non-scaling-stroke",
+            },
+        )
+    Xml.indent(root)
+    return Xml.tostring(root, encoding="unicode") + "\n"

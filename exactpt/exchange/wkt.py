@@ -1,0 +1,54 @@
+"""Well-known text: shapely says what is there, the text how each number is written.
+
+Shapely hands coordinates over as doubles, in the order of the text; so each is replaced by
+the decimal at its place.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import Final
+
+from exactpt.errors import InputError
+from exactpt.exchange.shapes import Shape, rounded
+from exactpt.scene.json_values import exact_number
+
+__all__ = ["shapes_of", "wkt_of"]
+
+_NEXT: Final = re.compile(r"(?:(?<=\))|(?<=EMPTY))[\s;]+(?=[A-Z])", re.IGNORECASE)
+"""Between two geometries: parts of one have a comma between them."""
+_NUMBER: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+
+
+def shapes_of(text: str) -> Iterator[Shape]:
+    """The shapes of a text with one geometry or several, one for each part.
+
+    Raises:
+        InputError: one line that names the geometry and what is wrong with it.
+    """
+    from exactpt.exchange.shapely_door import read_wkt, shapes_of_geometry
+
+    for i, part in enumerate(_NEXT.split(text.strip())):
+        where = f"geometry {i}"
+        geometry, size, dimensions = read_wkt(part, where)
+        numbers = _NUMBER.findall(part)
+        if len(numbers) != size * dimensions:
+            raise InputError(f"{where}: a coordinate is not a decimal number")
+        exact = [exact_number(number, where) for number in numbers]
+        points = list(zip(exact[::dimensions], exact[1::dimensions], strict=True))
+        yield from shapes_of_geometry(geometry, where, f"body {i}", points)
+
+
+def wkt_of(shapes: Iterable[Shape]) -> str:
+    """Shapes, one a line, without their names; coordinates are the nearest doubles."""
+    return "".join(f"{_text(shape)}\n" for shape in shapes)
+
+
+def _text(shape: Shape) -> str:
+    points = ", ".join(f"{x!r} {y!r}" for x, y in rounded(shape))
+    if shape.kind == "point":
+        return f"POINT ({points})"
+    if shape.kind == "line":
+        return f"LINESTRING ({points})"
+    return f"POLYGON (({points}, {points.split(',')[0]}))"

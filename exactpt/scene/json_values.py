@@ -1,0 +1,123 @@
+"""JSON whose numbers stay text until they are rationals, and what is refused in it.
+
+Numbers never pass through a float: JSON numbers reach `parse_rational` as the text
+that is in the file.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from typing import Final, TypeAlias
+
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ, parse_rational, shorten
+
+__all__ = ["Json", "Number", "a_list", "an_object", "exact_number", "parse_json", "shown"]
+
+MOST_DIGITS: Final = 10_000
+"""Numerators and denominators have no more: exact arithmetic would not end with many more."""
+MOST_BITS: Final = 33_220
+"""The length of the largest number with so many digits."""
+
+
+class Number(str):
+    """The text of a JSON number."""
+
+    __slots__ = ()
+
+
+Json: TypeAlias = "bool | str | list[Json] | dict[str, Json] | None"
+"""A parsed JSON value; numbers are `Number`, so they stay text."""
+
+
+def parse_json(text: str) -> Json:
+    """The value of a JSON text, numbers as they are written.
+
+    Raises:
+        InputError: if it is no JSON, or names a key twice.
+        RecursionError: if it is nested too deeply.
+    """
+    try:
+        data: Json = json.loads(
+            text,
+            parse_int=Number,
+            parse_float=Number,
+            parse_constant=Number,  # NaN and the infinities: refused where they stand
+            object_pairs_hook=_unique_keys,
+        )
+    except json.JSONDecodeError as error:
+        where = f"line {error.lineno}, column {error.colno}"
+        raise InputError(f"not JSON: {error.msg} at {where}") from None
+    return data
+
+
+def _unique_keys(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
+    result: dict[str, Json] = {}
+    for key, value in pairs:
+        if key in result:
+            raise InputError(f"the key {shorten(key)} is there twice")
+        result[key] = value
+    return result
+
+
+def exact_number(data: Json, where: str) -> QQ:
+    """The rational that a number or a text denotes.
+
+    Raises:
+        InputError: if it is none, or has more than `MOST_DIGITS`.
+    """
+    if not isinstance(data, str):
+        raise InputError(f"{where}: not a number: {shown(data)}")
+    try:
+        value = QQ(0) if len(data) > 3 * MOST_DIGITS else parse_rational(data)
+    except InputError as error:
+        raise InputError(f"{where}: {error}") from None
+    bits = max(value.numerator.bit_length(), value.denominator.bit_length())
+    if len(data) > 3 * MOST_DIGITS or bits > MOST_BITS:
+        raise InputError(f"{where}: more than {MOST_DIGITS} digits: {shorten(str(data))}")
+    return value
+
+
+def a_list(data: Json, where: str, length: int | None = None) -> list[Json]:
+    """The entries of a list, of this length if one is given.
+
+    Raises:
+        InputError: if it is none.
+    """
+    if not isinstance(data, list):
+        raise InputError(f"{where}: not a list: {shown(data)}")
+    if length is not None and len(data) != length:
+        raise InputError(f"{where}: {length} entries are needed, not {len(data)}: {shown(data)}")
+    return data
+
+
+def an_object(
+    data: Json,
+    where: str,
+    required: Iterable[str] = (),
+    optional: Iterable[str] = (),
+) -> dict[str, Json]:
+    """An object with all of the required keys, and no others but the optional ones.
+
+    Raises:
+        InputError: if it is none.
+    """
+    if not isinstance(data, dict):
+        raise InputError(f"{where}: not an object: {shown(data)}")
+    for key in required:
+        if key not in data:
+            raise InputError(f'{where}: the key "{key}" is missing')
+    unknown = set(data) - set(required) - set(optional)
+    if unknown:
+        raise InputError(
+            f"{where}: unknown key {shorten(min(unknown))}: {shown(data[min(unknown)])}"
+        )
+    return data
+
+
+def shown(data: Json) -> str:
+    """A value in a message, short and on one line."""
+    if isinstance(data, Number):
+        return shorten(str(data))[1:-1]
+    return shorten(json.loads(json.dumps(data)) if isinstance(data, (list, dict)) else data)

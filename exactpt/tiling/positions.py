@@ -1,0 +1,121 @@
+"""Where vertices are now, in doubles with proven bounds, kept until time moves on."""
+
+from __future__ import annotations
+
+from typing import Final, final
+
+from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
+from exactpt.motion.vertices import Vertex
+
+__all__ = ["Positions"]
+
+K: Final = 8.0 * U
+"""Bounds the rounding of a 2 x 2 determinant of differences; see `exactpt.tiling.coefficients`."""
+
+
+@final
+class Positions:
+    """Positions in the frame, anywhere in an enclosure of the current time.
+
+    Args:
+        errors: of the frame, see `exactpt.motion.frame.Frame`.
+    """
+
+    def __init__(self, errors: list[float]) -> None:
+        self._errors: list[float] = errors
+        self._low: float = 0.0
+        self._high: float = 0.0
+        self._known: dict[int, tuple[float, float, float]] = {}
+
+    def move_to(self, low: float, high: float) -> None:
+        """Let the current time be in [low, high]."""
+        self._low, self._high = low, high
+        self._known.clear()
+
+    def of(self, vertex: Vertex) -> tuple[float, float, float]:
+        """x, y, and a bound on the error of both; infinite where nothing is known.
+
+        At the current time a vertex that enters another piece of its motion is where it
+        was, so what is known stays.
+        """
+        found = self._known.get(vertex.id)
+        if found is None:
+            image = vertex.image
+            x, dx = self._value(image.xs)
+            y, dy = self._value(image.ys)
+            if image.ws:
+                w, dw = self._value(image.ws)
+                x, dx = _quotient(x, dx, w, dw)
+                y, dy = _quotient(y, dy, w, dw)
+            error = max(dx, dy)
+            found = (x, y, min(INFINITY, error))
+            self._known[vertex.id] = found
+        return found
+
+    def sign(self, a: Vertex, b: Vertex, c: Vertex) -> int:
+        """The certain sign of the orientation now, or 0.
+
+        Coordinates off by at most da, db, dc: the differences u = b - a, v = c - a are off
+        by du = da + db, dv = da + dc besides their own rounding, and their determinant by
+        du (|vx| + |vy|) + dv (|ux| + |uy|) + 2 du dv.
+        """
+        ax, ay, da = self.of(a)
+        bx, by, db = self.of(b)
+        cx, cy, dc = self.of(c)
+        return _sign(bx - ax, by - ay, da + db, cx - ax, cy - ay, da + dc)
+
+    def turn(self, a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> int:
+        """The certain sign of (b - a) x (d - c) now, or 0."""
+        ax, ay, da = self.of(a)
+        bx, by, db = self.of(b)
+        cx, cy, dc = self.of(c)
+        dx, dy, dd = self.of(d)
+        return _sign(bx - ax, by - ay, da + db, dx - cx, dy - cy, dc + dd)
+
+    def order(self, a: Vertex, b: Vertex, axis: int) -> int:
+        """The certain sign of x(b) - x(a) (axis 0) or of y(b) - y(a) (axis 1) now, or 0."""
+        p, q = self.of(a), self.of(b)
+        difference = q[1] - p[1] if axis else q[0] - p[0]
+        bound = p[2] + q[2] + K * abs(difference)
+        return 1 if difference > bound else -1 if difference < -bound else 0
+
+    def _value(self, cs: list[float]) -> tuple[float, float]:
+        """A polynomial now, and a bound on its error anywhere in [low, high].
+
+        Horner's rule at the middle m of the enclosure, on coefficients off by at most
+        errors[i] (and one unit): the value is off by sum((4n + 8) u |c_i| + errors[i]) |m|^i;
+        within the enclosure, of width r, it moves by less than r sum(i |c_i| T^(i-1)),
+        T = |m| + r. What underflows is far below TINY.
+        """
+        errors = self._errors
+        m = 0.5 * (self._low + self._high)
+        r = self._high - self._low
+        reach = abs(m) + r
+        value, bound, slope, error = 0.0, 0.0, 0.0, 0.0
+        for i in range(len(cs) - 1, -1, -1):
+            slope = slope * reach + bound
+            value = value * m + cs[i]
+            bound = bound * reach + abs(cs[i])
+            error = error * reach + errors[i]
+        unit = (4 * len(cs) + 8) * U
+        return value, (unit * bound + error + r * slope) * SLACK + TINY
+
+
+def _quotient(x: float, dx: float, w: float, dw: float) -> tuple[float, float]:
+    """x / w for w > 0, and a bound on its error.
+
+    |(x + d) / (w + e) - x / w| <= (|d| + |x / w| |e|) / (w - |e|).
+    """
+    if not (w > 2.0 * dw and w > SMALL):
+        return 0.0, INFINITY
+    q = x / w
+    return q, ((dx + abs(q) * dw) / (w - dw) + 4.0 * U * abs(q)) * SLACK + TINY
+
+
+def _sign(ux: float, uy: float, du: float, vx: float, vy: float, dv: float) -> int:
+    p, q = ux * vy, uy * vx
+    det = p - q
+    bound = (
+        K * (abs(p) + abs(q)) + du * (abs(vx) + abs(vy)) + dv * (abs(ux) + abs(uy) + 2.0 * du)
+    ) * SLACK + TINY
+    return 1 if det > bound else -1 if det < -bound else 0

@@ -1,0 +1,246 @@
+"""Every benchmark at tiny sizes: the files, the counts, and that a wrong answer is an error."""
+
+import sys
+from types import SimpleNamespace
+
+import pytest
+from bench_help import Results, meeting
+from click.testing import CliRunner
+
+from exactpt.bench import (
+    arithmetic,
+    first_contact,
+    kernel,
+    points,
+    scaling,
+    skipping,
+    stability,
+    wrong_answers,
+)
+from exactpt.bench.arithmetics import ARITHMETICS
+from exactpt.bench.catalogue import BENCHMARKS
+from exactpt.bench.methods.method import Method
+from exactpt.bench.planted import FAMILIES as PLANTED
+from exactpt.bench.planted import Planted
+from exactpt.cli import cli, main
+from exactpt.errors import AuditError
+from exactpt.kernel.algebraic import AlgebraicNumber
+
+NO_PEERS = ("shapely", "pymunk", "ipctk", "flint", "sympy", "mpmath", "matplotlib")
+
+
+@pytest.fixture
+def results(tmp_path):
+    return Results(tmp_path)
+
+
+@pytest.fixture
+def alone(monkeypatch):
+    """Nothing optional is installed."""
+    for module in NO_PEERS:
+        monkeypatch.setitem(sys.modules, module, None)
+
+
+@pytest.fixture
+def undrawn(monkeypatch):
+    """Plots take longer than all else."""
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+
+
+def plots(results):
+    return [name for name in results.names() if name.endswith(".svg")]
+
+
+def test_wrong_answers_of_ours_are_none(results):
+    pytest.importorskip("matplotlib")
+    wrong_answers.run(results.output, wrong_answers.Sizes(2, 50), 1)
+    rows = [row for row in results.rows("wrong-answers") if row["method"] == "exactpt"]
+    assert len(rows) == 2 * len(PLANTED)
+    assert {(row["missed"], row["invented"], row["off"]) for row in rows} == {("0", "0", "0")}
+    assert {row["scenes"] for row in rows} == {"2"}
+    assert plots(results) == ["wrong-answers.svg"]
+
+
+def test_a_wrong_answer_of_ours_is_an_error(results, monkeypatch, alone):
+    wrong = {"wrong": lambda _: Planted(meeting(), AlgebraicNumber(2))}
+    monkeypatch.setattr(wrong_answers, "FAMILIES", wrong)
+    with pytest.raises(AuditError, match="exactpt kinetic, wrong"):
+        wrong_answers.run(results.output, wrong_answers.Sizes(1, 10), 0)
+
+
+def test_methods_without_their_package_are_left_out(results, alone):
+    wrong_answers.run(results.output, wrong_answers.Sizes(1, 10), 0)
+    methods = {row["method"] for row in results.rows("wrong-answers")}
+    assert methods == {"exactpt", "all pairs, doubles"}
+    skipped = [line.split()[1] for line in results.said if line.startswith("skipped")]
+    assert skipped == ["shapely", "pymunk", "ipctk", "matplotlib"]
+
+
+def test_first_contact(results, undrawn):
+    tiny = first_contact.Sizes(
+        dict.fromkeys(first_contact.FAMILIES, (4,)) | {"combs": (16,), "spirals": (16,)},
+        scenes=1,
+        steps=(20,),
+        seconds=1.0,
+    )
+    first_contact.run(results.output, tiny, 0)
+    rows = results.rows("first-contact")
+    own = [row for row in rows if row["method"] == "exactpt"]
+    assert len(own) == 2 * len(first_contact.FAMILIES)
+    assert {(row["missed"], row["invented"]) for row in own} == {("0", "0")}
+    assert {row["error"] for row in own} <= {"0.0", ""}
+    reference = [row for row in rows if row["method"] == "all pairs, exact"]
+    assert {row["family"] for row in reference} == set(first_contact.FAMILIES)
+    assert {row["truth"] for row in rows} == {"planted", "all pairs, exact"}
+
+
+def test_an_error_of_ours_in_a_first_contact_is_an_error(results, monkeypatch, alone):
+    monkeypatch.setitem(first_contact.PLANTED, "combs", AlgebraicNumber(13))
+    tiny = first_contact.Sizes({"combs": (16,)}, scenes=1, steps=(), seconds=1.0)
+    with pytest.raises(AuditError, match="is wrong about"):
+        first_contact.run(results.output, tiny, 0)
+
+
+def test_two_ways_that_disagree_are_an_error(results, monkeypatch, alone):
+    other = Method("exactpt", "other", lambda _: lambda: AlgebraicNumber(1))
+    monkeypatch.setattr(first_contact, "OWN", (first_contact.OWN[0], other))
+    tiny = first_contact.Sizes({"spirals": (16,)}, scenes=1, steps=(), seconds=0.0)
+    with pytest.raises(AuditError, match="two ways disagree"):
+        first_contact.run(results.output, tiny, 0)
+
+
+def test_another_method_that_is_too_slow_is_not_asked_again(results, alone):
+    tiny = first_contact.Sizes({"grazing": (1, 2)}, scenes=1, steps=(), seconds=-1.0)
+    first_contact.run(results.output, tiny, 0)
+    asked = [(row["size"], row["method"]) for row in results.rows("first-contact")]
+    assert asked == [("1", "exactpt")] * 2 + [("1", "all pairs, doubles")] + [("2", "exactpt")] * 2
+
+
+def test_arithmetic(results, undrawn):
+    arithmetic.run(results.output, arithmetic.Sizes(10, 5, (2, 100, None)), 0)
+    rows = {(r["degeneracy"], r["arithmetic"]): r for r in results.rows("arithmetic")}
+    assert len(rows) == 3 * len(ARITHMETICS)
+    wrong = {
+        key: sum(float(row[f"wrong {kind}"]) for kind in ("signs", "orders", "structures"))
+        for key, row in rows.items()
+    }
+    assert all(wrong[d, a] == 0.0 for d, a in wrong if a in ("exact", "float64, filter"))
+    assert all(wrong["10^-2", a.name] == 0.0 for a in ARITHMETICS)
+    assert wrong["10^-100", "mpfr 1024"] == 0.0
+    assert wrong["10^-100", "float64"] > 0.0
+    assert wrong["0", "mpfr 1024"] > 0.0
+
+
+def test_stability(results):
+    pytest.importorskip("matplotlib")
+    tiny = stability.Sizes(3, (-1000, 1000), (200,), (50,), (1, 3), (300,), 1)
+    stability.run(results.output, tiny, 0)
+    rows = results.rows("stability")
+    assert len(rows) == 2 * (1 + 2 + 1 + 1 + 2 + 1)
+    assert {row["same answer"] for row in rows} == {"yes"}
+    assert plots(results) == ["stability-digits.svg", "stability-degree.svg"]
+
+
+def test_stability_sees_another_answer(results, monkeypatch, alone):
+    monkeypatch.setattr(stability, "_scaled", lambda movers, _: stability._retimed(
+        movers, stability._clock(3)))  # fmt: skip
+    with pytest.raises(AuditError, match="scale"):
+        stability.run(results.output, stability.Sizes(3, (10,), (), (), (), (), 1), 0)
+
+
+def test_scaling(results, undrawn):
+    scaling.run(results.output, scaling.Sizes((4, 8), (16, 32), 30, 1), 0)
+    rows = results.rows("scaling")
+    assert len(rows) == 3 * (2 + 2 * 4)
+    crowds = [row for row in rows if row["family"] == "convex crowd"]
+    assert all(int(row["most"]) <= 30 * int(row["size"]) for row in crowds)
+    assert all(0 < int(row["pending"]) <= int(row["made"]) for row in crowds)
+    far = [r for r in rows if (r["family"], r["tiling"]) == ("combs, far apart", "mixed")]
+    assert [row["made"] for row in far] == ["16", "16"]
+    assert len(results.rows("scaling-exponents")) == 3 * 5
+
+
+def test_points(results, undrawn):
+    points.run(results.output, points.Sizes((8, 16), (8,), (8,)), 0)
+    rows = results.rows("points")
+    assert len(rows) == 2 * 5
+    assert all(int(row["changes of the IPT"]) > 0 for row in rows)
+    chains = results.rows("points-chains")
+    assert len({row["events"] for row in chains if row["chains"].startswith("short")}) == 1
+    assert {row["events"] for row in chains if row["chains"].startswith("long")} == {"400"}
+
+
+def test_skipping(results):
+    skipping.run(results.output, skipping.Sizes({"dense": 6, "combs": 16}, 5), 0)
+    cells = {(r["scene"], r["what"]): r for r in results.rows("skipping")}
+    assert cells["convoy", "certificates"]["paid"] == "0"
+    assert cells["convoy", "polynomials"]["paid"] == "0"
+    for what in ("exact decisions", "polynomials", "comparisons"):
+        row = cells["dense", what]
+        assert int(row["paid"]) < int(row["without skipping"])
+    for method in ("kinetic", "pairs"):
+        row = cells[f"imports, {method}", "modules of exactpt"]
+        assert 0 < int(row["paid"]) < int(row["without skipping"])
+
+
+def test_kernel(results, undrawn):
+    kernel.run(results.output, kernel.Sizes(3, (1, 2, 4), (32,), (5,)), 0)
+    rows = results.rows("kernel")
+    assert {row["program"] for row in rows} >= {"exactpt, exact", "exactpt, filter", "SymPy"}
+    exact = [row for row in rows if row["program"] == "exactpt, exact"]
+    assert {(row["answered"], row["to 1e-9"]) for row in exact} == {("1.0", "1.0")}
+    assert len(results.rows("kernel-batches")) == 2
+
+
+def test_kernel_without_peers(results, alone):
+    kernel.run(results.output, kernel.Sizes(2, (2,), (32,), (5,)), 0)
+    programs = [row["program"] for row in results.rows("kernel")]
+    assert programs == ["exactpt, exact", "exactpt, filter"]
+    assert plots(results) == []
+
+
+# The command
+
+
+def tiny_benchmark(output, sizes, seed):
+    output.table("tiny", [{"sizes": sizes, "seed": seed}])
+
+
+@pytest.fixture
+def one_benchmark(monkeypatch):
+    module = SimpleNamespace(run=tiny_benchmark, QUICK="quick", FULL="full")
+    monkeypatch.setattr("exactpt.bench.catalogue.import_module", lambda _: module)
+
+
+def test_the_command_names_machine_versions_and_seed(tmp_path, one_benchmark):
+    done = CliRunner().invoke(cli, ["bench", "kernel", "--seed", "5", "-o", str(tmp_path / "f")])
+    assert done.exit_code == 0
+    assert "gmpy2" in done.output
+    assert "seed 5, full sizes" in done.output
+    assert (tmp_path / "f" / "tiny.csv").read_text() == "sizes,seed\nfull,5\n"
+    assert "gmpy2" in (tmp_path / "f" / "machine.txt").read_text()
+
+
+def test_all_run_if_none_is_named(tmp_path, one_benchmark):
+    done = CliRunner().invoke(cli, ["bench", "--quick", "-o", str(tmp_path)])
+    assert all(f"\n{name}: " in done.output for name in BENCHMARKS)
+    assert (tmp_path / "tiny.csv").read_text() == "sizes,seed\nquick,0\n"
+
+
+@pytest.mark.parametrize("arguments, word", [(["nothing"], "nothing"), (["kernel", "-o"], "-o")])
+def test_a_bad_call_is_one_line(arguments, word, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["bench", *arguments])
+    assert stop.value.code == 2
+    said = capsys.readouterr().err.splitlines()
+    assert len(said) == 1
+    assert said[0].startswith("exactpt: ")
+    assert word in said[0]
+
+
+def test_a_folder_that_is_a_file_is_refused(tmp_path, capsys):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(SystemExit) as stop:
+        main(["bench", "kernel", "-o", str(tmp_path / "file")])
+    assert stop.value.code == 2
+    assert capsys.readouterr().err.count("\n") == 1

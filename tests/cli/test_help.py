@@ -1,0 +1,58 @@
+"""Every --help teaches by examples, and every example runs."""
+
+import re
+import shlex
+from importlib.resources import files
+
+import click
+import pytest
+
+from exactpt.cli import cli, main
+
+SHAPES = {
+    "countries.geojson": '{"type": "Point", "coordinates": [0.1, 2]}',
+    "parcels.wkt": "POLYGON ((0 0, 1 0, 0 1, 0 0))",
+    "drawing.svg": '<svg xmlns="http://www.w3.org/2000/svg"><circle id="c" r="3"/></svg>',
+}
+
+
+def examples(command):
+    """The lines after "Example" in a command's help, without what a shell makes of the answer."""
+    text = command.help.split("Example", 1)[1]
+    lines = re.findall(r"^ +(exactpt .*)$", text, re.MULTILINE)
+    return [re.split(r" (?:&&|\|\||#)", line)[0] for line in lines]
+
+
+MARKS = {"check": pytest.mark.cgal, "bench": pytest.mark.slow}
+COMMANDS = {"": cli, **cli.commands}
+EXAMPLES = [
+    pytest.param(line, marks=MARKS.get(name, []))
+    for name, command in COMMANDS.items()
+    for line in examples(command)
+]
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_help_has_examples_and_explains_every_option(name):
+    command = COMMANDS[name]
+
+    assert examples(command)
+    options = [p for p in command.params if isinstance(p, click.Option)]
+    assert [option.name for option in options if not option.help] == []
+
+
+@pytest.mark.parametrize("line", EXAMPLES)
+def test_an_example_runs(line, tmp_path, monkeypatch, request):
+    """On the scene of the demo, which is long enough for every time in them."""
+    if " check " in line:
+        request.getfixturevalue("program")
+    monkeypatch.chdir(tmp_path)
+    for name, text in SHAPES.items():
+        (tmp_path / name).write_text(text)
+    scene = (files("exactpt") / "data" / "demo.json").read_text(encoding="utf-8")
+    (tmp_path / "scene.json").write_text(scene)
+
+    with pytest.raises(SystemExit) as left:
+        main(shlex.split(line)[1:])
+
+    assert left.value.code == (4 if "--max-events" in line else 0)

@@ -1,0 +1,101 @@
+"""What commands say while they run: events in words, silence, a bar on terminals alone."""
+
+import io
+
+import pytest
+from click.testing import CliRunner
+
+from exactpt.cli import cli
+from exactpt.cli.progress import progress
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.scene.scene import Scene
+from exactpt.simulation.simulation import Simulation
+
+
+@pytest.fixture
+def scene(tmp_path):
+    bodies = [
+        Body("box", [(0, 0), (2, 0), (2, 1), (0, 1)], Translation([0, 1])),
+        Body("wall", [(9, -5), (9, 5)]),
+        Body("spot", [(4, 3)], Translation([0], [0, "-1/9"])),
+    ]
+    Scene(bodies, (0, 20)).save(tmp_path / "scene.json")
+    return tmp_path / "scene.json"
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli, list(map(str, arguments)), catch_exceptions=False)
+
+
+def test_verbose_prints_every_event(scene):
+    events = list(Simulation(Scene.load(scene)).run())
+
+    lines = run("simulate", scene, "--verbose").stdout.splitlines()
+
+    kinds = [line.split()[3] for line in lines if line.startswith("t = ")]
+    assert kinds == [event.kind for event in events]
+    assert lines[len(kinds) - 1] == "t = 7.0 contact"
+    changed = next(event for event in events if event.added)
+    assert f"+{'~'.join(changed.added[0])}" in lines[events.index(changed)]
+
+
+@pytest.mark.parametrize("command", ["simulate", "draw"])
+def test_quiet_prints_nothing(scene, command):
+    more = ["-o", scene.with_name("film.html")] if command == "draw" else []
+
+    result = run(command, scene, "--quiet", *more)
+
+    assert (result.exit_code, result.stdout, result.stderr) == (0, "", "")
+
+
+def test_no_bar_where_nobody_looks_on(scene):
+    assert run("simulate", scene).stderr == ""
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_a_bar_on_a_terminal(scene, monkeypatch):
+    """It follows the time: a quarter of it is done at a quarter of the span."""
+    screen = Terminal()
+    monkeypatch.setattr("sys.stderr", screen)
+
+    with progress(Scene.load(scene), "simulating") as reached:
+        reached(AlgebraicNumber(5))
+
+    assert "simulating" in screen.getvalue()
+    assert "25%" in screen.getvalue()
+    with progress(Scene.load(scene), "simulating", quiet=True) as silent:
+        assert silent is None
+
+
+@pytest.mark.parametrize("command", ["simulate", "draw"])
+def test_the_runs_tell_the_bar(scene, monkeypatch, command):
+    screen = Terminal()
+    told = []
+
+    class Bar:
+        pos = 0
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            return None
+
+        def update(self, steps):
+            self.pos += steps
+            told.append(self.pos)
+
+    monkeypatch.setattr("exactpt.cli.progress.sys.stderr", screen)
+    monkeypatch.setattr("exactpt.cli.progress.click.progressbar", lambda **_: Bar())
+    more = ["-o", str(scene.with_name("film.html"))] if command == "draw" else []
+
+    cli.main([command, str(scene), *more], standalone_mode=False)
+
+    assert told == sorted(told)
+    assert told[-1] == 350  # the contact, at t = 7 of 20

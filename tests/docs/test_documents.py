@@ -1,0 +1,65 @@
+"""What the documents tell a reader to type works, and what they point to is there."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import exactpt
+from docs.draw_demo import drawn
+from docs.draw_gallery import blocks, run
+
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("block", blocks())
+def test_a_scene_of_the_gallery(block, tmp_path):
+    """The commands run; what they draw of a generated scene is the picture in the gallery.
+
+    (What libraries make of the shapes in files may differ in the last digit.)
+    """
+    picture = run(block, tmp_path)
+
+    drawn = ROOT / "docs" / "gallery" / picture.name
+    same = picture.read_text(encoding="utf-8") == drawn.read_text(encoding="utf-8")
+    assert same or "exactpt generate" not in block
+
+
+def test_the_moving_picture_is_that_of_the_demo():
+    assert (ROOT / "docs" / "demo.svg").read_text(encoding="utf-8") == drawn()
+
+
+def test_the_code_of_the_readme_runs(capsys):
+    (code,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+
+    exec(code, {})
+
+    assert capsys.readouterr().out.startswith("5.798402006228018 (")
+
+
+@pytest.mark.parametrize("page", [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))])
+def test_links_lead_somewhere(page):
+    for target in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")):
+        if "://" not in target:
+            assert (page.parent / target).exists(), target
+
+
+def test_the_rooms_of_the_readme_are_the_rooms():
+    rooms = {p.parent.name for p in (ROOT / "exactpt").glob("*/__init__.py")}
+
+    named = set(re.findall(r"^\| `exactpt/(\w+)` \|", README, re.MULTILINE))
+
+    assert named == rooms
+
+
+def test_the_api_pages_have_every_public_name(tmp_path):
+    """What `make docs` runs."""
+    command = ["-W", "ignore", "-m", "pdoc", "--docformat", "google", "--output-directory"]
+    subprocess.run([sys.executable, *command, tmp_path, "exactpt"], cwd=ROOT, check=True)
+
+    page = (tmp_path / "exactpt.html").read_text(encoding="utf-8")
+
+    assert [name for name in exactpt.__all__ if f'id="{name}"' not in page] == []

@@ -1,0 +1,118 @@
+"""The wheel and the sdist: built, installed into an empty environment, and used there."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tarfile
+import venv
+import zipfile
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.slow  # it downloads gmpy2, numpy and click, and compiles
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    """The wheel and the sdist of this checkout, and the files of the package."""
+    source = tmp_path_factory.mktemp("source")
+    for name in ("pyproject.toml", "setup.py", "README.md", "LICENSE"):
+        shutil.copy(ROOT / name, source)
+    leave = shutil.ignore_patterns("__pycache__", "*.so")
+    shutil.copytree(ROOT / "exactpt", source / "exactpt", ignore=leave)
+    files = {
+        path.relative_to(source).as_posix()
+        for path in (source / "exactpt").rglob("*")
+        if path.is_file()
+    }
+    subprocess.run([sys.executable, "-m", "build", "-o", source / "dist", source], check=True)
+    (wheel,) = source.glob("dist/*.whl")
+    (sdist,) = source.glob("dist/*.tar.gz")
+    return wheel, sdist, files
+
+
+def test_nothing_is_left_out(built):
+    wheel, sdist, files = built
+
+    with zipfile.ZipFile(wheel) as archive:
+        inside = set(archive.namelist())
+    with tarfile.open(sdist) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+
+    assert "exactpt/py.typed" in files
+    assert files - inside == set()
+    assert files - names == set()
+
+
+@pytest.fixture(scope="module")
+def empty(built, tmp_path_factory):
+    """A fresh environment with the wheel alone: runs a command of it."""
+    home = tmp_path_factory.mktemp("empty")
+    venv.create(home, with_pip=True)
+    subprocess.run([home / "bin/python", "-m", "pip", "install", "-q", built[0]], check=True)
+    clean = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
+
+    def run(*arguments):
+        return subprocess.run(
+            [home / "bin" / arguments[0], *arguments[1:]],
+            cwd=home, env=clean, capture_output=True, text=True, check=False,
+        )  # fmt: skip
+
+    return run
+
+
+@pytest.mark.parametrize(
+    "line, says",
+    [
+        ("exactpt --version", "exactpt, version "),
+        ("exactpt demo -o demo.html", "first contact at t = 8.693879580404362"),
+        ("exactpt generate row -o row.json", ""),
+        ("exactpt collide row.json --json", '"contact"'),
+        ("exactpt convert row.json row.geojson", ""),
+        ("exactpt convert row.geojson again.json", "bodies"),
+        ("exactpt draw row.json -o row.svg", ""),
+        ("python -m exactpt tile row.json", '"faces"'),
+    ],
+)
+def test_it_runs_in_an_empty_environment(empty, line, says):
+    """In this order: later lines read what earlier ones wrote."""
+    done = empty(*line.split())
+
+    assert (done.returncode, done.stderr) == (0, "")
+    assert says in done.stdout
+
+
+@pytest.mark.parametrize(
+    "line, extra",
+    [
+        ("exactpt draw row.json -o row.png", "draw"),
+        ("exactpt convert dot.wkt dot.json", "shapely"),
+        ("exactpt convert dot.svg dot.json", "svg"),
+    ],
+)
+def test_what_is_missing_is_named(empty, line, extra):
+    empty("python", "-c", "open('dot.wkt', 'w').write('POINT (1 2)')")
+    empty("python", "-c", "open('dot.svg', 'w').write('<svg/>')")
+
+    done = empty(*line.split())
+
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert f"pip install 'exactpt[{extra}]'" in done.stderr
+
+
+def test_everything_but_the_optional_can_be_imported(empty):
+    code = (
+        "import exactpt, pkgutil, importlib\n"
+        "for name in exactpt.__all__: getattr(exactpt, name)\n"
+        "doors = {'exactpt.kernel.sympy_door', 'exactpt.exchange.shapely_door'}\n"
+        "for m in pkgutil.walk_packages(exactpt.__path__, 'exactpt.'):\n"
+        "    if m.name not in doors | {'exactpt.__main__'}: importlib.import_module(m.name)\n"
+    )
+    done = empty("python", "-c", code)
+
+    assert (done.returncode, done.stderr) == (0, "")
