@@ -26,7 +26,8 @@ def time_limit(seconds: float | None) -> Iterator[None]:
     The library looks at the clock between events, and tells how far it has come. But to
     read a scene, to build a tiling and to isolate the roots of polynomials with long
     coefficients may take any time; a signal reaches them all, at no cost and with no loop
-    that could be forgotten. What is interrupted is in no state to go on: a process that
+    that could be forgotten (one that is compiled when it next calls what is not, and exact
+    arithmetic is not). What is interrupted is in no state to go on: a process that
     ends is the place for this, not the library.
 
     Only for the main thread. Windows has no such signal: there the library's looks at the
