@@ -116,7 +116,7 @@ def check_scene(
                     deadline is not None and clock.monotonic() > deadline
                 ):
                     low = kinetic.now.canonical_interval()[0]
-                    raise BudgetExceeded(f"checked up to t = {float(low)!r}", low)
+                    raise BudgetExceeded("the budget of the check is used up", low)
             witness.tiling(kinetic, scene.end)
         except ContactFound:
             witness.time(kinetic.now)

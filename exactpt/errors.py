@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import SupportsFloat
+
 __all__ = ["AuditError", "BudgetExceeded", "ExactPTError", "InputError"]
 
 
@@ -21,9 +23,13 @@ class BudgetExceeded(ExactPTError):  # noqa: N818 - an outcome, named as one
     """A bound on events or seconds was reached; ``reached`` is the time proved free of contact.
 
     ``reached`` is a rational: no contact happens in the closed interval from the
-    start of the scene to it.
+    start of the scene to it. None: nothing is proved.
     """
 
-    def __init__(self, message: str, reached: object) -> None:
+    def __init__(self, message: str, reached: SupportsFloat | None) -> None:
         super().__init__(message)
         self.reached = reached
+
+    def __str__(self) -> str:
+        what = super().__str__()
+        return what if self.reached is None else f"{what} at t = {float(self.reached)!r}"

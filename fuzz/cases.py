@@ -15,8 +15,8 @@ from typing import Final, NamedTuple, NoReturn
 
 from exactpt.errors import InputError
 from exactpt.scene.format import loads, to_json
-from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
+from fuzz.excerpt import scene_of
 from fuzz.shrink import shrink
 from fuzz.witnesses import WITNESSES, Difference
 
@@ -69,7 +69,7 @@ class Outcome:
 
 def run_case(case: Case, witnesses: Sequence[str], shrink_seconds: float = 60.0) -> Outcome:
     """Let witnesses look at a case; what they object to is shrunk for so long each."""
-    scene = generate(case.family, case.seed)
+    scene = scene_of(case.family, case.seed)
     seconds: dict[str, float] = {}
     failures = []
     for name in witnesses:

@@ -46,7 +46,8 @@ class Variant:
         matrix, shift: p' = matrix p + shift; the matrix is a multiple of a turn or mirror.
         rate, delay: t' = rate t + delay.
         drift: a velocity that every body gets besides.
-        cut: whether every motion is cut in two pieces that are the same.
+        cut: whether every motion is cut in two pieces that are the same, each body's a
+            little later than the one's before it: within one double.
         renumber: "turned" or "reversed": where and in which sense vertices are numbered.
         reorder: whether bodies come in another order and with other names.
     """
@@ -62,8 +63,8 @@ class Variant:
 
     def scene(self, scene: Scene) -> Scene:
         """The image of a scene."""
-        middle = (scene.start + scene.end) / 2
-        bodies = [self._body(body, middle) for body in scene.bodies]
+        middle, moment = (scene.start + scene.end) / 2, (scene.end - scene.start) / 10**30
+        bodies = [self._body(body, middle + i * moment) for i, body in enumerate(scene.bodies)]
         if self.reorder:
             bodies.reverse()
         span = sorted(self.rate * t + self.delay for t in (scene.start, scene.end))

@@ -38,16 +38,16 @@ class Difference(Exception):  # noqa: N818 - what was found, the purpose of it a
 
 
 def reference(scene: Scene, turn: int | None) -> None:  # noqa: ARG001 - always all
-    """The first contact by every tiling is that of the all-pairs reference."""
+    """The first contact by every tiling, and by none, is that of the all-pairs reference."""
     expected = first_contact_allpairs(scene)
 
-    def compare(name: str) -> None:
-        found = first_contact(scene, tiling=name)
+    def compare(name: str, found: Contact | None) -> None:
         if kind := contrast(expected, found):
             said = f"{_in_words(found)}, but the reference {_in_words(expected)}"
             raise Difference(f"{name}: {kind}", said)
 
-    _with_tilings(scene, compare, None)
+    compare("pairs", first_contact(scene, method="pairs"))
+    _with_tilings(scene, lambda name: compare(name, first_contact(scene, tiling=name)), None)
 
 
 def static(scene: Scene, turn: int | None) -> None:

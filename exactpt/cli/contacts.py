@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load
 from exactpt.cli.progress import QUIET, progress
 from exactpt.cli.words import answer_in_words, event_in_words, stats_in_words
@@ -67,31 +68,39 @@ def collide(
       exactpt collide scene.json --until 7/2 --exit-code && echo "no contact"
       exactpt collide scene.json --method pairs --ignore boat,buoy --ignore ball,wheel
     """
-    given = load(scene, until)
-    search = _search(
-        given,
-        method,
-        tiling,
-        ignoring=[names.split(",") for names in ignore],
-        exact_only=exact_only,
-        max_events=max_events,
-        max_seconds=max_seconds,
-    )
-    answer: dict[str, object] = {"contact": None, "until": str(given.end), "tiling": search.name}
+    given: Scene | None = None
+    search: Simulation | PairsSearch | None = None
+    answer: dict[str, object] = {"contact": None}
     try:
-        contact = search.run_to_contact()
+        with time_limit(max_seconds):
+            given = load(scene, until)
+            answer |= {"until": str(given.end), "tiling": tiling}
+            search = _search(
+                given,
+                method,
+                tiling,
+                ignoring=[names.split(",") for names in ignore],
+                exact_only=exact_only,
+                max_events=max_events,
+                max_seconds=max_seconds,
+            )
+            answer["tiling"] = search.name
+            contact = search.run_to_contact()
+            stated = contact and contact.to_json()
+            told = answer_in_words(given, contact)
     except BudgetExceeded as spent:
-        if as_json:
-            answer |= {"stats": search.stats, "reached": str(spent.reached)}
-            click.echo(json.dumps(answer, indent=1))
-        else:
-            click.echo(f"no contact up to t = {spent.reached}")
+        _tell_how_far(spent, search)
+        if spent.reached is not None:
+            answer |= {"stats": {} if search is None else search.stats}
+            answer |= {"reached": str(spent.reached)}
+            words = f"no contact up to t = {spent.reached}"
+            click.echo(json.dumps(answer, indent=1) if as_json else words)
         raise
     if as_json:
-        answer |= {"contact": contact and contact.to_json(), "stats": search.stats}
+        answer |= {"contact": stated, "stats": search.stats}
         click.echo(json.dumps(answer, indent=1))
     else:
-        click.echo("\n".join(answer_in_words(given, contact)))
+        click.echo("\n".join(told))
         if stats:
             click.echo("\n".join(stats_in_words(search.stats)))
     return 1 if exit_code and contact is not None else 0
@@ -126,25 +135,40 @@ def simulate(
     from exactpt.scene.format import write_atomically
     from exactpt.simulation.simulation import Simulation
 
-    given = load(scene, until)
-    simulation = Simulation(given, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
+    given: Scene | None = None
+    simulation: Simulation | None = None
     lines: list[str] = []
     try:
-        with progress(given, "simulating", quiet=quiet or verbose) as reached:
-            for event in simulation.run():
-                if events is not None:
-                    lines.append(json.dumps(event.to_json()))
-                if verbose:
-                    click.echo(event_in_words(event))
-                if reached is not None:
-                    reached(event.time)
+        with time_limit(max_seconds):
+            given = load(scene, until)
+            simulation = Simulation(
+                given, tiling=tiling, max_events=max_events, max_seconds=max_seconds
+            )
+            with progress(given, "simulating", quiet=quiet or verbose) as reached:
+                for event in simulation.run():
+                    if events is not None:
+                        lines.append(json.dumps(event.to_json()))
+                    if verbose:
+                        click.echo(event_in_words(event))
+                    if reached is not None:
+                        reached(event.time)
+            told = [*answer_in_words(given, simulation.contact), *stats_in_words(simulation.stats)]
+    except BudgetExceeded as spent:
+        _tell_how_far(spent, simulation)
+        raise
     finally:
-        if events is not None and not isinstance(sys.exception(), KeyboardInterrupt):
+        interrupted = isinstance(sys.exception(), KeyboardInterrupt)
+        if events is not None and simulation is not None and not interrupted:
             write_atomically(events, "".join(f"{line}\n" for line in lines))
     if not quiet:
-        click.echo("\n".join(answer_in_words(given, simulation.contact)))
-        click.echo("\n".join(stats_in_words(simulation.stats)))
+        click.echo("\n".join(told))
     return 0
+
+
+def _tell_how_far(spent: BudgetExceeded, search: Simulation | PairsSearch | None) -> None:
+    """Say up to when there is no contact, if what was interrupted could not."""
+    if spent.reached is None and search is not None:
+        spent.reached = search.passed()
 
 
 def _search(

@@ -7,6 +7,7 @@ from typing import Literal
 
 import click
 
+from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import MOMENT, SCENE, TILING, budget, load, output
 from exactpt.cli.progress import QUIET, progress
 from exactpt.cli.words import answer_in_words
@@ -57,18 +58,19 @@ def draw(
     """
     from exactpt.render.draw import draw as draw_scene
 
-    given = load(scene)
-    with progress(given, "drawing", quiet=quiet) as reached:
-        draw_scene(
-            given,
-            output,
-            at=at,
-            tiling=tiling,
-            theme=theme,
-            max_events=max_events,
-            max_seconds=max_seconds,
-            reached=reached,
-        )
+    with time_limit(max_seconds):
+        given = load(scene)
+        with progress(given, "drawing", quiet=quiet) as reached:
+            draw_scene(
+                given,
+                output,
+                at=at,
+                tiling=tiling,
+                theme=theme,
+                max_events=max_events,
+                max_seconds=max_seconds,
+                reached=reached,
+            )
     return 0
 
 

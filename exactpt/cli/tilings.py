@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, output
 from exactpt.cli.progress import QUIET, progress
 from exactpt.kernel.numbers import QQ
@@ -44,16 +45,17 @@ def tile(
     from exactpt.scene.format import write_atomically
     from exactpt.simulation.tile import tile_at
 
-    given = load(scene)
-    snapshot = tile_at(
-        given,
-        given.start if at is None else at,
-        tiling=tiling,
-        by_running=by_running,
-        max_events=max_events,
-        max_seconds=max_seconds,
-    )
-    text = json.dumps(snapshot.to_json(), indent=1) + "\n"
+    with time_limit(max_seconds):
+        given = load(scene)
+        snapshot = tile_at(
+            given,
+            given.start if at is None else at,
+            tiling=tiling,
+            by_running=by_running,
+            max_events=max_events,
+            max_seconds=max_seconds,
+        )
+        text = json.dumps(snapshot.to_json(), indent=1) + "\n"
     if output is None:
         click.echo(text, nl=False)
     else:
@@ -85,15 +87,16 @@ def check(
     """
     from exactpt.check import check_scene
 
-    given = load(scene)
-    with progress(given, "checking", quiet=quiet) as reached:
-        report = check_scene(
-            given,
-            tiling=tiling,
-            max_events=max_events,
-            max_seconds=max_seconds,
-            reached=reached,
-        )
+    with time_limit(max_seconds):
+        given = load(scene)
+        with progress(given, "checking", quiet=quiet) as reached:
+            report = check_scene(
+                given,
+                tiling=tiling,
+                max_events=max_events,
+                max_seconds=max_seconds,
+                reached=reached,
+            )
     if not quiet:
         click.echo(json.dumps(report.to_json(), indent=1) if as_json else "\n".join(report.lines()))
     return 0 if report.ok else 1

@@ -76,6 +76,7 @@ class PairsSearch:
         self._counted = (counters.exact, counters.filtered)
         self._group: Indices = np.array(_groups(scene, ignoring), dtype=np.int64)
         self.certificates = 0
+        self._passed: QQ | None = None
 
     @property
     def stats(self) -> dict[str, object]:
@@ -89,6 +90,10 @@ class PairsSearch:
             "exact": counters.exact - self._counted[0],
             "filtered": counters.filtered - self._counted[1],
         }
+
+    def passed(self) -> QQ | None:
+        """A rational time: up to it, no contact has been found; None: nothing is known."""
+        return self._passed
 
     def run_to_contact(self) -> Contact | None:
         """The first contact in the closed time span of the scene, or None.
@@ -139,8 +144,9 @@ class PairsSearch:
         step = (end - now) / SLABS
         least = (end - now) / SMALLEST_SLAB
         while now < end:
+            self._passed = now
             if self._deadline is not None and clock.monotonic() > self._deadline:
-                raise BudgetExceeded(f"the time is used up at t = {float(now)!r}", now)
+                raise BudgetExceeded("the time is used up", now)
             until = min([end, *(m.until for m in self._vertices.bodies if m.until is not None)])
             later = min(now + step, until)
             near = self._near(now, later)

@@ -61,7 +61,7 @@ def add(f: IntPoly, g: IntPoly) -> IntPoly:
     if len(f) < len(g):
         f, g = g, f
     if len(f) > len(g):
-        return (*(a + b for a, b in zip(f, g, strict=False)), *f[len(g) :])
+        return (*[a + b for a, b in zip(f, g, strict=False)], *f[len(g) :])
     return trimmed([a + b for a, b in zip(f, g, strict=True)])
 
 
@@ -72,7 +72,11 @@ def negate(f: IntPoly) -> IntPoly:
 
 def subtract(f: IntPoly, g: IntPoly) -> IntPoly:
     """f - g."""
-    return add(f, negate(g))
+    if len(f) == len(g):
+        return trimmed([a - b for a, b in zip(f, g, strict=True)])
+    if len(f) > len(g):
+        return (*[a - b for a, b in zip(f, g, strict=False)], *f[len(g) :])
+    return (*[a - b for a, b in zip(f, g, strict=False)], *[-b for b in g[len(f) :]])
 
 
 def scale(f: IntPoly, factor: ZZ) -> IntPoly:

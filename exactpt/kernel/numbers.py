@@ -53,6 +53,7 @@ __all__ = [
     "parse_rational",
     "power_of_two",
     "rational",
+    "show",
     "sign",
 ]
 
@@ -122,6 +123,12 @@ def shorten(text: object, limit: int = 60) -> str:
     """The text of a value, cut so that a message stays one readable line."""
     shown = " ".join(repr(text).splitlines())
     return shown if len(shown) <= limit else f"{shown[: limit - 12]}...{shown[-8:]}"
+
+
+def show(*numbers: QQ) -> str:
+    """A number, or (x, y), for a message: long ones are cut."""
+    words = [shorten(str(q))[1:-1] for q in numbers]
+    return words[0] if len(words) == 1 else f"({', '.join(words)})"
 
 
 def rational(value: Rational) -> QQ:

@@ -146,8 +146,12 @@ class EventQueue:
             return -1
         if s.low > t.high:
             return 1
-        if s.a == t.a and s.b == t.b and s.c == t.c and s.low == t.low and s.high == t.high:
-            return 0  # the same root of the same function
+        if (
+            s.exact is None
+            and t.exact is None
+            and (s.a, s.b, s.c, s.low, s.high) == (t.a, t.b, t.c, t.low, t.high)
+        ):
+            return 0  # the same root of the same function: a filter isolates it
         x = s.exact or self._resolver.resolve(s)
         y = t.exact or self._resolver.resolve(t)
         order = x.compare(y)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, rational, shorten
+from exactpt.kernel.numbers import QQ, Rational, rational, shorten, show
 from exactpt.kernel.polynomial import Polynomial, polynomial
 from exactpt.motion.motions import REST, Coefficients, Motion, Pieces, Position, SimpleMotion
 from exactpt.motion.track import Track
@@ -73,7 +73,7 @@ class Body:
         if not name:
             raise InputError("a body has a name that is not empty")
         if (vertices is None) == (keyframes is None):
-            raise InputError(f"body {name!r}: give either vertices or keyframes")
+            raise InputError(f"body {shorten(name)}: give either vertices or keyframes")
         self.name = name
         self.motion = motion
         self.closed = closed
@@ -88,7 +88,7 @@ class Body:
         self._shapes = self._shape_pieces()
         self._pieces: dict[QQ | None, BodyPiece] = {}
         if not self._shapes[0][1]:
-            raise InputError(f"body {name!r}: at least one vertex is needed")
+            raise InputError(f"body {shorten(name)}: at least one vertex is needed")
         self._check_continuity()
 
     @classmethod
@@ -176,8 +176,8 @@ class Body:
             ):
                 if a.at(t) != b.at(t):
                     raise InputError(
-                        f"body {self.name!r}: vertex {i} jumps at t = {t} "
-                        f"from {_show(a.at(t))} to {_show(b.at(t))}"
+                        f"body {shorten(self.name)}: vertex {i} jumps at t = {show(t)} "
+                        f"from {show(*a.at(t))} to {show(*b.at(t))}"
                     )
 
     def __repr__(self) -> str:
@@ -185,14 +185,10 @@ class Body:
         return f"<Body {self.name!r}: {what} of {self.size} vertices>"
 
 
-def _show(position: tuple[QQ, QQ]) -> str:
-    return f"({position[0]}, {position[1]})"
-
-
 def _listed(name: str, what: str, values: object) -> list[Any]:
     if isinstance(values, Iterable) and not isinstance(values, (str, Mapping)):
         return list(values)
-    raise InputError(f"body {name!r}: {what}: not a list: {shorten(values)}")
+    raise InputError(f"body {shorten(name)}: {what}: not a list: {shorten(values)}")
 
 
 def _pair(point: object) -> tuple[Any, Any]:
@@ -212,7 +208,7 @@ def _read_vertex(name: str, index: int, vertex: VertexLike) -> Position:
         x, y = _pair(vertex)
         return polynomial(x), polynomial(y)
     except InputError as error:
-        raise InputError(f"body {name!r}: vertex {index}: {error}") from None
+        raise InputError(f"body {shorten(name)}: vertex {index}: {error}") from None
 
 
 def _read_keyframes(
@@ -221,26 +217,29 @@ def _read_keyframes(
     frames: list[Keyframe] = []
     for i, keyframe in enumerate(_listed(name, "keyframes", keyframes)):
         if not isinstance(keyframe, Sequence) or len(keyframe) != 2:
-            raise InputError(f"body {name!r}: keyframe {i}: not (t, vertices): {shorten(keyframe)}")
+            raise InputError(
+                f"body {shorten(name)}: keyframe {i}: not (t, vertices): {shorten(keyframe)}"
+            )
         t, vertices = keyframe
         pairs = map(_pair, _listed(name, f"keyframe {i}", vertices))
         try:
             points = tuple((rational(x), rational(y)) for x, y in pairs)
             frame = Keyframe(rational(t), points)
         except InputError as error:
-            raise InputError(f"body {name!r}: keyframe {i}: {error}") from None
+            raise InputError(f"body {shorten(name)}: keyframe {i}: {error}") from None
         if frames and frame.t <= frames[-1].t:
             raise InputError(
-                f"body {name!r}: keyframe {i}: t = {frame.t} is not after {frames[-1].t}"
+                f"body {shorten(name)}: keyframe {i}: "
+                f"t = {show(frame.t)} is not after {show(frames[-1].t)}"
             )
         if frames and len(points) != len(frames[0].vertices):
             raise InputError(
-                f"body {name!r}: keyframe {i}: {len(points)} vertices, "
+                f"body {shorten(name)}: keyframe {i}: {len(points)} vertices, "
                 f"but keyframe 0 has {len(frames[0].vertices)}"
             )
         frames.append(frame)
     if not frames:
-        raise InputError(f"body {name!r}: at least one keyframe is needed")
+        raise InputError(f"body {shorten(name)}: at least one keyframe is needed")
     return tuple(frames)
 
 

@@ -11,7 +11,7 @@ from itertools import pairwise
 from typing import Final, Protocol, TypeAlias, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.kernel.numbers import QQ, Rational, rational, shorten, show
 from exactpt.kernel.polynomial import ONE, ZERO, Polynomial, polynomial
 from exactpt.motion.track import Track, track
 
@@ -152,7 +152,7 @@ class Pieces:
         if not pieces:
             raise InputError("a piecewise motion has at least one piece")
         if pieces[-1][0] is not None:
-            raise InputError(f"the last piece has no end: until = {pieces[-1][0]}")
+            raise InputError(f"the last piece has no end: until = {shorten(pieces[-1][0])}")
         ends: list[QQ] = []
         for end, _ in pieces[:-1]:
             if end is None:
@@ -160,7 +160,9 @@ class Pieces:
             ends.append(rational(end))
         for before, after in pairwise(ends):
             if before >= after:
-                raise InputError(f"pieces end in increasing order: {before}, then {after}")
+                raise InputError(
+                    f"pieces end in increasing order: {show(before)}, then {show(after)}"
+                )
         self.until: tuple[QQ, ...] = tuple(ends)
         self.motions: tuple[SimpleMotion, ...] = tuple(motion for _, motion in pieces)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final, Literal
 
 from exactpt.errors import InputError
+from exactpt.kernel.numbers import show
 from exactpt.render.film import film_of
 from exactpt.render.frame import frame_of
 from exactpt.render.page import page_of
@@ -81,12 +82,13 @@ def _shown_first(film: Film, at: QQ | Literal["contact"] | None) -> AlgebraicNum
     if at == "contact":
         if film.contact is None:
             raise InputError(
-                f"no contact to draw from t = {film.scene.start} to t = {film.scene.end}"
+                f"no contact to draw from t = {show(film.scene.start)} "
+                f"to t = {show(film.scene.end)}"
             )
         return film.end
     if at is not None and (at < film.scene.start or film.end.compare_rational(at) < 0):
         raise InputError(
-            f"--at: nothing to show at t = {at}: the animation runs from "
-            f"t = {film.scene.start} to t = {float(film.end)!r}"
+            f"--at: nothing to show at t = {show(at)}: the animation runs from "
+            f"t = {show(film.scene.start)} to t = {float(film.end)!r}"
         )
     return at

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, final
 
 from exactpt.errors import InputError
+from exactpt.kernel.numbers import show
 from exactpt.render.fixed import near
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.snapshot import Snapshot, snapshot
@@ -54,17 +55,20 @@ def still(
     """
     if at is not None and not scene.start <= at <= scene.end:
         raise InputError(
-            f"--at: t = {at} is outside the time span from {scene.start} to {scene.end}"
+            f"--at: t = {show(at)} is outside the time span "
+            f"from {show(scene.start)} to {show(scene.end)}"
         )
     simulation = Simulation(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
     for _ in simulation.run(at):
         pass
     contact = simulation.contact
     if at is None and contact is None:
-        raise InputError(f"no contact to draw from t = {scene.start} to t = {scene.end}")
+        raise InputError(
+            f"no contact to draw from t = {show(scene.start)} to t = {show(scene.end)}"
+        )
     if at is not None and contact is not None and contact.time.compare_rational(at) != 0:
         raise InputError(
-            f"--at: nothing to draw at t = {at}: "
+            f"--at: nothing to draw at t = {show(at)}: "
             f"the first contact is at t = {float(contact.time)!r}"
         )
     return still_of(simulation)

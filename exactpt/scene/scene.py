@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, final
 
 from exactpt.errors import InputError
 from exactpt.geometry.polygon import first_self_touch, signed_area2
-from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.kernel.numbers import QQ, Rational, rational, shorten, show
 from exactpt.motion.body import Body
 
 if TYPE_CHECKING:
@@ -39,11 +39,11 @@ class Scene:
             raise InputError(f"a time span has a start and an end: {time!r}")
         self.start, self.end = rational(time[0]), rational(time[1])
         if self.start >= self.end:
-            raise InputError(f"time: the span from {self.start} to {self.end} is empty")
+            raise InputError(f"time: the span from {show(self.start)} to {show(self.end)} is empty")
         names: set[str] = set()
         for body in self.bodies:
             if body.name in names:
-                raise InputError(f"body {body.name!r}: the name is taken by another body")
+                raise InputError(f"body {shorten(body.name)}: the name is taken by another body")
             names.add(body.name)
             self._check_simple(body)
 
@@ -56,15 +56,18 @@ class Scene:
             if i == j:
                 u = points[i]
                 raise InputError(
-                    f"body {body.name!r}: vertex {i} and the next one are both at "
-                    f"({u[0]}, {u[1]}) at the start, t = {self.start}"
+                    f"body {shorten(body.name)}: vertex {i} and the next one are both at "
+                    f"{show(*u)} at the start, t = {show(self.start)}"
                 )
             raise InputError(
-                f"body {body.name!r}: not a simple {what} at the start, t = {self.start}: "
-                f"edge {i} from {_show(points[i])} meets edge {j} from {_show(points[j])}"
+                f"body {shorten(body.name)}: not a simple {what} "
+                f"at the start, t = {show(self.start)}: "
+                f"edge {i} from {show(*points[i])} meets edge {j} from {show(*points[j])}"
             )
         if body.closed and len(points) > 2 and signed_area2(points) == 0:
-            raise InputError(f"body {body.name!r}: the polygon has no area at t = {self.start}")
+            raise InputError(
+                f"body {shorten(body.name)}: the polygon has no area at t = {show(self.start)}"
+            )
 
     @classmethod
     def load(cls, path: str | Path) -> Scene:
@@ -129,7 +132,9 @@ class Scene:
         """
         last = min(rational(end), self.end)
         if last <= self.start:
-            raise InputError(f"the end t = {last} is not after the start t = {self.start}")
+            raise InputError(
+                f"the end t = {show(last)} is not after the start t = {show(self.start)}"
+            )
         other = Scene.__new__(Scene)
         other.bodies, other.start, other.end = self.bodies, self.start, last
         return other
@@ -156,7 +161,3 @@ class Scene:
             f"<Scene: {len(self.bodies)} bodies, {self.vertex_count} vertices, "
             f"t in [{self.start}, {self.end}]>"
         )
-
-
-def _show(position: tuple[QQ, QQ]) -> str:
-    return f"({position[0]}, {position[1]})"

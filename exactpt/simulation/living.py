@@ -9,7 +9,7 @@ from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
 from exactpt.motion.vertices import Vertices
@@ -112,7 +112,7 @@ class LivingScene:
                 "run until a rational time first"
             )
         if now.low >= self._end.end:
-            raise InputError(f"t = {now.low} is the end of the time span")
+            raise InputError(f"t = {show(now.low)} is the end of the time span")
         return now.low
 
     def set_motions(self, plans: Mapping[str, Motion | Body]) -> list[Event]:
@@ -142,7 +142,7 @@ class LivingScene:
             bodies = [*self._bodies, body]
             for i, j in initial_touches(alone.going_on(bodies, t))[1]:
                 names = bodies[i].name, bodies[j].name
-                raise InputError(f"body {names[1]!r} touches body {names[0]!r} at t = {t}")
+                raise InputError(f"body {names[1]!r} touches body {names[0]!r} at t = {show(t)}")
             return self._restart(bodies, t, 1)
         site = find_site(kinetic.vertices, kinetic.mesh, body, t)
         events = kinetic.add_body(body, t, site)

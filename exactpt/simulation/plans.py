@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, floor, power_of_two, rational
+from exactpt.kernel.numbers import QQ, Rational, floor, power_of_two, rational, show
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, SimpleMotion, Translation
@@ -50,8 +50,8 @@ def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
     for i, (p, q) in enumerate(zip(body.at(t), new.at(t), strict=True)):
         if p != q:
             raise InputError(
-                f"body {body.name!r}: vertex {i} jumps at t = {t} "
-                f"from ({p[0]}, {p[1]}) to ({q[0]}, {q[1]})"
+                f"body {body.name!r}: vertex {i} jumps at t = {show(t)} "
+                f"from {show(*p)} to {show(*q)}"
             )
     return new
 

@@ -15,6 +15,7 @@ from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counts, counters
 from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational
+from exactpt.kinetic.queue import EventTime
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
 from exactpt.simulation.living import LivingScene
@@ -51,6 +52,7 @@ class Running(Questions):
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
         self._counted: Counts = counters.now()
         self._events = 0
+        self._passed: EventTime | None = None
         self._pending: deque[Event] = deque()
         self._forget_space()
         self._living: LivingScene | None = None
@@ -58,7 +60,11 @@ class Running(Questions):
         if overlaps:
             self._end_with(contact_of(scene, AlgebraicNumber(scene.start), touches, overlaps))
         else:
-            kinetic = plan.start(scene.start, exact_only=exact_only)
+            try:
+                kinetic = plan.start(scene.start, exact_only=exact_only)
+            except BudgetExceeded as spent:
+                spent.reached = scene.start
+                raise
             self._living = LivingScene(scene, kinetic, tiling, exact_only=exact_only)
 
     @property
@@ -160,6 +166,7 @@ class Running(Questions):
             try:
                 for _ in kinetic.run():
                     self._events += 1
+                    self._passed = kinetic.certifier.now
                     self._check_budget()
             except ContactFound as found:
                 self._end_with(contact_of(self.scene, kinetic.now, found.touches))
@@ -180,6 +187,7 @@ class Running(Questions):
             else:
                 self._meet(contact, on_contact, grid)
             return True
+        self._passed = living.kinetic.certifier.now
         if events is None:
             return False
         self._pending.extend(map(living.named, events))
@@ -212,12 +220,20 @@ class Running(Questions):
         if late or many:
             reached = self.reached()
             what = "time" if late else "number of events"
-            raise BudgetExceeded(f"the {what} is used up at t = {float(reached)!r}", reached)
+            raise BudgetExceeded(f"the {what} is used up", reached)
 
     def reached(self) -> QQ:
         """A rational time at most now: up to it there is provably no contact."""
         now = self.now
         return now.low if now.is_rational else now.canonical_interval()[0]
+
+    def passed(self) -> QQ:
+        """As `reached`, but at once, and right in the middle of an event too."""
+        start = self._given[0].start
+        if self._living is None or self._passed is None:
+            return start
+        frame = self._living.kinetic.vertices.frame
+        return max(start, frame.exact_time(self._passed.low))
 
     def _alive(self) -> LivingScene:
         if self._living is None:

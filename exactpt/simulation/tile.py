@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, show
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.snapshot import Snapshot, snapshot
@@ -37,7 +37,8 @@ def tile_at(
     """
     if not scene.start <= at <= scene.end:
         raise InputError(
-            f"--at: t = {at} is outside the time span from {scene.start} to {scene.end}"
+            f"--at: t = {show(at)} is outside the time span "
+            f"from {show(scene.start)} to {show(scene.end)}"
         )
     plan = plan_tiling(scene, plan_tiling(scene, tiling, scene.start).name, at)
     simulation = Simulation(
@@ -50,7 +51,7 @@ def tile_at(
         pass
     if simulation.contact is not None:
         raise InputError(
-            f"--at: no tiling at t = {at}: the first contact is at "
+            f"--at: no tiling at t = {show(at)}: the first contact is at "
             f"t = {float(simulation.contact.time)!r}"
         )
     if by_running:

@@ -42,6 +42,7 @@ from exactpt.motion.vertices import Vertex
 
 __all__ = [
     "comes_first",
+    "copies_first",
     "cross",
     "orientation",
     "x_order",
@@ -56,16 +57,22 @@ def cross(a: Track, b: Track, c: Track, d: Track) -> IntPoly:
     return subtract(multiply(ux, vy), multiply(uy, vx))
 
 
+def copies_first(a: Vertex, b: Vertex, c: Vertex) -> tuple[Vertex, Vertex, Vertex]:
+    """Three vertices, rotated so that the first two are copies of one."""
+    if a.track is c.track and b.track is not c.track:
+        return c, a, b
+    if b.track is c.track and a.track is not c.track:
+        return b, c, a
+    return a, b, c
+
+
 def copy_orientation(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
     """The orientation of three vertices of which some are copies of one.
 
     Of two copies: (offset(b) - offset(a)) x (c - a), in the limit of small offsets; of
     three: the orientation of their offsets.
     """
-    if a.track is c.track and b.track is not c.track:
-        a, b, c = c, a, b
-    elif b.track is c.track and a.track is not c.track:
-        a, b, c = b, c, a
+    a, b, c = copies_first(a, b, c)
     p, q = a.track, c.track
     dx, dy = _offset_difference(a, b)
     if p is q:

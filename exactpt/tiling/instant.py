@@ -17,8 +17,8 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import counters
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
 from exactpt.kernel.numbers import QQ, sign
-from exactpt.motion.vertices import Vertices
-from exactpt.tiling.exact import cross, orientation, x_order_terms
+from exactpt.motion.vertices import Vertex, Vertices
+from exactpt.tiling.exact import copies_first, cross, orientation, x_order_terms
 from exactpt.tiling.reasons import reason
 
 if TYPE_CHECKING:
@@ -106,7 +106,18 @@ class Instant:
             together = u.image.motion == v.image.motion == w.image.motion >= 0
             if s or together or not self.after:
                 return s
+        elif s := self._sign_of_copies(u, v, w):
+            return s
         return self.first_sign((orientation(u, v, w),))
+
+    def _sign_of_copies(self, u: Vertex, v: Vertex, w: Vertex) -> int:
+        """The sign of `copy_orientation` at the time itself."""
+        a, b, c = copies_first(u, v, w)
+        (ax, ay), (bx, by) = self.offset(a.id), self.offset(b.id)
+        (px, py), (qx, qy) = (
+            (self.offset(i) if a.track is c.track else self.positions[i]) for i in (a.id, c.id)
+        )
+        return sign((bx - ax) * (qy - py) - (by - ay) * (qx - px))
 
     def all_stay_convex(self) -> bool:
         """Whether all bodies are convex and stay so; at a vertex, an angle of pi will do."""

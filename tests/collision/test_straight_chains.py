@@ -12,6 +12,7 @@ from fuzz.variants import VARIANTS
 
 FALL = Translation([], [0, -1])
 FLAT = [(0, 0), (10, 0), (10, 5), (8, 5), (6, 5), (4, 5), (2, 5), (0, 5)]
+SLIDING = [{"x": [x, v], "y": [5]} for x, v in ((8, "1/9"), (6, "-1/5"), (4, "1/7"), (2, "1/8"))]
 U = [(-20, 0), (-17, 0), (-18, 3), (-19, 1), (-19, 3), (-20, 3)]
 SCENES = {
     "a point on an edge with flat vertices": [
@@ -29,6 +30,21 @@ SCENES = {
     "a box on an edge with flat vertices": [
         Body("plate", FLAT),
         Body("box", [(1, 9), (9, 9), (9, 10), (7, 10), (3, 10), (1, 10)], FALL),
+    ],
+    "a stick on an edge with vertices that slide along it": [
+        Body("plate", [(0, 0), (10, 0), (10, 5), *SLIDING, (0, 5)]),
+        Body("stick", [("9/2", 9), ("11/2", 9)], FALL),
+    ],
+    "a box on a plate with vertices that slide along it": [
+        Body("plate", [(0, 0), (10, 0), (10, 5), *SLIDING, (0, 5)]),
+        Body("box", [(1, 9), (9, 9), (9, 10), (1, 10)], FALL),
+    ],
+    "a bar on a row of boxes that slide apart": [
+        *(
+            Body(f"b{i}", [(3 * i, 0), (3 * i + 2, 0), (3 * i + 1, 2)], Translation([0, f"{i}/7"]))
+            for i in range(5)
+        ),
+        Body("bar", [(4, 9), (10, 9), (10, 10), (4, 10)], FALL),
     ],
     "a box on a row of boxes": [
         *(Body(f"b{i}", [(3 * i, 0), (3 * i + 2, 0), (3 * i + 1, 2)]) for i in range(5)),

@@ -71,7 +71,7 @@ def test_nothing_is_a_summary_too():
 
 def test_a_failure_is_shrunk_and_saved(tmp_path):
     with PLANTED["even roots ignored"]():
-        outcomes = [run_case(Case(i, "grazing", i), ["reference"], 3.0) for i in range(4)]
+        outcomes = (run_case(Case(i, "grazing", i), ["reference"], 3.0) for i in range(64))
         failure, case = next((f, o.case) for o in outcomes for f in o.failures)
         path = corpus.save(failure, case, tmp_path)
         again = failure_of("reference", Scene.load(path))

@@ -147,3 +147,14 @@ class QueueMachine(RuleBasedStateMachine):
 
 
 TestQueue = QueueMachine.TestCase
+
+
+def test_bug_ends_of_motions_within_one_double_are_told_apart():
+    """All ends of motions have one key; what they are is known exactly from the start."""
+    thirds = [QQ(1, 3) + QQ(k, 10**30) for k in (2, 0, 1)]
+    low, high = AlgebraicNumber(QQ(1, 3)).enclosure()
+    queue = EventQueue(Numbers())
+    for slot, t in enumerate(thirds):
+        queue.schedule(slot, EventTime(low, high, -1, -1, -1, AlgebraicNumber(t)))
+
+    assert [[s for s, _ in queue.pop()[1]] for _ in thirds] == [[1], [2], [0]]

@@ -299,3 +299,28 @@ def test_recursion_is_left_as_it_was(run):
     assert_refused(run(b"[" * 10_000))
 
     assert sys.getrecursionlimit() == limit
+
+
+LONG = "7" * 3000
+
+
+@pytest.mark.parametrize(
+    "path, value",
+    [
+        (("time",), [LONG, f"-{LONG}"]),
+        (("bodies", 4, "keyframes", 0, "t"), LONG),
+        (("bodies", 5, "motion", "pieces", 0, "until"), f"1/{LONG}"),
+        (("bodies", 5, "motion", "pieces", 1, "motion", "x", 0), LONG),
+        (("bodies", 0, "vertices", 2), [f"1/{LONG}", f"-{LONG}"]),
+        (("bodies", 0, "vertices"), [[LONG, LONG], [LONG, LONG], ["0", "1"]]),
+        (("bodies", 0, "vertices"), [["0", "0"], [LONG, LONG], [f"2{LONG}", f"2{LONG}"]]),
+        (("bodies", 0), {"name": "x" * 5000, "vertices": [["0", "0"], ["0", "0"]]}),
+        (("bodies", 0), {"name": "x" * 5000, "vertices": []}),
+    ],
+    ids=str,
+)
+def test_bug_long_numbers_and_names_are_cut_in_every_refusal(run, path, value):
+    data = copy.deepcopy(VALID)
+    at(data, path[:-1])[path[-1]] = value
+
+    assert_refused(run(text(data)))

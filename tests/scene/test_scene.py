@@ -12,6 +12,7 @@ from strategies import as_rational, fractions
 from exactpt.errors import InputError
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 
 grid = st.tuples(st.integers(0, 3), st.integers(0, 3))
@@ -140,3 +141,7 @@ def test_time_spans_that_are_none_are_refused(time, words):
 def test_a_name_can_be_taken_once():
     with pytest.raises(InputError, match="body 'a': the name is taken by another body"):
         Scene([Body("a", [(0, 0)]), Body("a", [(9, 9)])])
+
+
+def test_bug_a_keyframed_triangle_shaken_flat_is_shaken_again():
+    assert generate("keyframed", 20028).bodies[0].name == "b0"

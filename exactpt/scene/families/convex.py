@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from random import Random
 
+from exactpt.geometry.polygon import first_self_touch
+from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, Translation
@@ -104,12 +107,19 @@ def keyframed(rng: Random) -> Scene:
         size = rng.choice([1, 2, 3, 3])
         outline = convex_polygon(rng, c, 40, 3)[:size]
         times = sorted(rng.sample(range(-1, 5), rng.randint(1, 3)))
-        frames = [
-            (t, [(x + rng.randint(-9, 9), y + rng.randint(-9, 9)) for x, y in outline])
-            for t in times
-        ]
-        bodies.append(Body(f"b{i}", keyframes=frames))
+        body = _shaken(rng, f"b{i}", outline, times)
+        while first_self_touch(body.at(0), closed=True) is not None:
+            body = _shaken(rng, f"b{i}", outline, times)
+        bodies.append(body)
     return Scene(bodies, (0, 4))
+
+
+def _shaken(rng: Random, name: str, outline: Sequence[Point], times: Sequence[int]) -> Body:
+    """A body whose vertices are a little off an outline, elsewhere at each time."""
+    frames = [
+        (t, [(x + rng.randint(-9, 9), y + rng.randint(-9, 9)) for x, y in outline]) for t in times
+    ]
+    return Body(name, keyframes=frames)
 
 
 def _zigzag(rng: Random) -> Motion:

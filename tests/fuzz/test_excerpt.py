@@ -1,0 +1,56 @@
+"""Excerpts: a few bodies of a scene, the same in every run, and a whole scene now and then."""
+
+from random import Random
+
+import pytest
+
+from exactpt.scene.format import to_json
+from exactpt.scene.generate import FAMILIES, POINTS, generate
+from exactpt.scene.scene import Scene
+from fuzz.excerpt import MOST, WHOLE, excerpt, scene_of
+
+ALL = [*FAMILIES, *POINTS]
+
+
+@pytest.mark.parametrize("family", ALL)
+def test_an_excerpt_is_a_part_of_the_scene(family):
+    for seed in range(1, 6):
+        whole, part = to_json(generate(family, seed)), to_json(scene_of(family, seed))
+
+        kept = [body for body in whole["bodies"] if body in part["bodies"]]
+        assert part == {**whole, "bodies": kept}
+        assert len(kept) >= min(2, len(whole["bodies"]))
+
+
+@pytest.mark.parametrize("family", ALL)
+def test_now_and_then_a_scene_is_whole(family):
+    assert to_json(scene_of(family, 5 * WHOLE)) == to_json(generate(family, 5 * WHOLE))
+
+
+def test_excerpts_are_small_and_of_every_size():
+    """Bodies are added while they are too few: never more than one body too many."""
+    sizes = set()
+    for seed in range(200):
+        scene = excerpt(generate("convex", 7), Random(seed))
+        smaller = scene.vertex_count - min(body.size for body in scene.bodies)
+        assert len(scene.bodies) == 2 or smaller < MOST
+        sizes.add(len(scene.bodies))
+
+    assert {2, 3, 4} <= sizes
+
+
+def test_neighbours_are_more_likely_than_strangers():
+    row = generate("row", 0)
+    places = [body.at(row.start)[0] for body in row.bodies]
+    by_x = sorted(range(len(places)), key=lambda i: places[i])
+    names = [row.bodies[i].name for i in by_x]
+    adjacent = 0
+    for seed in range(100):
+        found = sorted(names.index(b.name) for b in excerpt(row, Random(seed)).bodies)
+        adjacent += found[1] - found[0] == 1
+
+    assert adjacent > 60
+
+
+def test_a_scene_without_bodies_is_its_own_excerpt():
+    assert excerpt(Scene([], (0, 1)), Random(0)).bodies == ()

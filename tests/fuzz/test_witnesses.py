@@ -1,0 +1,46 @@
+"""Every witness is content with small scenes of every family; more come with every campaign."""
+
+import pytest
+
+from exactpt.collision.tilings import TILINGS
+from exactpt.scene.generate import FAMILIES, POINTS
+from fuzz.cases import failure_of
+from fuzz.excerpt import scene_of
+from fuzz.statics import run_and_audit
+from fuzz.witnesses import WITNESSES
+
+GENERIC = ("convex", "mixed_shapes", "ballistic", "turning", "deforming", "pieces", "keyframed")
+QUICK = ("reference", "static", "filters")
+
+
+@pytest.mark.parametrize("family", [*FAMILIES, *POINTS])
+def test_no_witness_objects(family):
+    for seed in (1, 2, 3):
+        scene = scene_of(family, seed)
+        for witness in QUICK:
+            assert failure_of(witness, scene, seed) is None
+
+
+@pytest.mark.parametrize("tiling", TILINGS)
+@pytest.mark.parametrize("family", GENERIC)
+def test_what_is_generic_needs_no_rebuild(family, tiling):
+    """A repair that is left out or done wrongly would be made good by one, and go unseen."""
+    events = 0
+    for seed in range(1, 9):
+        run = run_and_audit(scene_of(family, seed), tiling, middle=False)
+        if run is not None:
+            stats = run.kinetic.stats
+            events += stats.total
+            assert (stats.rebuilds, stats.flips) == (0, 0)
+
+    assert events
+
+
+@pytest.mark.slow
+@pytest.mark.cgal
+@pytest.mark.parametrize("family", [*FAMILIES, *POINTS])
+def test_no_witness_objects_to_more(family, program):
+    for seed in range(4, 24):
+        scene = scene_of(family, seed)
+        for witness in WITNESSES:
+            assert failure_of(witness, scene, seed) is None

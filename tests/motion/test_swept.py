@@ -1,0 +1,75 @@
+"""Swept boxes contain every vertex at every time of the interval, and are not far too large."""
+
+from fractions import Fraction
+
+from hypothesis import given
+from hypothesis import strategies as st
+from strategies import as_rational, doubles, fractions
+
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.frame import frame_for
+from exactpt.motion.motions import Affine, Rigid, Translation
+from exactpt.motion.swept import SweptBoxes
+
+coefficients = st.lists(st.one_of(fractions, doubles.map(lambda x: x % 8)), max_size=4)
+points = st.tuples(fractions, fractions)
+bodies = st.one_of(
+    st.builds(lambda p, x, y: Body("a", [p], Translation(x, y)), points,
+              coefficients, coefficients),
+    st.builds(lambda p, h, x: Body("a", [p], Rigid(h, pivot=(1, 0), x=x)), points,
+              coefficients, coefficients),
+    st.builds(lambda p, m, x: Body("a", [p], Affine([[m, 0], [1, m]], x=x)), points,
+              coefficients, coefficients),
+)  # fmt: skip
+
+
+@given(
+    st.lists(bodies, min_size=1, max_size=4),
+    st.fractions(0, 4, max_denominator=16),
+    st.fractions(0, 4, max_denominator=16),
+)
+def test_boxes_contain_the_vertices(bodies, begin, length):
+    tracks = [body.piece_after(QQ(0)).tracks[0] for body in bodies]
+    frame = frame_for([body.at(QQ(0))[0] for body in bodies], QQ(0), QQ(8))
+    images = [frame.image(track) for track in tracks]
+    first, last = as_rational(begin), as_rational(begin + length)
+    low, high = frame.time(first)[0], frame.time(last)[1]
+
+    boxes = SweptBoxes(images, frame.errors).during(low, high).tolist()
+
+    for track, (x_low, x_high, y_low, y_high) in zip(tracks, boxes, strict=True):
+        for k in range(9):
+            x, y = track.at(first + (last - first) * QQ(k, 8))
+            assert x_low <= (x - frame.center[0]) / QQ(2) ** frame.scale[0] <= x_high
+            assert y_low <= (y - frame.center[1]) / QQ(2) ** frame.scale[1] <= y_high
+
+
+def test_boxes_are_tight():
+    """Of a line: its ends; of a turn: what the bounds of numerator and denominator allow."""
+    line = Body("a", [(0, 0)], Translation([0, 1], [0, -2])).piece_after(QQ(0)).tracks[0]
+    turn = Body("a", [(1, 0)], Rigid([0, Fraction(1, 4)])).piece_after(QQ(0)).tracks[0]
+    frame = frame_for([(QQ(0), QQ(0)), (QQ(2), QQ(2))], QQ(0), QQ(1))
+    assert frame.point((QQ(1, 2), QQ(1, 2))) == (0.5, 0.5)
+
+    boxes = SweptBoxes([frame.image(line), frame.image(turn)], frame.errors).during(0.0, 1.0)
+
+    assert [round(v, 9) for v in boxes[0].tolist()] == [0, 1, -2, 0]
+    x_low, x_high, y_low, y_high = boxes[1].tolist()
+    assert 0.8 < x_low < x_high < 1.1
+    assert -0.1 < y_low < y_high < 0.6
+
+
+def test_what_cannot_be_bounded_has_the_whole_plane():
+    """Coefficients beyond what images hold, and denominators that may vanish for all we know."""
+    huge = Body("a", [(0, 0)], Translation([0, QQ(2) ** 300])).piece_after(QQ(0)).tracks[0]
+    spin = Body("b", [(1, 0)], Rigid([0, 1])).piece_after(QQ(0)).tracks[0]
+    rest = Body("c", [(1, 1)]).piece_after(QQ(0)).tracks[0]
+    frame = frame_for([(QQ(0), QQ(0)), (QQ(1), QQ(1))], QQ(0), QQ(100))
+    images = [frame.image(track) for track in (huge, spin, rest)]
+
+    boxes = SweptBoxes(images, frame.errors).during(-50.0, 50.0).tolist()
+
+    inf = float("inf")
+    assert boxes[0] == boxes[1] == [-inf, inf, -inf, inf]
+    assert boxes[2][1] < inf
