@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -153,6 +154,8 @@ def test_ctrl_c_stops_cleanly():
         stderr=subprocess.PIPE,
         text=True,
         cwd=ROOT,
+        # A shell lets what it runs in the background ignore Ctrl-C; that is inherited.
+        preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),
     )
     process.stdout.readline()
     time.sleep(1)
