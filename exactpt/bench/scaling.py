@@ -51,7 +51,7 @@ class Sizes(NamedTuple):
 
 
 QUICK: Final = Sizes((10, 30, 100), (16, 64), 200, 1)
-FULL: Final = Sizes((10, 20, 50, 100, 200, 500, 1000), (16, 64, 256, 1024), 1000, 3)
+FULL: Final = Sizes((10, 20, 50, 100, 200, 500, 1000), (16, 64, 256, 1024, 4096), 1000, 3)
 
 
 class Measured(NamedTuple):

@@ -80,7 +80,7 @@ class Bitangent:
     __slots__ = (
         "_direction",
         "_instant",
-        "_number",
+        "_known_slope",
         "_sides",
         "a",
         "b",
@@ -106,6 +106,7 @@ class Bitangent:
         self.number = number
         self._instant = instant
         self._sides = sides
+        self._known_slope: Slope | None = None
         (ax, ay), (bx, by) = instant.positions[self.a], instant.positions[self.b]
         dx, dy = bx - ax, by - ay
         self._direction = (dx, dy)
@@ -127,6 +128,11 @@ class Bitangent:
         return now or self._instant.first_sign(slope_terms(self._slope(), other._slope()))
 
     def _slope(self) -> Slope:
+        if self._known_slope is None:
+            self._known_slope = self._new_slope()
+        return self._known_slope
+
+    def _new_slope(self) -> Slope:
         vertices = self._instant.vertices.all
         a, b = vertices[self.a], vertices[self.b]
         # Of zero width, at the time if that is asked for, else for ever.
