@@ -69,7 +69,12 @@ class Outcome:
 
 def run_case(case: Case, witnesses: Sequence[str], shrink_seconds: float = 60.0) -> Outcome:
     """Let witnesses look at a case; what they object to is shrunk for so long each."""
-    scene = scene_of(case.family, case.seed)
+    try:
+        scene = scene_of(case.family, case.seed)
+    except InputError as error:
+        return Outcome(
+            case, {}, (_failure("generator", "InputError", str(error), Scene([], (0, 1))),)
+        )
     seconds: dict[str, float] = {}
     failures = []
     for name in witnesses:

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from exactpt.errors import InputError
+from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from fuzz import corpus
 from fuzz.campaign import Campaign, Summary, cases, run
@@ -83,6 +85,22 @@ def test_a_failure_is_shrunk_and_saved(tmp_path):
     assert f"grazing {case.seed}" in path.with_suffix(".txt").read_text()
     assert len(Scene.load(path).bodies) == 2
     assert failure_of("reference", Scene.load(path)) is None
+
+
+def test_a_generator_that_breaks_is_a_failure_of_its_case(monkeypatch):
+    def broken(family, seed):
+        raise InputError(f"{family} {seed} is none")
+
+    monkeypatch.setattr("fuzz.cases.scene_of", broken)
+
+    (failure,) = run_case(Case(7, "chains", 5), ["reference"]).failures
+
+    assert (failure.witness, failure.why) == ("generator", "chains 5 is none")
+
+
+def test_chains_that_are_not_simple_are_left_out():
+    """Once, in 390 seeds, the family refused its own scene."""
+    assert len(generate("chains", 50247).bodies) == 5
 
 
 def test_what_breaks_and_what_hangs_is_a_failure(monkeypatch):

@@ -98,24 +98,28 @@ def chains(rng: Random) -> Scene:
             line.insert(1, ((line[0][0] + line[1][0]) / 2, (line[0][1] + line[1][1]) / 2))
         kind = rng.randrange(3)
         if kind == 0:
-            bodies.append(Body(f"b{i}", line, move, closed=False))
+            bodies.append(_body(f"b{i}", line, move, closed=False))
         elif kind == 1:
             turn = Rigid(poly(0, QQ(rng.randint(-3, 3), 4)), pivot=c, x=move.x, y=move.y)
-            bodies.append(Body(f"b{i}", line, turn, closed=False))
+            bodies.append(_body(f"b{i}", line, turn, closed=False))
         else:
             paths = [
                 (Polynomial([x, rng.randint(-8, 8)]), Polynomial([y, rng.randint(-8, 8)]))
                 for x, y in line
             ]
-            bodies.append(Body(f"b{i}", paths, move, closed=False))
+            bodies.append(_body(f"b{i}", paths, move, closed=False))
     return Scene([b for b in bodies if b is not None], (0, rng.choice([1, 2])))
 
 
 def _body(
-    name: str, vertices: list[Point] | list[tuple[Polynomial, Polynomial]], motion: Motion
+    name: str,
+    vertices: list[Point] | list[tuple[Polynomial, Polynomial]],
+    motion: Motion,
+    *,
+    closed: bool = True,
 ) -> Body | None:
-    """A body, or None if the random polygon is not simple at t = 0."""
-    body = Body(name, vertices, motion)
+    """A body, or None if the random polygon or chain is not simple at t = 0."""
+    body = Body(name, vertices, motion, closed=closed)
     try:
         Scene([body], (0, 1))
     except InputError:
