@@ -20,18 +20,24 @@ def seen_from(mesh: Mesh, predicates: Predicates, v: int, *, up: bool) -> int | 
     Returns:
         The half-edge on whose left the vertex is.
     """
-    h: int | None = _visit(mesh, predicates, v, up=up)
-    while h is not None:
+    h = _visit(mesh, predicates, v, up=up)
+    if h is None:
+        return None
+    crossed: int | None = None
+    while True:
+        # The vertical may meet a tile twice: only what lies beyond the edge crossed last counts.
         nearest: int | None = None
         for g in mesh.map.face(h):
-            if _faces(mesh, predicates, g, v, up=up) and (
-                nearest is None or _is_nearer(mesh, predicates, g, nearest)
+            if (
+                _faces(mesh, predicates, g, v, up=up)
+                and (crossed is None or _is_nearer(mesh, predicates, crossed, g))
+                and (nearest is None or _is_nearer(mesh, predicates, g, nearest))
             ):
                 nearest = g
         if nearest is None or mesh.is_boundary(nearest):
             return nearest
+        crossed = nearest
         h = nearest ^ 1
-    return None
 
 
 def _visit(mesh: Mesh, predicates: Predicates, v: int, *, up: bool) -> int | None:

@@ -1,0 +1,72 @@
+"""What a vertex sees straight up and down: the walk through the tiles against all edges."""
+
+from random import Random
+
+import pytest
+
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.vertices import Vertices
+from exactpt.scene.families.shapes import convex_polygon
+from exactpt.tiling.greedy.shadow import flip, shadow
+from exactpt.tiling.greedy.vertical import lower_chain
+from exactpt.tiling.greedy.vertical_view import seen_from
+from exactpt.tiling.instant import Instant
+from exactpt.tiling.lazy import LazyTiling
+
+
+def scattered(rng, count):
+    """Small convex polygons in far too large a square, so that tiles are long and bent."""
+    cells = rng.sample(range(400), count)
+    return [
+        Body(f"b{i}", convex_polygon(rng, (40 * (c % 20), 40 * (c // 20)), 15, rng.randint(3, 6)))
+        for i, c in enumerate(cells)
+    ]
+
+
+def flipped_at_random(mesh, instant, rng, count):
+    """Another tiling of the same bodies, canonical in no way."""
+    for _ in range(count):
+        h = rng.choice([h for h in mesh.diagonals() if not mesh.is_hull(h)])
+        visits = shadow(mesh, h, instant)
+        if visits is not None:
+            flip(mesh, h, visits, instant)
+
+
+def height_over(p, q, x):
+    return p[1] + (q[1] - p[1]) * (x - p[0]) / (q[0] - p[0])
+
+
+def nearest_edge(instant, v, *, up):
+    """Of all edges of other bodies that the vertical of v crosses, the nearest: its ends."""
+    x, y = instant.positions[v]
+    best = None
+    for u in instant.vertices.all:
+        if u.body == instant.vertices.all[v].body:
+            continue
+        p, q = instant.positions[u.id], instant.positions[u.ahead]
+        if (p[0] < x < q[0]) or (q[0] < x < p[0]):
+            distance = (height_over(p, q, x) - y) * (1 if up else -1)
+            if distance > 0 and (best is None or distance < best[0]):
+                best = distance, frozenset((u.id, u.ahead))
+    return best and best[1]
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_a_vertical_that_meets_a_tile_twice_ends_at_the_nearest_edge(seed):
+    """Such a walk never ended once: it chose an edge behind the one that it had crossed."""
+    rng = Random(seed)
+    vertices = Vertices.of(scattered(rng, 24), QQ(0), QQ(1))
+    instant = Instant(vertices, QQ(0))
+    mesh = LazyTiling.mesh_at(instant)
+    flipped_at_random(mesh, instant, rng, 100)
+    xs = [p[0] for p in instant.positions]
+    for moving in vertices.bodies:
+        chain = lower_chain(instant, moving.ring)
+        for v in (chain[0], chain[-1]):
+            if xs.count(xs[v]) > 1:
+                continue  # the oracle knows nothing of ties
+            for up in (False, True):
+                h = seen_from(mesh, instant, v, up=up)
+                seen = None if h is None else frozenset(mesh.ends(h))
+                assert seen == nearest_edge(instant, v, up=up)
