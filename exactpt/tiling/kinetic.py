@@ -219,10 +219,10 @@ class KineticTiling(RepairedTiling):
         before = {self._edge_key(h) for h in self.mesh.diagonals()}
         now, following = self.now, self.next_number()
         later = self.certifier.end
-        if following is not None and following.compare_rational(later) < 0:
-            later = rational_between(now, following)
         if now.compare_rational(later) >= 0:
-            return
+            later = rational_between(now, AlgebraicNumber(later + 1))  # plans run on as they are
+        elif following is not None and following.compare_rational(later) < 0:
+            later = rational_between(now, following)
         for k in range(MOST_TRIES):
             width = (later - now.low) * power_of_two(-(1 << k))
             now.refine_to(width / 2)

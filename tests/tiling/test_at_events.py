@@ -8,8 +8,10 @@ from exactpt.cgal import BodyShape
 from exactpt.collision.tilings import TILINGS
 from exactpt.geometry.polygon import signed_area2
 from exactpt.geometry.predicates import side
+from exactpt.motion.body import Body
 from exactpt.scene.families.shapes import hull
 from exactpt.scene.generate import generate
+from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 
 FAMILIES = ("small_grid", "row", "grids_passing", "mirrored", "letters", "flat", "nested", "chains")
@@ -56,6 +58,19 @@ def test_a_tiling_at_an_event_is_whole(family, tiling):
             seen += 1
             if seen == 12:
                 return
+
+
+@pytest.mark.parametrize("tiling", [t for t in TILINGS if t != "incremental"])
+def test_a_chain_that_is_straight_at_an_event(tiling):
+    """Its vertex is reflex after it, with a diagonal that has to go (corpus cgal-cac0e99123)."""
+    middle = {"x": [28], "y": [54, "-1/2"]}
+    ends = [("57/2", "103/2"), middle, ("55/2", "111/2"), (25, 61), (33, 46)]
+    scene = Scene([Body("a", ends, closed=False)], (0, 1))
+    simulation = Simulation(scene, tiling=tiling)
+    for _ in simulation.run():
+        pass
+
+    assert_whole(scene, simulation.snapshot())
 
 
 @pytest.mark.cgal

@@ -4,8 +4,14 @@ import pytest
 
 from exactpt.collision.tilings import TILINGS
 from exactpt.errors import AuditError
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
 from exactpt.scene.generate import generate
+from exactpt.scene.scene import Scene
+from exactpt.tiling.audit import audit_angles
 from exactpt.tiling.kinetic import KineticTiling
+from exactpt.tiling.moment import Moment
 from exactpt.tiling.repairs import RebuildNeeded
 from fuzz.statics import run_and_audit
 
@@ -28,6 +34,20 @@ def test_a_run_without_any_repair_finds_the_same(monkeypatch, tiling, family):
     assert rebuilt.kinetic.stats.rebuilds > 0
     assert rebuilt.contact == repaired.contact
     assert rebuilt.kinetic.now.compare(repaired.kinetic.now) == 0
+
+
+@pytest.mark.parametrize("tiling", TILINGS)
+def test_a_rebuild_at_the_end_of_the_time_span(monkeypatch, tiling):
+    """It was left out once, and the tiling stayed as it was (corpus cgal-d5efe668f5)."""
+    comb = [(0, 3), (0, 1), (1, 1), (1, 3), (5, 4), (5, 1), (0, 0), (1, 0), (9, 0), (9, 5)]
+    bodies = [Body("a", [(2, 3)]), Body("b", comb, Translation([0], [0, 1]))]
+    monkeypatch.setattr(KineticTiling, "_settle", refuse)
+
+    run = run_and_audit(Scene(bodies, (0, 2)), tiling)
+
+    assert run.kinetic.now.compare_rational(QQ(2)) == 0
+    after = Moment(run.kinetic.certifier, before=False)
+    audit_angles(run.kinetic.mesh, after)
 
 
 @pytest.mark.parametrize("tiling", TILINGS)
