@@ -32,18 +32,23 @@ if TYPE_CHECKING:
     def is_square(value: ZZ) -> bool:
         """Whether ``value`` is the square of an integer."""
 
+    def digits(value: ZZ, width: int) -> list[ZZ]:
+        """The digits of ``value >= 0`` to the base 2^width, the lowest first."""
+
 else:
     QQ = gmpy2.mpq
     ZZ = gmpy2.mpz
     gcd = gmpy2.gcd
     isqrt = gmpy2.isqrt
     is_square = gmpy2.is_square
+    digits = gmpy2.unpack
 
 __all__ = [
     "QQ",
     "ZZ",
     "Rational",
     "ceil",
+    "digits",
     "enclosing_floats",
     "floor",
     "gcd",

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, subtract
+from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, subtract, trimmed
+from exactpt.kernel.packed import unpack, width_for
 from exactpt.motion.track import Track
 
 __all__ = ["Touch", "coincide", "difference", "lies_on", "orientation"]
@@ -29,7 +30,10 @@ class Touch(NamedTuple):
 
 
 def difference(p: IntPoly, pw: IntPoly, q: IntPoly, qw: IntPoly) -> IntPoly:
-    """A positive multiple of q / qw - p / pw."""
+    """q pw - p qw: a positive multiple of q / qw - p / pw."""
+    if len(pw) == len(qw) == 1 and len(p) == len(q):
+        v, w = pw[0], qw[0]
+        return trimmed([b * v - a * w for a, b in zip(p, q, strict=True)])
     return subtract(multiply(q, pw), multiply(p, qw))
 
 
@@ -38,10 +42,13 @@ def orientation(a: Track, b: Track, c: Track) -> IntPoly:
 
     Positive where a, b, c turn left.
     """
-    bc = difference(c.y, c.w, b.y, b.w)
-    ca = difference(a.y, a.w, c.y, c.w)
-    ab = difference(b.y, b.w, a.y, a.w)
-    return add(add(multiply(a.x, bc), multiply(b.x, ca)), multiply(c.x, ab))
+    length = a.length + b.length + c.length - 2
+    width = width_for(a.bits + b.bits + c.bits, length, 3)
+    ax, ay, aw = a.packed(width)
+    bx, by, bw = b.packed(width)
+    cx, cy, cw = c.packed(width)
+    f = ax * (by * cw - cy * bw) + bx * (cy * aw - ay * cw) + cx * (ay * bw - by * aw)
+    return unpack(f, width, length)
 
 
 def coincide(a: Track, b: Track, t: AlgebraicNumber) -> bool:

@@ -7,6 +7,7 @@ from typing import final
 
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate
 from exactpt.kernel.numbers import QQ, ZZ, gcd
+from exactpt.kernel.packed import coefficient_bits, pack
 from exactpt.kernel.polynomial import Polynomial
 
 __all__ = ["Track", "track"]
@@ -21,15 +22,34 @@ class Track:
         w: their denominator, positive at every time; a constant unless the body turns.
         frame: tracks with equal frames keep their distances for ever: they translate
             together, or (w not constant) turn together. ``None`` is equal to nothing.
+        length: the most coefficients that one of x, y, w has.
     """
 
-    __slots__ = ("frame", "w", "x", "y")
+    __slots__ = ("_bits", "_packed", "_width", "frame", "length", "w", "x", "y")
 
     def __init__(self, x: IntPoly, y: IntPoly, w: IntPoly, frame: Hashable) -> None:
         self.x = x
         self.y = y
         self.w = w
         self.frame = frame
+        self.length: int = max(len(x), len(y), len(w))
+        self._bits: int = -1
+        self._width: int = 0
+        self._packed: tuple[ZZ, ZZ, ZZ] = (ZZ(0), ZZ(0), ZZ(0))
+
+    @property
+    def bits(self) -> int:
+        """The number of binary digits of the largest coefficient."""
+        if self._bits < 0:
+            self._bits = coefficient_bits(self.x, self.y, self.w)
+        return self._bits
+
+    def packed(self, width: int) -> tuple[ZZ, ZZ, ZZ]:
+        """x, y and w as integers (`exactpt.kernel.packed`); kept for the last width."""
+        if self._width != width:
+            self._width = width
+            self._packed = (pack(self.x, width), pack(self.y, width), pack(self.w, width))
+        return self._packed
 
     def at(self, t: QQ) -> tuple[QQ, QQ]:
         """The exact position at a rational time."""

@@ -35,6 +35,7 @@ from collections.abc import Iterator
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, negate, scale, subtract
 from exactpt.kernel.numbers import ZZ
+from exactpt.kernel.packed import coefficient_bits, pack, unpack, width_for
 from exactpt.motion.incidence import difference
 from exactpt.motion.incidence import orientation as base_orientation
 from exactpt.motion.track import Track
@@ -52,9 +53,14 @@ __all__ = [
 
 def cross(a: Track, b: Track, c: Track, d: Track) -> IntPoly:
     """A positive multiple of (b - a) x (d - c)."""
-    ux, uy = difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
-    vx, vy = difference(c.x, c.w, d.x, d.w), difference(c.y, c.w, d.y, d.w)
-    return subtract(multiply(ux, vy), multiply(uy, vx))
+    length = a.length + b.length + c.length + d.length - 3
+    width = width_for(a.bits + b.bits + c.bits + d.bits, length, 4)
+    ax, ay, aw = a.packed(width)
+    bx, by, bw = b.packed(width)
+    cx, cy, cw = c.packed(width)
+    dx, dy, dw = d.packed(width)
+    f = (bx * aw - ax * bw) * (dy * cw - cy * dw) - (by * aw - ay * bw) * (dx * cw - cx * dw)
+    return unpack(f, width, length)
 
 
 def copies_first(a: Vertex, b: Vertex, c: Vertex) -> tuple[Vertex, Vertex, Vertex]:
@@ -77,9 +83,13 @@ def copy_orientation(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
     dx, dy = _offset_difference(a, b)
     if p is q:
         ex, ey = _offset_difference(a, c)
-    else:
-        ex, ey = difference(p.x, p.w, q.x, q.w), difference(p.y, p.w, q.y, q.w)
-    return subtract(multiply(dx, ey), multiply(dy, ex))
+        return subtract(multiply(dx, ey), multiply(dy, ex))
+    length = max(len(dx), len(dy), 1) + p.length + q.length - 2
+    width = width_for(coefficient_bits(dx, dy) + p.bits + q.bits, length, 3)
+    px, py, pw = p.packed(width)
+    qx, qy, qw = q.packed(width)
+    f = pack(dx, width) * (qy * pw - py * qw) - pack(dy, width) * (qx * pw - px * qw)
+    return unpack(f, width, length)
 
 
 def _offset_difference(a: Vertex, b: Vertex) -> tuple[IntPoly, IntPoly]:

@@ -1,0 +1,70 @@
+"""Integer polynomials as single integers: their values at 2^width.
+
+A sum of products of polynomials is then one of integers, each a single call of GMP, and
+the coefficients of the result are its digits to the base 2^width, with signs. Determinants
+of short polynomials are built several times faster than coefficient by coefficient.
+
+Source: Kronecker substitution; J. von zur Gathen, J. Gerhard, *Modern Computer Algebra*,
+section 8.4.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+from exactpt.kernel.integer_polynomial import IntPoly
+from exactpt.kernel.numbers import ZZ, digits
+
+__all__ = ["coefficient_bits", "pack", "unpack", "width_for"]
+
+
+def coefficient_bits(*polynomials: IntPoly) -> int:
+    """The number of binary digits of the largest coefficient."""
+    return max([c.bit_length() for f in polynomials for c in f], default=0)
+
+
+def width_for(bits: int, length: int, factors: int) -> int:
+    """A width that holds each coefficient of a sum of at most 8 products.
+
+    A product of polynomials of ``bits`` digits together has, in each coefficient, at most
+    length^(factors - 1) products of coefficients: one of each factor but the last can be
+    chosen freely. So the sum is below 2^(width - 1). A power of two, so that one width
+    does for most of a scene.
+
+    Args:
+        bits: the sum of the digits of the factors.
+        length: of the result, and so at least that of each factor.
+        factors: in each product.
+    """
+    digits_needed = bits + (factors - 1) * length.bit_length() + 3 + 1
+    return 1 << (digits_needed - 1).bit_length()
+
+
+def pack(f: IntPoly, width: int) -> ZZ:
+    """f(2^width)."""
+    value = ZZ(0)
+    for c in reversed(f):
+        value = (value << width) + c
+    return value
+
+
+def unpack(value: ZZ, width: int, length: int) -> IntPoly:
+    """The polynomial with this value at 2^width.
+
+    Args:
+        value: of a polynomial with coefficients below 2^(width - 1) in absolute value.
+        width: see `width_for`.
+        length: the most coefficients that it may have.
+    """
+    half, halves = _halves(width, length)
+    f = [digit - half for digit in digits(value + halves, width)]
+    while f and not f[-1]:
+        f.pop()
+    return tuple(f)
+
+
+@cache
+def _halves(width: int, length: int) -> tuple[ZZ, ZZ]:
+    """Half the base, and the number all of whose digits are that: no digit is negative then."""
+    half = ZZ(1) << (width - 1)
+    return half, pack((half,) * length, width)
