@@ -7,7 +7,7 @@ never on how far it has been refined: so that what is printed is the same in eve
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from exactpt.kernel.integer_polynomial import sign_at
 from exactpt.kernel.numbers import QQ, ZZ, enclosing_floats, floor, nearest_float, power_of_two
@@ -15,6 +15,13 @@ from exactpt.kernel.sturm import count_roots, sturm_sequence
 
 if TYPE_CHECKING:
     from exactpt.kernel.isolated_root import IsolatedRoot
+
+LARGEST_BITS: Final = 500
+"""Of coefficients as floats: products with powers of a time seldom overflow."""
+MOST_STEPS: Final = 60
+SETTLED: Final = 2.0**-30
+"""A step of Newton's that is so short leaves an error about as large as its square."""
+CLOSE: Final = 2.0**-51
 
 __all__ = [
     "canonical_interval",
@@ -48,6 +55,8 @@ def _exact(x: float) -> QQ:
 
 def enclosing_doubles(x: IsolatedRoot) -> tuple[float, float]:
     """Doubles lo <= x <= hi: equal if x is a double, else neighbours."""
+    if len(x.polynomial) > 3:
+        _narrow_around_guess(x)
     while True:
         lo, hi = enclosing_floats(x.low)[0], enclosing_floats(x.high)[1]
         between = math.nextafter(lo, math.inf)
@@ -57,6 +66,46 @@ def enclosing_doubles(x: IsolatedRoot) -> tuple[float, float]:
             x.compare_rational(_exact(between))
         else:
             x.refine()
+
+
+def _narrow_around_guess(x: IsolatedRoot) -> None:
+    """Compare x with the ends of a short interval in which floats make it out to be.
+
+    If they are wrong, no more is known of x than on which side of that interval it is.
+    """
+    lo, hi = nearest_float(x.low), nearest_float(x.high)
+    shift = max(0, max(abs(c) for c in x.polynomial).bit_length() - LARGEST_BITS)
+    f = [float(c >> shift) for c in x.polynomial]
+    rises, t = _value(f, hi) > 0.0, (lo + hi) / 2
+    for _ in range(MOST_STEPS):
+        value, slope = _value(f, t), _slope(f, t)
+        lo, hi = (lo, t) if (value > 0.0) == rises else (t, hi)
+        step = value / slope if slope else math.inf
+        t, last = (t - step, t) if lo < t - step < hi else ((lo + hi) / 2, t)
+        if abs(t - last) <= SETTLED * abs(t):
+            break
+    slope = abs(_slope(f, t))
+    if not (slope > 0.0 and math.isfinite(slope)):
+        return
+    error = CLOSE * (abs(t) + _value([abs(c) for c in f], abs(t)) / slope)
+    if math.isfinite(error):
+        x.compare_rational(_exact(t - error))
+        x.compare_rational(_exact(t + error))
+
+
+def _value(f: list[float], t: float) -> float:
+    value = 0.0
+    for c in reversed(f):
+        value = value * t + c
+    return value
+
+
+def _slope(f: list[float], t: float) -> float:
+    value = slope = 0.0
+    for c in reversed(f):
+        slope = slope * t + value
+        value = value * t + c
+    return slope
 
 
 def canonical_interval(x: IsolatedRoot) -> tuple[QQ, QQ]:

@@ -12,7 +12,7 @@ section 14.6 (square-free part).
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 from exactpt.kernel.numbers import QQ, ZZ, gcd, sign
 
@@ -37,6 +37,8 @@ __all__ = [
 ]
 
 IntPoly: TypeAlias = "tuple[ZZ, ...]"
+
+PRIME: Final = 2**31 - 1
 
 
 def trimmed(coefficients: Iterable[ZZ]) -> IntPoly:
@@ -192,6 +194,31 @@ def greatest_common_divisor(f: IntPoly, g: IntPoly) -> IntPoly:
     return negate(f) if f and f[-1] < 0 else f
 
 
+def _is_square_free_modulo_prime(f: IntPoly) -> bool:
+    """Whether f and f' have no common factor modulo a prime: then they have none at all.
+
+    A common primitive factor h divides f over the integers (Gauss), so its leading
+    coefficient divides that of f. If the prime does not divide the latter, h keeps its
+    degree modulo the prime, and divides both there (Gathen and Gerhard, section 6.4).
+    """
+    a, b = [int(c % PRIME) for c in f], [int(c % PRIME) for c in derivative(f)]
+    if not a[-1]:
+        return False
+    while b and not b[-1]:
+        b.pop()
+    while len(b) > 1:
+        inverse, size = pow(b[-1], -1, PRIME), len(b) - 1
+        while len(a) > size:
+            factor = a.pop() * inverse % PRIME
+            shift = len(a) - size
+            for i in range(size):
+                a[shift + i] = (a[shift + i] - factor * b[i]) % PRIME
+        while a and not a[-1]:
+            a.pop()
+        a, b = b, a
+    return len(b) == 1
+
+
 def square_free(f: IntPoly) -> IntPoly:
     """The primitive polynomial with the roots of f, each once, and the leading sign of f."""
     f = primitive(f)
@@ -202,5 +229,7 @@ def square_free(f: IntPoly) -> IntPoly:
             return f
         # c2 (t + c1 / 2 c2)^2: half the derivative is c2 (t + c1 / 2 c2).
         return primitive((f[1], 2 * f[2]))
+    if _is_square_free_modulo_prime(f):
+        return f
     common = greatest_common_divisor(f, derivative(f))
     return f if len(common) == 1 else quotient(f, common)

@@ -1,5 +1,7 @@
 """The real roots of a polynomial after a time: closed form up to degree 2, else Sturm.
 
+Descartes' rule comes first: it says at once that there is none, or one, most of the time.
+
 The one question a certificate asks: what is its sign now, and when may it change?
 """
 
@@ -9,9 +11,16 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.integer_polynomial import IntPoly, greatest_common_divisor, square_free
+from exactpt.kernel.descartes import sign_variations
+from exactpt.kernel.integer_polynomial import (
+    IntPoly,
+    greatest_common_divisor,
+    primitive,
+    sign_at,
+    square_free,
+)
 from exactpt.kernel.numbers import QQ, is_square, isqrt
-from exactpt.kernel.sturm import isolating_intervals
+from exactpt.kernel.sturm import isolating_intervals, sturm_sequence
 
 __all__ = ["Root", "common_roots", "roots_after"]
 
@@ -46,11 +55,21 @@ def roots_after(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]
     if len(f) == 3:
         yield from _quadratic_roots(f, start, until)
         return
+    if sign_at(f, until) != 0:
+        most = sign_variations(f, start.low, until)
+        if most == 0:
+            return
+        if most == 1:
+            only = AlgebraicNumber.root(square_free(f), start.low, until)
+            if only.compare(start) > 0:
+                yield Root(only, crossing=True)
+            return
     # Multiplicities alternate the sign: carry it along instead of factoring.
     before = start.sign_after(f)
-    p = square_free(f)
+    sequence = sturm_sequence(primitive(f))
+    p = sequence[0]
     simple = len(p) == len(f)
-    for low, high in isolating_intervals(p, start.low - 1, until):
+    for low, high in isolating_intervals(sequence, start.low - 1, until):
         root_of_p = AlgebraicNumber.root(p, low, high)
         if root_of_p.compare(start) <= 0:
             continue

@@ -78,25 +78,24 @@ def cauchy_bound(f: IntPoly) -> QQ:
     return QQ(1 << bits)
 
 
-def isolating_intervals(f: IntPoly, lo: QQ, hi: QQ) -> Iterator[tuple[QQ, QQ]]:
-    """Each real root of f in (lo, hi], from left to right, alone in an interval (l, r].
+def isolating_intervals(sequence: list[IntPoly], lo: QQ, hi: QQ) -> Iterator[tuple[QQ, QQ]]:
+    """Each real root of sequence[0] in (lo, hi], from left to right, alone in an interval (l, r].
 
     Lazily: a caller who wants the first root pays for no other. Where the root is
     found to be r itself, the interval is (r, r).
 
     Args:
-        f: not zero; multiple roots are yielded once.
+        sequence: a Sturm sequence, as `sturm_sequence` makes it.
         lo: the open end of the range.
         hi: its closed end, ``>= lo``.
     """
-    sequence = sturm_sequence(f)
     stack = [(lo, hi, _variations(sequence, lo), _variations(sequence, hi))]
     while stack:
         left, right, below, above = stack.pop()
         if below == above:
             continue
         if below - above == 1:
-            yield (right, right) if sign_at(f, right) == 0 else (left, right)
+            yield (right, right) if sign_at(sequence[0], right) == 0 else (left, right)
             continue
         middle = (left + right) / 2
         between = _variations(sequence, middle)

@@ -23,6 +23,7 @@ from oracles import (
 from strategies import algebraics, as_int_poly, as_rational, factors, fractions, int_polys, times
 
 from exactpt.errors import InputError
+from exactpt.kernel import approximation
 from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
 from exactpt.kernel.integer_polynomial import sign_at
 from exactpt.kernel.numbers import QQ, rational
@@ -399,6 +400,34 @@ def test_bug_the_enclosing_doubles_are_not_always_neighbours(a, history):
     lo, hi = x.enclosure()
 
     assert hi <= math.nextafter(lo, math.inf)
+
+
+@pytest.mark.parametrize("guess", [0.0, 1.0, -1e300, math.inf, math.nan])
+def test_a_wrong_guess_by_floats_costs_time_alone(monkeypatch, guess):
+    cubic = as_int_poly([-7, 0, -3, 5])
+    right = AlgebraicNumber.root(cubic, QQ(0), QQ(64)).enclosure()
+
+    monkeypatch.setattr(approximation, "_value", lambda *_: guess)
+    assert AlgebraicNumber.root(cubic, QQ(0), QQ(64)).enclosure() == right
+    monkeypatch.setattr(approximation, "_slope", lambda *_: guess)
+    assert AlgebraicNumber.root(cubic, QQ(0), QQ(64)).enclosure() == right
+
+
+def test_a_guess_by_floats_spares_the_narrowing(monkeypatch):
+    def narrowed():
+        asked.clear()
+        AlgebraicNumber.root(as_int_poly([-7, 0, -3, 5]), QQ(0), QQ(64)).enclosure()
+        return len(asked)
+
+    asked = []
+    compare = AlgebraicNumber.compare_rational
+    monkeypatch.setattr(
+        AlgebraicNumber, "compare_rational", lambda x, q: asked.append(q) or compare(x, q)
+    )
+    steered = narrowed()
+    monkeypatch.setattr(approximation, "_slope", lambda *_: math.nan)
+
+    assert 2 * steered < narrowed()
 
 
 def test_the_enclosure_of_what_no_double_bounds():

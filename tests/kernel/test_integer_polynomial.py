@@ -18,6 +18,7 @@ from strategies import (
 )
 
 from exactpt.kernel.integer_polynomial import (
+    PRIME,
     add,
     derivative,
     evaluate,
@@ -34,6 +35,7 @@ from exactpt.kernel.integer_polynomial import (
     subtract,
     trimmed,
 )
+from exactpt.kernel.numbers import ZZ
 
 nonzero = int_polys.filter(bool)
 huge = st.lists(st.integers(-(2**200), 2**200), max_size=6).map(lambda f: trimmed(as_int_poly(f)))
@@ -191,3 +193,22 @@ def test_the_zero_polynomial_and_constants():
     assert positive_remainder(five, five) == zero
     assert positive_remainder(zero, five) == zero
     assert square_free(negate(five)) == as_int_poly([-1])
+
+
+def test_square_free_but_not_modulo_the_prime():
+    """t (t - prime) is t^2 modulo the prime, and prime t^3 + ... has a lower degree there."""
+    for f in ([0, -PRIME, 1, 0], [1, 0, -PRIME, 1], [5, 7, 0, PRIME], [PRIME, 0, 0, 1]):
+        p = trimmed(map(ZZ, f))
+        assert square_free(p) == p
+        doubled = multiply(multiply(p, p), p)
+        assert square_free(doubled) == p
+
+
+@given(
+    f=int_polys.filter(lambda f: len(f) > 1), scale=st.sampled_from([1, PRIME, -PRIME, PRIME + 1])
+)
+def test_the_prime_takes_nothing_for_square_free(f, scale):
+    stretched = tuple(ZZ(c) * ZZ(scale) ** i for i, c in enumerate(f))
+    square = multiply(stretched, stretched)
+
+    assert len(square_free(square)) == len(square_free(stretched))

@@ -79,7 +79,9 @@ def test_isolating_intervals_hold_one_root_each_from_left_to_right(case):
     f, lo, hi = case
     roots = in_range(real_roots(f), lo, hi)
 
-    found = list(isolating_intervals(as_int_poly(f), as_rational(lo), as_rational(hi)))
+    found = list(
+        isolating_intervals(sturm_sequence(as_int_poly(f)), as_rational(lo), as_rational(hi))
+    )
 
     assert len(found) == len(roots)
     for (l, r), root in zip(found, roots, strict=True):
@@ -101,16 +103,16 @@ def test_all_roots_lie_within_cauchys_bound(f):
 
 def test_roots_are_isolated_lazily(monkeypatch):
     """Who asks for the first of 40 roots does not pay for the others."""
-    f = as_int_poly(times(*[(-k, 1) for k in range(1, 41)]))
+    sequence = sturm_sequence(as_int_poly(times(*[(-k, 1) for k in range(1, 41)])))
     evaluations = []
     plain = sturm._variations
     monkeypatch.setattr(
         sturm, "_variations", lambda sequence, t: evaluations.append(t) or plain(sequence, t)
     )
 
-    next(isolating_intervals(f, QQ(0), QQ(64)))
+    next(isolating_intervals(sequence, QQ(0), QQ(64)))
     first = len(evaluations)
-    list(isolating_intervals(f, QQ(0), QQ(64)))
+    list(isolating_intervals(sequence, QQ(0), QQ(64)))
 
     assert first < 10
     assert len(evaluations) - first > 40

@@ -1,0 +1,63 @@
+"""Descartes' rule in an interval, against the real roots that SymPy finds."""
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import assume, example, given
+from oracles import compare_with_rational, real_roots
+from strategies import as_int_poly, as_rational, fractions, int_polys, planted_polys, times
+
+from exactpt.kernel.descartes import sign_variations
+
+
+def roots_inside(f, low, high):
+    """How many in the open interval, with multiplicity."""
+    return sum(
+        r.multiplicity
+        for r in real_roots(f)
+        if compare_with_rational(r, low) > 0 > compare_with_rational(r, high)
+    )
+
+
+def variations(f, low, high):
+    return sign_variations(as_int_poly(f), as_rational(low), as_rational(high))
+
+
+@given(f=int_polys.filter(bool), low=fractions, high=fractions)
+@example(f=(0, 0, 1), low=Fraction(0), high=Fraction(1))
+@example(f=(-1, 1), low=Fraction(0), high=Fraction(1))
+@example(f=(1, -2, 1), low=Fraction(0), high=Fraction(2))
+def test_a_bound_that_is_off_by_an_even_number(f, low, high):
+    assume(low != high)
+    low, high = min(low, high), max(low, high)
+    excess = variations(f, low, high) - roots_inside(f, low, high)
+
+    assert excess >= 0
+    assert excess % 2 == 0
+
+
+@given(f=planted_polys(), low=fractions, high=fractions)
+def test_planted_roots(f, low, high):
+    assume(low != high)
+    low, high = min(low, high), max(low, high)
+    excess = variations(f, low, high) - roots_inside(f, low, high)
+
+    assert excess >= 0
+    assert excess % 2 == 0
+
+
+def test_real_roots_alone_are_counted_exactly():
+    f = times((-1, 2), (-1, 1), (-3, 2), (5, 1), (5, 1))
+
+    assert [
+        variations(f, Fraction(a), Fraction(b)) for a, b in ((0, 1), (0, 2), (1, 2), (-6, 2))
+    ] == [1, 3, 1, 5]
+
+
+@pytest.mark.parametrize("shift", [Fraction(0), Fraction(10**30), Fraction(-7, 10**20)])
+def test_a_pair_of_complex_roots_is_outside_a_narrow_interval(shift):
+    """1 + (t - shift)^2 has none; next to the interval the bound says so."""
+    f = tuple(int(c * shift.denominator**2) for c in (1 + shift**2, -2 * shift, 1))
+
+    assert variations(f, shift - 9, shift + 9) == 2
+    assert variations(f, shift - Fraction(1, 2), shift + Fraction(1, 2)) == 0
