@@ -95,6 +95,8 @@ def _quadratic_roots(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[
     vertex = QQ(-c1, 2 * c2)
     reach = QQ(isqrt(d) + 1, 2 * abs(c2)) + 1
     for low, high in ((vertex - reach, vertex), (vertex, vertex + reach)):
+        if high <= start.low or until <= low:
+            continue
         root = AlgebraicNumber.root(f, low, high)
         if start.compare(root) < 0 and root.compare_rational(until) <= 0:
             yield Root(root, crossing=True)
