@@ -69,7 +69,7 @@ def roots_after(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]
     sequence = sturm_sequence(primitive(f))
     p = sequence[0]
     simple = len(p) == len(f)
-    for low, high in isolating_intervals(sequence, start.low - 1, until):
+    for low, high in isolating_intervals(sequence, start.low, until):
         root_of_p = AlgebraicNumber.root(p, low, high)
         if root_of_p.compare(start) <= 0:
             continue
