@@ -16,7 +16,7 @@ from exactpt.bench.methods.own import fresh
 from exactpt.bench.output import Output, Row
 from exactpt.bench.plots import series_of
 from exactpt.bench.point_scenes import FAMILIES, random_linear, swaps_beside_arc
-from exactpt.bench.timing import exponent, memory_of, timed
+from exactpt.bench.timing import exponent, memory_of, per_event, timed
 from exactpt.kernel.counters import counters
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
@@ -65,8 +65,8 @@ class Measured(NamedTuple):
 
     @property
     def per_event(self) -> float:
-        """Microseconds an event; 0 without events."""
-        return 1e6 * self.seconds / self.events if self.events else 0.0
+        """Microseconds an event."""
+        return per_event(self.seconds, self.events)
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:

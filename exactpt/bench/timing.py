@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from time import process_time
 from typing import TypeVar
 
-__all__ = ["exponent", "memory_of", "microseconds", "timed"]
+__all__ = ["exponent", "memory_of", "microseconds", "per_event", "timed"]
 
 T = TypeVar("T")
 Q = TypeVar("Q")
@@ -34,6 +34,11 @@ def microseconds(ask: Callable[[Q], T], questions: Sequence[Q]) -> tuple[float, 
     passes = [timed(lambda: [ask(q) for q in questions]) for _ in range(3)]
     middle = sorted(seconds for _, seconds in passes)[1]
     return 1e6 * middle / max(1, len(questions)), passes[-1][0]
+
+
+def per_event(seconds: float, events: int) -> float:
+    """Microseconds an event; 0 without events."""
+    return 1e6 * seconds / events if events else 0.0
 
 
 def memory_of(make: Callable[[], object]) -> float:

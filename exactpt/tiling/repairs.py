@@ -16,7 +16,6 @@ from __future__ import annotations
 from exactpt.errors import AuditError
 from exactpt.tiling.angles import CertifiedTiling
 from exactpt.tiling.audit import audit_fan
-from exactpt.tiling.events import TilingEvent
 from exactpt.tiling.exact import comes_first
 from exactpt.tiling.mesh import OUTER
 from exactpt.tiling.moment import Moment
@@ -186,9 +185,8 @@ class RepairedTiling(CertifiedTiling):
         """Note a change; one between copies of a thin vertex is none for the outside."""
         if removed and self._scene_edges(removed) == self._scene_edges(added):
             self.stats.count("internal")
-            return
-        self.stats.count(kind)
-        self._events.append(TilingEvent(self.certifier.now, kind, removed, added))
+        else:
+            super()._record(kind, removed, added)
 
     def _scene_edges(self, edges: tuple[tuple[int, int], ...]) -> set[frozenset[tuple[int, int]]]:
         v = self.vertices.all

@@ -178,6 +178,16 @@ class Tiling:
         low, high = self.vertices.frame.time(t)
         self.certifier.move_to(EventTime(low, high, -1, -1, -1, AlgebraicNumber(t)), [])
 
+    def _record(
+        self,
+        kind: str,
+        removed: tuple[tuple[int, int], ...],
+        added: tuple[tuple[int, int], ...],
+    ) -> None:
+        """Note a change."""
+        self.stats.count(kind)
+        self._events.append(TilingEvent(self.certifier.now, kind, removed, added))
+
     def _reported(self) -> list[TilingEvent]:
         events, self._events = self._events, []
         return events

@@ -4,6 +4,7 @@ from fractions import Fraction
 
 import pytest
 from hypothesis import assume, example, given
+from hypothesis import strategies as st
 from oracles import compare_with_rational, real_roots
 from strategies import as_int_poly, as_rational, fractions, int_polys, planted_polys, times
 
@@ -23,21 +24,11 @@ def variations(f, low, high):
     return sign_variations(as_int_poly(f), as_rational(low), as_rational(high))
 
 
-@given(f=int_polys.filter(bool), low=fractions, high=fractions)
+@given(f=st.one_of(int_polys.filter(bool), planted_polys()), low=fractions, high=fractions)
 @example(f=(0, 0, 1), low=Fraction(0), high=Fraction(1))
 @example(f=(-1, 1), low=Fraction(0), high=Fraction(1))
 @example(f=(1, -2, 1), low=Fraction(0), high=Fraction(2))
 def test_a_bound_that_is_off_by_an_even_number(f, low, high):
-    assume(low != high)
-    low, high = min(low, high), max(low, high)
-    excess = variations(f, low, high) - roots_inside(f, low, high)
-
-    assert excess >= 0
-    assert excess % 2 == 0
-
-
-@given(f=planted_polys(), low=fractions, high=fractions)
-def test_planted_roots(f, low, high):
     assume(low != high)
     low, high = min(low, high), max(low, high)
     excess = variations(f, low, high) - roots_inside(f, low, high)

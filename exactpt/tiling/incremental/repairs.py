@@ -20,7 +20,7 @@ from functools import cmp_to_key
 from exactpt.errors import AuditError
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.certificates import Certifier
-from exactpt.tiling.events import Stats, TilingEvent
+from exactpt.tiling.events import Stats
 from exactpt.tiling.incremental.certified import ORDER, CertifiedStructure
 from exactpt.tiling.incremental.chains import Chains
 from exactpt.tiling.incremental.columns import resweep
@@ -177,15 +177,6 @@ class RepairedStructure(Tiling):
             for p in points
             if tree.parent[p] >= 0
         }
-
-    def _record(
-        self,
-        kind: str,
-        removed: tuple[tuple[int, int], ...],
-        added: tuple[tuple[int, int], ...],
-    ) -> None:
-        self.stats.count(kind)
-        self._events.append(TilingEvent(self.certifier.now, kind, removed, added))
 
     def _rebuild(self) -> None:
         """Sweep anew, with the signs just after now; keep the certificates that stand."""
