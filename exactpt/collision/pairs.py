@@ -185,21 +185,27 @@ class PairsSearch:
         for first, second in overlapping_pairs(np.concatenate((boxes, of_edges))):
             crossed = (first < n) & (second >= n)
             v, e = first[crossed], second[crossed] - n
-            may = self._may_touch(v, e)
+            may = self._may_touch(v, e, boxes)
             vs.append(v[may])
             es.append(e[may])
         return np.concatenate(vs), np.concatenate(es)
 
-    def _may_touch(self, v: Indices, e: Indices) -> NDArray[np.bool_]:
-        """Not if they move together; on one body, not an edge that ends there."""
+    def _may_touch(self, v: Indices, e: Indices, boxes: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Not if they move together; on one body, not an edge that ends there.
+
+        The start of an edge stands for the edge itself, which may shrink to a point: not
+        if the boxes of its ends are apart.
+        """
         a, b = self._edges[e, 0], self._edges[e, 1]
         motion = self._motion[v]
         together = (motion >= 0) & (motion == self._motion[a]) & (motion == self._motion[b])
         rigid = (self._body[v] == self._body[a]) & ~self._deforms[self._body[v]]
-        # The start of an edge stands for the edge itself, which may shrink to a point.
+        p, q = boxes[a], boxes[b]
+        meet = (np.maximum(p, q)[:, ::2] <= np.minimum(p, q)[:, 1::2]).all(axis=1)
+        lasts = (v == b) | ((v == a) & ~meet)
         i, j = self._body[v], self._body[a]
         ignored = (self._group[i] == self._group[j]) & (i != j)
-        may: NDArray[np.bool_] = ~(together | rigid | ignored | (v == b))
+        may: NDArray[np.bool_] = ~(together | rigid | ignored | lasts)
         return may
 
     def _ignores(self, i: int, j: int) -> bool:

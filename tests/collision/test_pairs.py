@@ -1,0 +1,48 @@
+"""The search over pairs: what it does not look at, and what it must not leave out."""
+
+from random import Random
+
+import pytest
+
+from exactpt.collision.allpairs import first_contact_allpairs
+from exactpt.collision.pairs import PairsSearch
+from exactpt.kernel.numbers import rational
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.scene.scene import Scene
+
+
+def jellies(rng, count, size):
+    """Deforming polygons in a row, far apart, each on its way."""
+    bodies = []
+    for i in range(count):
+        corners = [(30, 0), (21, 21), (0, 30), (-21, 21), (-30, 0), (-21, -21), (0, -30), (21, -21)]
+        ring = [
+            {"x": [100 * i + x, rng.randint(-1, 1)], "y": [y, rng.randint(-1, 1)]}
+            for x, y in corners[:: 8 // size]
+        ]
+        bodies.append(Body(f"j{i}", ring, Translation([0], [0, rng.randint(-3, 3)])))
+    return Scene(bodies, (0, 4))
+
+
+@pytest.mark.parametrize("size", [4, 8])
+def test_edges_of_a_deforming_body_that_cannot_vanish_cost_nothing(size):
+    search = PairsSearch(jellies(Random("jellies"), 40, size))
+
+    assert search.run_to_contact() is None
+    assert search.certificates == 0
+
+
+@pytest.mark.parametrize("closed", [True, False])
+@pytest.mark.parametrize("speed", ["1/4", "1/2", "1"])
+def test_an_edge_that_shrinks_to_a_point_is_a_contact(speed, closed):
+    moving = {"x": [4, f"-{speed}"], "y": [0]}
+    scene = Scene([Body("a", [(0, 0), moving, (4, 9), (0, 9)], closed=closed)], (0, 30))
+    search = PairsSearch(scene)
+
+    contact = search.run_to_contact()
+
+    expected = first_contact_allpairs(scene)
+    assert contact is not None
+    assert contact.to_json() == expected.to_json()
+    assert contact.time == 4 / rational(speed)
