@@ -40,7 +40,7 @@ FLAGS = (
 def browser():
     chromium, chromedriver = shutil.which("chromium"), shutil.which("chromedriver")
     if chromium is None or chromedriver is None:
-        pytest.skip("Chromium is not installed (Debian: chromium, chromium-driver)")
+        pytest.fail("Chromium is not installed; `make test-browser` does that")
     options = webdriver.ChromeOptions()
     options.binary_location = chromium
     for flag in FLAGS:
