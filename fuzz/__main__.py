@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 
 import click
@@ -138,7 +139,11 @@ COMMANDS = {"battery": run_battery, "planted": find_planted}
 
 
 def main() -> None:
-    """Run one of the commands; without the name of one, a campaign."""
+    """Run one of the commands; without the name of one, a campaign.
+
+    Being killed is like Ctrl-C: workers must not outlive the one who gives them work.
+    """
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     name, *rest = [*sys.argv[1:], ""]
     if name in COMMANDS:
         COMMANDS[name](rest[:-1], prog_name=f"python -m fuzz {name}")

@@ -164,11 +164,25 @@ def test_planted_from_the_command_line():
 
 
 @pytest.mark.filterwarnings("default")
-def test_ctrl_c_stops_cleanly():
+@pytest.mark.parametrize("jobs", ["1", "2"])
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_and_kill_stop_cleanly(how, jobs):
+    """Killed, a campaign once left its worker processes behind."""
     # What a shell runs in the background ignores Ctrl-C, and so do its children.
     here = signal.signal(signal.SIGINT, signal.default_int_handler)
     process = subprocess.Popen(
-        [sys.executable, "-m", "fuzz", "convex", "--seconds", "60", "--witness", "reference"],
+        [
+            sys.executable,
+            "-m",
+            "fuzz",
+            "convex",
+            "--seconds",
+            "60",
+            "--witness",
+            "reference",
+            "--jobs",
+            jobs,
+        ],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -176,8 +190,8 @@ def test_ctrl_c_stops_cleanly():
     )
     signal.signal(signal.SIGINT, here)
     process.stdout.readline()
-    time.sleep(1)
-    process.send_signal(signal.SIGINT)
+    time.sleep(3)
+    process.send_signal(how)
     _, err = process.communicate(timeout=20)
 
     assert process.returncode == 130
