@@ -283,9 +283,9 @@ def _tighten(
         error = _bound(g0, g1, g2, g3, g4, g5, g6, size + radius)
         d = min(radius, factor * error / slope + 2.0 * U * size) if slope > 0.0 else radius
         left, right = x - d, x + d
-        if low < left and INFINITY > s * _value(c0, c1, c2, c3, c4, c5, c6, left) > error:
+        if low < left < high and INFINITY > s * _value(c0, c1, c2, c3, c4, c5, c6, left) > error:
             low = left
-        if right < high and INFINITY > -s * _value(c0, c1, c2, c3, c4, c5, c6, right) > error:
+        if low < right < high and INFINITY > -s * _value(c0, c1, c2, c3, c4, c5, c6, right) > error:
             high = right
         if low >= left and high <= right:
             break

@@ -199,3 +199,36 @@ def test_now_near_zero_is_told_although_the_horizon_is_far():
     case = case_of([2.0**-40, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0], 0, 1000.0)
 
     assert answer(case) == (1, math.inf, math.inf)
+
+
+def test_bug_newton_left_the_window_for_another_root():
+    """A coefficient known to 1.35 only, and a polynomial that is said to vanish now.
+
+    Newton's method found no root in the window of 4e-6, and its last step led to another
+    root, where the signs were right as well.
+    """
+    c = [
+        0.0,
+        0.3354526640686834,
+        -0.04571264894983673,
+        -0.012858158836144072,
+        -0.00019418129663412322,
+    ]
+    e = [
+        1.346292616361,
+        4.0657581468206416e-17,
+        6.5865281978494394e-18,
+        3.1170812458958252e-19,
+        5.421010862427522e-20,
+    ]
+
+    s, low, high = sextics.sextic(
+        *padded(c),
+        *padded(e),
+        -4.671144025639079,
+        -4.671144025639043,
+        -4.671139570888958,
+        at_root=True,
+    )
+
+    assert s == 0 or low == math.inf or low <= high <= -4.671139570888958
