@@ -17,6 +17,7 @@ ROOMS = [
     "exactpt/kernel/counters.py",
     "exactpt/kernel/filters.py",
     "exactpt/kernel/rounding.py",
+    "exactpt/kernel/sextics.py",
     "exactpt/kernel/windows.py",
     "exactpt/kinetic/queue.py",
     "exactpt/motion/image.py",

@@ -2,7 +2,8 @@
 
 Each program is asked for the first root in (0, 2] of the same random polynomials (those
 that have one), then for the order of neighbouring pairs of these roots. A second table
-sets the filters of degree 1 and 2 beside their batch.
+sets the filters of degree 1 and 2 beside their batch, a third the certificates of three
+moving points beside exact ones.
 """
 
 from __future__ import annotations
@@ -21,27 +22,45 @@ from exactpt.bench.timing import microseconds
 from exactpt.errors import AuditError
 from exactpt.kernel import batch, filters
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.counters import counters
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.motion.vertices import Vertices
+from exactpt.tiling.certificates import Certifier
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 
 NEAR: Final = 1e-9
 """A value within this of the root, relatively, is right."""
 
+POINTS: Final = 200
+SPAN: Final = 100
+"""The moving points of certificates, and their time."""
+
 
 class Sizes(NamedTuple):
-    """How much is asked: polynomials of each degree and coefficient size, sizes of batches."""
+    """How much is asked.
+
+    Attributes:
+        polynomials: of each degree and coefficient size.
+        degrees: of polynomials.
+        bits: of their coefficients.
+        batches: how many polynomials at once.
+        certificates: of points in motion of each degree.
+    """
 
     polynomials: int
     degrees: Sequence[int]
     bits: Sequence[int]
     batches: Sequence[int]
+    certificates: int
 
 
-QUICK: Final = Sizes(5, (1, 2, 4, 12), (32, 256), (10, 100, 1000))
-FULL: Final = Sizes(40, (1, 2, 4, 6, 12), (32, 64, 256, 2048), (10, 30, 100, 1000, 10_000))
+QUICK: Final = Sizes(5, (1, 2, 4, 12), (32, 256), (10, 100, 1000), 50)
+FULL: Final = Sizes(40, (1, 2, 4, 6, 12), (32, 64, 256, 2048), (10, 30, 100, 1000, 10_000), 5000)
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
@@ -60,6 +79,8 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     output.table("kernel", rows)
     batches = [_batch_row(rng, d, n) for d in (1, 2) for n in sizes.batches]
     output.table("kernel-batches", batches)
+    certificates = [_certificate_row(rng, d, sizes.certificates) for d in (1, 2, 3)]
+    output.table("kernel-certificates", certificates)
     for bits in (sizes.bits[0], sizes.bits[-1]):
         of_size = [row for row in rows if row["bits"] == bits]
         series = series_of(of_size, "program", "degree", "us first root")
@@ -152,3 +173,33 @@ def _batch_row(rng: Random, degree: int, count: int) -> Row:
     if [s for s, _, _ in answers] != results[0].signs.tolist():
         raise AuditError("the batch and the scalar filter disagree")
     return {"degree": degree, "batch": count, "us scalar": one, "us batch": together / count}
+
+
+def _certificate_row(rng: Random, degree: int, count: int) -> Row:
+    """Microseconds a certificate of three points in motion of a degree, filtered and exact."""
+    bodies = [_random_point(rng, i, degree) for i in range(POINTS)]
+    triples = [rng.sample(range(POINTS), 3) for _ in range(count)]
+    vertices = Vertices.of(bodies, QQ(0), QQ(SPAN), plain_points=True)
+    filtered = Certifier(vertices, QQ(0), QQ(SPAN), exact_only=False)
+    exact = Certifier(vertices, QQ(0), QQ(SPAN), exact_only=True)
+    before = counters.filtered
+    answers = [filtered.orientation(*triple) for triple in triples]
+    decided = counters.filtered - before
+    cost, _ = microseconds(lambda triple: filtered.orientation(*triple), triples)
+    exact_cost, truth = microseconds(lambda triple: exact.orientation(*triple), triples)
+    if [(s, t is None) for s, t in answers] != [(s, t is None) for s, t in truth]:
+        raise AuditError("the filter and exact arithmetic disagree on a certificate")
+    return {
+        "degree of motion": degree,
+        "certificates": count,
+        "us filtered": cost,
+        "us exact": exact_cost,
+        "decided by the filter": decided / count,
+    }
+
+
+def _random_point(rng: Random, i: int, degree: int) -> Body:
+    """A point whose terms of all degrees are of one size at the end of the span."""
+    sizes = (10**4, 200, 3)[:degree]
+    x, y = ([0, *(rng.randint(-size, size) for size in sizes)] for _ in range(2))
+    return Body(f"p{i}", [(rng.randint(0, 10**6), rng.randint(0, 10**6))], Translation(x, y))

@@ -21,6 +21,7 @@ coefficients are blossoms).
 from __future__ import annotations
 
 from exactpt.kernel.rounding import INFINITY, SLACK, TINY, UNSURE, Answer, U
+from exactpt.kernel.sextics import sextic
 
 __all__ = ["polynomial"]
 
@@ -36,13 +37,37 @@ def polynomial(
     """The answer for sum(c[i] t^i) of degree 1 or more.
 
     The window starts now, as wide as the horizon allows; it is doubled after a success
-    and cut to a quarter after a failure.
+    and cut to a quarter after a failure. Up to degree 6 see `exactpt.kernel.sextics`.
 
     ``at_root``: the polynomial is known to vanish now. If its derivative has one sign
     on [now_low, b], it has no other root there and the sign of the derivative after
     now; the search goes on at b.
     """
     n = len(c) - 1
+    if n <= 6:
+        zeros = [0.0] * (6 - n)
+        c0, c1, c2, c3, c4, c5, c6 = c + zeros
+        e0, e1, e2, e3, e4, e5, e6 = e + zeros
+        return sextic(
+            c0,
+            c1,
+            c2,
+            c3,
+            c4,
+            c5,
+            c6,
+            e0,
+            e1,
+            e2,
+            e3,
+            e4,
+            e5,
+            e6,
+            now_low,
+            now_high,
+            horizon,
+            at_root,
+        )
     length = horizon - now_low
     shortest = max(1e-13 * length, 2.0 ** (-900.0 / n))
     if not (length > shortest and abs(now_low) + length < 2.0 ** (400.0 / n) and n <= 64):

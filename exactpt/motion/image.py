@@ -15,7 +15,8 @@ class Image:
     is outside, ``x0`` and all others are NaN, which no filter accepts.
 
     Attributes:
-        x0, x1, y0, y1: the constant and linear coefficients of a track that translates.
+        x0, ..., x3, y0, ..., y3: the coefficients of a track that translates, up to t^3;
+            0 above its degree.
         xs, ys: all its coefficients, of one length; ``degree`` + 1 each.
         ws: the denominator's coefficients if the track turns, else empty (a constant
             denominator is divided out).
@@ -24,7 +25,21 @@ class Image:
             their distances (turning) for ever; -1 is equal to nothing.
     """
 
-    __slots__ = ("degree", "motion", "ws", "x0", "x1", "xs", "y0", "y1", "ys")
+    __slots__ = (
+        "degree",
+        "motion",
+        "ws",
+        "x0",
+        "x1",
+        "x2",
+        "x3",
+        "xs",
+        "y0",
+        "y1",
+        "y2",
+        "y3",
+        "ys",
+    )
 
     def __init__(self, xs: list[float], ys: list[float], ws: list[float], motion: int) -> None:
         self.xs = xs
@@ -35,4 +50,8 @@ class Image:
         self.y0: float = ys[0]
         self.x1: float = xs[1] if len(xs) > 1 else 0.0
         self.y1: float = ys[1] if len(ys) > 1 else 0.0
+        self.x2: float = xs[2] if len(xs) > 2 else 0.0
+        self.y2: float = ys[2] if len(ys) > 2 else 0.0
+        self.x3: float = xs[3] if len(xs) > 3 else 0.0
+        self.y3: float = ys[3] if len(ys) > 3 else 0.0
         self.motion: int = motion

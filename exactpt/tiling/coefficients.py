@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from exactpt.kernel import filters
 from exactpt.kernel.batch import Answers, quadratics
 from exactpt.motion.image import Image
+from exactpt.tiling import cubics
 
 __all__ = ["linear_orientations", "orientation", "x_difference"]
 
@@ -52,10 +53,14 @@ def orientation(
             a, b, c = c, a, b
         elif a.degree <= 1 and b.degree <= 1 and c.degree <= 1:
             return _three(a, b, c, errors, now_low, now_high, horizon, at_root)
+        elif a.degree <= 3 and b.degree <= 3 and c.degree <= 3:
+            return cubics.three(a, b, c, errors, now_low, now_high, horizon, at_root)
         else:
             return _any_degree(a, b, c, errors, now_low, now_high, horizon, at_root)
     if a.degree <= 1 and c.degree <= 1:
         return _pair(a, b, c, errors, now_low, now_high, horizon, at_root)
+    if a.degree <= 3 and c.degree <= 3:
+        return cubics.pair(a, b, c, errors, now_low, now_high, horizon, at_root)
     return _any_degree(a, b, c, errors, now_low, now_high, horizon, at_root)
 
 
@@ -277,6 +282,8 @@ def x_difference(
             e1 = K * abs(c1) + 2.0 * errors[1]
         e0 += K * abs(c0)
         return filters.linear(c0, c1, e0, e1, now_low, now_high, horizon, at_root)
+    if a.degree <= 3 and b.degree <= 3 and not (a.motion == b.motion and a.motion >= 0):
+        return cubics.x_difference(a, b, errors, now_low, now_high, horizon, at_root)
     values = _differences(a.xs, b.xs, a, b)
     bounds = [K * abs(v) + 2.0 * errors[i] for i, v in enumerate(values)]
     return _answer(values, bounds, now_low, now_high, horizon, at_root)

@@ -184,16 +184,19 @@ def test_skipping(results):
 
 
 def test_kernel(results, undrawn):
-    kernel.run(results.output, kernel.Sizes(3, (1, 2, 4), (32,), (5,)), 0)
+    kernel.run(results.output, kernel.Sizes(3, (1, 2, 4), (32,), (5,), 20), 0)
     rows = results.rows("kernel")
     assert {row["program"] for row in rows} >= {"exactpt, exact", "exactpt, filter", "SymPy"}
     exact = [row for row in rows if row["program"] == "exactpt, exact"]
     assert {(row["answered"], row["to 1e-9"]) for row in exact} == {("1.0", "1.0")}
     assert len(results.rows("kernel-batches")) == 2
+    certificates = results.rows("kernel-certificates")
+    assert [row["degree of motion"] for row in certificates] == ["1", "2", "3"]
+    assert {float(row["decided by the filter"]) for row in certificates} == {1.0}
 
 
 def test_kernel_without_peers(results, alone):
-    kernel.run(results.output, kernel.Sizes(2, (2,), (32,), (5,)), 0)
+    kernel.run(results.output, kernel.Sizes(2, (2,), (32,), (5,), 1), 0)
     programs = [row["program"] for row in results.rows("kernel")]
     assert programs == ["exactpt, exact", "exactpt, filter"]
     assert plots(results) == []

@@ -19,7 +19,18 @@ from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of
 from exactpt.kernel.roots import roots_after
 from exactpt.kernel.sturm import cauchy_bound
 
-__all__ = ["Case", "answer", "certificate", "extreme", "generic", "hostile", "judge", "variants"]
+__all__ = [
+    "Case",
+    "answer",
+    "asked",
+    "certificate",
+    "extreme",
+    "generic",
+    "hostile",
+    "judge",
+    "times",
+    "variants",
+]
 
 SMALLEST, LARGEST = 2.0**-460, 2.0**460
 ULP = 2.0**-52
@@ -87,6 +98,11 @@ def hostile(rng: random.Random, degree: int) -> Case:
     true, roots = make(rng, degree)
     true, roots = _rescaled(rng, true, roots)
     c, e = _image(rng, true)
+    return asked(rng, true, roots, c, e)
+
+
+def asked(rng: random.Random, true, roots, c, e) -> Case:
+    """The question about a polynomial: now and a horizon, next to its roots or anywhere."""
     now = _now(rng, true, roots)
     number = AlgebraicNumber(now) if not isinstance(now, AlgebraicNumber) else now
     now_low, now_high = number.enclosure()
@@ -148,12 +164,12 @@ def _with_roots(rng, degree):
         kind = rng.random()
         if kind < 0.25 and len(f) < degree:
             r, s = centre + rng.randint(-1, 1) * width, width * rng.randint(0, 2)
-            f = _times(f, [r * r + s * s, -2 * r, QQ(1)])
+            f = times(f, [r * r + s * s, -2 * r, QQ(1)])
             roots.append(r)
         else:
             far = rng.random() < 0.4
             r = _dyadic(rng, 6) if far else centre + rng.randint(-3, 3) * width
-            f = _times(f, [-r, QQ(1)])
+            f = times(f, [-r, QQ(1)])
             roots.append(r)
     return f, roots
 
@@ -178,7 +194,7 @@ def _nearly_double(rng, degree):
         return [c1, c2], [-c1 / c2]
     while len(f) <= degree:
         r = _dyadic(rng, 6)
-        f = _times(f, [-r, QQ(1)])
+        f = times(f, [-r, QQ(1)])
         roots.append(r)
     return f, roots
 
@@ -216,10 +232,10 @@ def certificate(rng: random.Random, d: int, *, grid: int, collinear: bool = Fals
         c[0][0] += rng.choice([QQ(0), power_of_two(-40), power_of_two(-52)])
     u = [[q - p for p, q in zip(a[i], b[i], strict=True)] for i in (0, 1)]
     v = [[q - p for p, q in zip(a[i], c[i], strict=True)] for i in (0, 1)]
-    return [p - q for p, q in zip(_times(u[0], v[1]), _times(u[1], v[0]), strict=True)]
+    return [p - q for p, q in zip(times(u[0], v[1]), times(u[1], v[0]), strict=True)]
 
 
-def _times(f, g):
+def times(f, g):
     product = [QQ(0)] * (len(f) + len(g) - 1)
     for i, a in enumerate(f):
         for j, b in enumerate(g):
