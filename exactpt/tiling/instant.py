@@ -31,10 +31,10 @@ TINY: Final = 1e-290
 
 
 def sorted_by_x(predicates: Predicates, ids: Iterable[int]) -> list[int]:
-    """Vertices from left to right."""
+    """Different vertices from left to right."""
 
     def order(a: int, b: int) -> int:
-        return 0 if a == b else -1 if predicates.left_of(a, b) else 1
+        return -1 if predicates.left_of(a, b) else 1
 
     return sorted(ids, key=cmp_to_key(order))
 

@@ -91,3 +91,12 @@ def test_the_width_holds_eight_products_that_add_up(factors):
                 product = multiply(product, top)
             width = width_for(factors * bits, len(product), factors)
             assert 8 * max(product) < 2 ** (width - 1)
+
+
+@pytest.mark.parametrize("factors", [3, 4])
+@pytest.mark.parametrize("length", [1, 7, 15])
+def test_the_width_is_proven_for_every_number_of_bits(factors, length):
+    """So also where rounding it up to a power of two gives nothing away."""
+    for bits in range(140):
+        width = width_for(bits, length, factors)
+        assert 8 * length ** (factors - 1) * (2**bits - 1) < 2 ** (width - 1)

@@ -2,6 +2,7 @@
 
 from itertools import permutations, product
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from moving import (
@@ -21,6 +22,9 @@ from moving import (
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.kinetic.queue import EventTime
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.motion.vertices import Vertices
 from exactpt.tiling.certificates import BATCH, Certifier
 from exactpt.tiling.exact import orientation
 from exactpt.tiling.instant import Instant
@@ -170,3 +174,15 @@ def test_many_certificates_at_once(moving, t):
                 assert turn(abc, number.low) == 0
             else:
                 assert turn(abc, number.low) * turn(abc, number.high) <= 0
+
+
+@pytest.mark.parametrize("before", [False, True])
+@pytest.mark.parametrize("exact_only", [False, True])
+def test_left_and_right_are_told_apart_now(before, exact_only):
+    places = [(0, 5), (0, 0), (1, 7)]  # of equal x, the upper one is on the left
+    bodies = [Body(str(i), [p], Translation([], [0, i])) for i, p in enumerate(places)]
+    moving = Vertices.of(bodies, START, END, plain_points=True)
+    moment = Moment(certifier_at(moving, START, exact_only=exact_only), before=before)
+
+    for a, b in permutations(range(3), 2):
+        assert moment.left_of(a, b) == (a < b)

@@ -1,5 +1,7 @@
 """Positions now in doubles: every certain sign is the exact one."""
 
+from itertools import permutations
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -144,3 +146,24 @@ def test_a_sign_holds_in_the_whole_enclosure_of_now(turns):
 
         assert bool(certifier.positions.sign(*vertices.all)) == known
         assert bool(certifier.positions.order(*vertices.all[1:], 1)) == known
+
+
+@pytest.mark.parametrize("corner", range(4))
+def test_one_position_with_a_large_error_leaves_all_open(corner):
+    """It is on the x axis, as the others are, at t = sqrt(2); its error is above 1."""
+    far = 10**17
+    moving = Translation([0], [0, -2 * far, 0, far])
+    bodies = [
+        Body(str(i), [(x, 0)], moving if i == corner else Translation())
+        for i, x in enumerate((0, 10**6, 3, 10**6 + 5))
+    ]
+    vertices = Vertices.of(bodies, QQ(0), QQ(4), plain_points=True)
+    certifier = Certifier(vertices, QQ(0), QQ(4), exact_only=False)
+    time = AlgebraicNumber.root((ZZ(-2), ZZ(0), ZZ(1)), QQ(1), QQ(2))
+    low, high = vertices.frame.enclosure(time)
+    certifier.move_to(EventTime(low, high, -1, -1, -1, time), [])
+
+    for abcd in permutations(vertices.all):
+        assert certifier.positions.sign(*abcd[:3]) == 0
+        assert certifier.positions.turn(*abcd) == 0
+        assert certifier.positions.order(*abcd[:2], 1) == 0

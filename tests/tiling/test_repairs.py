@@ -1,0 +1,96 @@
+"""Repairs: their order at one time, and that they are enough."""
+
+from collections import Counter
+
+import pytest
+
+from exactpt.scene.generate import generate
+from exactpt.simulation.simulation import Simulation
+from exactpt.tiling.exact import comes_first
+from exactpt.tiling.repairs import RepairedTiling
+
+pytestmark = pytest.mark.plain
+
+
+def new_sign(tiling, h):
+    return -1 if tiling.mesh.corner[h] else 1
+
+
+def scene_triple(tiling, h):
+    return {(v.body, v.index) for v in tiling._vertices_of(h)}
+
+
+@pytest.mark.parametrize(
+    "family, seed, tiling",
+    [
+        ("chains", 2, "greedy"),
+        ("pieces", 0, "greedy"),
+        # Here the sign that a bend gets decides.
+        ("chains", 1, "lazy"),
+    ],
+)
+def test_the_copies_of_one_triple_are_mended_in_perturbed_order(monkeypatch, family, seed, tiling):
+    """First the triple of the least slot; of its copies none that changes after another."""
+    choose, moved = RepairedTiling._first_due, []
+
+    def checked(repaired):
+        due = sorted(repaired._due)
+        chosen = choose(repaired)
+        triple = scene_triple(repaired, due[0])
+        assert scene_triple(repaired, chosen) == triple
+        this = repaired._vertices_of(chosen), new_sign(repaired, chosen)
+        for h in due:
+            if scene_triple(repaired, h) == triple:
+                other = repaired._vertices_of(h), new_sign(repaired, h)
+                assert not comes_first(*other, *this, repaired.now)
+        moved.append(chosen != due[0])
+        return chosen
+
+    monkeypatch.setattr(RepairedTiling, "_first_due", checked)
+    for _ in Simulation(generate(family, seed), tiling=tiling).run():
+        pass
+
+    assert any(moved)
+
+
+@pytest.mark.parametrize("tiling", ["greedy", "mixed", "lazy"])
+def test_what_happens_one_by_one_is_repaired_and_not_built_anew(tiling):
+    done = Counter()
+    for family in ("convex", "ballistic", "turning", "deforming", "blobs", "stars"):
+        simulation = Simulation(generate(family, 1), tiling=tiling)
+        done.update(event.kind for event in simulation.run())
+        assert simulation.stats["rebuilds"] == 0
+
+    assert done["corner"] > 5
+    assert done["reflex"] > 5
+    assert done["hull"] > 5
+
+
+@pytest.mark.parametrize("tiling", ["greedy", "lazy"])
+@pytest.mark.parametrize("family, seed", [("concentric", 0), ("grids_passing", 3), ("mirrored", 2)])
+def test_what_several_repairs_at_one_time_leave_is_checked(monkeypatch, family, seed, tiling):
+    repairs, checks = [], []
+    settle, repair = RepairedTiling._settle, RepairedTiling._repair
+    check = RepairedTiling._check_batch
+
+    def settled(repaired):
+        repairs.append(0)
+        checks.append(0)
+        settle(repaired)
+
+    def counted(repaired, h):
+        repairs[-1] += 1
+        repair(repaired, h)
+
+    def checked(repaired, touched):
+        checks[-1] += 1
+        check(repaired, touched)
+
+    monkeypatch.setattr(RepairedTiling, "_settle", settled)
+    monkeypatch.setattr(RepairedTiling, "_repair", counted)
+    monkeypatch.setattr(RepairedTiling, "_check_batch", checked)
+    for _ in Simulation(generate(family, seed), tiling=tiling).run():
+        pass
+
+    assert 2 in repairs
+    assert all(check or count < 2 for count, check in zip(repairs, checks, strict=True))

@@ -1,0 +1,70 @@
+"""Flips: from any tiling back to the greedy one, and what a walk does on a broken mesh."""
+
+from random import Random
+
+import pytest
+from flipped import flipped_at_random, scattered
+
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.vertices import Vertices
+from exactpt.scene.generate import generate
+from exactpt.tiling.greedy.greedy import GreedyTiling
+from exactpt.tiling.greedy.shadow import flip_until_greedy, shadow
+from exactpt.tiling.instant import Instant
+
+FAMILIES = ("mixed_shapes", "small_grid", "row", "mirrored", "concentric", "polygons_in_step")
+
+
+def instants(count):
+    """Of scattered polygons, and of the families at their start, points and segments included."""
+    for seed in range(count):
+        yield Instant(Vertices.of(scattered(Random(seed), 12), QQ(0), QQ(1)), QQ(0))
+        for family in FAMILIES:
+            scene = generate(family, seed)
+            yield Instant(Vertices.of(scene.bodies, scene.start, scene.end), scene.start)
+
+
+def diagonals(mesh):
+    return {frozenset(mesh.ends(h)) for h in mesh.diagonals()}
+
+
+def test_flips_lead_from_any_tiling_back_to_the_greedy_one():
+    """Paper, Lemma 4.2: each diagonal before its shadow is enough."""
+    flips = 0
+    for seed, instant in enumerate(instants(3)):
+        mesh = GreedyTiling.mesh_at(instant)
+        if all(mesh.is_hull(h) for h in mesh.diagonals()):
+            continue
+        greedy = diagonals(mesh)
+        flipped_at_random(mesh, instant, Random(seed), 30)
+        shadows = {}
+
+        flips += len(flip_until_greedy(mesh, instant, mesh.diagonals(), shadows))
+
+        assert diagonals(mesh) == greedy
+        assert shadows == {
+            h: shadow(mesh, h, instant)
+            for h in mesh.diagonals()
+            if not mesh.is_fixed(h) and not mesh.is_hull(h)
+        }
+    assert flips > 100
+
+
+class Nonsense:
+    """Predicates that answer anything, but always the same."""
+
+    def __init__(self, seed):
+        self.seed = seed
+
+    def sign(self, a, b, c):
+        return Random(f"{self.seed}:{a}:{b}:{c}").choice((-1, 1))
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_the_walk_to_a_shadow_ends_whatever_the_signs(seed):
+    """Where a mesh is no pseudo-triangulation just after now, its ends may go to and fro."""
+    instant = Instant(Vertices.of(scattered(Random(seed), 6), QQ(0), QQ(1)), QQ(0))
+    mesh = GreedyTiling.mesh_at(instant)
+    for h in mesh.diagonals():
+        if not mesh.is_hull(h):
+            shadow(mesh, h, Nonsense(seed))
