@@ -198,11 +198,12 @@ class Vertices:
         )
 
     def _ever_deforms(self, i: int, start: QQ) -> bool:
-        """Whether a body deforms in any of its pieces from a time on."""
+        """Whether a body deforms in any of its pieces from a time in the present one on."""
         body = self.bodies[i].body
-        return any(
-            _deforms([self.frame.image(track) for track in body.piece_after(t).tracks])
-            for t in (start, *(b for b in body.breakpoints if b > start))
+        return self.bodies[i].deforms or any(
+            _deforms(self.frame.images(body.piece_after(t).tracks))
+            for t in body.breakpoints
+            if t > start
         )
 
     def enter_piece(self, i: int, t: QQ) -> None:
@@ -211,7 +212,7 @@ class Vertices:
         piece = moving.body.piece_after(t)
         moving.since = t
         self._set_until(moving, piece.until)
-        images = [self.frame.image(track) for track in piece.tracks]
+        images = self.frame.images(piece.tracks)
         moving.deforms = _deforms(images)
         for vertex_id in moving.ring:
             vertex = self.all[vertex_id]
