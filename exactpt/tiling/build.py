@@ -84,12 +84,20 @@ def fan_order(
 
 def _mark_angles(instant: Instant, mesh: Mesh) -> None:
     m = mesh.map
+    angles: list[int] = []
+    triples: list[tuple[int, int, int]] = []
     for h in m.half_edges():
         if mesh.region[h] != SOLID:
-            a, p, b = m.origin[m.previous[h]], m.origin[h], m.target(h)
-            mesh.corner[h] = a == b or instant.sign(a, p, b) > 0
+            a, b = m.origin[m.previous[h]], m.target(h)
+            if a == b:
+                mesh.corner[h] = True
+            else:
+                angles.append(h)
+                triples.append((a, m.origin[h], b))
+    for h, s in zip(angles, instant.signs(triples), strict=True):
+        mesh.corner[h] = s > 0
     for face in [*mesh.faces(FREE), *mesh.faces(INSIDE)]:
-        corners = sum(mesh.corner[h] for h in face)
+        corners = sum([mesh.corner[h] for h in face])
         if corners == 0:
             for h in face:
                 mesh.region[h] = OUTER

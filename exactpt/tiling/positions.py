@@ -2,15 +2,50 @@
 
 from __future__ import annotations
 
-from typing import Final, final
+from typing import Final, TypeAlias, final
+
+import numpy as np
+from numpy.typing import NDArray
 
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
-from exactpt.motion.vertices import Vertex
+from exactpt.motion.vertices import Vertex, Vertices
 
-__all__ = ["Positions"]
+__all__ = ["K", "Positions", "positions_at"]
+
+Floats: TypeAlias = NDArray[np.float64]
 
 K: Final = 8.0 * U
 """Bounds the rounding of a 2 x 2 determinant of differences; see `exactpt.tiling.coefficients`."""
+
+
+@np.errstate(all="ignore")
+def positions_at(vertices: Vertices, low: float, high: float) -> tuple[Floats, Floats, float]:
+    """x and y of all vertices, anywhere in an enclosure of a time, and a bound on their errors.
+
+    One bound for all; where nothing is known of a vertex, its coordinates are NaN. Paths of
+    degree 1 at once, by the formula of `Positions` (at the time 0 itself nothing is rounded).
+    """
+    images = [v.image for v in vertices.all]
+    errors = vertices.frame.errors
+    x0, x1, y0, y1 = np.array([(i.x0, i.x1, i.y0, i.y1) for i in images]).reshape(-1, 4).T
+    if low == high == 0.0:
+        x, y, error = x0.copy(), y0.copy(), np.full(len(images), errors[0])
+    else:
+        m, r = 0.5 * (low + high), high - low
+        reach = abs(m) + r
+        slope = np.maximum(abs(x1), abs(y1))
+        bound = slope * reach + np.maximum(abs(x0), abs(y0))
+        x, y = x1 * m + x0, y1 * m + y0
+        of_image = errors[0] + errors[1] * reach
+        error = (16.0 * U * bound + of_image + r * slope) * SLACK + TINY
+    single = Positions(errors)
+    single.move_to(low, high)
+    for k, image in enumerate(images):
+        if image.degree > 1 or image.ws:
+            x[k], y[k], error[k] = single.of(vertices.all[k])
+    unknown = ~(np.isfinite(x) & np.isfinite(y) & np.isfinite(error))
+    x[unknown] = y[unknown] = np.nan
+    return x, y, float(np.max(error[~unknown], initial=0.0))
 
 
 @final

@@ -33,7 +33,7 @@ __all__ = ["GreedyTiling", "greedy_mesh"]
 def greedy_mesh(instant: Instant, cells: VerticalDecomposition) -> tuple[Mesh, int]:
     """The greedy tiling, and how many flips were needed after the sweep.
 
-    None, unless parallel bitangents met in the sweep; then the result is checked. Uses up
+    None, unless the sweep met two bitangents on one line; then the result is checked. Uses up
     the vertical decomposition.
     """
     diagonals, tied = greedy_diagonals(instant, cells)
