@@ -74,14 +74,18 @@ class CertifiedTiling(Tiling):
         for slot in self.queue.slots():
             if slot % KINDS not in (MOTION, SHRINK):
                 self.queue.cancel(slot)
-        watched = []
+        watched: list[int] = []
+        angles: list[tuple[int, int, int]] = []
+        region = self.mesh.region
         for h in self.mesh.map.half_edges():
-            if self.mesh.region[h] != SOLID:
-                if self._cannot_fail(h):
+            if region[h] != SOLID:
+                a, p, b = self._angle(h)
+                if a == b or self.certifier.rigid(a, p, b) or self._is_copy(h):
                     self._skip(h)
                 else:
                     watched.append(h)
-        answers = self.certifier.orientations([self._angle(h) for h in watched])
+                    angles.append((a, p, b))
+        answers = self.certifier.orientations(angles)
         for h, (s, time) in zip(watched, answers, strict=True):
             self._due.discard(h)
             self._keep(h, s, time)

@@ -40,14 +40,19 @@ def build_mesh(instant: Instant, diagonals: Iterable[Diagonal], mesh: Mesh | Non
         fans = inside if region == INSIDE else around
         fans[u].append(h)
         fans[v].append(h ^ 1)
+    link = mesh.map.link
     for v in instant.vertices.ids():
         # Counter-clockwise: to the next vertex of the ring, (the body and its diagonals),
         # to the vertex before, (free space and its diagonals).
         ahead, behind = mesh.ring_edge[v], mesh.ring_edge[vertices[v].behind] ^ 1
-        within = _sorted_fan(instant, mesh, v, ahead, inside[v])
-        fan = [ahead, *within, behind, *_sorted_fan(instant, mesh, v, behind, around[v])]
-        for h, following in zip(fan, [*fan[1:], fan[0]], strict=True):
-            mesh.map.link(following ^ 1, h)
+        fan = _sorted_fan(instant, mesh, v, ahead, inside[v])
+        fan.append(behind)
+        fan += _sorted_fan(instant, mesh, v, behind, around[v])
+        before = ahead
+        for h in fan:
+            link(h ^ 1, before)
+            before = h
+        link(ahead ^ 1, before)
     _mark_angles(instant, mesh)
     return mesh
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Final, final
 import numpy as np
 
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.batch import Answers
 from exactpt.kernel.counters import counters
 from exactpt.kernel.integer_polynomial import IntPoly, sign_at, square_free
 from exactpt.kernel.numbers import QQ
@@ -177,38 +178,42 @@ class Certifier:
         self, triples: Sequence[tuple[int, int, int]]
     ) -> list[tuple[int, EventTime | None]]:
         """As `orientation` of each triple; those in linear motion in numpy, all at once."""
-        answers: dict[int, tuple[int, EventTime | None]] = {}
-        if len(triples) >= BATCH and not (self.exact_only or self.roots_now):
-            answers = self._linear_orientations(triples)
-            self.made += len(answers)
-            counters.filtered += len(answers)
-        return [answers.get(k) or self.orientation(*triple) for k, triple in enumerate(triples)]
+        answers: list[tuple[int, EventTime | None]] = []
+        if len(triples) < BATCH or self.exact_only or self.roots_now:
+            for a, b, c in triples:
+                answers.append(self.orientation(a, b, c))
+            return answers
+        signs, lows, highs = self._linear_orientations(triples)
+        for (a, b, c), s, low, high in zip(
+            triples, signs.tolist(), lows.tolist(), highs.tolist(), strict=True
+        ):
+            if s == 0:
+                answers.append(self.orientation(a, b, c))
+                continue
+            self.made += 1
+            counters.filtered += 1
+            answers.append((s, EventTime(low, high, a, b, c) if low < INFINITY else None))
+        return answers
 
-    def _linear_orientations(
-        self, triples: Sequence[tuple[int, int, int]]
-    ) -> dict[int, tuple[int, EventTime | None]]:
-        """What the filter can tell of three different linear motions."""
-        vertices, bodies = self._all, self._vertices.bodies
+    def _linear_orientations(self, triples: Sequence[tuple[int, int, int]]) -> Answers:
+        """What the filter can tell of three different linear motions; unsure of others."""
+        vertices = self._all
+        bodies = [min(self._end_high, body.horizon) for body in self._vertices.bodies]
+        horizons = np.array([bodies[v.body] for v in vertices])
         tracks = np.array([id(v.track) for v in vertices])
         is_linear = np.array([v.image.degree <= 1 and not v.image.ws for v in vertices])
         ids = np.array(triples)
         a, b, c = tracks[ids].T
-        chosen = np.flatnonzero(is_linear[ids].all(axis=1) & (a != b) & (b != c) & (c != a))
-        horizons = np.array([min(self._end_high, bodies[v.body].horizon) for v in vertices])
+        are_linear = is_linear[ids].all(axis=1) & (a != b) & (b != c) & (c != a)
         signs, lows, highs = coefficients.linear_orientations(
             [v.image for v in vertices],
-            ids[chosen],
+            ids,
             self.errors,
             self.now_low,
             self.now_high,
-            horizons[ids[chosen]].min(axis=1),
+            horizons[ids].min(axis=1),
         )
-        found = zip(chosen.tolist(), signs.tolist(), lows.tolist(), highs.tolist(), strict=True)
-        return {
-            k: (s, EventTime(low, high, *triples[k]) if low < INFINITY else None)
-            for k, s, low, high in found
-            if s
-        }
+        return Answers(np.where(are_linear, signs, 0), lows, highs)
 
     def vanishes_now(self, a: int, b: int, c: int) -> bool:
         """Whether the function of these vertices is known to be zero now."""
