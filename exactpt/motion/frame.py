@@ -88,10 +88,13 @@ class Frame:
         """The images of some tracks, as those of one body: then most share their motion."""
         images: list[Image] = []
         motion, last = -1, None
+        tails: tuple[list[float], list[float]] | None = None
         for track in tracks:
             if last is None or track.frame != last:
                 motion, last = self._motion(track.frame), track.frame
-            images.append(self._integer_image(track, motion) or self._image(track, motion))
+                tails = self._integer_tails(track)
+            image = None if tails is None else _integer_image(track, *tails, motion)
+            images.append(image or self._image(track, motion))
         return images
 
     def image(self, track: Track) -> Image:
@@ -106,27 +109,20 @@ class Frame:
         self._named = max(self._named, motion + 1)
         return motion
 
-    def _integer_image(self, track: Track, motion: int) -> Image | None:
-        """The image of a path with small integers, exact; None of any other.
+    def _integer_tails(self, track: Track) -> tuple[list[float], list[float]] | None:
+        """All but the constant coefficients of a path, if they are small integers.
 
         Rounding is monotone and 2^53 a double, so an integer that is rounded to less than
         that is less itself, and a double.
         """
         if not self._identity or track.w != _ONE:
             return None
-        try:
-            xs, ys = [*map(float, track.x)], [*map(float, track.y)]
-        except OverflowError:
+        x, y = ([nearest_float(QQ(c)) for c in part[1:]] for part in (track.x, track.y))
+        if not all(abs(c) < INTEGERS for c in (*x, *y)):
             return None
-        size = max(len(xs), len(ys), 1)
-        while len(xs) < size:
-            xs.append(0.0)
-        while len(ys) < size:
-            ys.append(0.0)
-        if max(*xs, *ys) >= INTEGERS or min(*xs, *ys) <= -INTEGERS:
-            return None
-        self.errors += [0.0] * (size - len(self.errors))
-        return Image(xs, ys, [], motion)
+        size = max(len(x), len(y))
+        self.errors += [0.0] * (size + 1 - len(self.errors))
+        return x + [0.0] * (size - len(x)), y + [0.0] * (size - len(y))
 
     def _image(self, track: Track, motion: int) -> Image:
         x, y, w = self._moved(track)
@@ -171,6 +167,20 @@ class Frame:
             error = abs(floats[i]) * (2.0 * U)
             if error > self.errors[i] and QQ(*floats[i].as_integer_ratio()) * divisor != c:
                 self.errors[i] = error
+
+
+def _integer_image(track: Track, x: list[float], y: list[float], motion: int) -> Image | None:
+    """The image of a path of integers, with these further coefficients, if it is exact."""
+    if track.w != _ONE:
+        return None
+    try:
+        x0 = float(track.x[0]) if track.x else 0.0
+        y0 = float(track.y[0]) if track.y else 0.0
+    except OverflowError:
+        return None
+    if abs(x0) < INTEGERS and abs(y0) < INTEGERS:
+        return Image([x0, *x], [y0, *y], [], motion)
+    return None
 
 
 def _floats(coefficients: Iterable[QQ], divisor: QQ, size: int) -> list[float]:

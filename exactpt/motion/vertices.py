@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from itertools import accumulate, count
 from typing import TYPE_CHECKING, Final, final
 
-from exactpt.geometry.polygon import signed_area2
+from exactpt.geometry.polygon import is_counter_clockwise
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.motion.convexity import stays_convex
 from exactpt.motion.frame import Frame, frame_for
@@ -266,7 +266,7 @@ def _ring_indices(body: Body, positions: list[tuple[QQ, QQ]]) -> list[int]:
     if _is_thin(body):
         return thin_ring(body.size)
     ring = list(range(body.size))
-    return ring if signed_area2(positions) > 0 else ring[::-1]
+    return ring if is_counter_clockwise(positions) else ring[::-1]
 
 
 def _is_thin(body: Body) -> bool:

@@ -7,6 +7,7 @@ decided exactly.
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import TYPE_CHECKING, Final, final
 
 import numpy as np
@@ -202,7 +203,8 @@ class Certifier:
         horizons = np.array([bodies[v.body] for v in vertices])
         tracks = np.array([id(v.track) for v in vertices])
         is_linear = np.array([v.image.degree <= 1 and not v.image.ws for v in vertices])
-        ids = np.array(triples)
+        count = 3 * len(triples)
+        ids = np.fromiter(chain.from_iterable(triples), np.int64, count).reshape(-1, 3)
         a, b, c = tracks[ids].T
         are_linear = is_linear[ids].all(axis=1) & (a != b) & (b != c) & (c != a)
         signs, lows, highs = coefficients.linear_orientations(

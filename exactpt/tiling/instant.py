@@ -10,10 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import cmp_to_key
+from itertools import chain
 from math import isinf, isnan
 from typing import TYPE_CHECKING, Final, final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from exactpt.geometry.predicates import Point, side
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -23,7 +25,7 @@ from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, sign
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.motion.vertices import Vertex, Vertices
 from exactpt.tiling.exact import copies_first, cross, orientation, x_order_terms
-from exactpt.tiling.positions import K, positions_at
+from exactpt.tiling.positions import K, cross_sign, positions_at
 from exactpt.tiling.reasons import reason
 
 if TYPE_CHECKING:
@@ -71,7 +73,14 @@ class Instant:
         self._xs, self._ys, error = positions_at(vertices, *vertices.frame.time(time))
         self._x: list[float] = self._xs.tolist()
         self._y: list[float] = self._ys.tolist()
-        self._d: float = 2.0 * error
+        d = self._d = 2.0 * error
+        # The bound of `cross_sign` for differences as large as any here.
+        width, height = _extent(self._xs), _extent(self._ys)
+        self._largest_bound: float = (
+            K * 2.0 * width * height + d * 2.0 * (width + height + d)
+        ) * SLACK + TINY
+        if exact_only:
+            self._largest_bound = INFINITY
 
     def position(self, v: int) -> Point:
         """The exact unperturbed position of a vertex."""
@@ -81,27 +90,25 @@ class Instant:
         return found
 
     def sign(self, a: int, b: int, c: int) -> int:
-        """1 if a, b, c turn left, -1 if right, 0 if collinear (counts as right).
-
-        The bound is that of `exactpt.tiling.coefficients`.
-        """
+        """1 if a, b, c turn left, -1 if right, 0 if collinear (counts as right)."""
         x, y = self._x, self._y
         ax, ay = x[a], y[a]
-        ux, uy = x[b] - ax, y[b] - ay
-        vx, vy = x[c] - ax, y[c] - ay
-        p, q = ux * vy, uy * vx
-        det = p - q
-        d = self._d
-        bound = (
-            K * (abs(p) + abs(q)) + d * (abs(ux) + abs(uy) + abs(vx) + abs(vy) + 2.0 * d)
-        ) * SLACK + TINY
+        det = (x[b] - ax) * (y[c] - ay) - (y[b] - ay) * (x[c] - ax)
+        if det > self._largest_bound:
+            counters.filtered += 1
+            return 1
+        if det < -self._largest_bound:
+            counters.filtered += 1
+            return -1
+        return self._sign_closely(a, b, c)
+
+    def _sign_closely(self, a: int, b: int, c: int) -> int:
         if not self._exact_only:
-            if det > bound:
+            x, y, d = self._x, self._y, self._d
+            s = cross_sign(x[b] - x[a], y[b] - y[a], d, x[c] - x[a], y[c] - y[a], d)
+            if s:
                 counters.filtered += 1
-                return 1
-            if det < -bound:
-                counters.filtered += 1
-                return -1
+                return s
         return self._exact_sign(a, b, c)
 
     @np.errstate(all="ignore")
@@ -109,7 +116,8 @@ class Instant:
         """As `sign` of each triple, in numpy."""
         if not triples:
             return []
-        a, b, c = np.array(triples).T
+        count = 3 * len(triples)
+        a, b, c = np.fromiter(chain.from_iterable(triples), np.int64, count).reshape(-1, 3).T
         ux, uy = self._xs[b] - self._xs[a], self._ys[b] - self._ys[a]
         vx, vy = self._xs[c] - self._xs[a], self._ys[c] - self._ys[a]
         p, q = ux * vy, uy * vx
@@ -244,21 +252,12 @@ class Instant:
 
     def turn_now(self, a: int, b: int, c: int, d: int) -> int:
         """The same at the time itself; 0 if the directions are parallel then."""
-        x, y, off = self._x, self._y, self._d
-        ux, uy = x[b] - x[a], y[b] - y[a]
-        vx, vy = x[d] - x[c], y[d] - y[c]
-        left, right = ux * vy, uy * vx
-        det = left - right
-        bound = (
-            K * (abs(left) + abs(right)) + off * (abs(ux) + abs(uy) + abs(vx) + abs(vy) + 2.0 * off)
-        ) * SLACK + TINY
         if not self._exact_only:
-            if det > bound:
+            x, y, off = self._x, self._y, self._d
+            now = cross_sign(x[b] - x[a], y[b] - y[a], off, x[d] - x[c], y[d] - y[c], off)
+            if now:
                 counters.filtered += 1
-                return 1
-            if det < -bound:
-                counters.filtered += 1
-                return -1
+                return now
         p, q, r, s = (self.position(i) for i in (a, b, c, d))
         now = sign((q[0] - p[0]) * (s[1] - r[1]) - (q[1] - p[1]) * (s[0] - r[0]))
         self._count(*[self.vertices.all[i] for i in (a, b, c, d)], is_zero=now == 0)
@@ -290,3 +289,9 @@ class Instant:
         if offset is None:
             return QQ(0), QQ(0)
         return evaluate(offset[0], self.time), evaluate(offset[1], self.time)
+
+
+def _extent(values: NDArray[np.float64]) -> float:
+    """How far apart any two of the numbers are; what is NaN is none."""
+    known = values[~np.isnan(values)]
+    return float(np.ptp(known)) if len(known) else 0.0

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.motion.vertices import Vertex, Vertices
+from exactpt.tiling.coefficients import linear_parts
 
-__all__ = ["K", "Positions", "positions_at"]
+__all__ = ["K", "Positions", "cross_sign", "positions_at"]
 
 Floats: TypeAlias = NDArray[np.float64]
 
@@ -27,7 +28,7 @@ def positions_at(vertices: Vertices, low: float, high: float) -> tuple[Floats, F
     """
     images = [v.image for v in vertices.all]
     errors = vertices.frame.errors
-    x0, x1, y0, y1 = np.array([(i.x0, i.x1, i.y0, i.y1) for i in images]).reshape(-1, 4).T
+    x0, y0, x1, y1 = linear_parts(images).T
     if low == high == 0.0:
         x, y, error = x0.copy(), y0.copy(), np.full(len(images), errors[0])
     else:
@@ -97,7 +98,7 @@ class Positions:
         ax, ay, da = self.of(a)
         bx, by, db = self.of(b)
         cx, cy, dc = self.of(c)
-        return _sign(bx - ax, by - ay, da + db, cx - ax, cy - ay, da + dc)
+        return cross_sign(bx - ax, by - ay, da + db, cx - ax, cy - ay, da + dc)
 
     def turn(self, a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> int:
         """The certain sign of (b - a) x (d - c) now, or 0."""
@@ -105,7 +106,7 @@ class Positions:
         bx, by, db = self.of(b)
         cx, cy, dc = self.of(c)
         dx, dy, dd = self.of(d)
-        return _sign(bx - ax, by - ay, da + db, dx - cx, dy - cy, dc + dd)
+        return cross_sign(bx - ax, by - ay, da + db, dx - cx, dy - cy, dc + dd)
 
     def order(self, a: Vertex, b: Vertex, axis: int) -> int:
         """The certain sign of x(b) - x(a) (axis 0) or of y(b) - y(a) (axis 1) now, or 0."""
@@ -147,7 +148,11 @@ def _quotient(x: float, dx: float, w: float, dw: float) -> tuple[float, float]:
     return q, ((dx + abs(q) * dw) / (w - dw) + 4.0 * U * abs(q)) * SLACK + TINY
 
 
-def _sign(ux: float, uy: float, du: float, vx: float, vy: float, dv: float) -> int:
+def cross_sign(ux: float, uy: float, du: float, vx: float, vy: float, dv: float) -> int:
+    """The certain sign of u x v, or 0, for u off by at most du and v by dv in each coordinate.
+
+    Besides the rounding of the differences that u and v are.
+    """
     p, q = ux * vy, uy * vx
     det = p - q
     bound = (

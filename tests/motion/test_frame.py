@@ -186,3 +186,16 @@ def test_tracks_of_one_body_have_one_motion():
 
     assert first == second == fourth != third
     assert frame.image(tracks[0]).motion == first
+
+
+def test_integer_vertices_among_others_of_one_body():
+    """Tracks of one motion whose denominators differ have different numerators."""
+    frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    xs = (3, QQ(1, 2), 0, 2**60, -5)
+    tracks = [track(Polynomial([x, 7]), Polynomial([0, 0, 1]), None, None) for x in xs]
+
+    images = frame.images(tracks)
+
+    assert [image.xs for image in images] == [[float(x), 7.0, 0.0] for x in xs]
+    assert [image.ys for image in images] == [[0.0, 0.0, 1.0]] * 5
+    assert not any(frame.errors)
