@@ -80,7 +80,7 @@ class CertifiedTiling(Tiling):
         for h in self.mesh.map.half_edges():
             if region[h] != SOLID:
                 a, p, b = self._angle(h)
-                if a == b or self.certifier.rigid(a, p, b) or self._is_copy(h):
+                if self._cannot_fail(h, a, p, b):
                     self._skip(h)
                 else:
                     watched.append(h)
@@ -95,10 +95,12 @@ class CertifiedTiling(Tiling):
         """Certify the angle of h; note it as due if it is violated just after now."""
         self._due.discard(h)
         self._flat.discard(h)
-        if self._cannot_fail(h):
+        a, p, b = self._angle(h)
+        if self.mesh.region[h] == SOLID or self._cannot_fail(h, a, p, b):
             self._skip(h)
         else:
-            self._keep(h, *self.certifier.orientation(*self._angle(h)))
+            s, time = self.certifier.orientation(a, p, b)
+            self._keep(h, s, time)
 
     def _skip(self, h: int) -> None:
         """An angle that cannot fail has no certificate; but its mark may be wrong.
@@ -115,15 +117,9 @@ class CertifiedTiling(Tiling):
                 if (after.sign(a, p, b) > 0) != self.mesh.corner[h]:
                     self._due.add(h)
 
-    def _cannot_fail(self, h: int) -> bool:
-        """Whether the angle of h needs no certificate of its own."""
-        a, p, b = self._angle(h)
-        return (
-            self.certifier.rigid(a, p, b)
-            or self.mesh.region[h] == SOLID
-            or a == b
-            or self._is_copy(h)
-        )
+    def _cannot_fail(self, h: int, a: int, p: int, b: int) -> bool:
+        """Whether the angle of h, at p between a and b, needs no certificate of its own."""
+        return a == b or self.certifier.rigid(a, p, b) or self._is_copy(h)
 
     def _keep(self, h: int, s: int, time: EventTime | None) -> None:
         """Schedule the failure of an angle; note it as due if it is violated just after now."""

@@ -296,6 +296,9 @@ class GreedyTiling(PopulatedTiling):
         for h in [] if g is None else m.face(g):
             if self.mesh.is_boundary(h) or self.mesh.is_hull(h):
                 continue
+            # It crosses its diagonal into the tile across, which v is in; or both start at u.
+            if u not in self.mesh.ends(h) and v not in [m.origin[e] for e in m.face(h ^ 1)]:
+                continue
             visits = shadow(self.mesh, h, moment)
             if visits is not None and {m.origin[visits[0]], m.origin[visits[1]]} == {u, v}:
                 self._flip(h, visits, moment)
