@@ -47,6 +47,7 @@ class Certifier:
     """Certificates of moving vertices at the current time.
 
     Attributes:
+        all: the moving vertices, by id.
         now: the current time; ``now_low`` and ``now_high`` enclose it.
         roots_now: triples of vertices whose function vanishes now.
         end: the last time of interest.
@@ -60,7 +61,7 @@ class Certifier:
 
     def __init__(self, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool) -> None:
         self._vertices = vertices
-        self._all: list[Vertex] = vertices.all
+        self.all: list[Vertex] = vertices.all
         self.end: QQ = end
         self._end_high: float = vertices.frame.time(end)[1]
         self.exact_only: bool = exact_only
@@ -86,7 +87,7 @@ class Certifier:
 
     def vertex(self, vertex_id: int) -> Vertex:
         """The moving vertex with this id."""
-        return self._all[vertex_id]
+        return self.all[vertex_id]
 
     @property
     def exact_now(self) -> AlgebraicNumber:
@@ -95,7 +96,7 @@ class Certifier:
 
     def resolve(self, time: EventTime) -> AlgebraicNumber:
         """The exact time of an event; its enclosure becomes as narrow as doubles."""
-        vertices, frame = self._all, self._vertices.frame
+        vertices, frame = self.all, self._vertices.frame
         if time.c == X_ORDER:
             f = x_order(vertices[time.a], vertices[time.b])
         else:
@@ -114,7 +115,7 @@ class Certifier:
 
     def rigid(self, a: int, b: int, c: int) -> bool:
         """Whether three vertices keep their orientation for ever."""
-        va, vb, vc = self._all[a], self._all[b], self._all[c]
+        va, vb, vc = self.all[a], self.all[b], self.all[c]
         motion = va.image.motion
         if motion >= 0 and motion == vb.image.motion and motion == vc.image.motion:
             return not (va.image.ws and self._has_copies_of_a_point(va, vb, vc))
@@ -134,7 +135,7 @@ class Certifier:
 
     def keeps_x_order(self, a: int, b: int) -> bool:
         """Whether two vertices keep the difference of their x coordinates for ever."""
-        va, vb = self._all[a], self._all[b]
+        va, vb = self.all[a], self.all[b]
         p, q = va.image, vb.image
         if va.offset is not None and self._vertices.bodies[va.body].deforms:
             return False  # its offsets turn
@@ -148,7 +149,7 @@ class Certifier:
         it may be a touch.
         """
         self.made += 1
-        va, vb, vc = self._all[a], self._all[b], self._all[c]
+        va, vb, vc = self.all[a], self.all[b], self.all[c]
         if self.exact_only or va.track is vb.track or vb.track is vc.track or va.track is vc.track:
             return self._exact_orientation(va, vb, vc)
         bodies = self._vertices.bodies
@@ -198,7 +199,7 @@ class Certifier:
 
     def _linear_orientations(self, triples: Sequence[tuple[int, int, int]]) -> Answers:
         """What the filter can tell of three different linear motions; unsure of others."""
-        vertices = self._all
+        vertices = self.all
         bodies = [min(self._end_high, body.horizon) for body in self._vertices.bodies]
         horizons = np.array([bodies[v.body] for v in vertices])
         tracks = np.array([id(v.track) for v in vertices])
@@ -264,7 +265,7 @@ class Certifier:
     def first_coincidence(self, *ids: int) -> EventTime | None:
         """The first time at which two of some vertices, always on one line, coincide."""
         first: AlgebraicNumber | None = None
-        vertices = [self._all[v] for v in ids]
+        vertices = [self.all[v] for v in ids]
         until = self._until(*vertices)
         for i, u in enumerate(vertices):
             for v in vertices[:i]:
@@ -291,7 +292,7 @@ class Certifier:
         With ``touching``, a time at which the two are level without passing counts too.
         """
         self.made += 1
-        va, vb = self._all[a], self._all[b]
+        va, vb = self.all[a], self.all[b]
         if self.exact_only or va.track is vb.track:
             return self._exact_x_order(va, vb, touching=touching)
         bodies = self._vertices.bodies
