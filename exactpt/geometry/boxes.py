@@ -8,7 +8,7 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.kernel.numbers import QQ, enclosing_floats
+from exactpt.kernel.numbers import QQ, nearest_float
 
 __all__ = ["Boxes", "boxes_of_points", "overlapping_pairs"]
 
@@ -19,14 +19,21 @@ _CHUNK: Final = 1 << 21
 
 
 def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
-    """The bounding box of each group of points, rounded outward."""
+    """The bounding box of each group of points, rounded outward.
+
+    Rounding is monotone, so the nearest double of the least coordinate is the least of the
+    nearest doubles; and the one below that is no larger than the coordinate.
+    """
     rows = np.empty((len(groups), 4))
-    for i, points in enumerate(groups):
-        xs, ys = [p[0] for p in points], [p[1] for p in points]
-        rows[i, 0] = enclosing_floats(min(xs))[0]
-        rows[i, 1] = enclosing_floats(max(xs))[1]
-        rows[i, 2] = enclosing_floats(min(ys))[0]
-        rows[i, 3] = enclosing_floats(max(ys))[1]
+    if not groups:
+        return rows
+    firsts = np.cumsum([0, *map(len, groups[:-1])])
+    for axis in (0, 1):
+        near = np.array([nearest_float(p[axis]) for points in groups for p in points])
+        rows[:, 2 * axis] = np.minimum.reduceat(near, firsts)
+        rows[:, 2 * axis + 1] = np.maximum.reduceat(near, firsts)
+    rows[:, ::2] = np.nextafter(rows[:, ::2], -np.inf)
+    rows[:, 1::2] = np.nextafter(rows[:, 1::2], np.inf)
     return rows
 
 

@@ -16,6 +16,7 @@ __all__ = [
     "edges",
     "first_self_touch",
     "is_convex",
+    "is_counter_clockwise",
     "segments_meet",
     "signed_area2",
 ]
@@ -38,6 +39,18 @@ def signed_area2(points: Sequence[Point]) -> QQ:
     for (x0, y0), (x1, y1) in zip(points, [*points[1:], points[0]], strict=True):
         total += x0 * y1 - x1 * y0
     return total
+
+
+def is_counter_clockwise(points: Sequence[Point]) -> bool:
+    """Whether a polygon, not of area 0, is counter-clockwise.
+
+    If it is simple it turns as it does at its leftmost vertex, of several the lowest: the
+    inside is there in the angle below pi. (That angle is not 0, and not pi.)
+    """
+    n = len(points)
+    first = min(range(n), key=points.__getitem__)
+    turn = side(points[first - 1], points[first], points[(first + 1) % n])
+    return turn > 0 if turn else signed_area2(points) > 0
 
 
 def is_convex(points: Sequence[Point]) -> bool:

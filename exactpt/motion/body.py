@@ -57,9 +57,22 @@ class Body:
 
     Raises:
         InputError: if the arguments do not describe a body, or the motion jumps.
+
+    Attributes:
+        breakpoints: the rational times at which the formulas of the tracks change, in order.
     """
 
-    __slots__ = ("_pieces", "_shapes", "closed", "keyframes", "motion", "name", "vertices")
+    __slots__ = (
+        "_at",
+        "_pieces",
+        "_shapes",
+        "breakpoints",
+        "closed",
+        "keyframes",
+        "motion",
+        "name",
+        "vertices",
+    )
 
     def __init__(
         self,
@@ -86,7 +99,12 @@ class Body:
                 _read_vertex(name, i, v) for i, v in enumerate(_listed(name, "vertices", vertices))
             )
         self._shapes = self._shape_pieces()
+        ends = {until for until, _ in self._shapes if until is not None}
+        if isinstance(motion, Pieces):
+            ends.update(motion.until)
+        self.breakpoints: tuple[QQ, ...] = tuple(sorted(ends))
         self._pieces: dict[QQ | None, BodyPiece] = {}
+        self._at: tuple[QQ, list[tuple[QQ, QQ]]] | None = None
         if not self._shapes[0][1]:
             raise InputError(f"body {shorten(name)}: at least one vertex is needed")
         self._check_continuity()
@@ -120,14 +138,6 @@ class Body:
         """The number of vertices."""
         return len(self._shapes[0][1])
 
-    @property
-    def breakpoints(self) -> tuple[QQ, ...]:
-        """The rational times at which the formulas of the tracks change, in order."""
-        ends = {until for until, _ in self._shapes if until is not None}
-        if isinstance(self.motion, Pieces):
-            ends.update(self.motion.until)
-        return tuple(sorted(ends))
-
     def piece_after(self, t: QQ) -> BodyPiece:
         """What the body does just after a rational time."""
         end = next((b for b in self.breakpoints if b > t), None)
@@ -137,9 +147,11 @@ class Body:
         return self._pieces[end]
 
     def at(self, t: Rational) -> list[tuple[QQ, QQ]]:
-        """The exact positions of the vertices at a rational time."""
+        """The exact positions of the vertices at a rational time; those of the last are kept."""
         time = rational(t)
-        return [track.at(time) for track in self.piece_after(time).tracks]
+        if self._at is None or self._at[0] != time:
+            self._at = time, [track.at(time) for track in self.piece_after(time).tracks]
+        return self._at[1][:]
 
     def _tracks(self, shape: Sequence[Position], motion: SimpleMotion) -> tuple[Track, ...]:
         return tuple(motion.track(position) for position in shape)

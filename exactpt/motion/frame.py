@@ -9,10 +9,10 @@ very small or large, is filtered as well as any other.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Hashable, Iterable, Sequence
 from typing import TYPE_CHECKING, Final, final
 
-from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of_two
+from exactpt.kernel.numbers import QQ, ZZ, enclosing_floats, nearest_float, power_of_two
 from exactpt.motion.image import Image
 
 if TYPE_CHECKING:
@@ -24,6 +24,10 @@ __all__ = ["Frame", "frame_for"]
 U: Final = 2.0**-53
 SMALLEST: Final = 2.0**-100
 LARGEST: Final = 2.0**100
+INTEGERS: Final = 2.0**53
+"""All integers below this size are doubles; the next larger one is rounded to it."""
+
+_ONE: Final = (ZZ(1),)
 
 
 @final
@@ -80,12 +84,47 @@ class Frame:
         """The rational time that a double of the frame stands for."""
         return QQ(*t.as_integer_ratio()) * power_of_two(self.time_scale) + self.origin
 
+    def images(self, tracks: Sequence[Track]) -> list[Image]:
+        """The images of some tracks, as those of one body: then most share their motion."""
+        images: list[Image] = []
+        motion, last = -1, None
+        tails: tuple[list[float], list[float]] | None = None
+        for track in tracks:
+            if last is None or track.frame != last:
+                motion, last = self._motion(track.frame), track.frame
+                tails = self._integer_tails(track)
+            image = None if tails is None else _integer_image(track, *tails, motion)
+            images.append(image or self._image(track, motion))
+        return images
+
     def image(self, track: Track) -> Image:
         """The image of a track."""
-        motion = -1
-        if track.frame is not None:
-            motion = self._motions.setdefault(track.frame, self._named)
-            self._named = max(self._named, motion + 1)
+        return self.images((track,))[0]
+
+    def _motion(self, frame: Hashable) -> int:
+        """The number of the motion of tracks with a frame; -1 for None."""
+        if frame is None:
+            return -1
+        motion = self._motions.setdefault(frame, self._named)
+        self._named = max(self._named, motion + 1)
+        return motion
+
+    def _integer_tails(self, track: Track) -> tuple[list[float], list[float]] | None:
+        """All but the constant coefficients of a path, if they are small integers.
+
+        Rounding is monotone and 2^53 a double, so an integer that is rounded to less than
+        that is less itself, and a double.
+        """
+        if not self._identity or track.w != _ONE:
+            return None
+        x, y = ([nearest_float(QQ(c)) for c in part[1:]] for part in (track.x, track.y))
+        if not all(abs(c) < INTEGERS for c in (*x, *y)):
+            return None
+        size = max(len(x), len(y))
+        self.errors += [0.0] * (size + 1 - len(self.errors))
+        return x + [0.0] * (size - len(x)), y + [0.0] * (size - len(y))
+
+    def _image(self, track: Track, motion: int) -> Image:
         x, y, w = self._moved(track)
         size = max(len(x), len(y), 1)
         if len(w) > 1:
@@ -125,9 +164,23 @@ class Frame:
 
     def _note_errors(self, exact: Sequence[QQ], floats: list[float], divisor: QQ) -> None:
         for i, c in enumerate(exact):
-            value = floats[i]
-            if value and QQ(*value.as_integer_ratio()) * divisor != c:
-                self.errors[i] = max(self.errors[i], abs(value) * (2.0 * U))
+            error = abs(floats[i]) * (2.0 * U)
+            if error > self.errors[i] and QQ(*floats[i].as_integer_ratio()) * divisor != c:
+                self.errors[i] = error
+
+
+def _integer_image(track: Track, x: list[float], y: list[float], motion: int) -> Image | None:
+    """The image of a path of integers, with these further coefficients, if it is exact."""
+    if track.w != _ONE:
+        return None
+    try:
+        x0 = float(track.x[0]) if track.x else 0.0
+        y0 = float(track.y[0]) if track.y else 0.0
+    except OverflowError:
+        return None
+    if abs(x0) < INTEGERS and abs(y0) < INTEGERS:
+        return Image([x0, *x], [y0, *y], [], motion)
+    return None
 
 
 def _floats(coefficients: Iterable[QQ], divisor: QQ, size: int) -> list[float]:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from itertools import accumulate, count
 from typing import TYPE_CHECKING, Final, final
 
-from exactpt.geometry.polygon import signed_area2
+from exactpt.geometry.polygon import is_counter_clockwise
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.motion.convexity import stays_convex
 from exactpt.motion.frame import Frame, frame_for
@@ -198,11 +198,12 @@ class Vertices:
         )
 
     def _ever_deforms(self, i: int, start: QQ) -> bool:
-        """Whether a body deforms in any of its pieces from a time on."""
+        """Whether a body deforms in any of its pieces from a time in the present one on."""
         body = self.bodies[i].body
-        return any(
-            _deforms([self.frame.image(track) for track in body.piece_after(t).tracks])
-            for t in (start, *(b for b in body.breakpoints if b > start))
+        return self.bodies[i].deforms or any(
+            _deforms(self.frame.images(body.piece_after(t).tracks))
+            for t in body.breakpoints
+            if t > start
         )
 
     def enter_piece(self, i: int, t: QQ) -> None:
@@ -211,7 +212,7 @@ class Vertices:
         piece = moving.body.piece_after(t)
         moving.since = t
         self._set_until(moving, piece.until)
-        images = [self.frame.image(track) for track in piece.tracks]
+        images = self.frame.images(piece.tracks)
         moving.deforms = _deforms(images)
         for vertex_id in moving.ring:
             vertex = self.all[vertex_id]
@@ -265,7 +266,7 @@ def _ring_indices(body: Body, positions: list[tuple[QQ, QQ]]) -> list[int]:
     if _is_thin(body):
         return thin_ring(body.size)
     ring = list(range(body.size))
-    return ring if signed_area2(positions) > 0 else ring[::-1]
+    return ring if is_counter_clockwise(positions) else ring[::-1]
 
 
 def _is_thin(body: Body) -> bool:

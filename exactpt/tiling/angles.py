@@ -74,14 +74,18 @@ class CertifiedTiling(Tiling):
         for slot in self.queue.slots():
             if slot % KINDS not in (MOTION, SHRINK):
                 self.queue.cancel(slot)
-        watched = []
+        watched: list[int] = []
+        angles: list[tuple[int, int, int]] = []
+        region = self.mesh.region
         for h in self.mesh.map.half_edges():
-            if self.mesh.region[h] != SOLID:
-                if self._cannot_fail(h):
+            if region[h] != SOLID:
+                a, p, b = self._angle(h)
+                if self._cannot_fail(h, a, p, b):
                     self._skip(h)
                 else:
                     watched.append(h)
-        answers = self.certifier.orientations([self._angle(h) for h in watched])
+                    angles.append((a, p, b))
+        answers = self.certifier.orientations(angles)
         for h, (s, time) in zip(watched, answers, strict=True):
             self._due.discard(h)
             self._keep(h, s, time)
@@ -91,10 +95,12 @@ class CertifiedTiling(Tiling):
         """Certify the angle of h; note it as due if it is violated just after now."""
         self._due.discard(h)
         self._flat.discard(h)
-        if self._cannot_fail(h):
+        a, p, b = self._angle(h)
+        if self.mesh.region[h] == SOLID or self._cannot_fail(h, a, p, b):
             self._skip(h)
         else:
-            self._keep(h, *self.certifier.orientation(*self._angle(h)))
+            s, time = self.certifier.orientation(a, p, b)
+            self._keep(h, s, time)
 
     def _skip(self, h: int) -> None:
         """An angle that cannot fail has no certificate; but its mark may be wrong.
@@ -111,15 +117,9 @@ class CertifiedTiling(Tiling):
                 if (after.sign(a, p, b) > 0) != self.mesh.corner[h]:
                     self._due.add(h)
 
-    def _cannot_fail(self, h: int) -> bool:
-        """Whether the angle of h needs no certificate of its own."""
-        a, p, b = self._angle(h)
-        return (
-            self.certifier.rigid(a, p, b)
-            or self.mesh.region[h] == SOLID
-            or a == b
-            or self._is_copy(h)
-        )
+    def _cannot_fail(self, h: int, a: int, p: int, b: int) -> bool:
+        """Whether the angle of h, at p between a and b, needs no certificate of its own."""
+        return a == b or self.certifier.rigid(a, p, b) or self._is_copy(h)
 
     def _keep(self, h: int, s: int, time: EventTime | None) -> None:
         """Schedule the failure of an angle; note it as due if it is violated just after now."""

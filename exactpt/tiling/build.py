@@ -8,7 +8,7 @@ from functools import cmp_to_key
 from exactpt.errors import AuditError
 from exactpt.tiling.greedy.shadow import Predicates
 from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import FREE, INSIDE, OUTER, SOLID, Diagonal, Mesh
+from exactpt.tiling.mesh import INSIDE, OUTER, SOLID, Diagonal, Mesh
 
 __all__ = ["build_mesh", "fan_order"]
 
@@ -29,7 +29,7 @@ def build_mesh(instant: Instant, diagonals: Iterable[Diagonal], mesh: Mesh | Non
     if mesh is None:
         mesh = Mesh(len(vertices))
     around: list[list[int]] = [[] for _ in vertices]
-    inside: list[list[int]] = [[] for _ in vertices]
+    inside: dict[int, list[int]] = {}
     for body in instant.vertices.bodies:
         for v in body.ring:
             mesh.ring_edge[v] = mesh.add_edge(v, vertices[v].ahead, boundary=True)
@@ -37,17 +37,25 @@ def build_mesh(instant: Instant, diagonals: Iterable[Diagonal], mesh: Mesh | Non
     for u, v, region in diagonals:
         h = mesh.add_edge(u, v, boundary=False)
         mesh.region[h] = mesh.region[h ^ 1] = region
-        fans = inside if region == INSIDE else around
-        fans[u].append(h)
-        fans[v].append(h ^ 1)
+        if region == INSIDE:
+            inside.setdefault(u, []).append(h)
+            inside.setdefault(v, []).append(h ^ 1)
+        else:
+            around[u].append(h)
+            around[v].append(h ^ 1)
+    link = mesh.map.link
     for v in instant.vertices.ids():
         # Counter-clockwise: to the next vertex of the ring, (the body and its diagonals),
         # to the vertex before, (free space and its diagonals).
         ahead, behind = mesh.ring_edge[v], mesh.ring_edge[vertices[v].behind] ^ 1
-        within = _sorted_fan(instant, mesh, v, ahead, inside[v])
-        fan = [ahead, *within, behind, *_sorted_fan(instant, mesh, v, behind, around[v])]
-        for h, following in zip(fan, [*fan[1:], fan[0]], strict=True):
-            mesh.map.link(following ^ 1, h)
+        fan = _sorted_fan(instant, mesh, v, ahead, inside[v]) if v in inside else []
+        fan.append(behind)
+        fan += _sorted_fan(instant, mesh, v, behind, around[v])
+        before = ahead
+        for h in fan:
+            link(h ^ 1, before)
+            before = h
+        link(ahead ^ 1, before)
     _mark_angles(instant, mesh)
     return mesh
 
@@ -84,15 +92,36 @@ def fan_order(
 
 def _mark_angles(instant: Instant, mesh: Mesh) -> None:
     m = mesh.map
+    angles: list[int] = []
+    triples: list[tuple[int, int, int]] = []
     for h in m.half_edges():
         if mesh.region[h] != SOLID:
-            a, p, b = m.origin[m.previous[h]], m.origin[h], m.target(h)
-            mesh.corner[h] = a == b or instant.sign(a, p, b) > 0
-    for face in [*mesh.faces(FREE), *mesh.faces(INSIDE)]:
-        corners = sum(mesh.corner[h] for h in face)
-        if corners == 0:
-            for h in face:
-                mesh.region[h] = OUTER
-        elif corners != 3:
-            names = " ".join(instant.vertices.name(m.origin[h]) for h in face)
-            raise AuditError(f"a face with {corners} corners: {names}")
+            a, b = m.origin[m.previous[h]], m.target(h)
+            if a == b:
+                mesh.corner[h] = True
+            else:
+                angles.append(h)
+                triples.append((a, m.origin[h], b))
+    for h, s in zip(angles, instant.signs(triples), strict=True):
+        mesh.corner[h] = s > 0
+    seen = [False] * len(m.origin)
+    for h in m.half_edges():
+        if not seen[h] and mesh.region[h] != SOLID:
+            _mark_face(instant, mesh, h, seen)
+
+
+def _mark_face(instant: Instant, mesh: Mesh, first: int, seen: list[bool]) -> None:
+    """Mark what lies outside; every other face has three corners."""
+    m = mesh.map
+    corners = 0
+    h = first
+    while not seen[h]:
+        seen[h] = True
+        corners += mesh.corner[h]
+        h = m.following[h]
+    if corners == 0:
+        for h in m.face(first):
+            mesh.region[h] = OUTER
+    elif corners != 3:
+        names = " ".join(instant.vertices.name(m.origin[h]) for h in m.face(first))
+        raise AuditError(f"a face with {corners} corners: {names}")

@@ -7,11 +7,13 @@ decided exactly.
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import TYPE_CHECKING, Final, final
 
 import numpy as np
 
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.batch import Answers
 from exactpt.kernel.counters import counters
 from exactpt.kernel.integer_polynomial import IntPoly, sign_at, square_free
 from exactpt.kernel.numbers import QQ
@@ -45,6 +47,7 @@ class Certifier:
     """Certificates of moving vertices at the current time.
 
     Attributes:
+        all: the moving vertices, by id.
         now: the current time; ``now_low`` and ``now_high`` enclose it.
         roots_now: triples of vertices whose function vanishes now.
         end: the last time of interest.
@@ -58,7 +61,7 @@ class Certifier:
 
     def __init__(self, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool) -> None:
         self._vertices = vertices
-        self._all: list[Vertex] = vertices.all
+        self.all: list[Vertex] = vertices.all
         self.end: QQ = end
         self._end_high: float = vertices.frame.time(end)[1]
         self.exact_only: bool = exact_only
@@ -84,7 +87,7 @@ class Certifier:
 
     def vertex(self, vertex_id: int) -> Vertex:
         """The moving vertex with this id."""
-        return self._all[vertex_id]
+        return self.all[vertex_id]
 
     @property
     def exact_now(self) -> AlgebraicNumber:
@@ -93,7 +96,7 @@ class Certifier:
 
     def resolve(self, time: EventTime) -> AlgebraicNumber:
         """The exact time of an event; its enclosure becomes as narrow as doubles."""
-        vertices, frame = self._all, self._vertices.frame
+        vertices, frame = self.all, self._vertices.frame
         if time.c == X_ORDER:
             f = x_order(vertices[time.a], vertices[time.b])
         else:
@@ -112,7 +115,7 @@ class Certifier:
 
     def rigid(self, a: int, b: int, c: int) -> bool:
         """Whether three vertices keep their orientation for ever."""
-        va, vb, vc = self._all[a], self._all[b], self._all[c]
+        va, vb, vc = self.all[a], self.all[b], self.all[c]
         motion = va.image.motion
         if motion >= 0 and motion == vb.image.motion and motion == vc.image.motion:
             return not (va.image.ws and self._has_copies_of_a_point(va, vb, vc))
@@ -132,7 +135,7 @@ class Certifier:
 
     def keeps_x_order(self, a: int, b: int) -> bool:
         """Whether two vertices keep the difference of their x coordinates for ever."""
-        va, vb = self._all[a], self._all[b]
+        va, vb = self.all[a], self.all[b]
         p, q = va.image, vb.image
         if va.offset is not None and self._vertices.bodies[va.body].deforms:
             return False  # its offsets turn
@@ -146,7 +149,7 @@ class Certifier:
         it may be a touch.
         """
         self.made += 1
-        va, vb, vc = self._all[a], self._all[b], self._all[c]
+        va, vb, vc = self.all[a], self.all[b], self.all[c]
         if self.exact_only or va.track is vb.track or vb.track is vc.track or va.track is vc.track:
             return self._exact_orientation(va, vb, vc)
         bodies = self._vertices.bodies
@@ -177,38 +180,43 @@ class Certifier:
         self, triples: Sequence[tuple[int, int, int]]
     ) -> list[tuple[int, EventTime | None]]:
         """As `orientation` of each triple; those in linear motion in numpy, all at once."""
-        answers: dict[int, tuple[int, EventTime | None]] = {}
-        if len(triples) >= BATCH and not (self.exact_only or self.roots_now):
-            answers = self._linear_orientations(triples)
-            self.made += len(answers)
-            counters.filtered += len(answers)
-        return [answers.get(k) or self.orientation(*triple) for k, triple in enumerate(triples)]
+        answers: list[tuple[int, EventTime | None]] = []
+        if len(triples) < BATCH or self.exact_only or self.roots_now:
+            for a, b, c in triples:
+                answers.append(self.orientation(a, b, c))
+            return answers
+        signs, lows, highs = self._linear_orientations(triples)
+        for (a, b, c), s, low, high in zip(
+            triples, signs.tolist(), lows.tolist(), highs.tolist(), strict=True
+        ):
+            if s == 0:
+                answers.append(self.orientation(a, b, c))
+                continue
+            self.made += 1
+            counters.filtered += 1
+            answers.append((s, EventTime(low, high, a, b, c) if low < INFINITY else None))
+        return answers
 
-    def _linear_orientations(
-        self, triples: Sequence[tuple[int, int, int]]
-    ) -> dict[int, tuple[int, EventTime | None]]:
-        """What the filter can tell of three different linear motions."""
-        vertices, bodies = self._all, self._vertices.bodies
+    def _linear_orientations(self, triples: Sequence[tuple[int, int, int]]) -> Answers:
+        """What the filter can tell of three different linear motions; unsure of others."""
+        vertices = self.all
+        bodies = [min(self._end_high, body.horizon) for body in self._vertices.bodies]
+        horizons = np.array([bodies[v.body] for v in vertices])
         tracks = np.array([id(v.track) for v in vertices])
         is_linear = np.array([v.image.degree <= 1 and not v.image.ws for v in vertices])
-        ids = np.array(triples)
+        count = 3 * len(triples)
+        ids = np.fromiter(chain.from_iterable(triples), np.int64, count).reshape(-1, 3)
         a, b, c = tracks[ids].T
-        chosen = np.flatnonzero(is_linear[ids].all(axis=1) & (a != b) & (b != c) & (c != a))
-        horizons = np.array([min(self._end_high, bodies[v.body].horizon) for v in vertices])
+        are_linear = is_linear[ids].all(axis=1) & (a != b) & (b != c) & (c != a)
         signs, lows, highs = coefficients.linear_orientations(
             [v.image for v in vertices],
-            ids[chosen],
+            ids,
             self.errors,
             self.now_low,
             self.now_high,
-            horizons[ids[chosen]].min(axis=1),
+            horizons[ids].min(axis=1),
         )
-        found = zip(chosen.tolist(), signs.tolist(), lows.tolist(), highs.tolist(), strict=True)
-        return {
-            k: (s, EventTime(low, high, *triples[k]) if low < INFINITY else None)
-            for k, s, low, high in found
-            if s
-        }
+        return Answers(np.where(are_linear, signs, 0), lows, highs)
 
     def vanishes_now(self, a: int, b: int, c: int) -> bool:
         """Whether the function of these vertices is known to be zero now."""
@@ -257,7 +265,7 @@ class Certifier:
     def first_coincidence(self, *ids: int) -> EventTime | None:
         """The first time at which two of some vertices, always on one line, coincide."""
         first: AlgebraicNumber | None = None
-        vertices = [self._all[v] for v in ids]
+        vertices = [self.all[v] for v in ids]
         until = self._until(*vertices)
         for i, u in enumerate(vertices):
             for v in vertices[:i]:
@@ -284,7 +292,7 @@ class Certifier:
         With ``touching``, a time at which the two are level without passing counts too.
         """
         self.made += 1
-        va, vb = self._all[a], self._all[b]
+        va, vb = self.all[a], self.all[b]
         if self.exact_only or va.track is vb.track:
             return self._exact_x_order(va, vb, touching=touching)
         bodies = self._vertices.bodies

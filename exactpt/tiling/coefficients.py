@@ -19,7 +19,7 @@ from exactpt.kernel.batch import Answers, quadratics
 from exactpt.motion.image import Image
 from exactpt.tiling import cubics
 
-__all__ = ["linear_orientations", "orientation", "x_difference"]
+__all__ = ["linear_orientations", "linear_parts", "orientation", "x_difference"]
 
 U: Final = 2.0**-53
 K: Final = 8.0 * U
@@ -122,6 +122,17 @@ def _three(
     return filters.quadratic(c0, c1, c2, e0, e1, e2, now_low, now_high, horizon, at_root)
 
 
+def linear_parts(images: Sequence[Image]) -> NDArray[np.float64]:
+    """x0, y0, x1, y1 of each image, a row each."""
+    columns = (
+        [i.x0 for i in images],
+        [i.y0 for i in images],
+        [i.x1 for i in images],
+        [i.y1 for i in images],
+    )
+    return np.stack([np.array(column, dtype=np.float64) for column in columns], axis=1)
+
+
 @np.errstate(all="ignore")
 def linear_orientations(
     images: Sequence[Image],
@@ -139,7 +150,7 @@ def linear_orientations(
     higher coefficient of their difference is 0 without error, as in `_pair`.
     """
     motions = np.array([i.motion for i in images])[triples]
-    values = np.array([(i.x0, i.y0, i.x1, i.y1) for i in images])[triples]
+    values = linear_parts(images)[triples]
     rows = np.arange(len(triples))
     together = (motions == np.roll(motions, -1, axis=1)) & (motions >= 0)
     first = np.where(together.any(axis=1), together.argmax(axis=1), 0)

@@ -8,17 +8,24 @@ decides where it can.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cmp_to_key
+from itertools import chain
+from math import isinf, isnan
 from typing import TYPE_CHECKING, Final, final
+
+import numpy as np
+from numpy.typing import NDArray
 
 from exactpt.geometry.predicates import Point, side
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import counters
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
-from exactpt.kernel.numbers import QQ, sign
+from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, sign
+from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.motion.vertices import Vertex, Vertices
 from exactpt.tiling.exact import copies_first, cross, orientation, x_order_terms
+from exactpt.tiling.positions import K, cross_sign, positions_at
 from exactpt.tiling.reasons import reason
 
 if TYPE_CHECKING:
@@ -26,13 +33,18 @@ if TYPE_CHECKING:
 
 __all__ = ["Instant", "sorted_by_x"]
 
-U: Final = 2.0**-53
-TINY: Final = 1e-290
+STEPS: Final = 2.0**30
+"""How finely slopes are told apart at first."""
 
 
 def sorted_by_x(predicates: Predicates, ids: Iterable[int]) -> list[int]:
     """Different vertices from left to right."""
+    if isinstance(predicates, Instant):
+        return predicates.sorted_by_x(ids)
+    return _sorted_exactly(predicates, ids)
 
+
+def _sorted_exactly(predicates: Predicates, ids: Iterable[int]) -> list[int]:
     def order(a: int, b: int) -> int:
         return -1 if predicates.left_of(a, b) else 1
 
@@ -46,7 +58,6 @@ class Instant:
     Attributes:
         time: the time.
         after: whether signs are those just after it; else, those at it.
-        positions: the exact unperturbed position of every vertex, by id.
     """
 
     def __init__(
@@ -57,51 +68,79 @@ class Instant:
         self.after = after
         self._number = AlgebraicNumber(time)
         self._exact_only: bool = exact_only
-        self.positions: list[tuple[QQ, QQ]] = []
-        for vertex in vertices.all:
-            self.positions.append(vertex.track.at(time))
-        self._x: list[float] = []
-        self._y: list[float] = []
-        largest, exact = 0.0, True
-        for position in self.positions:
-            x, y = vertices.frame.point(position)
-            self._x.append(x)
-            self._y.append(y)
-            largest = max(largest, abs(x), abs(y))
-            exact = exact and position == (QQ(x), QQ(y))
-        # Each float coordinate is off by at most one unit of the largest.
-        self._error: float = 0.0 if exact else 2.0 * U * largest
+        self._exact: dict[int, Point] = {}
+        # Differences of coordinates are off by at most d, besides their own rounding.
+        self._xs, self._ys, error = positions_at(vertices, *vertices.frame.time(time))
+        self._x: list[float] = self._xs.tolist()
+        self._y: list[float] = self._ys.tolist()
+        d = self._d = 2.0 * error
+        # The bound of `cross_sign` for differences as large as any here.
+        width, height = _extent(self._xs), _extent(self._ys)
+        self._largest_bound: float = (
+            K * 2.0 * width * height + d * 2.0 * (width + height + d)
+        ) * SLACK + TINY
+        if exact_only:
+            self._largest_bound = INFINITY
+
+    def position(self, v: int) -> Point:
+        """The exact unperturbed position of a vertex."""
+        found = self._exact.get(v)
+        if found is None:
+            found = self._exact[v] = self.vertices.all[v].track.at(self.time)
+        return found
 
     def sign(self, a: int, b: int, c: int) -> int:
-        """1 if a, b, c turn left, -1 if right, 0 if collinear (counts as right).
-
-        With coordinates off by d / 2 = U * largest each, differences are off by d and
-        their own rounding; the rest is as in `exactpt.tiling.coefficients`.
-        """
+        """1 if a, b, c turn left, -1 if right, 0 if collinear (counts as right)."""
         x, y = self._x, self._y
-        ux, uy = x[b] - x[a], y[b] - y[a]
-        vx, vy = x[c] - x[a], y[c] - y[a]
-        p, q = ux * vy, uy * vx
-        det = p - q
-        d = self._error
-        bound = (
-            8.0 * U * (abs(p) + abs(q))
-            + d * (abs(ux) + abs(uy) + abs(vx) + abs(vy) + 2.0 * d) * (1.0 + 1e-10)
-            + TINY
-        )
+        ax, ay = x[a], y[a]
+        det = (x[b] - ax) * (y[c] - ay) - (y[b] - ay) * (x[c] - ax)
+        if det > self._largest_bound:
+            counters.filtered += 1
+            return 1
+        if det < -self._largest_bound:
+            counters.filtered += 1
+            return -1
+        return self._sign_closely(a, b, c)
+
+    def _sign_closely(self, a: int, b: int, c: int) -> int:
         if not self._exact_only:
-            if det > bound:
+            x, y, d = self._x, self._y, self._d
+            s = cross_sign(x[b] - x[a], y[b] - y[a], d, x[c] - x[a], y[c] - y[a], d)
+            if s:
                 counters.filtered += 1
-                return 1
-            if det < -bound:
-                counters.filtered += 1
-                return -1
+                return s
+        return self._exact_sign(a, b, c)
+
+    @np.errstate(all="ignore")
+    def signs(self, triples: Sequence[tuple[int, int, int]]) -> list[int]:
+        """As `sign` of each triple, in numpy."""
+        if not triples:
+            return []
+        count = 3 * len(triples)
+        a, b, c = np.fromiter(chain.from_iterable(triples), np.int64, count).reshape(-1, 3).T
+        ux, uy = self._xs[b] - self._xs[a], self._ys[b] - self._ys[a]
+        vx, vy = self._xs[c] - self._xs[a], self._ys[c] - self._ys[a]
+        p, q = ux * vy, uy * vx
+        det, d = p - q, self._d
+        bound = (
+            K * (abs(p) + abs(q)) + d * (abs(ux) + abs(uy) + abs(vx) + abs(vy) + 2.0 * d)
+        ) * SLACK + TINY
+        certain = np.where(det > bound, 1, np.where(det < -bound, -1, 0))
+        if self._exact_only:
+            certain[:] = 0
+        signs: list[int] = certain.tolist()
+        unsure = np.flatnonzero(certain == 0).tolist()
+        counters.filtered += len(signs) - len(unsure)
+        for k in unsure:
+            signs[k] = self._exact_sign(*triples[k])
+        return signs
+
+    def _exact_sign(self, a: int, b: int, c: int) -> int:
         u, v, w = (self.vertices.all[i] for i in (a, b, c))
         are_copies = u.track is v.track or v.track is w.track or w.track is u.track
-        s = 0 if are_copies else side(*(self.positions[i] for i in (a, b, c)))
+        s = 0 if are_copies else side(self.position(a), self.position(b), self.position(c))
         is_zero = s == 0 and not are_copies
-        why = reason(u, v, w, is_zero=is_zero, exact_only=self._exact_only)
-        counters.count_exact("sign", why)
+        self._count(u, v, w, is_zero=is_zero)
         if not are_copies:
             together = u.image.motion == v.image.motion == w.image.motion >= 0
             if s or together or not self.after:
@@ -110,21 +149,27 @@ class Instant:
             return s
         return self.first_sign((orientation(u, v, w),))
 
+    def _count(self, *vertices: Vertex, is_zero: bool) -> None:
+        why = reason(*vertices, is_zero=is_zero, exact_only=self._exact_only)
+        counters.count_exact("sign", why)
+
     def _sign_of_copies(self, u: Vertex, v: Vertex, w: Vertex) -> int:
         """The sign of `copy_orientation` at the time itself."""
         a, b, c = copies_first(u, v, w)
         (ax, ay), (bx, by) = self.offset(a.id), self.offset(b.id)
         (px, py), (qx, qy) = (
-            (self.offset(i) if a.track is c.track else self.positions[i]) for i in (a.id, c.id)
+            (self.offset(i) if a.track is c.track else self.position(i)) for i in (a.id, c.id)
         )
         return sign((bx - ax) * (qy - py) - (by - ay) * (qx - px))
 
     def all_stay_convex(self) -> bool:
         """Whether all bodies are convex and stay so; at a vertex, an angle of pi will do."""
-        v = self.vertices.all
-        return all(
-            not body.is_tiled and all(self.sign(v[p].ahead, p, v[p].behind) <= 0 for p in body.ring)
-            for body in self.vertices.bodies
+        v, bodies = self.vertices.all, self.vertices.bodies
+        return not any(body.is_tiled for body in bodies) and all(
+            s <= 0
+            for s in self.signs(
+                [(v[p].ahead, p, v[p].behind) for body in bodies for p in body.ring]
+            )
         )
 
     def first_sign(self, terms: Iterable[IntPoly]) -> int:
@@ -137,20 +182,86 @@ class Instant:
 
     def left_of(self, a: int, b: int) -> bool:
         """Whether a comes before b from left to right (of equal x the upper one first)."""
-        (ax, _), (bx, _) = self.positions[a], self.positions[b]
+        difference = self._x[b] - self._x[a]
+        bound = self._d + K * abs(difference)
+        if not self._exact_only:
+            if difference > bound:
+                counters.filtered += 1
+                return True
+            if difference < -bound:
+                counters.filtered += 1
+                return False
+        (ax, _), (bx, _) = self.position(a), self.position(b)
+        u, v = self.vertices.all[a], self.vertices.all[b]
+        self._count(u, v, is_zero=ax == bx)
         if ax != bx:
             return ax < bx
-        v = self.vertices.all
-        return self.first_sign(x_order_terms(v[a], v[b])) > 0
+        return self.first_sign(x_order_terms(u, v)) > 0
+
+    def sorted_by_x(self, ids: Iterable[int]) -> list[int]:
+        """Vertices from left to right: by doubles, and exactly where these are close.
+
+        In the order of the doubles every vertex before a gap wider than the bound is
+        certainly left of every one after it.
+        """
+        x, d = self._x, self._d
+        order = sorted(ids, key=x.__getitem__)
+        if self._exact_only or any(isnan(x[v]) for v in order):
+            return _sorted_exactly(self, order)
+        first = 0
+        for last in range(1, len(order) + 1):
+            if last < len(order):
+                gap = x[order[last]] - x[order[last - 1]]
+                if not gap > d + K * gap:
+                    continue
+            if last - first > 1:
+                order[first:last] = _sorted_exactly(self, order[first:last])
+            first = last
+        return order
+
+    def descent(self, a: int, b: int) -> float:
+        """-slope of the line from a to b, a left of b, rounded down; monotone in the slope.
+
+        In units of 1 / `STEPS`. Rounding down is monotone, so where it is the same for both
+        ends of an enclosure it is that of the slope. The quotient is off as in
+        `exactpt.tiling.positions`. A line that is vertical at the time is steeper than any
+        other: downwards, or upwards.
+        """
+        dx, dy = self._x[b] - self._x[a], self._y[b] - self._y[a]
+        ex, ey = self._d + K * abs(dx), self._d + K * abs(dy)
+        if dx > 2.0 * ex and dx > SMALL and not self._exact_only:
+            q = -dy / dx
+            error = ((ey + abs(q) * ex) / (dx - ex) + 4.0 * U * abs(q)) * SLACK + TINY
+            low = (q - error) * STEPS // 1.0
+            if low == (q + error) * STEPS // 1.0:
+                return low
+        (ax, ay), (bx, by) = self.position(a), self.position(b)
+        if ax == bx:
+            return -INFINITY if by > ay else INFINITY
+        scale = self.vertices.frame.scale
+        near = nearest_float((ay - by) / (bx - ax) * power_of_two(scale[0] - scale[1])) * STEPS
+        return near if isinf(near) else near // 1.0
 
     def turn(self, a: int, b: int, c: int, d: int) -> int:
         """1 if the direction from a to b turns left to that from c to d, -1 if right."""
-        p, q, r, s = (self.positions[i] for i in (a, b, c, d))
-        now = sign((q[0] - p[0]) * (s[1] - r[1]) - (q[1] - p[1]) * (s[0] - r[0]))
+        now = self.turn_now(a, b, c, d)
         if now or not self.after:
             return now
-        v = self.vertices.all
-        return self._number.sign_after(cross(v[a].track, v[b].track, v[c].track, v[d].track))
+        p, q, r, s = (self.vertices.all[i].track for i in (a, b, c, d))
+        return self._number.sign_after(cross(p, q, r, s))
+
+    def turn_now(self, a: int, b: int, c: int, d: int) -> int:
+        """The same at the time itself; 0 if the directions are parallel then."""
+        if not self._exact_only:
+            x, y, off = self._x, self._y, self._d
+            now = cross_sign(x[b] - x[a], y[b] - y[a], off, x[d] - x[c], y[d] - y[c], off)
+            if now:
+                counters.filtered += 1
+                return now
+        p, q, r, s = (self.position(i) for i in (a, b, c, d))
+        now = sign((q[0] - p[0]) * (s[1] - r[1]) - (q[1] - p[1]) * (s[0] - r[0]))
+        self._count(*[self.vertices.all[i] for i in (a, b, c, d)], is_zero=now == 0)
+        return now
 
     def middle(self, a: int, b: int, c: int) -> int:
         """Of three collinear vertices, the one between the others."""
@@ -160,7 +271,7 @@ class Instant:
 
     def nearer(self, p: int, a: int, b: int) -> bool:
         """Whether a is nearer to p than b is, for a and b in one direction from p."""
-        origin, u, v = self.positions[p], self.positions[a], self.positions[b]
+        origin, u, v = self.position(p), self.position(a), self.position(b)
         if u == v:
             return self._copy_is_nearer(p, a, b)
         axis = 0 if u[0] != origin[0] or v[0] != origin[0] else 1
@@ -169,7 +280,7 @@ class Instant:
     def _copy_is_nearer(self, p: int, a: int, b: int) -> bool:
         """Of two copies of a thin vertex, the one whose offset points towards p."""
         (ax, ay), (bx, by) = self.offset(a), self.offset(b)
-        (px, py), (x, y) = self.positions[p], self.positions[a]
+        (px, py), (x, y) = self.position(p), self.position(a)
         return (ax - bx) * (px - x) + (ay - by) * (py - y) > 0
 
     def offset(self, vertex_id: int) -> Point:
@@ -178,3 +289,9 @@ class Instant:
         if offset is None:
             return QQ(0), QQ(0)
         return evaluate(offset[0], self.time), evaluate(offset[1], self.time)
+
+
+def _extent(values: NDArray[np.float64]) -> float:
+    """How far apart any two of the numbers are; what is NaN is none."""
+    known = values[~np.isnan(values)]
+    return float(np.ptp(known)) if len(known) else 0.0

@@ -24,12 +24,13 @@ class Moment:
 
     def __init__(self, certifier: Certifier, *, before: bool) -> None:
         self._certifier = certifier
+        self._all: list[Vertex] = certifier.all
         self._before: bool = before
 
     def sign(self, a: int, b: int, c: int) -> int:
         """1 if a, b, c turn left, -1 if right, 0 if collinear for ever (counts as right)."""
-        certifier = self._certifier
-        va, vb, vc = certifier.vertex(a), certifier.vertex(b), certifier.vertex(c)
+        certifier, v = self._certifier, self._all
+        va, vb, vc = v[a], v[b], v[c]
         if not certifier.exact_only:
             s = certifier.positions.sign(va, vb, vc)
             if s:
@@ -56,7 +57,7 @@ class Moment:
     def left_of(self, a: int, b: int) -> bool:
         """Whether a comes before b from left to right."""
         certifier = self._certifier
-        va, vb = certifier.vertex(a), certifier.vertex(b)
+        va, vb = self._all[a], self._all[b]
         if not certifier.exact_only:
             s = certifier.positions.order(va, vb, 0)
             if s:
@@ -82,7 +83,8 @@ class Moment:
     def turn(self, a: int, b: int, c: int, d: int) -> int:
         """1 if the direction from a to b turns left to that from c to d, -1 if right."""
         certifier = self._certifier
-        p, q, r, t = (certifier.vertex(v) for v in (a, b, c, d))
+        v = self._all
+        p, q, r, t = v[a], v[b], v[c], v[d]
         if not certifier.exact_only:
             s = certifier.positions.turn(p, q, r, t)
             if s:

@@ -159,3 +159,43 @@ def test_ordinary_scenes_keep_their_integers(points, x, end):
     assert [value(x, Fraction(1))] == [sum(map(Fraction, image.xs), Fraction(0))]
     assert not any(frame.errors)
     assert frame.time(QQ(end)) == (float(end), float(end))
+
+
+def test_integers_are_exact_as_far_as_doubles_are():
+    frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+
+    exact_ones = frame.image(track(Polynomial([2**53 - 1, -(2**53)]), Polynomial([]), None, None))
+    errors = list(frame.errors)
+    rounded = frame.image(track(Polynomial([2**53 + 1]), Polynomial([1]), None, None))
+    huge = frame.image(track(Polynomial([10**400]), Polynomial([1]), None, None))
+
+    assert exact_ones.xs == [2.0**53 - 1, -(2.0**53)]
+    assert exact_ones.ys == [0.0, 0.0]
+    assert errors == [0.0, 0.0]
+    assert rounded.xs == [2.0**53]
+    assert frame.errors[0] >= 1.0
+    assert math.isnan(huge.x0)
+
+
+def test_tracks_of_one_body_have_one_motion():
+    frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    path, other, rest = Polynomial([1, 2]), Polynomial([7, 2]), Polynomial([1])
+    tracks = [track(x, rest, None, None) for x in (path, other, rest, path)]
+
+    first, second, third, fourth = (image.motion for image in frame.images(tracks))
+
+    assert first == second == fourth != third
+    assert frame.image(tracks[0]).motion == first
+
+
+def test_integer_vertices_among_others_of_one_body():
+    """Tracks of one motion whose denominators differ have different numerators."""
+    frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    xs = (3, QQ(1, 2), 0, 2**60, -5)
+    tracks = [track(Polynomial([x, 7]), Polynomial([0, 0, 1]), None, None) for x in xs]
+
+    images = frame.images(tracks)
+
+    assert [image.xs for image in images] == [[float(x), 7.0, 0.0] for x in xs]
+    assert [image.ys for image in images] == [[0.0, 0.0, 1.0]] * 5
+    assert not any(frame.errors)

@@ -97,7 +97,7 @@ def test_a_free_segment_crosses_few_edges_of_f1(family, count):
     for seed, instant in instants(family, count):
         rng = Random(seed)
         mesh = mixed_mesh(instant)
-        at = instant.positions
+        at = [instant.position(v.id) for v in instant.vertices.all]
         m = mesh.map
         solid = [(at[v], at[m.target(mesh.ring_edge[v])]) for v in range(len(at))]
         bridges = [
@@ -117,7 +117,7 @@ def test_a_free_segment_crosses_few_edges_of_f1(family, count):
 
 def random_free_point(rng, instant):
     """A point near a vertex, on its free side or not: a segment into a body crosses its edge."""
-    x, y = rng.choice(instant.positions)
+    x, y = instant.position(rng.randrange(len(instant.vertices.all)))
     return x + QQ(rng.randint(-300, 300), 97), y + QQ(rng.randint(-300, 300), 101)
 
 

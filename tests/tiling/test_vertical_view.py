@@ -19,12 +19,12 @@ def height_over(p, q, x):
 
 def nearest_edge(instant, v, *, up):
     """Of all edges of other bodies that the vertical of v crosses, the nearest: its ends."""
-    x, y = instant.positions[v]
+    x, y = instant.position(v)
     best = None
     for u in instant.vertices.all:
         if u.body == instant.vertices.all[v].body:
             continue
-        p, q = instant.positions[u.id], instant.positions[u.ahead]
+        p, q = instant.position(u.id), instant.position(u.ahead)
         if (p[0] < x < q[0]) or (q[0] < x < p[0]):
             distance = (height_over(p, q, x) - y) * (1 if up else -1)
             if distance > 0 and (best is None or distance < best[0]):
@@ -40,7 +40,7 @@ def test_a_vertical_that_meets_a_tile_twice_ends_at_the_nearest_edge(seed):
     instant = Instant(vertices, QQ(0))
     mesh = LazyTiling.mesh_at(instant)
     flipped_at_random(mesh, instant, rng, 100)
-    xs = [p[0] for p in instant.positions]
+    xs = [instant.position(v.id)[0] for v in vertices.all]
     for moving in vertices.bodies:
         chain = lower_chain(instant, moving.ring)
         for v in (chain[0], chain[-1]):

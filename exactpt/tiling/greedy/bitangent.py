@@ -6,17 +6,15 @@ its direction, in (0, pi]; pi is vertical. Larger slope means smaller theta.
 
 from __future__ import annotations
 
-from typing import Final, final
+from typing import final
 
 from exactpt.errors import AuditError
-from exactpt.kernel.numbers import nearest_float, sign
+from exactpt.kernel.numbers import QQ
 from exactpt.motion.incidence import difference
 from exactpt.tiling.greedy.slope import Slope, slope_terms
 from exactpt.tiling.instant import Instant
 
 __all__ = ["Bitangent", "tangent_pair"]
-
-INFINITY: Final = float("inf")
 
 
 def tangent_pair(instant: Instant, a: int, b: int, side_a: int, side_b: int) -> tuple[int, int]:
@@ -72,13 +70,12 @@ class Bitangent:
 
     Attributes:
         a, b: its left and its right vertex.
-        key: -slope, rounded; never in the wrong order, but equal for slopes that are close.
+        key: -slope, rounded down; never in the wrong order, but equal for slopes that are close.
         cell: the cell of the sweep in which it was found.
         left, right: the arcs at the ends of that cell then.
     """
 
     __slots__ = (
-        "_direction",
         "_instant",
         "_known_slope",
         "_sides",
@@ -107,14 +104,7 @@ class Bitangent:
         self._instant = instant
         self._sides = sides
         self._known_slope: Slope | None = None
-        (ax, ay), (bx, by) = instant.positions[self.a], instant.positions[self.b]
-        dx, dy = bx - ax, by - ay
-        self._direction = (dx, dy)
-        if dx != 0:
-            self.key: float = nearest_float(-dy / dx)
-        else:
-            # Vertical at the time. Just after, if not for ever: steep upwards or downwards.
-            self.key = -INFINITY if dy > 0 else INFINITY
+        self.key: float = instant.descent(self.a, self.b)
 
     def __lt__(self, other: Bitangent) -> bool:
         """Whether theta is smaller, for equal keys; perturbed, so that the order is total."""
@@ -123,9 +113,19 @@ class Bitangent:
 
     def compare(self, other: Bitangent) -> int:
         """-1 or 1 as theta is smaller or larger just after the instant, perturbed; 0 if equal."""
-        (ux, uy), (vx, vy) = self._direction, other._direction
-        now = sign(ux * vy - uy * vx)
+        now = self._instant.turn_now(self.a, self.b, other.a, other.b)
         return now or self._instant.first_sign(slope_terms(self._slope(), other._slope()))
+
+    def is_parallel(self, other: Bitangent) -> bool:
+        """Whether two bitangents are parallel at the instant."""
+        return (
+            self.key == other.key and self._instant.turn_now(self.a, self.b, other.a, other.b) == 0
+        )
+
+    def offset(self) -> QQ:
+        """Where the line is among those parallel to it: its y at x = 0, or its x if vertical."""
+        (ax, ay), (bx, by) = self._instant.position(self.a), self._instant.position(self.b)
+        return ax if ax == bx else (ay * bx - by * ax) / (bx - ax)
 
     def _slope(self) -> Slope:
         if self._known_slope is None:
@@ -136,7 +136,8 @@ class Bitangent:
         vertices = self._instant.vertices.all
         a, b = vertices[self.a], vertices[self.b]
         # Of zero width, at the time if that is asked for, else for ever.
-        upright = self._direction[0] == 0 and (
+        is_upright = self._instant.position(self.a)[0] == self._instant.position(self.b)[0]
+        upright = is_upright and (
             not self._instant.after or not difference(a.track.x, a.track.w, b.track.x, b.track.w)
         )
         return Slope(a, b, self._sides, upright=upright)

@@ -33,7 +33,7 @@ __all__ = ["GreedyTiling", "greedy_mesh"]
 def greedy_mesh(instant: Instant, cells: VerticalDecomposition) -> tuple[Mesh, int]:
     """The greedy tiling, and how many flips were needed after the sweep.
 
-    None, unless parallel bitangents met in the sweep; then the result is checked. Uses up
+    None, unless the sweep met two bitangents on one line; then the result is checked. Uses up
     the vertical decomposition.
     """
     diagonals, tied = greedy_diagonals(instant, cells)
@@ -295,6 +295,9 @@ class GreedyTiling(PopulatedTiling):
         g = facing_visit(self.mesh, around, v, moment)
         for h in [] if g is None else m.face(g):
             if self.mesh.is_boundary(h) or self.mesh.is_hull(h):
+                continue
+            # It crosses its diagonal into the tile across, which v is in; or both start at u.
+            if u not in self.mesh.ends(h) and v not in [m.origin[e] for e in m.face(h ^ 1)]:
                 continue
             visits = shadow(self.mesh, h, moment)
             if visits is not None and {m.origin[visits[0]], m.origin[visits[1]]} == {u, v}:

@@ -15,6 +15,7 @@ import heapq
 from typing import final
 
 from exactpt.errors import AuditError
+from exactpt.kernel.numbers import QQ
 from exactpt.tiling.greedy.bitangent import Bitangent, tangent_pair
 from exactpt.tiling.greedy.vertical import NO_ARC, NO_CELL, VerticalDecomposition
 from exactpt.tiling.instant import Instant
@@ -28,8 +29,10 @@ def greedy_diagonals(
 ) -> tuple[list[Diagonal], bool]:
     """The 3k - 3 bitangents of the pseudo-triangulation, from left to right.
 
-    Also says whether parallel bitangents met in the sweep, so that their order came from
-    the perturbation (the caller may want to check the result).
+    Also says whether there were two on one line, so that their order came from the
+    perturbation (the caller may want to check the result). That of parallel ones on
+    different lines does not matter: moving their bodies a little makes it either, and
+    changes nothing else.
 
     Args:
         instant: the predicates.
@@ -61,6 +64,7 @@ class _Sweep:
         for cell in range(len(self.cells.left)):
             self._push(cell)
         previous: Bitangent | None = None
+        offsets: set[QQ] = set()
         while self.heap:
             _, s = heapq.heappop(self.heap)
             cells = self.cells
@@ -71,8 +75,12 @@ class _Sweep:
                 or not self._is_ready(s.cell)
             ):
                 continue
-            if previous is not None and previous.key == s.key:
-                self.tied = True
+            if not self.tied:
+                if previous is not None and previous.is_parallel(s):
+                    offsets.add(previous.offset())
+                    self.tied = s.offset() in offsets
+                else:
+                    offsets.clear()
             previous = s
             found.append(Diagonal(s.a, s.b))
             self._pass(s.cell, s.left, s.right)

@@ -30,7 +30,7 @@ def holds_at(structure: IncrementalStructure, instant: Instant) -> bool:
     holds = True
     for p, q in pairwise(structure.order):
         if not instant.left_of(p, q):
-            if instant.positions[p][0] != instant.positions[q][0]:
+            if instant.position(p)[0] != instant.position(q)[0]:
                 raise AuditError(f"points {p} and {q} are in the wrong order")
             holds = False
     for side, wanted in ((UPPER, 1), (LOWER, -1)):

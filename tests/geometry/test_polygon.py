@@ -1,0 +1,47 @@
+"""Orientation of polygons, and their boxes in doubles."""
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from strategies import as_rational, fractions
+
+from exactpt.geometry.boxes import boxes_of_points
+from exactpt.geometry.polygon import is_counter_clockwise, signed_area2
+
+SIMPLE = (
+    [(0, 0), (2, 0), (0, 1)],
+    [(0, 0), (1, 0), (1, 1), (0, 1)],
+    [(0, 0), (1, 0), (1, 3), (0, 3), (0, 2), (0, 1)],  # flat vertices on the left
+    [(0, 0), (3, 0), (3, 2), (0, 2), (2, 1)],  # two leftmost vertices, a reflex one between
+    [(0, 1), (1, 0), (5, 5), (4, 1), (6, 6), (1, 5), (3, 4)],
+)
+wide = st.one_of(
+    fractions,
+    st.integers(-(10**30), 10**30).map(Fraction),
+    st.sampled_from([Fraction(10**400), Fraction(-(10**400)), Fraction(1, 10**400)]),
+)
+
+
+@pytest.mark.parametrize("shape", SIMPLE)
+def test_the_leftmost_vertex_tells_the_orientation(shape):
+    points = [(as_rational(Fraction(x)), as_rational(Fraction(y))) for x, y in shape]
+    for i in range(len(points)):
+        turned = points[i:] + points[:i]
+        mirrored = [(-x, y) for x, y in turned]
+        for ring in (turned, turned[::-1], mirrored, mirrored[::-1]):
+            assert is_counter_clockwise(ring) == (signed_area2(ring) > 0)
+
+
+@given(st.lists(st.lists(st.tuples(wide, wide), min_size=1, max_size=3), max_size=4))
+def test_boxes_contain_their_points(groups):
+    exact = [[(as_rational(x), as_rational(y)) for x, y in points] for points in groups]
+
+    boxes = boxes_of_points(exact)
+
+    assert boxes.shape == (len(groups), 4)
+    for points, (x_low, x_high, y_low, y_high) in zip(groups, boxes.tolist(), strict=True):
+        for x, y in points:
+            assert x_low <= x <= x_high
+            assert y_low <= y <= y_high

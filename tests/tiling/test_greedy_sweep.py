@@ -1,0 +1,80 @@
+"""The rotational sweep where bitangents are parallel, and its repairs where they turn vertical."""
+
+from random import Random
+
+import pytest
+
+from exactpt.bench.shapes import crowd
+from exactpt.collision.tilings import start_tiling
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.vertices import Vertices
+from exactpt.tiling.build import build_mesh
+from exactpt.tiling.events import ContactFound
+from exactpt.tiling.greedy.shadow import flip_until_greedy
+from exactpt.tiling.greedy.sweep import greedy_diagonals
+from exactpt.tiling.greedy.vertical import VerticalDecomposition
+from exactpt.tiling.instant import Instant
+
+SHAPES = (
+    [(0, 0), (2, 0), (0, 1)],
+    [(0, 0), (2, 0), (2, 2), (0, 2)],
+    [(0, 0), (1, -1), (2, 0), (1, 1)],
+    [(0, 0), (3, 1), (1, 2)],
+)
+
+
+def scattered(rng, side):
+    """Bodies of few shapes on a coarse lattice: many bitangents have one direction."""
+    return [
+        Body(f"{i} {j}", [(7 * i + x + dx, 7 * j + y + dy) for x, y in rng.choice(SHAPES)])
+        for i in range(side)
+        for j in range(side)
+        for dx, dy in [(rng.randint(0, 2) + j, rng.randint(0, 2) - i)]
+    ]
+
+
+def swept(bodies):
+    instant = Instant(Vertices.of(bodies, QQ(0), QQ(1)), QQ(0))
+    return instant, *greedy_diagonals(instant, VerticalDecomposition.at(instant))
+
+
+@pytest.mark.parametrize("side", [2, 3, 4])
+def test_the_order_of_parallel_bitangents_on_different_lines_does_not_matter(side):
+    rng = Random(side)
+    parallel = 0
+    for _ in range(40):
+        instant, diagonals, tied = swept(scattered(rng, side))
+        slopes = []
+        for u, v, _ in diagonals:
+            (ax, ay), (bx, by) = instant.position(u), instant.position(v)
+            slopes.append((by - ay) / (bx - ax) if ax != bx else None)
+        mesh = build_mesh(instant, diagonals)
+        flips = flip_until_greedy(mesh, instant, mesh.diagonals())
+
+        assert tied or not flips
+        parallel += not tied and len(set(slopes)) < len(slopes)
+    assert parallel
+
+
+def test_two_bitangents_on_one_line_are_told():
+    square = SHAPES[1]
+    in_line = [Body(str(i), [(5 * i + x, y) for x, y in square]) for i in range(3)]
+    in_steps = [Body(str(i), [(5 * i + x, 3 * i * i + y) for x, y in square]) for i in range(3)]
+
+    assert swept(in_line)[2]
+    assert not swept(in_steps)[2]
+
+
+def test_the_diagonal_of_a_bitangent_that_becomes_vertical_is_found():
+    """Also one that starts where the bitangent does; else the tiling is built anew."""
+    kinetic = start_tiling(crowd(40, Random(1), radius=60, end=100), "greedy", QQ(0))
+    try:
+        for _ in kinetic.run():
+            if kinetic.stats.total >= 300:
+                break
+    except ContactFound:
+        pass
+
+    assert kinetic.stats.flips + kinetic.stats.total >= 200
+    assert kinetic.stats.rebuilds == 0
