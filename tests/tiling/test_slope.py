@@ -19,7 +19,7 @@ def rise(instant, a, b, sides, *, upright):
 
     Their radius is 1 - kappa |v|^2; it is above the disc of a body that is below it.
     """
-    (ax, ay), (bx, by) = instant.positions[a], instant.positions[b]
+    (ax, ay), (bx, by) = instant.position(a), instant.position(b)
     at_a = -sides[0] * (1 - KAPPA * (ax * ax + ay * ay))
     at_b = -sides[1] * (1 - KAPPA * (bx * bx + by * by))
     return (at_b - at_a) / (ay - by if upright else bx - ax)
