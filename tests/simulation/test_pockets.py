@@ -150,3 +150,35 @@ def test_a_geodesic_may_wind_around_the_end_of_its_body(turns, start):
             simulation.add(out.pop())
         audit(simulation)
     assert simulation.stats["rebuilds"] == 0
+
+
+def comb(teeth):
+    """A comb with gaps of width 6, open above."""
+    outline = [(0, 0), (8 * teeth + 2, 0)]
+    for i in reversed(range(teeth + 1)):
+        outline += [(8 * i + 2, 2), (8 * i + 2, 20), (8 * i, 20), (8 * i, 2)]
+    return outline[:2] + outline[3:-1]
+
+
+def certificates(teeth):
+    """How many a guest in each tenth gap of a comb has, when it goes and when it comes."""
+    guests = [
+        Body(f"guest{i}", [(8 * i + 4, 9), (8 * i + 6, 9), (8 * i + 5, 8)])
+        for i in range(1, teeth - 1)
+    ]
+    simulation = Simulation(Scene([Body("comb", comb(teeth)), *guests], (0, 9)), tiling="mixed")
+    certifier = simulation.kinetic.certifier
+    counts = []
+    for guest in guests[::10]:
+        before = certifier.made + certifier.skipped
+        simulation.remove(guest.name)
+        between = certifier.made + certifier.skipped
+        simulation.add(guest)
+        counts.append((between - before, certifier.made + certifier.skipped - between))
+    audit(simulation)
+    assert simulation.stats["rebuilds"] == 0
+    return set(counts)
+
+
+def test_the_certificates_in_a_pocket_do_not_depend_on_the_rest_of_the_body():
+    assert certificates(8) == certificates(60)

@@ -11,6 +11,7 @@ In either case, with a node all above it change.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import pairwise
 from typing import NamedTuple
 
 from exactpt.tiling.mesh import FREE
@@ -26,11 +27,13 @@ class Chains(NamedTuple):
     Attributes:
         of: its tree.
         edges: a cycle of half-edges around it.
+        after: of half-edges in the cycle, the next one along the same geodesic.
         spans: of each node of the tree that has to be looked for, its part of the cycle.
     """
 
     of: BodyTree
     edges: list[int]
+    after: dict[int, int]
     spans: dict[int, tuple[int, int]]
 
 
@@ -64,11 +67,14 @@ def chains_of(mesh: LabelledMesh, of: BodyTree, changing: set[int]) -> Chains:
     """The geodesics of the highest nodes of a body that do not change, one after the other."""
     tree = of.tree
     edges: list[int] = []
+    after: dict[int, int] = {}
     spans: dict[int, tuple[int, int]] = {}
 
     def descend(k: int) -> None:
         if of.nodes[k] not in changing:
-            edges.extend(mesh.geodesic(of, k))
+            geodesic = mesh.geodesic(of, k)
+            edges.extend(geodesic)
+            after.update(pairwise(geodesic))
             return
         start = len(edges)
         for child in (tree.child[k], tree.child[k] + 1):
@@ -77,4 +83,4 @@ def chains_of(mesh: LabelledMesh, of: BodyTree, changing: set[int]) -> Chains:
 
     descend(ROOT)
     spans[TOP] = (0, len(edges))
-    return Chains(of, edges, spans)
+    return Chains(of, edges, after, spans)

@@ -138,6 +138,8 @@ class Geodesics:
 
     def _funnel(self, start: int, goal: int, sleeve: Sequence[int]) -> list[int]:
         """The shortest path from start to goal through a sleeve of triangles."""
+        if len(sleeve) < 2:
+            return [start] if start == goal else [start, goal]
         funnel = _Funnel(start, self._turn)
         for l, r in self._portals(sleeve):
             funnel.extend(r, RIGHT)

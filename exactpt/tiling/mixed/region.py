@@ -112,7 +112,7 @@ class LabelledRegion(Region):
         of = self._labelled.forest.add(moving.ring)
         ring = [self.mesh.ring_edge[v] for v in moving.ring]
         spans = {k: (of.tree.low[k], of.tree.high[k]) for k in range(len(of.nodes))}
-        self._chains.append(Chains(of, ring, spans))
+        self._chains.append(Chains(of, ring, {}, spans))
 
     def tile(self, predicates: Predicates) -> Retiled:
         """As `Region.tile`: F1 by its geodesics, F2 by a sweep.
@@ -180,14 +180,18 @@ class LabelledRegion(Region):
         """The nodes whose geodesics are new, with these."""
         geodesics = Geodesics(predicates, self.mesh, self._triangles)
         paths = []
-        for of, edges, spans in self._chains:
+        for of, edges, after, spans in self._chains:
             for k, (start, end) in spans.items():
                 chain = geodesics.from_leftmost(edges) if k == TOP else edges[start:end]
-                paths.append((of.nodes[k], self._pulled(predicates, geodesics, chain)))
+                paths.append((of.nodes[k], self._pulled(predicates, geodesics, chain, after)))
         return paths
 
     def _pulled(
-        self, predicates: Predicates, geodesics: Geodesics, chain: Sequence[int]
+        self,
+        predicates: Predicates,
+        geodesics: Geodesics,
+        chain: Sequence[int],
+        after: dict[int, int],
     ) -> list[int]:
         """The geodesic along a chain; what it is pulled into joins the region."""
         while True:
@@ -198,8 +202,11 @@ class LabelledRegion(Region):
             at = 0
             for part in parts[:-1]:
                 at += len(part.path) - 1
-                if not self._is_taut(predicates, *path[at - 1 : at + 2]):
-                    beside += self._beside(chain[part.end - 1], chain[part.end])
+                bend, g, h = path[at - 1 : at + 2], chain[part.end - 1], chain[part.end]
+                if after.get(g) == h and bend == [*self.mesh.ends(g), self.mesh.map.target(h)]:
+                    continue  # as in the geodesic below
+                if not self._is_taut(predicates, *bend):
+                    beside += self._beside(g, h)
             if not beside:
                 return path
             for h in beside:
