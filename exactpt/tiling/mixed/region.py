@@ -127,6 +127,7 @@ class LabelledRegion(Region):
         self._remove(self._inner())
         bridges = self._label(predicates, paths)
         retiled = super().tile(predicates)
+        # A tile may become one of F2 as it is; its edges can be flipped then.
         refixed = [
             g
             for h, was_fixed in self._was_fixed.items()
