@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from exactpt.errors import AuditError
 from exactpt.tiling.mixed.labels import LabelledMesh
+from exactpt.tiling.mixed.tree import TOP
 
 __all__ = ["relative_hull"]
 
@@ -20,7 +21,7 @@ def relative_hull(mesh: LabelledMesh, body: int) -> list[int]:
     Raises:
         AuditError: if the labels are not those of one cycle.
     """
-    top, m = mesh.forest.bodies[body].first, mesh.map
+    top, m = mesh.forest.bodies[body].nodes[TOP], mesh.map
     cycle = [h for h in m.half_edges() if top in mesh.labels[h]]
     ordered = [cycle[0]]
     while True:

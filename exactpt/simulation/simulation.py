@@ -91,8 +91,9 @@ class Simulation(Running):
     def add(self, body: Body) -> None:
         """Add a body now, which must be rational, as the last one.
 
-        The work is for the faces of the tiling that it meets, after a walk to them. The
-        mixed tiling and that of points are built anew, O(n log n); so is, once, that of
+        The work is for the faces of the tiling that it meets, after a walk to them; in the
+        mixed tiling, for the geodesics of the bodies in whose relative hulls it comes to
+        lie, too. The tiling of points is built anew, O(n log n); so is, once, that of
         convex bodies when one comes that need not stay convex.
 
         Raises:
@@ -105,7 +106,8 @@ class Simulation(Running):
         """Remove a body now, which must be rational; the last one takes its place in the scene.
 
         The work is for the faces of the tiling that it touches, and for the convex hull if
-        it is there. The mixed tiling and that of points are built anew, O(n log n).
+        it is there; in the mixed tiling, for the geodesics that have bent around it, too.
+        The tiling of points is built anew, O(n log n).
 
         Raises:
             InputError: if there is no such body, now is not rational or is the end.

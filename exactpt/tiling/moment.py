@@ -8,6 +8,7 @@ from exactpt.kernel.counters import counters
 from exactpt.tiling import coefficients
 from exactpt.tiling.certificates import X_ORDER
 from exactpt.tiling.exact import cross, orientation, x_order
+from exactpt.tiling.placement import nearer, nearer_copy
 from exactpt.tiling.reasons import reason
 
 if TYPE_CHECKING:
@@ -91,6 +92,12 @@ class Moment:
                 counters.filtered += 1
                 return s
         return self._exact(cross(p.track, q.track, r.track, t.track), p, q, r, t)
+
+    def nearer(self, p: int, a: int, b: int) -> bool:
+        """Whether a is nearer to p than b is, for a and b in one direction from p."""
+        certifier = self._certifier
+        o, u, v = (certifier.vertex(i) for i in (p, a, b))
+        return (nearer(certifier, o, u, v) or nearer_copy(certifier, o, u, v)) > 0
 
     def _horizon(self) -> float:
         # Roots are not asked for; but the filter looks at an interval that is not empty.

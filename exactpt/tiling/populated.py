@@ -53,7 +53,7 @@ class PopulatedTiling(KineticTiling):
         i = self.vertices.add(body, t)
         moving = self.vertices.bodies[i]
         self._schedule_piece(i)
-        region = Region(self.mesh, site.faces, site.crossed)
+        region = self._region_met(site)
         region.add_ring(self.vertices, moving)
         is_whole = self._retile(region)
         if is_whole:
@@ -76,8 +76,7 @@ class PopulatedTiling(KineticTiling):
         """
         self._pause(t)
         ring = self.vertices.bodies[i].ring
-        gone = dict.fromkeys(min(h, h ^ 1) for h in self._ring_angles(ring))
-        region = Region(self.mesh, [g for h in gone for g in (h, h ^ 1)], gone)
+        region = self._region_left(i)
         for v in ring:
             self.mesh.ring_edge[v] = NOTHING
         is_whole = self._retile(region)
@@ -109,19 +108,31 @@ class PopulatedTiling(KineticTiling):
         self.stats.most = max(self.stats.most, len(self.queue))
         return self._reported()
 
+    def _region_met(self, site: Site) -> Region:
+        """What is tiled anew when a body comes: the faces that it meets."""
+        return Region(self.mesh, site.faces, site.crossed)
+
+    def _region_left(self, i: int) -> Region:
+        """What is tiled anew when a body goes: the faces that it has touched."""
+        gone = self._edges_at(i)
+        return Region(self.mesh, [g for h in gone for g in (h, h ^ 1)], gone)
+
+    def _edges_at(self, i: int) -> list[int]:
+        """The edges at the vertices of a body."""
+        angles = self._ring_angles(self.vertices.bodies[i].ring)
+        return list(dict.fromkeys(min(h, h ^ 1) for h in angles))
+
     def _ring_angles(self, ring: Iterable[int]) -> list[int]:
         """The half-edges out of the vertices of a ring."""
         return [h for v in ring for h in self.mesh.map.fan(self.mesh.ring_edge[v])]
 
     def _retile(self, region: Region) -> bool:
         """Tile a region, and certify its new angles; whether that was possible."""
-        for h in region.gone:
-            self._cancel_edge(h)
         try:
             retiled = region.tile(Moment(self.certifier, before=False))
         except AuditError:
             return False
-        for h in retiled.handles:
+        for h in (*region.gone, *retiled.handles):
             self._cancel_edge(h)
         removed, added = self._by_scene_edge(retiled.removed), self._by_scene_edge(retiled.added)
         self._record(

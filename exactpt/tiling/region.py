@@ -11,7 +11,7 @@ from bisect import insort
 from collections.abc import Iterable
 from functools import cmp_to_key
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple, final
+from typing import TYPE_CHECKING, NamedTuple
 
 from exactpt.errors import AuditError
 from exactpt.planar.halfedge import NOTHING
@@ -47,7 +47,6 @@ class _Angle(NamedTuple):
     in_triangle: bool
 
 
-@final
 class Region:
     """Faces of a mesh that have been joined.
 
@@ -55,23 +54,42 @@ class Region:
         mesh: the mesh; the edges are removed from it at once.
         faces: a half-edge of every face; none if there are no edges yet.
         gone: the edges to be removed, none of which borders another face.
+
+    Attributes:
+        mesh: the mesh.
+        gone: the edges that have been removed.
     """
 
     def __init__(self, mesh: Mesh, faces: Iterable[int], gone: Iterable[int]) -> None:
         self.mesh = mesh
-        m = mesh.map
+        self.gone: list[int] = []
         self._before: dict[int, _Angle] = {}
+        self._rim: list[int] = []
+        self._removed: list[tuple[int, int]] = []
         for first in faces:
-            if first not in self._before:
-                self._before.update((h, self._angle(h)) for h in m.face(first))
+            self._join(first)
         is_unbounded = not self._before or any(mesh.region[h] == OUTER for h in self._before)
         self._around = FREE if is_unbounded else SOLID
-        self.gone = list(gone)
-        lost = {g for h in self.gone for g in (h, h ^ 1)}
-        self._rim = [h for h in self._before if h not in lost]
-        self._removed = [mesh.ends(h) for h in self.gone if not mesh.is_boundary(h)]
-        for h in self.gone:
-            m.remove_edge(h)
+        self._remove(list(gone))
+
+    def _join(self, first: int) -> None:
+        """Take a face into the region."""
+        if first not in self._before:
+            face = self.mesh.map.face(first)
+            self._before.update((h, self._angle(h)) for h in face)
+            self._rim += face
+
+    def _remove(self, edges: list[int]) -> None:
+        """Remove edges between faces of the region; later ones may have their handles."""
+        mesh = self.mesh
+        lost = {g for h in edges for g in (h, h ^ 1)}
+        self.gone += edges
+        self._removed += [mesh.ends(h) for h in edges if not mesh.is_boundary(h)]
+        self._rim = [h for h in self._rim if h not in lost]
+        for h in lost:
+            self._before.pop(h, None)
+        for h in edges:
+            mesh.map.remove_edge(h)
 
     def add_ring(self, vertices: Vertices, moving: MovingBody) -> None:
         """Put the ring of a new body into the region."""
@@ -93,10 +111,9 @@ class Region:
         Raises:
             AuditError: if that is not possible: what is in it overlaps.
         """
-        sweep = Sweep(predicates, self._edges(predicates), around=self._around)
+        sweep = Sweep(predicates, self._edges(predicates, self._open()), around=self._around)
         added = [(u, v) for u, v, _ in sweep.run()]
-        new = self._insert(predicates, added)
-        inside = [*self._rim, *new]
+        inside = [*self._rim, *self._insert(predicates, added)]
         self._mark(predicates, inside)
         changes = make_pointed(self.mesh, predicates, inside)
         m = self.mesh.map
@@ -118,11 +135,15 @@ class Region:
     def _has_changed(self, h: int) -> bool:
         return self.mesh.map.origin[h] >= 0 and self._before.get(h) != self._angle(h)
 
-    def _edges(self, predicates: Predicates) -> Iterable[SweptEdge]:
-        """The edges of the rim, from left to right, with what is above them."""
-        rim = set(self._rim)
+    def _open(self) -> list[int]:
+        """The half-edges of the rim that have on their left what is to be tiled."""
+        return self._rim
+
+    def _edges(self, predicates: Predicates, around: Iterable[int]) -> Iterable[SweptEdge]:
+        """The edges of half-edges around some faces, from left to right, and what is above."""
+        rim = dict.fromkeys(around)
         done: set[int] = set()
-        for h in self._rim:
+        for h in rim:
             if h not in done:
                 done.update((h, h ^ 1))
                 g = h if predicates.left_of(*self.mesh.ends(h)) else h ^ 1

@@ -17,7 +17,7 @@ from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.region import Region
 
-LOCAL = ["greedy", "lazy"]
+LOCAL = ["greedy", "lazy", "mixed"]
 
 
 def touched(simulation):

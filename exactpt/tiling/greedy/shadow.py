@@ -43,6 +43,10 @@ class Predicates(Protocol):
         """1 if the direction from a to b turns left to that from c to d, -1 if right."""
         ...
 
+    def nearer(self, p: int, a: int, b: int) -> bool:
+        """Whether a is nearer to p than b is, for a and b in one direction from p."""
+        ...
+
 
 def opposite_corner(mesh: Mesh, h: int) -> int:
     """The corner of the face of h that is at neither end of the side chain with h."""

@@ -5,7 +5,8 @@ that can be shrunk to the boundary between them. The polygon is on its left. Pus
 little off the boundary, the path runs through the triangles around the vertices in
 between; turning back is cut out of that sequence, and the funnel algorithm shortens the
 path in what is left. A vertex on the convex hull of everything is on every geodesic around
-it, so the sleeves end there.
+it, so the sleeves end there. Instead of the boundary the chain may be any path that can be
+shrunk to it, with the polygon on its left.
 
 Source: D. T. Lee, F. P. Preparata, *Euclidean shortest paths in the presence of
 rectilinear barriers*, Networks 14 (1984); J. Hershberger, J. Snoeyink, *Computing minimum
@@ -14,61 +15,122 @@ length paths of a given homotopy class*, CGTA 4 (1994).
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Sequence
+from collections import Counter, deque
+from collections.abc import Callable, Sequence, Set
 from itertools import pairwise
-from typing import Final, final
+from typing import Final, NamedTuple, final
 
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import OUTER, Mesh
+from exactpt.tiling.greedy.shadow import Predicates
+from exactpt.tiling.mesh import Mesh
 
-__all__ = ["Geodesics"]
+__all__ = ["Geodesics", "Part", "joined"]
 
 LEFT: Final = 1
 RIGHT: Final = -1
 
 
-@final
-class Geodesics:
-    """Geodesics in a triangulated free space.
+class Part(NamedTuple):
+    """A part of a geodesic, from one vertex of its chain to another that it cannot leave.
 
-    Args:
-        instant: the predicates.
-        triangulation: a mesh whose free tiles are triangles.
+    Attributes:
+        path: the vertices along it.
+        end: the position in the chain of the half-edge that starts where it ends.
     """
 
-    def __init__(self, instant: Instant, triangulation: Mesh) -> None:
-        self._instant = instant
-        self._mesh = triangulation
+    path: list[int]
+    end: int
+
+
+@final
+class Geodesics:
+    """Geodesics in a triangulated part of the free space.
+
+    Args:
+        predicates: of the time.
+        mesh: the triangulation.
+        triangles: the half-edges of the triangles; the set may grow.
+    """
+
+    def __init__(self, predicates: Predicates, mesh: Mesh, triangles: Set[int]) -> None:
+        self._predicates = predicates
+        self._mesh = mesh
+        self._triangles = triangles
 
     def path(self, chain: Sequence[int]) -> list[int]:
-        """The geodesic along a chain of consecutive vertices of a ring, as vertices.
+        """The geodesic along a chain, as vertices.
 
-        Of a chain that ends where it began, the loop pinned there.
+        Args:
+            chain: half-edges, each of which starts where the one before ends. If it ends
+                where it began, the geodesic is the loop pinned there.
         """
-        path = [chain[0]]
+        return joined(self.parts(chain))
+
+    def without_loops(self, chain: Sequence[int]) -> Sequence[int]:
+        """A chain without what can be shrunk to a vertex that it passes several times."""
+        m = self._mesh.map
+        kept: list[int] = []
+        for h in chain:
+            if kept and kept[-1] == h ^ 1:
+                kept.pop()
+            else:
+                kept.append(h)
+        before = -1
+        while len(kept) != before:
+            before = len(kept)
+            count = Counter([*(m.origin[h] for h in kept), m.target(kept[-1])])
+            for v in [v for v, times in count.items() if times > 1]:
+                kept = self._without_loops_at(v, kept)
+        return kept
+
+    def _without_loops_at(self, v: int, chain: list[int]) -> list[int]:
+        """A chain without what can be shrunk to one vertex."""
+        kept: list[int] = []
+        start = 0
+        for part in self.parts(chain, v):
+            if len(part.path) > 1:
+                kept += chain[start : part.end]
+            start = part.end
+        return kept
+
+    def parts(self, chain: Sequence[int], pin: int = -1) -> list[Part]:
+        """The same in parts, which end at a pin and where not all on the right are triangles."""
+        m = self._mesh.map
+        parts = []
+        start = m.origin[chain[0]]
         sleeve: list[int] = []
-        for i in range(1, len(chain) - 1):
+        for i in range(1, len(chain)):
             fan = self._fan(chain[i - 1], chain[i])
-            if fan is None:  # on the convex hull
-                path += self._funnel(path[-1], chain[i], sleeve)[1:]
+            if fan is None or m.origin[chain[i]] == pin:
+                parts.append(Part(self._funnel(start, m.origin[chain[i]], sleeve), i))
+                start = m.origin[chain[i]]
                 sleeve = []
             else:
                 _extend(sleeve, fan)
-        path += self._funnel(path[-1], chain[-1], sleeve)[1:]
-        return path
+        parts.append(Part(self._funnel(start, m.target(chain[-1]), sleeve), len(chain)))
+        return parts
 
-    def _fan(self, before: int, v: int) -> list[int] | None:
-        """The triangles around v from one neighbour to the next; None if the outside is one.
+    def from_leftmost(self, cycle: Sequence[int]) -> list[int]:
+        """The half-edges of a cycle around a body from its leftmost vertex on.
+
+        Of a body's ring, or geodesics along it, that vertex is on the convex hull of the
+        body, and so on its unpinned cycle, which lies between the two.
+        """
+        origin, first = self._mesh.map.origin, 0
+        for i in range(1, len(cycle)):
+            if self._predicates.left_of(origin[cycle[i]], origin[cycle[first]]):
+                first = i
+        return [*cycle[first:], *cycle[:first]]
+
+    def _fan(self, before: int, after: int) -> list[int] | None:
+        """The triangles on the right of a chain at a vertex; None if not all are triangles.
 
         A triangle is named by its least half-edge.
         """
-        mesh, m = self._mesh, self._mesh.map
-        h = mesh.ring_edge[before] ^ 1  # from v to the vertex before, free space on its left
-        last = mesh.ring_edge[v]
+        m = self._mesh.map
+        h = before ^ 1
         fan = []
-        while h != last:
-            if mesh.region[h] == OUTER:
+        while h != after:
+            if h not in self._triangles:
                 return None
             fan.append(min(h, m.following[h], m.previous[h]))
             h = m.previous[h] ^ 1
@@ -76,6 +138,8 @@ class Geodesics:
 
     def _funnel(self, start: int, goal: int, sleeve: Sequence[int]) -> list[int]:
         """The shortest path from start to goal through a sleeve of triangles."""
+        if len(sleeve) < 2:
+            return [start] if start == goal else [start, goal]
         funnel = _Funnel(start, self._turn)
         for l, r in self._portals(sleeve):
             funnel.extend(r, RIGHT)
@@ -92,9 +156,9 @@ class Geodesics:
         """
         if p == q:
             return 0
-        s = self._instant.sign(apex, p, q)
+        s = self._predicates.sign(apex, p, q)
         if s == 0:
-            s = side_p if self._instant.nearer(apex, p, q) else -side_q
+            s = side_p if self._predicates.nearer(apex, p, q) else -side_q
         return s
 
     def _portals(self, sleeve: Sequence[int]) -> list[tuple[int, int]]:
@@ -106,6 +170,11 @@ class Geodesics:
             h = next(h for h in m.face(t) if h ^ 1 in around)
             portals.append((m.target(h), m.origin[h]))
         return portals
+
+
+def joined(parts: Sequence[Part]) -> list[int]:
+    """The vertices along a geodesic."""
+    return [*parts[0].path[:1], *(v for part in parts for v in part.path[1:])]
 
 
 def _extend(sleeve: list[int], fan: Sequence[int]) -> None:

@@ -23,18 +23,19 @@ of which neither edge or both edges give way.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Final, NamedTuple, TypeAlias, final
 
 from exactpt.errors import AuditError
 from exactpt.motion.vertices import Vertices
+from exactpt.planar.halfedge import NOTHING
 from exactpt.tiling.mesh import F2, FREE, INSIDE, Mesh, Tile
-from exactpt.tiling.mixed.tree import GeodesicTree, tree_of_size
+from exactpt.tiling.mixed.tree import ROOT, TOP, GeodesicTree, tree_of_size
 
 __all__ = ["NO_LABEL", "BodyTree", "Forest", "Label", "LabelledMesh"]
 
 Label: TypeAlias = frozenset[int]
-"""Nodes, numbered through all bodies."""
+"""Nodes, numbered through all bodies: two for each vertex."""
 
 NO_LABEL: Final[Label] = frozenset()
 
@@ -44,12 +45,12 @@ class BodyTree(NamedTuple):
 
     Attributes:
         tree: its shape; shared by all polygons of one size.
-        first: the number of its `TOP` among the nodes of all bodies.
+        nodes: of each node of the tree, its number among the nodes of all bodies.
         chain: the ring, and its first vertex again: the vertices 0 to n of the tree.
     """
 
     tree: GeodesicTree
-    first: int
+    nodes: list[int]
     chain: list[int]
 
 
@@ -57,31 +58,54 @@ class BodyTree(NamedTuple):
 class Forest:
     """The trees of all bodies, with their nodes numbered through.
 
+    A ring of n vertices has a tree of 2 n nodes. So two numbers go with each vertex, and
+    are used again with it.
+
     Attributes:
+        vertices: of the bodies.
         bodies: of each body, its tree.
         parent, depth: of each node; the parent of a `TOP` is -1.
-        body: of each node, whose it is.
         leaves: the nodes that are leaves.
         pinned: of each vertex 0, the root, whose loop runs through it and is pinned there.
     """
 
     def __init__(self, vertices: Vertices) -> None:
+        self.vertices = vertices
         self.bodies: list[BodyTree] = []
         self.parent: list[int] = []
         self.depth: list[int] = []
-        self.body: list[int] = []
         self.leaves: set[int] = set()
         self.pinned: dict[int, Label] = {}
-        for i, moving in enumerate(vertices.bodies):
-            tree = tree_of_size(len(moving.ring))
-            first = len(self.parent)
-            chain = [*moving.ring, moving.ring[0]]
-            self.bodies.append(BodyTree(tree, first, chain))
-            self.parent += [p + first if p >= 0 else -1 for p in tree.parent]
-            self.depth += tree.depth
-            self.body += [i] * len(tree)
-            self.leaves.update(first + leaf for leaf in tree.leaf)
-            self.pinned[chain[0]] = frozenset((first + 1,))
+        for moving in vertices.bodies:
+            self.add(moving.ring)
+
+    def add(self, ring: Sequence[int]) -> BodyTree:
+        """Add the tree of a body that has come as the last one."""
+        tree = tree_of_size(len(ring))
+        nodes = [2 * v + side for v in ring for side in (0, 1)]
+        missing = 2 * len(self.vertices.all) - len(self.parent)
+        self.parent += [-1] * missing
+        self.depth += [0] * missing
+        for node, parent, depth in zip(nodes, tree.parent, tree.depth, strict=True):
+            self.parent[node] = nodes[parent] if parent >= 0 else -1
+            self.depth[node] = depth
+        self.leaves.update(nodes[leaf] for leaf in tree.leaf)
+        self.pinned[ring[0]] = frozenset((nodes[ROOT],))
+        self.bodies.append(BodyTree(tree, nodes, [*ring, ring[0]]))
+        return self.bodies[-1]
+
+    def remove(self, i: int) -> None:
+        """Remove the tree of a body; the last body gets its number."""
+        _, nodes, chain = self.bodies[i]
+        last = self.bodies.pop()
+        if i < len(self.bodies):
+            self.bodies[i] = last
+        self.leaves.difference_update(nodes)
+        del self.pinned[chain[0]]
+
+    def body(self, node: int) -> int:
+        """Whose a node is."""
+        return self.vertices.all[node >> 1].body
 
     def bot(self, label: Label) -> int:
         """The deepest node of a label."""
@@ -132,8 +156,53 @@ class LabelledMesh(Mesh):
 
     def tile(self, h: int) -> Tile:
         """The body and the level of the node that the tile on the left of h belongs to."""
-        node = self.forest.node(self.labels[h], self.labels[h ^ 1])
-        return F2 if node < 0 else Tile(self.forest.body[node], self.forest.depth[node])
+        node = self.node(h)
+        return F2 if node < 0 else Tile(self.forest.body(node), self.forest.depth[node])
+
+    def node(self, h: int) -> int:
+        """The node whose tile is on the left of a half-edge of free space; -1 in F2."""
+        return self.forest.node(self.labels[h], self.labels[h ^ 1])
+
+    def geodesic(self, of: BodyTree, k: int) -> list[int]:
+        """The half-edges along the geodesic of a node of a body, the cycle of `TOP` from any.
+
+        Where it passes a vertex twice, what is on its left tells how it goes on: the body,
+        or what it has pulled shut, and nothing else of the same geodesic.
+
+        Raises:
+            AuditError: if the labels are not those of one path.
+        """
+        node = of.nodes[k]
+        if k == TOP:
+            last = NOTHING
+            first = next((h for h in self.geodesic(of, ROOT) if node in self.labels[h]), NOTHING)
+        else:  # the last one is that from the end back along the ring
+            last = self.ring_edge[of.chain[of.tree.high[k] - 1]] ^ 1
+            first = self._clockwise(self.ring_edge[of.chain[of.tree.low[k]]], node, NOTHING)
+        path: list[int] = []
+        h = first
+        while h != NOTHING:
+            path.append(h)
+            if h ^ 1 == last:
+                return path
+            # The first one to the left: clockwise from where it comes from.
+            h = self._clockwise(self.map.following[h], node, last)
+            if h == first:
+                if k == TOP:
+                    return path
+                break
+            if node not in self.labels[h]:
+                return path
+        raise AuditError(f"the geodesic of node {node} is no path")
+
+    def _clockwise(self, first: int, node: int, last: int) -> int:
+        """The next half-edge around a vertex that a geodesic runs along, or the last one."""
+        h = first
+        while node not in self.labels[h] and h != last:
+            h = self.map.following[h ^ 1]
+            if h == first:
+                raise AuditError(f"the geodesic of node {node} ends at vertex {self.map.origin[h]}")
+        return h
 
     def stays(self, h: int) -> tuple[bool, bool]:
         """Whether an edge of a body, or one that is labelled still, is at either side."""
@@ -216,8 +285,5 @@ class LabelledMesh(Mesh):
                 continue
             if not self.forest.is_path(self.labels[h]):
                 raise AuditError(f"label {sorted(self.labels[h])} is no path of ancestors")
-            if self.region[h] == FREE and self._node(h) != self._node(self.map.following[h]):
+            if self.region[h] == FREE and self.node(h) != self.node(self.map.following[h]):
                 raise AuditError(f"half-edge {h} and the next one are of different nodes")
-
-    def _node(self, h: int) -> int:
-        return self.forest.node(self.labels[h], self.labels[h ^ 1])

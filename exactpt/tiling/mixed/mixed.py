@@ -4,17 +4,22 @@ F1, the relative hulls of the polygons, is tiled by their geodesics, told by lab
 the rest of free space, is tiled greedily. The repairs are those of any pseudo-triangulation
 and the rules for labels (`exactpt.tiling.mixed.labels`) say which edge gives way. So the
 border between F1 and F2 moves by itself: an edge that loses its last label is a diagonal
-of F2 from then on, and one that gets a label is none any more.
+of F2 from then on, and one that gets a label is none any more. When a body comes or goes,
+the geodesics that change are looked for anew (`exactpt.tiling.mixed.region`).
 """
 
 from __future__ import annotations
 
-from typing import final
+from typing import cast, final
 
 from exactpt.tiling.greedy.flipping import FlippingTiling
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import Mesh
+from exactpt.tiling.mixed.labels import LabelledMesh
+from exactpt.tiling.mixed.region import region_left, region_met
 from exactpt.tiling.mixed.static import mixed_mesh
+from exactpt.tiling.region import Region
+from exactpt.tiling.site import Site
 
 __all__ = ["MixedTiling"]
 
@@ -26,9 +31,17 @@ class MixedTiling(FlippingTiling):
     name = "mixed"
 
     @property
-    def can_change_bodies(self) -> bool:
-        """Not here: the geodesics around all other bodies may change."""
-        return False
+    def _labelled(self) -> LabelledMesh:
+        return cast(LabelledMesh, self.mesh)
+
+    def _region_met(self, site: Site) -> Region:
+        return region_met(self._labelled, site.faces)
+
+    def _region_left(self, i: int) -> Region:
+        return region_left(self._labelled, i, self._edges_at(i))
+
+    def _leave_body(self, i: int) -> None:
+        self._labelled.forest.remove(i)
 
     @classmethod
     def mesh_at(cls, instant: Instant) -> Mesh:

@@ -40,30 +40,19 @@ def mixed_mesh(instant: Instant) -> LabelledMesh:
     return mesh
 
 
-def _leftmost(instant: Instant, ring: list[int]) -> int:
-    """The position on a ring of its leftmost vertex, which is on the unpinned cycle.
-
-    It is on the ring's convex hull, and the relative hull lies between the two.
-    """
-    first = 0
-    for i in range(1, len(ring)):
-        if instant.left_of(ring[i], ring[first]):
-            first = i
-    return first
-
-
 def _geodesic_labels(instant: Instant, forest: Forest) -> dict[tuple[int, int], Label]:
     """The labels by the ends of the half-edges."""
     triangulation = build_mesh(instant, Sweep(instant, body_edges(instant), triangulate=True).run())
-    geodesics = Geodesics(instant, triangulation)
+    triangles = {h for h in triangulation.map.half_edges() if triangulation.region[h] == FREE}
+    geodesics = Geodesics(instant, triangulation, triangles)
     sets: dict[tuple[int, int], set[int]] = {}
-    for moving, (tree, first, chain) in zip(instant.vertices.bodies, forest.bodies, strict=True):
-        ring, start = moving.ring, _leftmost(instant, moving.ring)
-        loop = [*ring[start:], *ring[: start + 1]]
-        for node in range(len(tree)):
-            part = loop if node == TOP else chain[tree.low[node] : tree.high[node] + 1]
-            for u, v in pairwise(geodesics.path(part)):
-                sets.setdefault((u, v), set()).add(first + node)
+    for tree, nodes, chain in forest.bodies:
+        ring = [triangulation.ring_edge[v] for v in chain[:-1]]
+        for k, node in enumerate(nodes):
+            part = ring[tree.low[k] : tree.high[k]]
+            path = geodesics.path(geodesics.from_leftmost(part) if k == TOP else part)
+            for ends in pairwise(path):
+                sets.setdefault(ends, set()).add(node)
     return {ends: frozenset(nodes) for ends, nodes in sets.items()}
 
 

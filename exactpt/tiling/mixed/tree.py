@@ -30,6 +30,8 @@ class GeodesicTree:
         low, high: of each node, its interval (a, b).
         parent: of each node; -1 of `TOP`.
         depth: of each node; 0 of `TOP`.
+        child: of each node, the first of its two children, the next node being the other; -1
+            of `TOP` and of a leaf.
         leaf: of each edge, its node.
     """
 
@@ -39,6 +41,7 @@ class GeodesicTree:
         self.high: list[int] = [size, size]
         self.parent: list[int] = [-1, TOP]
         self.depth: list[int] = [0, 1]
+        self.child: list[int] = [-1, -1]
         self.leaf: list[int] = [-1] * size
         node = ROOT
         while node < len(self.low):
@@ -47,11 +50,13 @@ class GeodesicTree:
                 self.leaf[a] = node
             else:
                 middle = (a + b) // 2
+                self.child[node] = len(self.low)
                 for low, high in ((a, middle), (middle, b)):
                     self.low.append(low)
                     self.high.append(high)
                     self.parent.append(node)
                     self.depth.append(self.depth[node] + 1)
+                    self.child.append(-1)
             node += 1
 
     def __len__(self) -> int:
