@@ -9,9 +9,11 @@ from __future__ import annotations
 
 from typing import Final
 
+from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.vertices import Vertex, Vertices
+from exactpt.tiling.audit import audit_angles
 from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.closing import close_at
 from exactpt.tiling.events import Stats
@@ -60,14 +62,28 @@ class CertifiedTiling(Tiling):
         return self.mesh
 
     def mesh_now(self, time: QQ) -> Mesh:
-        """The tiling at a rational time: the current one, or one before the next event."""
+        """The tiling at a rational time: the current one, or one before the next event.
+
+        It is the current one with corners closed; or, where corners close on each other
+        so that one by one they cannot, the one that is built at that time.
+        """
         mesh = self.mesh.copy()
-        self._close(mesh, Instant(self.vertices, time, after=False))
+        instant = Instant(self.vertices, time, after=False)
+        try:
+            self._close(mesh, instant)
+        except AuditError:
+            mesh = self.mesh_at(instant)
+            audit_angles(mesh, instant)
         return mesh
 
     def _close(self, mesh: Mesh, instant: Instant) -> None:
-        """Make a tiling just after an instant the one at the instant."""
-        close_at(mesh, instant)
+        """Make a tiling just after an instant the one at the instant.
+
+        Raises:
+            AuditError: if that does not end in a tiling.
+        """
+        if close_at(mesh, instant):
+            audit_angles(mesh, instant)
 
     def _certify_everything(self) -> None:
         self._flat.clear()

@@ -8,11 +8,13 @@ from exactpt.cgal import BodyShape
 from exactpt.collision.tilings import TILINGS
 from exactpt.geometry.polygon import signed_area2
 from exactpt.geometry.predicates import side
+from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.scene.families.shapes import hull
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
+from exactpt.simulation.tile import tile_at
 
 FAMILIES = ("small_grid", "row", "grids_passing", "mirrored", "letters", "flat", "nested", "chains")
 
@@ -61,6 +63,16 @@ def test_a_tiling_at_an_event_is_whole(family, tiling):
 
 
 @pytest.mark.parametrize("tiling", [t for t in TILINGS if t != "incremental"])
+@pytest.mark.parametrize(
+    "family, seed", [("simultaneous_swaps", 4), ("grid_points", 1), ("crossing_lines", 4)]
+)
+def test_corners_that_close_on_each_other_at_an_event(family, seed, tiling):
+    """One by one they do not end in a tiling: that one is built."""
+    for scene, snapshot in snapshots(family, seed, tiling):
+        assert_whole(scene, snapshot)
+
+
+@pytest.mark.parametrize("tiling", [t for t in TILINGS if t != "incremental"])
 def test_a_chain_that_is_straight_at_an_event(tiling):
     """Its vertex is reflex after it, with a diagonal that has to go (corpus cgal-cac0e99123)."""
     middle = {"x": [28], "y": [54, "-1/2"]}
@@ -71,6 +83,18 @@ def test_a_chain_that_is_straight_at_an_event(tiling):
         pass
 
     assert_whole(scene, simulation.snapshot())
+
+
+@pytest.mark.parametrize("tiling", [t for t in TILINGS if t != "incremental"])
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_chain_that_is_straight_at_the_start(tiling, seed):
+    """Where it bends just after, its copies were once all on one line (chains 1, vertex b4:1)."""
+    bend = {"x": ["3171/25", -2], "y": ["30551/100", -5 * seed]}
+    ends = [{"x": [127, -1], "y": [300, -3]}, bend, {"x": ["3167/25", -8], "y": ["15551/50", 5]}]
+    scene = Scene([Body("a", ends, closed=False), Body("b", [(100, 310), (90, 300)])], (0, 1))
+
+    assert_whole(scene, Simulation(scene, tiling=tiling).snapshot())
+    assert_whole(scene, tile_at(scene, QQ(0), tiling=tiling))
 
 
 @pytest.mark.cgal
