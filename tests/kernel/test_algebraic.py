@@ -556,7 +556,8 @@ def test_refining_doubles_the_digits_in_the_end(polynomial, low, high):
 @given(a=algebraics())
 def test_every_step_halves_the_interval(a):
     x, root = a
-    assume(len(x.polynomial) > 3)
+    if len(x.polynomial) <= 3:
+        return  # square roots double the digits at each step
     for _ in range(12):
         before = x.high - x.low
         cuts_at_zero = x.low < 0 < x.high
