@@ -16,13 +16,6 @@ from exactpt.kernel.sturm import count_roots, sturm_sequence
 if TYPE_CHECKING:
     from exactpt.kernel.isolated_root import IsolatedRoot
 
-LARGEST_BITS: Final = 500
-"""Of coefficients as floats: products with powers of a time seldom overflow."""
-MOST_STEPS: Final = 60
-SETTLED: Final = 2.0**-30
-"""A step of Newton's that is so short leaves an error about as large as its square."""
-CLOSE: Final = 2.0**-51
-
 __all__ = [
     "canonical_interval",
     "enclosing_doubles",
@@ -30,6 +23,13 @@ __all__ = [
     "nearest_double",
     "rational_between",
 ]
+
+LARGEST_BITS: Final = 500
+"""Of coefficients as floats: products with powers of a time seldom overflow."""
+MOST_STEPS: Final = 60
+SETTLED: Final = 2.0**-30
+"""A step of Newton's that is so short leaves an error about as large as its square."""
+CLOSE: Final = 2.0**-51
 
 
 def nearest_double(x: IsolatedRoot) -> float:
@@ -55,8 +55,7 @@ def _exact(x: float) -> QQ:
 
 def enclosing_doubles(x: IsolatedRoot) -> tuple[float, float]:
     """Doubles lo <= x <= hi: equal if x is a double, else neighbours."""
-    if len(x.polynomial) > 3:
-        _narrow_around_guess(x)
+    guessing = len(x.polynomial) > 3
     while True:
         lo, hi = enclosing_floats(x.low)[0], enclosing_floats(x.high)[1]
         between = math.nextafter(lo, math.inf)
@@ -64,6 +63,9 @@ def enclosing_doubles(x: IsolatedRoot) -> tuple[float, float]:
             return lo, hi
         if hi == math.nextafter(between, math.inf):
             x.compare_rational(_exact(between))
+        elif guessing:
+            _narrow_around_guess(x)
+            guessing = False
         else:
             x.refine()
 

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, ZZ, sign
+from exactpt.kernel.sturm import sign_changes
 
 __all__ = ["sign_variations"]
 
@@ -34,7 +35,7 @@ def sign_variations(f: IntPoly, low: QQ, high: QQ) -> int:
     _shift(g, ZZ(low.numerator * width.denominator))
     g = _stretch(g, ZZ(width.numerator * low.denominator))[::-1]
     _shift(g, ZZ(1))
-    return _variations(g)
+    return sign_changes([sign(c) for c in g])
 
 
 def _stretch(g: Sequence[ZZ], factor: ZZ) -> list[ZZ]:
@@ -53,13 +54,3 @@ def _shift(g: list[ZZ], by: ZZ) -> None:
         for i in range(len(g) - 1):
             for j in range(len(g) - 2, i - 1, -1):
                 g[j] += by * g[j + 1]
-
-
-def _variations(g: list[ZZ]) -> int:
-    count = last = 0
-    for c in g:
-        s = sign(c)
-        if s and s != last:
-            count += last != 0
-            last = s
-    return count

@@ -20,7 +20,13 @@ from exactpt.kernel.integer_polynomial import (
 )
 from exactpt.kernel.numbers import QQ
 
-__all__ = ["cauchy_bound", "count_roots", "isolating_intervals", "sturm_sequence"]
+__all__ = [
+    "cauchy_bound",
+    "count_roots",
+    "isolating_intervals",
+    "sign_changes",
+    "sturm_sequence",
+]
 
 
 def sturm_sequence(f: IntPoly) -> list[IntPoly]:
@@ -46,9 +52,13 @@ def sturm_sequence(f: IntPoly) -> list[IntPoly]:
 
 
 def _variations(sequence: list[IntPoly], t: QQ) -> int:
+    return sign_changes([sign_at(f, t) for f in sequence])
+
+
+def sign_changes(signs: list[int]) -> int:
+    """How often the sign changes along a sequence of signs; zeros are passed over."""
     count, last = 0, 0
-    for f in sequence:
-        s = sign_at(f, t)
+    for s in signs:
         if s and s != last:
             count += last != 0
             last = s

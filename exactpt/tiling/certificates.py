@@ -85,10 +85,6 @@ class Certifier:
         self.positions.move_to(time.low, time.high)
         self.roots_now = roots
 
-    def vertex(self, vertex_id: int) -> Vertex:
-        """The moving vertex with this id."""
-        return self.all[vertex_id]
-
     @property
     def exact_now(self) -> AlgebraicNumber:
         """The current time as a number."""

@@ -124,29 +124,8 @@ def pair(
         e1 = (e1 + d1 * u + d0 * (abs(vx1) + abs(vy1) + 2.0 * d1)) * SLACK
         e2 = (e2 + d2 * u + d0 * (abs(vx2) + abs(vy2) + 2.0 * d2)) * SLACK
         e3 = (e3 + d3 * u + d0 * (abs(vx3) + abs(vy3) + 2.0 * d3)) * SLACK
-    if e3 == 0.0:
-        return filters.quadratic(
-            p0 - q0, p1 - q1, p2 - q2, e0, e1, e2, now_low, now_high, horizon, at_root
-        )
-    return sextic(
-        p0 - q0,
-        p1 - q1,
-        p2 - q2,
-        p3 - q3,
-        0.0,
-        0.0,
-        0.0,
-        e0,
-        e1,
-        e2,
-        e3,
-        0.0,
-        0.0,
-        0.0,
-        now_low,
-        now_high,
-        horizon,
-        at_root,
+    return _cubic(
+        p0 - q0, p1 - q1, p2 - q2, p3 - q3, e0, e1, e2, e3, now_low, now_high, horizon, at_root
     )
 
 
@@ -164,6 +143,23 @@ def x_difference(
     e0, e1 = K * abs(c0) + 2.0 * errors[0], K * abs(c1) + 2.0 * errors[1]
     e2 = K * abs(c2) + 2.0 * errors[2]
     e3 = K * abs(c3) + (2.0 * errors[3] if len(errors) > 3 else 0.0)
+    return _cubic(c0, c1, c2, c3, e0, e1, e2, e3, now_low, now_high, horizon, at_root)
+
+
+def _cubic(
+    c0: float,
+    c1: float,
+    c2: float,
+    c3: float,
+    e0: float,
+    e1: float,
+    e2: float,
+    e3: float,
+    now_low: float,
+    now_high: float,
+    horizon: float,
+    at_root: bool,  # noqa: FBT001 - positional for speed
+) -> Answer:
     if e3 == 0.0:
         return filters.quadratic(c0, c1, c2, e0, e1, e2, now_low, now_high, horizon, at_root)
     return sextic(

@@ -96,7 +96,7 @@ class Moment:
     def nearer(self, p: int, a: int, b: int) -> bool:
         """Whether a is nearer to p than b is, for a and b in one direction from p."""
         certifier = self._certifier
-        o, u, v = (certifier.vertex(i) for i in (p, a, b))
+        o, u, v = (certifier.all[i] for i in (p, a, b))
         return (nearer(certifier, o, u, v) or nearer_copy(certifier, o, u, v)) > 0
 
     def _horizon(self) -> float:

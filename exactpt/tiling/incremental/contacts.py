@@ -32,7 +32,7 @@ def coinciding(
     """
 
     def height_order(p: int, q: int) -> int:
-        return coordinate_order(certifier, certifier.vertex(q), certifier.vertex(p), 1)
+        return coordinate_order(certifier, certifier.all[q], certifier.all[p], 1)
 
     order, rank = structure.order, structure.rank
     found: list[Touch] = []
@@ -58,12 +58,12 @@ def coinciding(
 
 def column_around(certifier: Certifier, structure: IncrementalStructure, p: int) -> tuple[int, int]:
     """The ranks, from the one to before the other, of the points that have the x of p now."""
-    order, rank, vertex = structure.order, structure.rank, certifier.vertex
+    order, rank, vertices = structure.order, structure.rank, certifier.all
     low = high = rank[p]
-    while low > 0 and not coordinate_order(certifier, vertex(order[low - 1]), vertex(p), 0):
+    while low > 0 and not coordinate_order(certifier, vertices[order[low - 1]], vertices[p], 0):
         low -= 1
     while high + 1 < len(order) and not coordinate_order(
-        certifier, vertex(order[high + 1]), vertex(p), 0
+        certifier, vertices[order[high + 1]], vertices[p], 0
     ):
         high += 1
     return low, high + 1
@@ -73,7 +73,7 @@ def _is_level(certifier: Certifier, p: int, q: int) -> bool:
     """Whether two neighbours in x-order have equal x now, by a certificate, or for ever."""
     if certifier.vanishes_now(p, q, X_ORDER):
         return True
-    a, b = certifier.vertex(p), certifier.vertex(q)
+    a, b = certifier.all[p], certifier.all[q]
     f, g = a.image, b.image
     if not (f.ws or g.ws) and (f.x0 < g.x0 or f.x0 > g.x0 or f.x1 < g.x1 or f.x1 > g.x1):
         return False  # equal coefficients have equal images
