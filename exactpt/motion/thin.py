@@ -1,7 +1,7 @@
 """Thin bodies: rings around an infinitesimal inside, told by the offsets of their vertices.
 
-A point becomes a triangle, a segment a rectangle, an open chain a strip with pointed
-ends; several vertices of a ring are then copies of one vertex of the scene. A copy has
+A point becomes a triangle, a segment a rectangle, an open chain a strip with blunt ends;
+several vertices of a ring are then copies of one vertex of the scene. A copy has
 the direction of its offset, which says only in which directions a line may touch it.
 """
 
@@ -30,14 +30,14 @@ _POINT_OFFSETS: Final = ((-3, 1), (1, -4), (2, 3))
 def thin_ring(size: int) -> list[int]:
     """The vertices of the scene around a thin body, counter-clockwise.
 
-    A segment from a to b has a-left, a-right, b-right, b-left; a longer chain goes along
-    its right side and back along its left.
+    A chain goes from the left of its first vertex to the right of it, along its right side
+    to its last vertex, and back along its left. (A pointed end would not do: what lies on
+    the line of the last edge sees it in a direction of both sides, and on neither is the
+    angle a corner.)
     """
     if size == 1:
         return [0, 0, 0]
-    if size == 2:
-        return [0, 0, 1, 1]
-    return [*range(size), *range(size - 2, 0, -1)]
+    return [0, *range(size), *range(size - 1, 0, -1)]
 
 
 class Offsets(NamedTuple):
@@ -61,19 +61,15 @@ def thin_offsets(tracks: Sequence[Track], start: QQ, end: QQ) -> Offsets:
     if len(tracks) == 1:
         return Offsets([((ZZ(right),), (ZZ(up),)) for right, up in _POINT_OFFSETS], None)
     edges = [_direction(p, q) for p, q in pairwise(tracks)]
-    if len(tracks) == 2:
-        left = _turned(edges[0])
-        right = _minus(left)
-        return Offsets([left, right, right, left], None)
-    lefts = []
+    lefts = [_turned(edges[0])]
     until: QQ | None = None
     for d, e in pairwise(edges):
         o, its_end = _left_of_both(d, e, start, end)
         lefts.append(o)
         if its_end is not None and (until is None or its_end < until):
             until = its_end
-    ring = [_minus(edges[0]), *map(_minus, lefts), edges[-1], *reversed(lefts)]
-    return Offsets(ring, until)
+    lefts.append(_turned(edges[-1]))
+    return Offsets([lefts[0], *map(_minus, lefts), *reversed(lefts[1:])], until)
 
 
 def _left_of_both(d: Offset, e: Offset, start: QQ, end: QQ) -> tuple[Offset, QQ | None]:

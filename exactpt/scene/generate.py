@@ -42,6 +42,7 @@ SIMPLE: Final[dict[str, Family]] = {
     "clamps": simple.clamps,
     "letters": simple.letters,
     "chains": simple.chains,
+    "chains_on_grid": degenerate.chains_on_grid,
     "flat": simple.flat,
     "nested": simple.nested,
 }

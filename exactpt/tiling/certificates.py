@@ -113,21 +113,29 @@ class Certifier:
         """Whether three vertices keep their orientation for ever."""
         va, vb, vc = self.all[a], self.all[b], self.all[c]
         motion = va.image.motion
-        if motion >= 0 and motion == vb.image.motion and motion == vc.image.motion:
-            return not (va.image.ws and self._has_copies_of_a_point(va, vb, vc))
+        if (
+            motion >= 0
+            and motion == vb.image.motion
+            and motion == vc.image.motion
+            and not (self._turns_apart(va, vb) or self._turns_apart(vb, vc))
+            and not self._turns_apart(vc, va)
+        ):
+            return True
         return (
             va.offset is not None
             and va.body == vb.body == vc.body
             and self._vertices.bodies[va.body].body.size < 3
         )
 
-    def _has_copies_of_a_point(self, *vertices: Vertex) -> bool:
-        """Whether some, not all, are copies of one point: their offsets do not turn with it."""
-        bodies = {v.body for v in vertices}
-        return len(bodies) == 2 and any(
-            self._vertices.bodies[i].body.size == 1 and sum(v.body == i for v in vertices) == 2
-            for i in bodies
-        )
+    def _turns_apart(self, u: Vertex, v: Vertex) -> bool:
+        """Whether two vertices are copies of one whose offsets turn, or not, unlike its motion.
+
+        Those of a point never turn; those of a segment or chain that deforms do.
+        """
+        if u.track is not v.track:
+            return False
+        moving = self._vertices.bodies[u.body]
+        return bool(u.image.ws) if moving.body.size == 1 else moving.deforms
 
     def keeps_x_order(self, a: int, b: int) -> bool:
         """Whether two vertices keep the difference of their x coordinates for ever."""

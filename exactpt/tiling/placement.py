@@ -98,10 +98,12 @@ def nearer_copy(certifier: Certifier, p: Vertex, a: Vertex, b: Vertex) -> int:
 def strictly_between(certifier: Certifier, a: Vertex, p: Vertex, b: Vertex) -> bool:
     """For three vertices on one line: whether p is between a and b, at neither of them.
 
-    A copy next to p counts as being apart from it.
+    Of two copies of a thin vertex, the one whose offset points towards the third is.
     """
-    if a.track is p.track or p.track is b.track:
-        return not (a.track is p.track and p.track is b.track)
+    if a.track is p.track:
+        return nearer_copy(certifier, b, p, a) > 0
+    if p.track is b.track:
+        return nearer_copy(certifier, a, p, b) > 0
     for axis in (0, 1):
         ap = coordinate_order(certifier, a, p, axis)
         if ap:

@@ -85,6 +85,7 @@ def on_one_line(moving, t):
 @given(vertices(st.one_of(linear, turning)), times)
 def test_between_and_nearer_on_a_line(moving, t):
     certifier = certifier_at(moving, t)
+    instant = Instant(moving, t)
     for a, p, b in on_one_line(moving, t):
         u, v, w = place(a, t), place(p, t), place(b, t)
         # (u - v) . (w - v): negative if v is between them
@@ -92,7 +93,11 @@ def test_between_and_nearer_on_a_line(moving, t):
         if a.track is not p.track and p.track is not b.track:
             assert strictly_between(certifier, a, p, b) == (dot < 0)
         else:
-            assert strictly_between(certifier, a, p, b) == (a.track is not b.track)
+            far, copy = (b, a) if a.track is p.track else (a, b)
+            (px, py), (ax, ay) = instant.offset(p.id), instant.offset(copy.id)
+            (x, y), (far_x, far_y) = place(p, t), place(far, t)
+            towards = (px - ax) * (far_x - x) + (py - ay) * (far_y - y) > 0
+            assert strictly_between(certifier, a, p, b) == towards
         assert lies_on(certifier, p, a, b) == (dot <= 0)
         if dot >= 0:  # in one direction from p, or there
             far = sum((x - y) ** 2 for x, y in zip(u, v, strict=True))

@@ -104,13 +104,17 @@ def test_strictly_between(certified, direction):
         assert strictly_between(certifier, a, p, b) == (places in inside)
 
 
-def test_a_copy_next_to_a_vertex_is_apart_from_it(certified):
-    certifier, (a, b, far, _) = certified(Body("s", [(1, 1), (3, 1)]))
+def test_of_two_copies_the_one_towards_the_third_vertex_is_between(certified):
+    certifier, vertices = certified(Body("s", [(1, 1), (3, 1)]), *points([(1, 5), (1, 0)]))
+    left, right, above, below = vertices[0], vertices[1], vertices[4], vertices[5]
 
-    assert strictly_between(certifier, a, b, far)
-    assert strictly_between(certifier, far, b, a)
-    assert not strictly_between(certifier, a, far, b)
-    assert not strictly_between(certifier, a, b, a)
+    for near, other, far in ((left, right, above), (right, left, below)):
+        assert strictly_between(certifier, other, near, far)
+        assert strictly_between(certifier, far, near, other)
+        assert not strictly_between(certifier, near, other, far)
+        assert not strictly_between(certifier, far, other, near)
+        assert not strictly_between(certifier, near, far, other)
+        assert not strictly_between(certifier, near, far, near)
 
 
 @pytest.mark.parametrize("direction", DIRECTIONS)

@@ -6,12 +6,24 @@ import math
 from collections.abc import Sequence
 from random import Random
 
+from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point, side
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
-from exactpt.motion.motions import Translation
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Motion, Translation
+from exactpt.scene.scene import Scene
 
-__all__ = ["box", "cells", "convex_polygon", "hull", "poly", "shape", "velocity"]
+__all__ = [
+    "box",
+    "cells",
+    "convex_polygon",
+    "hull",
+    "poly",
+    "shape",
+    "simple_body",
+    "velocity",
+]
 
 
 def convex_polygon(rng: Random, center: Point, radius: int, size: int) -> list[Point]:
@@ -82,3 +94,19 @@ def box(x: QQ | int, y: QQ | int, width: int = 2, height: int = 2) -> list[Point
     """A box with its lower left corner at (x, y)."""
     a, b = QQ(x), QQ(y)
     return [(a, b), (a + width, b), (a + width, b + height), (a, b + height)]
+
+
+def simple_body(
+    name: str,
+    vertices: list[Point] | list[tuple[Polynomial, Polynomial]],
+    motion: Motion,
+    *,
+    closed: bool = True,
+) -> Body | None:
+    """A body, or None if the random polygon or chain is not simple at t = 0."""
+    body = Body(name, vertices, motion, closed=closed)
+    try:
+        Scene([body], (0, 1))
+    except InputError:
+        return None
+    return body
