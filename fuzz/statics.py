@@ -19,7 +19,7 @@ from exactpt.tiling.mesh import INSIDE, Mesh
 from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["FREE_TO_DIFFER", "Audited", "audit_at", "run_and_audit"]
+__all__ = ["FREE_TO_DIFFER", "Audited", "audit_at", "audit_now", "run_and_audit"]
 
 FREE_TO_DIFFER: Final = frozenset({"lazy"})
 """The tilings that depend on what happened before; all others are canonical."""
@@ -44,7 +44,8 @@ def run_and_audit(
 ) -> Audited | None:
     """Run a scene, auditing every gap between events.
 
-    At a rational time within the gap, and (``middle``) at one nearer to its start.
+    At a rational time within the gap, and (``middle``) at one nearer to its start; and at
+    the times of events that are rational.
 
     Returns:
         What was run; None if bodies touch at the start.
@@ -68,6 +69,8 @@ def run_and_audit(
                 gaps += 1
             if kinetic.advance(scene.end) is None:
                 return Audited(kinetic, contact=False, gaps=gaps)
+            if kinetic.now.is_rational:
+                audit_now(kinetic)
     except ContactFound:
         return Audited(kinetic, contact=True, gaps=gaps)
 
@@ -94,6 +97,21 @@ def audit_at(kinetic: Tiling, at: QQ) -> None:
         raise AuditError(f"t = {at}: kinetic is not static; missing: {', '.join(missing)}")
     if _labels(mesh) != _labels(kinetic.mesh_after()):
         raise AuditError(f"t = {at}: other labels than the static ones")
+
+
+def audit_now(kinetic: Tiling) -> None:
+    """Compare the tiling at the current time, which is rational, with the static one.
+
+    Raises:
+        AuditError: if they differ, or there is none.
+    """
+    now = kinetic.now.low
+    kept = kinetic.mesh_now(now)
+    static = type(kinetic).mesh_at(Instant(kinetic.vertices, now, after=False))
+    if kinetic.name in FREE_TO_DIFFER:
+        return
+    if _diagonals(static) != _diagonals(kept) or _labels(static) != _labels(kept):
+        raise AuditError(f"t = {now}: at the time itself, kinetic is not static")
 
 
 def _audit_cells(kept: VerticalDecomposition, static: VerticalDecomposition, at: QQ) -> None:

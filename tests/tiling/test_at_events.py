@@ -16,7 +16,17 @@ from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.simulation.tile import tile_at
 
-FAMILIES = ("small_grid", "row", "grids_passing", "mirrored", "letters", "flat", "nested", "chains")
+FAMILIES = (
+    "small_grid",
+    "row",
+    "grids_passing",
+    "mirrored",
+    "letters",
+    "flat",
+    "nested",
+    "chains",
+    "chains_on_grid",
+)
 
 
 def snapshots(family, seed, tiling):

@@ -1,0 +1,48 @@
+"""Points, segments and open chains: scenes in which their copies once went wrong."""
+
+import pytest
+
+from exactpt.collision.tilings import TILINGS
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.scene.scene import Scene
+from exactpt.simulation.tile import tile_at
+from fuzz.statics import run_and_audit
+
+
+def on(x, y):
+    """A vertex with paths of its own."""
+    return {"x": x, "y": y}
+
+
+@pytest.mark.parametrize("tiling", TILINGS)
+def test_a_vertex_on_the_line_of_a_chains_last_edge(tiling):
+    """Neither angle at a pointed end was a corner: there was no tiling."""
+    chain = Body("chain", [(0, 0), (10, 5), (20, 0)], closed=False)
+    wedge = Body("wedge", [(24, -2), (40, -20), (40, 10)])
+    scene = Scene([chain, wedge], (0, 1))
+
+    snapshot = tile_at(scene, scene.start, tiling=tiling)
+
+    assert all(len(face.corners) == 3 for face in snapshot.faces)
+    run_and_audit(scene, tiling)
+
+
+@pytest.mark.parametrize("tiling", TILINGS)
+def test_a_triangle_of_two_copies_closes_on_the_nearer_one(tiling):
+    """At t = 1/2 the ends' copies and the far end are on one line; any copy did for its middle."""
+    bent = Body("bent", [on([7, 1], [2, 1]), on([4, 1], [0, 1]), on([8, 1], [1])], closed=False)
+    other = Body(
+        "other", [(6, 6), (3, 5), (1, 7), (0, 7)], Translation([0, -1], [0, 1]), closed=False
+    )
+
+    run_and_audit(Scene([bent, other], (0, 4)), tiling)
+
+
+@pytest.mark.parametrize("tiling", TILINGS)
+def test_copies_that_turn_beside_a_vertex_in_the_same_motion(tiling):
+    """They move as the point does, but their segment turns: the angle is not rigid."""
+    segment = Body("segment", [on([3], ["-1/2", "1/2"]), (4, -1)])
+    point = Body("point", [(5, 3)], Translation([0], [0, "1/2"]))
+
+    run_and_audit(Scene([segment, point], (0, 1)), tiling)
