@@ -6,7 +6,7 @@ from collections.abc import Callable
 from random import Random
 from typing import Final, TypeAlias
 
-from exactpt.scene.families import convex, degenerate, points, simple
+from exactpt.scene.families import convex, degenerate, grid, points, simple
 from exactpt.scene.scene import Scene
 
 __all__ = ["CONVEX", "FAMILIES", "POINTS", "SIMPLE", "Family", "generate"]
@@ -42,7 +42,8 @@ SIMPLE: Final[dict[str, Family]] = {
     "clamps": simple.clamps,
     "letters": simple.letters,
     "chains": simple.chains,
-    "chains_on_grid": degenerate.chains_on_grid,
+    "chains_on_grid": grid.chains_on_grid,
+    "bodies_on_grid": grid.bodies_on_grid,
     "flat": simple.flat,
     "nested": simple.nested,
 }

@@ -47,6 +47,7 @@ class CertifiedTiling(Tiling):
         self._due: set[int] = set()
         self._touched: set[int] = set()
         self._careful: bool = False
+        self._several: bool = False
         self._clear_notes()
 
     def _clear_notes(self) -> None:

@@ -13,6 +13,10 @@ ever; but a corner that is zero for ever is never left standing (`exactpt.tiling
 and a straight angle that is so for ever is found by following the chain. Hence testing
 the vertices of all angles with an event at t, extended along straight angles, finds
 every contact.
+
+The faces are those of the free space, and of the insides that are tiled. A deforming
+body without a diagonal, a segment or a triangle, may lose its inside too: then all its
+vertices are tested (`KineticTiling._schedule_piece`).
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.kinetic.queue import EventTime
-from exactpt.motion.vertices import Vertices
+from exactpt.motion.vertices import MovingBody, Vertices
 from exactpt.tiling.angles import ANGLE, KINDS, MOTION, SHRINK
 from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.contacts import touches
@@ -74,15 +74,18 @@ class KineticTiling(RepairedTiling):
         self.mesh = self.mesh_at(Instant(self.vertices, time, exact_only=self.certifier.exact_only))
 
     def _schedule_piece(self, i: int) -> None:
-        """Schedule the end of a body's current piece, and the end of a segment by shrinking."""
+        """Schedule the end of a body's current piece, and of a body that may lose its inside.
+
+        That is a segment that shrinks to a point, or a triangle that becomes one: the only
+        bodies that may do so and whose inside is not tiled.
+        """
         moving = self.vertices.bodies[i]
-        if moving.body.size == 2 and moving.deforms:
-            time = self.certifier.first_coincidence(moving.ring[0], moving.ring[2])
-            slot = KINDS * i + SHRINK
-            if time is None:
-                self.queue.cancel(slot)
-            else:
-                self.queue.schedule(slot, time)
+        slot = KINDS * i + SHRINK
+        time = self._collapse(moving) if moving.deforms else None
+        if time is None:
+            self.queue.cancel(slot)
+        else:
+            self.queue.schedule(slot, time)
         slot = KINDS * i + MOTION
         if moving.until is None or moving.until > self.certifier.end:
             self.queue.cancel(slot)
@@ -91,12 +94,19 @@ class KineticTiling(RepairedTiling):
         exact = AlgebraicNumber(moving.until)
         self.queue.schedule(slot, EventTime(low, high, -1, -1, -1, exact))
 
+    def _collapse(self, moving: MovingBody) -> EventTime | None:
+        if moving.body.size == 2:
+            return self.certifier.first_coincidence(moving.ring[0], moving.ring[2])
+        if moving.body.size == 3 and moving.body.closed:
+            return self.certifier.orientation(*moving.ring)[1]
+        return None
+
     def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent]:
         """See `Tiling.change_plans`."""
         self._move_to(t)
         self._due.clear()
         self._touched.clear()
-        self._careful = True
+        self._careful = self._several = True
         try:
             for i in sorted(plans):
                 if self.vertices.set_plan(i, plans[i], t, self.certifier.end):
@@ -110,7 +120,7 @@ class KineticTiling(RepairedTiling):
             self._settle()
         except RebuildNeeded:
             self._rebuild()
-        self._careful = False
+        self._careful = self._several = False
         self.stats.most = max(self.stats.most, len(self.queue))
         return self._reported()
 
@@ -129,12 +139,13 @@ class KineticTiling(RepairedTiling):
                 self._due.add(h)
             else:
                 self._careful = True
-                self.stats.batches += len(slots) > 1
+                self._several = len(slots) > 1
+                self.stats.batches += self._several
                 self._begin_batch(slots)
             self._settle()
         except RebuildNeeded:
             self._rebuild()
-        self._careful = False
+        self._careful = self._several = False
         self.stats.most = max(self.stats.most, len(self.queue))
 
     def _begin_batch(self, slots: list[int]) -> None:

@@ -46,7 +46,7 @@ class RepairedTiling(CertifiedTiling):
                 self._repair(self._first_due())
             else:
                 self._repair_more()
-        if rounds > 1:
+        if rounds > 1 or self._several:
             self._check_batch(sorted(self._touched))
 
     def _first_due(self) -> int:

@@ -1,8 +1,10 @@
-"""Points, segments and open chains: scenes in which their copies once went wrong."""
+"""Points, segments, chains, flat triangles: scenes in which these once went wrong."""
 
 import pytest
 
+from exactpt.collision.detector import first_contact
 from exactpt.collision.tilings import TILINGS
+from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.scene.scene import Scene
@@ -46,3 +48,26 @@ def test_copies_that_turn_beside_a_vertex_in_the_same_motion(tiling):
     point = Body("point", [(5, 3)], Translation([0], [0, "1/2"]))
 
     run_and_audit(Scene([segment, point], (0, 1)), tiling)
+
+
+@pytest.mark.parametrize("tiling", TILINGS)
+def test_a_turn_for_ever_vertical_at_a_breakpoint(tiling):
+    """At t = 2 the point comes to rest above a vertical edge, a little late for the flip."""
+    frames = [(0, [(2, 6)]), (1, [(2, 7)]), (2, [(-1, 10)])]
+    point = Body("point", keyframes=frames)
+    triangle = Body("triangle", [(-1, 4), (-1, 6), (-2, 4)])
+
+    run_and_audit(Scene([point, triangle], (0, 4)), tiling)
+
+
+@pytest.mark.parametrize("tiling", TILINGS)
+def test_a_triangle_that_becomes_flat_beside_a_chain_that_is_straight_for_ever(tiling):
+    """The chain hid one end of the edge that a vertex of the triangle comes to lie on."""
+    triangle = Body("triangle", [on([1, 5], [0, 1]), on([4, 1], [1]), on([4, 1], [2, -1])])
+    segment = Body("segment", [(0, 0), on([0, 9], [9])])
+    point = Body("point", [(4, 0)], Translation([0, 1]))
+
+    contact = first_contact(Scene([triangle, segment, point], (0, 1)), tiling=tiling)
+
+    assert contact is not None
+    assert contact.time.compare_rational(QQ(3, 4)) == 0

@@ -8,14 +8,12 @@ from typing import Final
 
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
-from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
-from exactpt.motion.motions import Motion, Rigid, Translation
-from exactpt.scene.families.shapes import box, cells, poly, shape, simple_body, velocity
+from exactpt.motion.motions import Rigid, Translation
+from exactpt.scene.families.shapes import box, cells, poly, shape, velocity
 from exactpt.scene.scene import Scene
 
 __all__ = [
-    "chains_on_grid",
     "concentric",
     "convoy",
     "grazing",
@@ -37,35 +35,6 @@ def small_grid(rng: Random) -> Scene:
         Body(f"b{i}", shape(rng, c, 1), velocity(rng, 1)) for i, c in enumerate(cells(rng, k, 3))
     ]
     return Scene(bodies, (0, rng.choice([1, 3, 6])))
-
-
-def chains_on_grid(rng: Random) -> Scene:
-    """Open chains that look at each other's vertices along their ends; they move, turn, bend."""
-    bodies = []
-    for i, center in enumerate(cells(rng, rng.randint(2, 4), 4)):
-        ring = [_near(rng, center, 2) for _ in range(rng.choice([1, 2, 3, 3, 3, 4, 5]))]
-        closed = rng.random() < 0.3
-        motion: Motion = Translation()
-        paths: list[Point] | list[tuple[Polynomial, Polynomial]] = ring
-        kind = rng.randrange(6)
-        if kind < 2:
-            motion = velocity(rng, 2)
-        elif kind == 2:
-            motion = Rigid([0, rng.choice([QQ(1, 2), QQ(1), QQ(-1)])], pivot=rng.choice(ring))
-        elif kind < 5:
-            paths = [
-                (Polynomial([x, rng.randint(-1, 1)]), Polynomial([y, rng.randint(-1, 1)]))
-                for x, y in ring
-            ]
-        bodies.append(simple_body(f"b{i}", paths, motion, closed=closed))
-    return Scene([b for b in bodies if b is not None], (0, rng.choice([1, 2, 4])))
-
-
-def _near(rng: Random, center: Point, radius: int) -> Point:
-    return (
-        center[0] + rng.randint(-radius, radius),
-        center[1] + rng.randint(-radius, radius),
-    )
 
 
 def grids_passing(rng: Random) -> Scene:

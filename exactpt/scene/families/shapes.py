@@ -11,7 +11,7 @@ from exactpt.geometry.predicates import Point, side
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
-from exactpt.motion.motions import Motion, Translation
+from exactpt.motion.motions import Translation
 from exactpt.scene.scene import Scene
 
 __all__ = [
@@ -19,9 +19,9 @@ __all__ = [
     "cells",
     "convex_polygon",
     "hull",
+    "is_simple",
     "poly",
     "shape",
-    "simple_body",
     "velocity",
 ]
 
@@ -96,17 +96,10 @@ def box(x: QQ | int, y: QQ | int, width: int = 2, height: int = 2) -> list[Point
     return [(a, b), (a + width, b), (a + width, b + height), (a, b + height)]
 
 
-def simple_body(
-    name: str,
-    vertices: list[Point] | list[tuple[Polynomial, Polynomial]],
-    motion: Motion,
-    *,
-    closed: bool = True,
-) -> Body | None:
-    """A body, or None if the random polygon or chain is not simple at t = 0."""
-    body = Body(name, vertices, motion, closed=closed)
+def is_simple(body: Body) -> bool:
+    """Whether a random polygon or chain may be part of a scene that starts at t = 0."""
     try:
         Scene([body], (0, 1))
     except InputError:
-        return None
-    return body
+        return False
+    return True

@@ -15,7 +15,7 @@ from typing import Final, NamedTuple
 
 from exactpt.errors import AuditError
 from exactpt.tiling.angles import KINDS
-from exactpt.tiling.greedy.shadow import flip_until_greedy, shadow, tangency
+from exactpt.tiling.greedy.shadow import flip, flip_until_greedy, shadow, tangency
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.moment import Moment
@@ -50,8 +50,28 @@ class FlippingTiling(PopulatedTiling):
     """A tiling that is greedy wherever its diagonals may be flipped."""
 
     def _close(self, mesh: Mesh, instant: Instant) -> None:
+        self._free_flat_vertices(mesh, instant)
         super()._close(mesh, instant)
         flip_until_greedy(mesh, instant, mesh.flippable())
+
+    def _free_flat_vertices(self, mesh: Mesh, instant: Instant) -> None:
+        """Flip the diagonals away from vertices that are flat at the instant, reflex after it.
+
+        In the quadrangle around a diagonal from such a vertex that one is a corner, strictly
+        convex, so that the other diagonal does not end there. What is left at the vertex is
+        a tile that has no area at the instant.
+        """
+        deforming = [v for body in self.vertices.bodies if body.deforms for v in body.ring]
+        if not deforming:
+            return
+        after = Instant(self.vertices, instant.time)
+        for v in deforming:
+            ahead, behind = self.vertices.all[v].ahead, self.vertices.all[v].behind
+            if instant.sign(ahead, v, behind) <= 0 < after.sign(ahead, v, behind):
+                for h in mesh.map.fan(mesh.ring_edge[v]):
+                    visits = shadow(mesh, h, after) if mesh.is_flippable(h) else None
+                    if visits is not None:
+                        flip(mesh, h, visits, after)
 
     def _clear_notes(self) -> None:
         self._stale: set[int] = set()
