@@ -14,6 +14,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.vertices import Vertex, Vertices
 from exactpt.tiling.audit import audit_angles
+from exactpt.tiling.batch import Batch
 from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.closing import close_at
 from exactpt.tiling.events import Stats
@@ -45,9 +46,8 @@ class CertifiedTiling(Tiling):
         self.mesh: Mesh = Mesh(0)
         self._flat: set[int] = set()
         self._due: set[int] = set()
-        self._touched: set[int] = set()
+        self._batch: Batch = Batch()
         self._careful: bool = False
-        self._several: bool = False
         self._clear_notes()
 
     def _clear_notes(self) -> None:
@@ -161,7 +161,7 @@ class CertifiedTiling(Tiling):
     def _recertify(self, slots: tuple[int, ...]) -> None:
         """Certify changed angles; of faces that are or were triangles, all angles."""
         m = self.mesh.map
-        self._touched.update(slots)
+        self._batch.touch(slots)
         todo = dict.fromkeys(slots)
         for h in slots:
             if m.following[m.following[m.following[m.following[h]]]] == h or self._is_triangle(h):

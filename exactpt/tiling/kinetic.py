@@ -105,8 +105,8 @@ class KineticTiling(RepairedTiling):
         """See `Tiling.change_plans`."""
         self._move_to(t)
         self._due.clear()
-        self._touched.clear()
-        self._careful = self._several = True
+        self._batch.clear()
+        self._batch.is_tangled = self._careful = True
         try:
             for i in sorted(plans):
                 if self.vertices.set_plan(i, plans[i], t, self.certifier.end):
@@ -120,7 +120,7 @@ class KineticTiling(RepairedTiling):
             self._settle()
         except RebuildNeeded:
             self._rebuild()
-        self._careful = self._several = False
+        self._careful = False
         self.stats.most = max(self.stats.most, len(self.queue))
         return self._reported()
 
@@ -130,7 +130,7 @@ class KineticTiling(RepairedTiling):
         self._undo = self.certifier.now, entries
         self.certifier.move_to(time, [(t.a, t.b, t.c) for _, t in entries])
         slots = [slot for slot, _ in entries]
-        self._touched.clear()
+        self._batch.clear()
         try:
             h, kind = divmod(slots[0], KINDS)
             if len(slots) == 1 and kind == ANGLE and time.crossing and not self._has_flats(h):
@@ -139,13 +139,12 @@ class KineticTiling(RepairedTiling):
                 self._due.add(h)
             else:
                 self._careful = True
-                self._several = len(slots) > 1
-                self.stats.batches += self._several
+                self.stats.batches += len(slots) > 1
                 self._begin_batch(slots)
             self._settle()
         except RebuildNeeded:
             self._rebuild()
-        self._careful = self._several = False
+        self._careful = False
         self.stats.most = max(self.stats.most, len(self.queue))
 
     def _begin_batch(self, slots: list[int]) -> None:
@@ -156,6 +155,7 @@ class KineticTiling(RepairedTiling):
         # Before anything is changed, so that `retreat` finds everything as it was.
         self._look_for_contact(angles, shrinking)
         if moving:
+            self._batch.is_tangled = True
             self._undo = None
             changed = [h for i in moving for h in self._change_motion(i)]
             self._look_for_contact(changed, ())

@@ -92,7 +92,7 @@ class PopulatedTiling(KineticTiling):
         """Let a rational time be now; nothing is violated then."""
         self._move_to(t)
         self._due.clear()
-        self._touched.clear()
+        self._batch.clear()
         self._careful = True
 
     def _resume(self, *, is_whole: bool) -> list[TilingEvent]:
@@ -101,7 +101,8 @@ class PopulatedTiling(KineticTiling):
             if not is_whole:
                 raise RebuildNeeded
             self._settle()
-            self._check_batch([h for h in sorted(self._touched) if self.mesh.map.origin[h] >= 0])
+            touched = sorted(self._batch.touched)
+            self._check_batch([h for h in touched if self.mesh.map.origin[h] >= 0])
         except RebuildNeeded:
             self._rebuild()
         self._careful = False

@@ -42,12 +42,13 @@ class RepairedTiling(CertifiedTiling):
             rounds += 1
             if rounds > 64 + 4 * len(self.queue):
                 raise RebuildNeeded
+            self._batch.begin_repair()
             if self._due:
                 self._repair(self._first_due())
             else:
                 self._repair_more()
-        if rounds > 1 or self._several:
-            self._check_batch(sorted(self._touched))
+        if self._batch.needs_check(self.mesh):
+            self._check_batch(sorted(self._batch.touched))
 
     def _first_due(self) -> int:
         """The violated angle to be mended first: copies of one triple in perturbed order."""

@@ -208,11 +208,13 @@ class GreedyTiling(PopulatedTiling):
             rising = False
             for handle in sorted(self._due_extremes):
                 if self._is_rising(*self._extreme_pair(handle)):
+                    self._batch.begin_repair()
                     self._move_extreme(handle)
                     rising = True
                     break
             for cell in sorted(self._due_cells):
                 if self._is_rising(*self._cell_pair(cell)):
+                    self._batch.begin_repair()
                     self._pass_vertical(cell, before)
                     rising = True
                     break

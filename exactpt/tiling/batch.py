@@ -1,0 +1,57 @@
+"""The repairs of one time: which half-edges each of them has changed, and whether they meet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import final
+
+from exactpt.tiling.mesh import Mesh
+
+__all__ = ["Batch"]
+
+
+@final
+class Batch:
+    """What has been repaired at the current time.
+
+    Repairs that change different tiles cannot tell whether they happen at one time or one
+    after the other, as in the perturbed scene (`exactpt.tiling.exact`): each is right by
+    itself, and nothing has to be checked. A later repair of a tile that an earlier one has
+    changed leaves marks of both on one face, or on one half-edge, or removes one with a
+    mark of the other.
+
+    Attributes:
+        touched: of the half-edges whose angles have changed, the repair that did so last.
+        is_tangled: whether the result has to be checked in any case.
+    """
+
+    def __init__(self) -> None:
+        self.touched: dict[int, int] = {}
+        self.is_tangled: bool = False
+        self._repair: int = 0
+
+    def clear(self) -> None:
+        """A new time."""
+        self.touched.clear()
+        self.is_tangled = False
+        self._repair = 0
+
+    def begin_repair(self) -> None:
+        """What is touched from now on is by another repair."""
+        self._repair += 1
+
+    def touch(self, half_edges: Iterable[int]) -> None:
+        """Note that the angles of these have changed."""
+        for h in half_edges:
+            if self.touched.setdefault(h, self._repair) != self._repair:
+                self.is_tangled = True
+
+    def needs_check(self, mesh: Mesh) -> bool:
+        """Whether two repairs may have met."""
+        if not self.is_tangled and self._repair > 1:
+            m = mesh.map
+            for h, repair in self.touched.items():
+                if m.origin[h] < 0 or any(self.touched.get(g, repair) != repair for g in m.face(h)):
+                    self.is_tangled = True
+                    break
+        return self.is_tangled
