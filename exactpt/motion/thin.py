@@ -86,11 +86,12 @@ def _left_of_both(d: Offset, e: Offset, start: QQ, end: QQ) -> tuple[Offset, QQ 
     now = AlgebraicNumber(start)
     s = now.sign_after(turn) if turn else 0
     turn_ends, along_ends = _first_root(turn, now, end), _first_root(along, now, end)
-    # At the start itself, if the chain is straight then, s (e - d) points along it.
+    # At the start itself, if the chain is straight then, s (e - d) points along it; and if
+    # it has a right angle, d turned left points along e.
     turn_is_first = now.sign_of(turn) == 0 or (
         turn_ends is not None and (along_ends is None or turn_ends.compare(along_ends) < 0)
     )
-    straight = not s or (turn_is_first and now.sign_after(along) > 0)
+    straight = not s or (turn_is_first and now.sign_of(along) > 0)
     if straight:
         if along_ends is None or along_ends.sign_of(turn) == 0:
             return _turned(d), None

@@ -30,11 +30,17 @@ def close_at(mesh: Mesh, instant: Instant) -> bool:
         Whether anything changed.
 
     Raises:
-        AuditError: if a corner closes on the edge of a body: there is a contact then.
+        AuditError: if a corner closes on the edge of a body: there is a contact then; or if
+            one corner after the other opens again.
     """
-    due = {h for h in mesh.map.half_edges() if _has_closed(mesh, h, instant)}
+    half_edges = mesh.map.half_edges()
+    due = {h for h in half_edges if _has_closed(mesh, h, instant)}
     changed = bool(due)
+    rounds = 0
     while due:
+        rounds += 1
+        if rounds > 2 * len(half_edges):
+            raise AuditError("corners do not stay closed")
         h = _first(mesh, due, instant)
         for g in _collapse(mesh, h, instant):
             due.discard(g)

@@ -108,6 +108,17 @@ def test_the_ends_of_a_segment_have_a_left_and_a_right_copy():
         assert [cross_sign(along, offset, t) for offset in offsets] == [1, -1, -1, 1]
 
 
+def test_offsets_at_the_start_of_a_chain_with_a_right_angle_then():
+    """It becomes obtuse: the left of the first edge, good from then on, is along the other."""
+    tracks = Body("a", [[0, 0], [2, 0], {"x": [2, 1], "y": [2, -1]}], closed=False).piece_after(
+        START
+    )
+    left = thin_offsets(tracks.tracks, START, END).directions[5]
+
+    for p, q in pairwise(tracks.tracks):
+        assert cross_sign(direction(p, q), left, START) == 1
+
+
 def test_offsets_end_where_the_chain_has_bent_too_far():
     """A right angle, then straight, then the other way round: one direction is not enough."""
     tracks = Body(

@@ -49,15 +49,20 @@ class Predicates(Protocol):
 
 
 def opposite_corner(mesh: Mesh, h: int) -> int:
-    """The corner of the face of h that is at neither end of the side chain with h."""
-    m = mesh.map
-    g = m.following[h]
-    while not mesh.corner[g]:
-        g = m.following[g]
-    g = m.following[g]
-    while not mesh.corner[g]:
-        g = m.following[g]
-    return g
+    """The corner of the face of h that is at neither end of the side chain with h.
+
+    -1 if the face has not just three corners, as may be amid the repairs of one time.
+    """
+    following, corner = mesh.map.following, mesh.corner
+    count, found, g = 0, -1, h
+    while True:
+        g = following[g]
+        if corner[g]:
+            count += 1
+            if count == 2:
+                found = g
+        if g == h:
+            return found if count == 3 else -1
 
 
 def shadow(mesh: Mesh, h: int, predicates: Predicates) -> tuple[int, int] | None:
@@ -68,14 +73,17 @@ def shadow(mesh: Mesh, h: int, predicates: Predicates) -> tuple[int, int] | None
     in a segment that crosses h: the mesh is no pseudo-triangulation just after now.
     """
     m = mesh.map
-    cycle = _cycle(mesh, h, opposite_corner(mesh, h))
+    here, there = opposite_corner(mesh, h), opposite_corner(mesh, h ^ 1)
+    if here < 0 or there < 0:
+        return None
+    cycle = _cycle(mesh, h, here)
     n = len(cycle)
     points = [m.origin[g] for g in cycle]
     is_corner = [mesh.corner[g] for g in cycle]
     for g in (m.following[h], m.following[h ^ 1]):  # here two angles have become one
         k = cycle.index(g)
         is_corner[k] = predicates.sign(points[k - 1], points[k], points[(k + 1) % n]) > 0
-    ends = [0, cycle.index(opposite_corner(mesh, h ^ 1))]
+    ends = [0, cycle.index(there)]
     distances = [0, 0]  # from their corners, negative: backwards
     e = stuck = steps = 0
     while stuck < 2 and steps < 8 * n:
