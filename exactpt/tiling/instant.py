@@ -163,9 +163,14 @@ class Instant:
         return sign((bx - ax) * (qy - py) - (by - ay) * (qx - px))
 
     def all_stay_convex(self) -> bool:
-        """Whether all bodies are convex and stay so; at a vertex, an angle of pi will do."""
+        """Whether all bodies are convex and stay so; at a vertex, an angle of pi will do.
+
+        Not so an open chain of more than two vertices, straight as it may be: it may bend.
+        """
         v, bodies = self.vertices.all, self.vertices.bodies
-        return not any(body.is_tiled for body in bodies) and all(
+        if any(b.is_tiled or (b.body.size > 2 and not b.body.closed) for b in bodies):
+            return False
+        return all(
             s <= 0
             for s in self.signs(
                 [(v[p].ahead, p, v[p].behind) for body in bodies for p in body.ring]

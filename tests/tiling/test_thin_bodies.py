@@ -8,8 +8,9 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.scene.scene import Scene
+from exactpt.simulation.simulation import Simulation
 from exactpt.simulation.tile import tile_at
-from fuzz.statics import run_and_audit
+from fuzz.statics import audit_at, run_and_audit
 
 
 def on(x, y):
@@ -71,3 +72,30 @@ def test_a_triangle_that_becomes_flat_beside_a_chain_that_is_straight_for_ever(t
 
     assert contact is not None
     assert contact.time.compare_rational(QQ(3, 4)) == 0
+
+
+@pytest.mark.parametrize("tiling", TILINGS)
+def test_a_straight_chain_that_bends_later(tiling):
+    """It was taken for a convex body, and refused when it bent."""
+    straight, there, bent = (
+        [(0, 0), (2, 0), (4, 0)],
+        [(0, 1), (2, 1), (4, 1)],
+        [(0, 1), (2, 2), (4, 1)],
+    )
+    chain = Body("chain", keyframes=[(0, straight), (1, there), (2, bent)], closed=False)
+    triangle = Body("triangle", [(9, 0), (12, 1), (11, 4)])
+
+    run_and_audit(Scene([chain, triangle], (0, 4)), tiling)
+
+
+@pytest.mark.parametrize("tiling", TILINGS)
+def test_a_straight_chain_with_a_plan_to_bend(tiling):
+    """The plan was refused, and half of it done."""
+    chain = Body("chain", [(0, 0), (2, 0), (4, 0)], closed=False)
+    simulation = Simulation(Scene([chain, Body("p", [(9, 1)])], (0, 4)), tiling=tiling)
+
+    simulation.set_motion("chain", Body("chain", [(0, 0), on([2], [0, 1]), (4, 0)], closed=False))
+    for _ in simulation.run():
+        pass
+
+    audit_at(simulation.kinetic, QQ(4))

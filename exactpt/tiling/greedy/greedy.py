@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import final
 
-from exactpt.errors import AuditError, InputError
+from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
@@ -317,7 +317,7 @@ class GreedyTiling(PopulatedTiling):
     def _repair_convex_vertex(self, h: int, kind: str) -> None:  # noqa: ARG002
         vertex = self.vertices.all[self.mesh.map.origin[h]]
         body = self.vertices.bodies[vertex.body].body
-        raise InputError(
+        raise AuditError(
             f"body {body.name!r}: stops being convex at vertex {vertex.index}, "
-            f"t = {float(self.now)}: the greedy tiling is for convex bodies"
+            f"t = {float(self.now)}: this greedy tiling is for bodies that stay so"
         )
