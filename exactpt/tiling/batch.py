@@ -21,19 +21,22 @@ class Batch:
     mark of the other.
 
     Attributes:
-        touched: of the half-edges whose angles have changed, the repair that did so last.
-        is_tangled: whether the result has to be checked in any case.
+        touched: of the half-edges whose angles have changed, the repair that did so first.
+        has_new_motions: whether bodies have changed their motions at this time. What was so
+            just before it can then not be told any more, and any repair has to be checked.
+        is_tangled: whether two repairs are known to have met.
     """
 
     def __init__(self) -> None:
         self.touched: dict[int, int] = {}
+        self.has_new_motions: bool = False
         self.is_tangled: bool = False
         self._repair: int = 0
 
     def clear(self) -> None:
         """A new time."""
         self.touched.clear()
-        self.is_tangled = False
+        self.has_new_motions = self.is_tangled = False
         self._repair = 0
 
     def begin_repair(self) -> None:
@@ -47,7 +50,9 @@ class Batch:
                 self.is_tangled = True
 
     def needs_check(self, mesh: Mesh) -> bool:
-        """Whether two repairs may have met."""
+        """Whether a repair may not be right by itself."""
+        if self.has_new_motions and self._repair > 0:
+            return True
         if not self.is_tangled and self._repair > 1:
             m = mesh.map
             for h, repair in self.touched.items():

@@ -74,10 +74,10 @@ class KineticTiling(RepairedTiling):
         self.mesh = self.mesh_at(Instant(self.vertices, time, exact_only=self.certifier.exact_only))
 
     def _schedule_piece(self, i: int) -> None:
-        """Schedule the end of a body's current piece, and of a body that may lose its inside.
+        """Schedule when a body's current piece ends, and when the body loses its inside.
 
-        That is a segment that shrinks to a point, or a triangle that becomes one: the only
-        bodies that may do so and whose inside is not tiled.
+        That may be so of a segment that shrinks to a point, and a triangle that becomes
+        flat: the only bodies that deform so and whose inside is not tiled.
         """
         moving = self.vertices.bodies[i]
         slot = KINDS * i + SHRINK
@@ -106,7 +106,7 @@ class KineticTiling(RepairedTiling):
         self._move_to(t)
         self._due.clear()
         self._batch.clear()
-        self._batch.is_tangled = self._careful = True
+        self._batch.has_new_motions = self._careful = True
         try:
             for i in sorted(plans):
                 if self.vertices.set_plan(i, plans[i], t, self.certifier.end):
@@ -155,7 +155,7 @@ class KineticTiling(RepairedTiling):
         # Before anything is changed, so that `retreat` finds everything as it was.
         self._look_for_contact(angles, shrinking)
         if moving:
-            self._batch.is_tangled = True
+            self._batch.has_new_motions = True
             self._undo = None
             changed = [h for i in moving for h in self._change_motion(i)]
             self._look_for_contact(changed, ())

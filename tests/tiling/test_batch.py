@@ -57,9 +57,16 @@ def test_so_do_those_of_which_one_has_removed_what_another_had_changed(mesh):
     assert noted.needs_check(mesh)
 
 
+def test_with_new_motions_any_repair_needs_one(mesh):
+    for noted, expected in ((batch(), False), (batch(faces(mesh)[0]), True)):
+        noted.has_new_motions = True
+
+        assert noted.needs_check(mesh) == expected
+
+
 def test_a_new_time_begins_with_nothing(mesh):
     noted = batch(*faces(mesh)[:1], *faces(mesh)[:1])
-    noted.is_tangled = True
+    noted.has_new_motions = True
 
     noted.clear()
 

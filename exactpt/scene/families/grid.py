@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from random import Random
+from typing import Final
 
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
@@ -14,8 +15,8 @@ from exactpt.scene.scene import Scene
 
 __all__ = ["bodies_on_grid", "chains_on_grid"]
 
-RADIUS = 2
-ATTEMPTS = 20
+RADIUS: Final = 2
+ATTEMPTS: Final = 20
 
 
 def bodies_on_grid(rng: Random) -> Scene:
