@@ -69,7 +69,7 @@ def run_and_audit(
                 gaps += 1
             if kinetic.advance(scene.end) is None:
                 return Audited(kinetic, contact=False, gaps=gaps)
-            if kinetic.now.is_rational:
+            if kinetic.now.simplified().is_rational:
                 audit_now(kinetic)
     except ContactFound:
         return Audited(kinetic, contact=True, gaps=gaps)
@@ -106,8 +106,10 @@ def audit_now(kinetic: Tiling) -> None:
         AuditError: if they differ, or there is none.
     """
     now = kinetic.now.low
-    kept = kinetic.mesh_now(now)
-    static = type(kinetic).mesh_at(Instant(kinetic.vertices, now, after=False))
+    instant = Instant(kinetic.vertices, now, after=False)
+    kept, static = kinetic.mesh_now(now), type(kinetic).mesh_at(instant)
+    if kinetic.name != POINT_TILING:
+        audit_angles(kept, instant)
     if kinetic.name in FREE_TO_DIFFER:
         return
     if _diagonals(static) != _diagonals(kept) or _labels(static) != _labels(kept):

@@ -9,11 +9,12 @@ connected edge list).
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import final
 
 from exactpt.errors import AuditError
 
-__all__ = ["NOTHING", "PlanarMap"]
+__all__ = ["NOTHING", "PlanarMap", "without_steps_back"]
 
 NOTHING = -1
 """The origin of a half-edge whose edge has been removed."""
@@ -171,3 +172,14 @@ class PlanarMap:
                 raise AuditError(f"previous[following[{h}]] is {self.previous[g]}")
             if self.origin[g] != self.target(h):
                 raise AuditError(f"half-edge {h} ends at {self.target(h)}, not at {self.origin[g]}")
+
+
+def without_steps_back(half_edges: Iterable[int]) -> list[int]:
+    """A sequence of half-edges, without any that is followed by its twin, and that twin."""
+    kept: list[int] = []
+    for h in half_edges:
+        if kept and kept[-1] == h ^ 1:
+            kept.pop()
+        else:
+            kept.append(h)
+    return kept

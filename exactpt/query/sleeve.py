@@ -21,22 +21,11 @@ from exactpt.errors import AuditError
 from exactpt.geometry.predicates import Point, between, side
 from exactpt.query.subdivision import Subdivision
 
-__all__ = ["Sleeves", "pull_tight", "reduced", "triangulated"]
+__all__ = ["Sleeves", "pull_tight", "triangulated"]
 
 Triangle: TypeAlias = tuple[int, int, int]
 Portal: TypeAlias = tuple[int, int]
 """The nodes at the left and at the right end of an edge that a path crosses."""
-
-
-def reduced(doors: Sequence[int]) -> list[int]:
-    """A sequence of crossed half-edges (left to right) without steps forth and back."""
-    kept: list[int] = []
-    for h in doors:
-        if kept and kept[-1] == h ^ 1:
-            kept.pop()
-        else:
-            kept.append(h)
-    return kept
 
 
 @final

@@ -9,9 +9,10 @@ from typing import final
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
+from exactpt.planar.halfedge import without_steps_back
 from exactpt.query.answers import Path
 from exactpt.query.locate import find, place_of
-from exactpt.query.sleeve import Sleeves, pull_tight, reduced
+from exactpt.query.sleeve import Sleeves, pull_tight
 from exactpt.query.subdivision import OUTSIDE, Subdivision
 from exactpt.query.walk import On, Ray, next_leg
 
@@ -48,7 +49,7 @@ class Ways:
             part = self._doors_along(p, tile, q)
             doors += part
             tile = self._plane.face[part[-1] ^ 1] if part else tile
-        return self._tight(points[0], first, reduced(doors), points[-1])
+        return self._tight(points[0], first, without_steps_back(doors), points[-1])
 
     def _tile(self, p: Point) -> int:
         """A tile that has a free point."""

@@ -24,19 +24,18 @@ class Batch:
         touched: of the half-edges whose angles have changed, the repair that did so first.
         has_new_motions: whether bodies have changed their motions at this time. What was so
             just before it can then not be told any more, and any repair has to be checked.
-        is_tangled: whether two repairs are known to have met.
     """
 
     def __init__(self) -> None:
         self.touched: dict[int, int] = {}
         self.has_new_motions: bool = False
-        self.is_tangled: bool = False
+        self._is_tangled: bool = False
         self._repair: int = 0
 
     def clear(self) -> None:
         """A new time."""
         self.touched.clear()
-        self.has_new_motions = self.is_tangled = False
+        self.has_new_motions = self._is_tangled = False
         self._repair = 0
 
     def begin_repair(self) -> None:
@@ -47,16 +46,17 @@ class Batch:
         """Note that the angles of these have changed."""
         for h in half_edges:
             if self.touched.setdefault(h, self._repair) != self._repair:
-                self.is_tangled = True
+                self._is_tangled = True
 
     def needs_check(self, mesh: Mesh) -> bool:
         """Whether a repair may not be right by itself."""
         if self.has_new_motions and self._repair > 0:
             return True
-        if not self.is_tangled and self._repair > 1:
-            m = mesh.map
-            for h, repair in self.touched.items():
-                if m.origin[h] < 0 or any(self.touched.get(g, repair) != repair for g in m.face(h)):
-                    self.is_tangled = True
-                    break
-        return self.is_tangled
+        return self._is_tangled or (self._repair > 1 and self._meet(mesh))
+
+    def _meet(self, mesh: Mesh) -> bool:
+        m, touched = mesh.map, self.touched
+        return any(
+            m.origin[h] < 0 or any(touched.get(g, repair) != repair for g in m.face(h))
+            for h, repair in touched.items()
+        )

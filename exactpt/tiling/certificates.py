@@ -113,29 +113,26 @@ class Certifier:
         """Whether three vertices keep their orientation for ever."""
         va, vb, vc = self.all[a], self.all[b], self.all[c]
         motion = va.image.motion
-        if (
-            motion >= 0
-            and motion == vb.image.motion
-            and motion == vc.image.motion
-            and not (self._turns_apart(va, vb) or self._turns_apart(vb, vc))
-            and not self._turns_apart(vc, va)
-        ):
-            return True
+        if motion >= 0 and motion == vb.image.motion and motion == vc.image.motion:
+            if va.track is vb.track or va.track is vc.track:
+                turns_apart = self._turns_apart(va)
+            else:
+                turns_apart = vb.track is vc.track and self._turns_apart(vb)
+            if not turns_apart:
+                return True
         return (
             va.offset is not None
             and va.body == vb.body == vc.body
             and self._vertices.bodies[va.body].body.size < 3
         )
 
-    def _turns_apart(self, u: Vertex, v: Vertex) -> bool:
-        """Whether two vertices are copies of one whose offsets turn, or not, unlike its motion.
+    def _turns_apart(self, copy: Vertex) -> bool:
+        """Whether the offsets of a vertex's copies turn, or not, unlike its motion.
 
         Those of a point never turn; those of a segment or chain that deforms do.
         """
-        if u.track is not v.track:
-            return False
-        moving = self._vertices.bodies[u.body]
-        return bool(u.image.ws) if moving.body.size == 1 else moving.deforms
+        moving = self._vertices.bodies[copy.body]
+        return bool(copy.image.ws) if moving.body.size == 1 else moving.deforms
 
     def keeps_x_order(self, a: int, b: int) -> bool:
         """Whether two vertices keep the difference of their x coordinates for ever."""

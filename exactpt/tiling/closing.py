@@ -14,7 +14,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.vertices import Vertex
 from exactpt.tiling.exact import comes_first
 from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import FREE, Mesh
+from exactpt.tiling.mesh import FREE, INSIDE, Mesh
 
 __all__ = ["close_at"]
 
@@ -56,7 +56,8 @@ def _angle(mesh: Mesh, h: int) -> tuple[int, int, int]:
 
 def _has_closed(mesh: Mesh, h: int, instant: Instant) -> bool:
     a, p, b = _angle(mesh, h)
-    return mesh.region[h] == FREE and mesh.corner[h] and a != b and instant.sign(a, p, b) <= 0
+    may_close = mesh.region[h] in (FREE, INSIDE) and mesh.corner[h] and a != b
+    return may_close and instant.sign(a, p, b) <= 0
 
 
 def _first(mesh: Mesh, due: set[int], instant: Instant) -> int:

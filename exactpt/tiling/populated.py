@@ -101,8 +101,7 @@ class PopulatedTiling(KineticTiling):
             if not is_whole:
                 raise RebuildNeeded
             self._settle()
-            touched = sorted(self._batch.touched)
-            self._check_batch([h for h in touched if self.mesh.map.origin[h] >= 0])
+            self._check_batch(sorted(self._batch.touched))
         except RebuildNeeded:
             self._rebuild()
         self._careful = False

@@ -20,6 +20,7 @@ from collections.abc import Callable, Sequence, Set
 from itertools import pairwise
 from typing import Final, NamedTuple, final
 
+from exactpt.planar.halfedge import without_steps_back
 from exactpt.tiling.greedy.shadow import Predicates
 from exactpt.tiling.mesh import Mesh
 
@@ -68,12 +69,7 @@ class Geodesics:
     def without_loops(self, chain: Sequence[int]) -> Sequence[int]:
         """A chain without what can be shrunk to a vertex that it passes several times."""
         m = self._mesh.map
-        kept: list[int] = []
-        for h in chain:
-            if kept and kept[-1] == h ^ 1:
-                kept.pop()
-            else:
-                kept.append(h)
+        kept = without_steps_back(chain)
         before = -1
         while len(kept) != before:
             before = len(kept)
