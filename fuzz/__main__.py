@@ -120,7 +120,7 @@ def run_battery(words: tuple[str, ...], large: bool, samples: int) -> None:  # n
 
 @click.command("planted", context_settings=HELP)
 @click.argument("words", nargs=-1, metavar="[WORD]...")
-@click.option("--cases", "most", type=click.IntRange(min=1), default=150, show_default=True)
+@click.option("--cases", "most", type=click.IntRange(min=1), default=400, show_default=True)
 @click.option("--seed", type=int, default=0, show_default=True)
 def find_planted(words: tuple[str, ...], most: int, seed: int) -> None:
     """Plant classic mistakes one at a time, and see how soon the fuzzer finds them."""

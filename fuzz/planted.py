@@ -217,7 +217,7 @@ class Found:
     seconds: float
 
 
-def hunt(bug: str, most: int = 150, witnesses: Sequence[str] = WITNESSES, seed: int = 0) -> Found:
+def hunt(bug: str, most: int = 400, witnesses: Sequence[str] = WITNESSES, seed: int = 0) -> Found:
     """Look for a planted bug in the scenes of a campaign, at most so many.
 
     Raises:
