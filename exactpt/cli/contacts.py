@@ -182,11 +182,11 @@ def _search(
     max_seconds: float | None,
 ) -> Simulation | PairsSearch:
     """What finds the first contact."""
-    from exactpt.collision.detector import prefers_pairs
+    from exactpt.collision.detector import searches_pairs
 
     if ignoring and method == "kinetic":
         raise InputError("--ignore: a tiling watches all bodies: add --method pairs")
-    if method == "pairs" or (method == "auto" and (ignoring or prefers_pairs(scene))):
+    if searches_pairs(method, tiling, ignoring):
         from exactpt.collision.pairs import PairsSearch
 
         return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds, ignoring=ignoring)

@@ -241,7 +241,9 @@ class PairsSearch:
         if best is None:
             return None
         certifier.move_to(EventTime(*self._vertices.frame.enclosure(best), -1, -1, -1, best), [])
-        found = touches(certifier, self._vertices, range(len(self._vertices.all)))
+        # What touches is near then; what may not touch, together or rigid, does not begin to.
+        features = np.unique(np.concatenate((near[0], self._edges[near[1]].ravel())))
+        found = touches(certifier, self._vertices, [ids[i] for i in features.tolist()])
         return contact_of(
             self._scene, best, [t for t in found if not self._ignores(t.body, t.other)]
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import isqrt
 from typing import Final, TypeAlias
 
 import numpy as np
@@ -11,6 +12,9 @@ from numpy.typing import NDArray
 from exactpt.kernel.numbers import QQ, nearest_float
 
 __all__ = ["Boxes", "boxes_of_points", "overlapping_pairs"]
+
+Floats: TypeAlias = NDArray[np.float64]
+Indices: TypeAlias = NDArray[np.int64]
 
 Boxes: TypeAlias = NDArray[np.float64]
 """Shape (n, 4): low x, high x, low y, high y, each rounded outward."""
@@ -37,25 +41,58 @@ def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
     return rows
 
 
-def overlapping_pairs(boxes: Boxes) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
-    """All pairs i < j of boxes that meet (closed), in chunks of index arrays (i, j)."""
+def overlapping_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
+    """All pairs i < j of boxes that meet (closed), in chunks of index arrays (i, j).
+
+    The plane is cut into horizontal strips, and swept from left to right in each. Two boxes
+    that meet have a strip in common; the pair is told in the lowest one.
+    """
     n = len(boxes)
     order = np.argsort(boxes[:, 0], kind="stable")
-    low, high = boxes[order, 0], boxes[order, 1]
     low_y, high_y = boxes[order, 2], boxes[order, 3]
-    # In sorted order, box i meets in x exactly the boxes i < j < ends[i].
-    ends = np.searchsorted(low, high, side="right")
-    counts = np.maximum(ends - np.arange(1, n + 1), 0)
+    # In this order, box i meets in x exactly the boxes i < j < ends[i].
+    ends = np.searchsorted(boxes[order, 0], boxes[order, 1], side="right")
+    lowest, highest = _strips(low_y, high_y)
+    # A copy of each box for each of its strips, one strip after the other.
+    box, strip = _spread(np.arange(n), lowest, highest + 1)
+    by_strip = np.argsort(strip, kind="stable")
+    box, strip = box[by_strip], strip[by_strip]
+    place = strip * (n + 1) + box
+    after = np.arange(1, len(box) + 1)
+    stop = np.searchsorted(place, place - box + ends[box])
     first = 0
-    while first < n:
+    while first < len(box):
         # As many boxes as fit a chunk, at least one.
-        total = np.cumsum(counts[first:])
+        total = np.cumsum(stop[first:] - after[first:])
         last = first + max(1, int(np.searchsorted(total, _CHUNK, side="right")))
-        part = counts[first:last]
-        i = np.repeat(np.arange(first, last), part)
-        offsets = np.arange(len(i)) - np.repeat(np.cumsum(part) - part, part)
-        j = i + 1 + offsets
+        here, there = _spread(np.arange(first, last), after[first:last], stop[first:last])
+        i, j = box[here], box[there]
         meets = (low_y[i] <= high_y[j]) & (low_y[j] <= high_y[i])
+        meets &= strip[here] == np.maximum(lowest[i], lowest[j])
         a, b = order[i[meets]], order[j[meets]]
         yield np.minimum(a, b), np.maximum(a, b)
         first = last
+
+
+def _strips(low: Floats, high: Floats) -> tuple[Indices, Indices]:
+    """The strips, lowest and highest, of intervals: about as many begin in each, few meet many.
+
+    What is above another is in no lower strip, wherever they are cut.
+    """
+    n = len(low)
+    count = isqrt(n)
+    ordered = np.sort(low)
+    while True:
+        bounds = ordered[n // count :: n // count] if count > 1 else ordered[:0]
+        lowest = np.searchsorted(bounds, low, side="right")
+        highest = np.searchsorted(bounds, high, side="right")
+        if count <= 1 or int((highest - lowest).sum()) <= 2 * n:
+            return lowest, highest
+        count //= 2
+
+
+def _spread(items: Indices, start: Indices, stop: Indices) -> tuple[Indices, Indices]:
+    """Each item once for each number of its range from start to stop, and these numbers."""
+    sizes = stop - start
+    numbers = np.arange(int(sizes.sum())) - np.repeat(np.cumsum(sizes) - sizes - start, sizes)
+    return np.repeat(items, sizes), numbers

@@ -4,7 +4,9 @@ from random import Random
 
 import pytest
 
+from exactpt.collision import pairs
 from exactpt.collision.allpairs import first_contact_allpairs
+from exactpt.collision.detector import searches_pairs
 from exactpt.collision.pairs import PairsSearch
 from exactpt.kernel.numbers import rational
 from exactpt.motion.body import Body
@@ -46,3 +48,31 @@ def test_an_edge_that_shrinks_to_a_point_is_a_contact(speed, closed):
     assert contact is not None
     assert contact.to_json() == expected.to_json()
     assert contact.time == 4 / rational(speed)
+
+
+def test_auto_is_pairs_unless_a_tiling_is_named():
+    assert searches_pairs("auto", "auto")
+    assert not searches_pairs("auto", "mixed")
+    assert searches_pairs("auto", "mixed", [["a", "b"]])  # no tiling can ignore
+    assert searches_pairs("pairs", "mixed")
+    assert not searches_pairs("kinetic", "auto")
+
+
+def test_the_winner_s_time_is_not_looked_at_among_all_vertices(monkeypatch):
+    """Two of forty bodies meet: what touches is looked for among the vertices near them."""
+    asked = []
+
+    def recorded(certifier, vertices, candidates):
+        asked.extend(candidates)
+        return touches(certifier, vertices, candidates)
+
+    touches = pairs.touches
+    monkeypatch.setattr(pairs, "touches", recorded)
+    rest = [Body(f"b{i}", [(9 * i, 0), (9 * i + 4, 0), (9 * i, 4)]) for i in range(40)]
+    ball = Body("ball", [(1, 9), (2, 9), (1, 10)], Translation([0], [0, -1]))
+
+    contact = PairsSearch(Scene([*rest, ball], (0, 40))).run_to_contact()
+
+    assert contact is not None
+    assert contact.time == 6
+    assert 4 <= len(asked) <= 9
