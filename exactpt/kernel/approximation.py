@@ -29,7 +29,7 @@ LARGEST_BITS: Final = 500
 MOST_STEPS: Final = 60
 SETTLED: Final = 2.0**-30
 """A step of Newton's that is so short leaves an error about as large as its square."""
-CLOSE: Final = 2.0**-51
+ROUNDING: Final = 2.0**-54
 
 
 def nearest_double(x: IsolatedRoot) -> float:
@@ -71,43 +71,38 @@ def enclosing_doubles(x: IsolatedRoot) -> tuple[float, float]:
 
 
 def _narrow_around_guess(x: IsolatedRoot) -> None:
-    """Compare x with the ends of a short interval in which floats make it out to be.
+    """Compare x with doubles near the one that floats make it out to be, until it is between.
 
-    If they are wrong, no more is known of x than on which side of that interval it is.
+    If they are wrong, no more is known of x than on which side of some doubles it is.
     """
     lo, hi = nearest_float(x.low), nearest_float(x.high)
     shift = max(0, max(abs(c) for c in x.polynomial).bit_length() - LARGEST_BITS)
-    f = [float(c >> shift) for c in x.polynomial]
-    rises, t = _value(f, hi) > 0.0, (lo + hi) / 2
+    f = [float(c >> shift) for c in reversed(x.polynomial)]
+    rises, t = _value_and_slope(f, hi)[0] > 0.0, (lo + hi) / 2
     for _ in range(MOST_STEPS):
-        value, slope = _value(f, t), _slope(f, t)
+        value, slope = _value_and_slope(f, t)
         lo, hi = (lo, t) if (value > 0.0) == rises else (t, hi)
         step = value / slope if slope else math.inf
         t, last = (t - step, t) if lo < t - step < hi else ((lo + hi) / 2, t)
         if abs(t - last) <= SETTLED * abs(t):
             break
-    slope = abs(_slope(f, t))
-    if not (slope > 0.0 and math.isfinite(slope)):
-        return
-    error = CLOSE * (abs(t) + _value([abs(c) for c in f], abs(t)) / slope)
-    if math.isfinite(error):
-        x.compare_rational(_exact(t - error))
-        x.compare_rational(_exact(t + error))
+    # What is lost by rounding shows how far away x may be: gallop from a part of that.
+    size, slope = _value_and_slope([abs(c) for c in f], abs(t))[0], abs(_value_and_slope(f, t)[1])
+    step = max(math.ulp(t), ROUNDING * size / slope if slope else math.inf)
+    side = 0 if not math.isfinite(t) else x.compare_rational(_exact(t))
+    while side and math.isfinite(t := t + side * step):
+        if x.compare_rational(_exact(t)) != side:
+            break
+        step *= 2.0
 
 
-def _value(f: list[float], t: float) -> float:
-    value = 0.0
-    for c in reversed(f):
-        value = value * t + c
-    return value
-
-
-def _slope(f: list[float], t: float) -> float:
+def _value_and_slope(f: list[float], t: float) -> tuple[float, float]:
+    """Of a polynomial, leading coefficient first."""
     value = slope = 0.0
-    for c in reversed(f):
+    for c in f:
         slope = slope * t + value
         value = value * t + c
-    return slope
+    return value, slope
 
 
 def canonical_interval(x: IsolatedRoot) -> tuple[QQ, QQ]:

@@ -407,10 +407,9 @@ def test_a_wrong_guess_by_floats_costs_time_alone(monkeypatch, guess):
     cubic = as_int_poly([-7, 0, -3, 5])
     right = AlgebraicNumber.root(cubic, QQ(0), QQ(64)).enclosure()
 
-    monkeypatch.setattr(approximation, "_value", lambda *_: guess)
-    assert AlgebraicNumber.root(cubic, QQ(0), QQ(64)).enclosure() == right
-    monkeypatch.setattr(approximation, "_slope", lambda *_: guess)
-    assert AlgebraicNumber.root(cubic, QQ(0), QQ(64)).enclosure() == right
+    for wrong in ((guess, 1.0), (guess, guess), (1.0, guess)):
+        monkeypatch.setattr(approximation, "_value_and_slope", lambda *_, wrong=wrong: wrong)
+        assert AlgebraicNumber.root(cubic, QQ(0), QQ(64)).enclosure() == right
 
 
 def test_a_guess_by_floats_spares_the_narrowing(monkeypatch):
@@ -425,7 +424,7 @@ def test_a_guess_by_floats_spares_the_narrowing(monkeypatch):
         AlgebraicNumber, "compare_rational", lambda x, q: asked.append(q) or compare(x, q)
     )
     steered = narrowed()
-    monkeypatch.setattr(approximation, "_slope", lambda *_: math.nan)
+    monkeypatch.setattr(approximation, "_value_and_slope", lambda *_: (0.0, math.nan))
 
     assert 2 * steered < narrowed()
 
