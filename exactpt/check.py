@@ -32,7 +32,7 @@ class Report:
         tilings: how many tilings CGAL has verified.
         times: how many event times.
         events: how many events there were.
-        contact: the time of the first contact, as in the contract, or None.
+        contact: the time of the first contact, as in docs/format.md, or None.
         failures: a line each.
     """
 
@@ -64,6 +64,8 @@ class Report:
         """The report for people."""
         verdict = "CGAL agrees" if self.ok else "CGAL DISAGREES"
         head = f"{verdict}: {self.tilings} tilings ({self.tiling}), {self.times} event times"
+        if not self.tilings:
+            head += " (bodies touch at the start: there is nothing to tile)"
         return [head, *(f"  {failure}" for failure in self.failures)]
 
 
@@ -84,7 +86,7 @@ def check_scene(
     Args:
         scene: what moves.
         tiling: which tiling to keep.
-        max_events: see `exactpt.Simulation`.
+        max_events: stop when there have been more events than these.
         max_seconds: see `exactpt.Simulation`.
         reached: is told of each event time when it has been checked.
 
@@ -98,7 +100,9 @@ def check_scene(
     with CgalCheck() as cgal:
         witness = _Witness(scene, cgal, report)
         if initial_touches(scene)[1]:
-            report.contact = time_to_json(AlgebraicNumber(scene.start))
+            start = AlgebraicNumber(scene.start)
+            witness.time(start)
+            report.contact = time_to_json(start)
             return report
         kinetic = plan.start(scene.start)
         try:

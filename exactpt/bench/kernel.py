@@ -179,7 +179,7 @@ def _certificate_row(rng: Random, degree: int, count: int) -> Row:
     """Microseconds a certificate of three points in motion of a degree, filtered and exact."""
     bodies = [_random_point(rng, i, degree) for i in range(POINTS)]
     triples = [rng.sample(range(POINTS), 3) for _ in range(count)]
-    vertices = Vertices.of(bodies, QQ(0), QQ(SPAN), plain_points=True)
+    vertices = Vertices.of(bodies, QQ(0), QQ(SPAN), plain=True)
     filtered = Certifier(vertices, QQ(0), QQ(SPAN), exact_only=False)
     exact = Certifier(vertices, QQ(0), QQ(SPAN), exact_only=True)
     before = counters.filtered

@@ -15,7 +15,7 @@ from exactpt.scene.scene import Scene
 __all__ = ["BodyShape", "IsolatedRoot", "RootClaim", "Signs", "Tile", "Verdict", "exactly"]
 
 Tile: TypeAlias = Mapping[str, object]
-"""The contract's ``tile`` dictionary, as `json.load` gives it."""
+"""The ``tile`` dictionary of docs/format.md, as `json.load` gives it."""
 
 
 class BodyShape(NamedTuple):
@@ -52,7 +52,7 @@ class IsolatedRoot(NamedTuple):
 
     @classmethod
     def of_json(cls, time: Mapping[str, object]) -> IsolatedRoot:
-        """The contract's ``time`` object: its polynomial, low and high.
+        """The ``time`` object of docs/format.md: its polynomial, low and high.
 
         Raises:
             InputError: if one of these is missing or no number.
@@ -61,7 +61,7 @@ class IsolatedRoot(NamedTuple):
             polynomial = [exactly(c) for c in cast("Iterable[object]", time["polynomial"])]
             low, high = exactly(time["low"]), exactly(time["high"])
         except (KeyError, TypeError, ValueError) as error:
-            raise InputError(f"not a time of the contract: {error}") from None
+            raise InputError(f"not a time as exactpt writes it: {error}") from None
         if any(c.denominator != 1 for c in polynomial):
             raise InputError(f"not a polynomial over the integers: {shorten(time['polynomial'])}")
         return cls([ZZ(c.numerator) for c in polynomial], low, high)

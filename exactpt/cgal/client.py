@@ -85,7 +85,7 @@ class CgalCheck:
         """Whether a tile is a pseudo-triangulation of the free space, exactly.
 
         Args:
-            tile: the contract's ``tile`` dictionary.
+            tile: the ``tile`` dictionary of docs/format.md.
             bodies: the shape of every body of the scene.
             deep: ask a second, independent witness too (CGAL's arrangements; slower).
 

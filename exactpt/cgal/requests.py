@@ -59,9 +59,9 @@ def tiling_request(word: str, tile: Tile, bodies: Iterable[BodyShape]) -> str | 
     except _BadTileError as fault:
         return Verdict(ok=False, reason=str(fault))
     except KeyError as error:
-        raise InputError(f"not a tile of the contract: {error} is missing") from None
+        raise InputError(f"not a tile as `exactpt tile` writes it: {error} is missing") from None
     except (TypeError, ValueError) as error:
-        raise InputError(f"not a tile of the contract: {error}") from None
+        raise InputError(f"not a tile as `exactpt tile` writes it: {error}") from None
     return "\n".join([*lines, "end\n"])
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import tempfile
+import traceback
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -12,6 +14,7 @@ import click
 from exactpt.cli.bench import bench
 from exactpt.cli.contacts import collide, simulate
 from exactpt.cli.files import convert, generate
+from exactpt.cli.options import SCENE_FILE
 from exactpt.cli.pictures import demo, draw
 from exactpt.cli.tilings import check, tile
 from exactpt.errors import AuditError, BudgetExceeded, InputError
@@ -21,8 +24,29 @@ __all__ = ["cli", "main"]
 OK, BAD_INPUT, BROKEN, SPENT, INTERRUPTED = 0, 2, 3, 4, 130
 """Exit codes; 1 is a command's own: a contact (collide --exit-code), or a failed check."""
 
+_EXPECTED = (InputError, BudgetExceeded, OSError)
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+
+class _Commands(click.Group):
+    """The commands; here ends what is no fault of the call."""
+
+    def invoke(self, ctx: click.Context) -> object:
+        """Run a command; its exit code, if it has one."""
+        try:
+            return super().invoke(ctx)
+        except BrokenPipeError:  # who reads the answer has seen enough
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return OK
+        except (*_EXPECTED, click.exceptions.Exit, click.Abort, click.ClickException):
+            raise
+        except Exception as error:
+            if not isinstance(error, AuditError):
+                traceback.print_exc()
+            _report_bug(error, ctx.meta.get(SCENE_FILE))
+            return BROKEN
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="exactpt")
 def cli() -> None:
     """Exact collision detection of moving and deforming polygons in the plane.
@@ -46,15 +70,14 @@ for _command in (demo, collide, simulate, tile, check, draw, convert, generate, 
     cli.add_command(_command)
 
 
-def _report_bug(error: AuditError, arguments: Sequence[str]) -> None:
+def _report_bug(error: Exception, scene: Path | None) -> None:
     """Say that an invariant broke, and keep the scene that did it."""
-    scene = next((Path(a) for a in arguments if a.endswith(".json") and Path(a).is_file()), None)
     click.echo(f"exactpt: an invariant broke: {error}", err=True)
     if scene is not None:
         with tempfile.NamedTemporaryFile(
-            "w", prefix="exactpt-bug-", suffix=".json", delete=False, encoding="utf-8"
+            "wb", prefix="exactpt-bug-", suffix=".json", delete=False
         ) as file:
-            file.write(scene.read_text(encoding="utf-8"))
+            file.write(scene.read_bytes())
         click.echo(f"exactpt: the scene is saved in {file.name}", err=True)
     click.echo(
         "exactpt: this is a bug in exactpt; please report it with the command and the scene",
@@ -69,7 +92,7 @@ def _where_to_look(error: click.ClickException) -> str:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit with its code."""
-    given = list(sys.argv[1:] if arguments is None else arguments)
+    given = None if arguments is None else list(arguments)
     try:
         code = cli.main(given, prog_name="exactpt", standalone_mode=False)
     except click.exceptions.NoArgsIsHelpError as error:
@@ -84,13 +107,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except BudgetExceeded as error:
         click.echo(f"exactpt: {error}", err=True)
         code = SPENT
-    except AuditError as error:
-        _report_bug(error, given)
-        code = BROKEN
+    except OSError as error:
+        click.echo(f"exactpt: {error.strerror or error}", err=True)
+        code = BAD_INPUT
     except (KeyboardInterrupt, click.Abort):
         click.echo("exactpt: interrupted", err=True)
         code = INTERRUPTED
-    except BrokenPipeError:
-        sys.stderr.close()
-        code = OK
     sys.exit(code if isinstance(code, int) else OK)

@@ -15,6 +15,9 @@ __all__ = ["time_limit"]
 GRACE: Final = 0.25
 """Seconds that are left to the library, which looks at the clock between events."""
 
+LONGEST: Final = 1e8
+"""Seconds, three years: a timer takes no more."""
+
 AGAIN: Final = 1.0
 """Seconds to the next ring: Python drops what is raised in a finalizer."""
 
@@ -41,7 +44,8 @@ def time_limit(seconds: float | None) -> Iterator[None]:
         raise BudgetExceeded("the time is used up", None)
 
     old = signal.signal(signal.SIGALRM, ring)
-    left, interval = signal.setitimer(signal.ITIMER_REAL, seconds + GRACE, AGAIN)
+    delay = min(seconds, LONGEST) + GRACE
+    left, interval = signal.setitimer(signal.ITIMER_REAL, delay, AGAIN)
     try:
         yield
     finally:

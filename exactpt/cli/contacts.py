@@ -64,7 +64,8 @@ def collide(
     \b
     Examples:
       exactpt collide scene.json
-      exactpt collide scene.json --json --stats
+      exactpt collide scene.json --json
+      exactpt collide scene.json --stats
       exactpt collide scene.json --until 7/2 --exit-code && echo "no contact"
       exactpt collide scene.json --method pairs --ignore boat,buoy --ignore ball,wheel
     """
@@ -90,11 +91,12 @@ def collide(
             told = answer_in_words(given, contact)
     except BudgetExceeded as spent:
         _tell_how_far(spent, search)
-        if spent.reached is not None:
-            answer |= {"stats": {} if search is None else search.stats}
-            answer |= {"reached": str(spent.reached)}
-            words = f"no contact up to t = {spent.reached}"
-            click.echo(json.dumps(answer, indent=1) if as_json else words)
+        reached = None if spent.reached is None else str(spent.reached)
+        if as_json:
+            answer |= {"stats": {} if search is None else search.stats, "reached": reached}
+            click.echo(json.dumps(answer, indent=1))
+        elif reached is not None:
+            click.echo(f"no contact up to t = {reached}")
         raise
     if as_json:
         answer |= {"contact": stated, "stats": search.stats}

@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import click
+from click.core import ParameterSource
 
 from exactpt.cli.options import RATIONAL, output
 from exactpt.cli.progress import QUIET
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, show
 
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
@@ -80,7 +81,13 @@ def convert(
       exactpt convert parcels.wkt scene.json --skip-invalid
       exactpt convert scene.json then.geojson --at 5/2
     """
-    from exactpt.exchange.files import read_shapes, write_shapes
+    from exactpt.exchange.files import holds_scene, read_shapes, write_shapes
+
+    if time[0] >= time[1]:
+        raise InputError(f"--time: the span from {show(time[0])} to {show(time[1])} is empty")
+    idle = _typed("time", "tolerance", "holes", "skip_invalid")
+    if idle and holds_scene(source):
+        raise InputError(f"{idle[0]}: {source} is a scene, which is read as it is")
 
     def say(line: str) -> None:
         if not quiet:
@@ -98,6 +105,13 @@ def convert(
         click.echo(f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices: {target}")
         _say_what_touches(scene)
     return 0
+
+
+def _typed(*names: str) -> list[str]:
+    """Which of some options were given, as they are typed."""
+    source = click.get_current_context().get_parameter_source
+    given = [name for name in names if source(name) is ParameterSource.COMMANDLINE]
+    return [f"--{name.replace('_', '-')}" for name in given]
 
 
 def _say_what_touches(scene: Scene) -> None:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 import click
 
@@ -14,7 +15,7 @@ from exactpt.kernel.numbers import QQ, parse_rational
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
 
-__all__ = ["MOMENT", "RATIONAL", "SCENE", "TILING", "budget", "load", "output"]
+__all__ = ["MOMENT", "RATIONAL", "SCENE", "SCENE_FILE", "TILING", "budget", "load", "output"]
 
 
 class _Rational(click.ParamType[QQ]):
@@ -44,6 +45,24 @@ class _Moment(click.ParamType["QQ | Literal['contact']"]):
         return "contact" if value == "contact" else RATIONAL.convert(value, param, ctx)
 
 
+class _Seconds(click.FloatRange):
+    """A time of the clock."""
+
+    name = "seconds"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
+        """The number; NaN, of which nothing is less, is none."""
+        seconds = float(super().convert(value, param, ctx))  # type: ignore[arg-type]
+        if math.isnan(seconds):
+            self.fail(f"{value!r} is not a time", param, ctx)
+        return seconds
+
+
+SCENE_FILE: Final = "exactpt.scene"
+"""In the context of a command: the scene file that it has read."""
+
 RATIONAL = _Rational()
 MOMENT = _Moment()
 SCENE = click.argument("scene", type=click.Path(path_type=Path), metavar="SCENE")
@@ -59,10 +78,12 @@ TILING = click.option(
 def budget(command: Callable[..., Any]) -> Callable[..., Any]:
     """The bounds that every command which simulates accepts."""
     command = click.option(
-        "--max-seconds", type=click.FloatRange(min=0), help="Stop after this time (exit code 4)."
+        "--max-seconds", type=_Seconds(min=0), help="Stop after this time (exit code 4)."
     )(command)
     return click.option(
-        "--max-events", type=click.IntRange(min=0), help="Stop after so many events (exit code 4)."
+        "--max-events",
+        type=click.IntRange(min=0),
+        help="Stop if there are more events than these (exit code 4).",
     )(command)
 
 
@@ -81,6 +102,7 @@ def load(path: Path, until: QQ | None = None) -> Scene:
     """The scene of a file, with the end of its time span brought forward to ``until``."""
     from exactpt.scene.scene import Scene
 
+    click.get_current_context().meta[SCENE_FILE] = path
     scene = Scene.load(path)
     if until is None:
         return scene

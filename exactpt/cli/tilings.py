@@ -10,6 +10,7 @@ import click
 from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, output
 from exactpt.cli.progress import QUIET, progress
+from exactpt.errors import BudgetExceeded
 from exactpt.kernel.numbers import QQ
 
 __all__ = ["check", "tile"]
@@ -83,20 +84,28 @@ def check(
     Examples:
       exactpt check scene.json
       exactpt check scene.json --json
-      exactpt check scene.json --quiet || echo "CGAL disagrees"
+      exactpt check scene.json --quiet && echo "CGAL agrees"
+
+    This needs the program cgal_check, which `make test` builds from a checkout, beside CGAL.
     """
     from exactpt.check import check_scene
 
-    with time_limit(max_seconds):
-        given = load(scene)
-        with progress(given, "checking", quiet=quiet) as reached:
-            report = check_scene(
-                given,
-                tiling=tiling,
-                max_events=max_events,
-                max_seconds=max_seconds,
-                reached=reached,
-            )
+    try:
+        with time_limit(max_seconds):
+            given = load(scene)
+            with progress(given, "checking", quiet=quiet) as reached:
+                report = check_scene(
+                    given,
+                    tiling=tiling,
+                    max_events=max_events,
+                    max_seconds=max_seconds,
+                    reached=reached,
+                )
+    except BudgetExceeded as spent:
+        if as_json:
+            reached_by = None if spent.reached is None else str(spent.reached)
+            click.echo(json.dumps({"ok": None, "reached": reached_by}))
+        raise
     if not quiet:
         click.echo(json.dumps(report.to_json(), indent=1) if as_json else "\n".join(report.lines()))
     return 0 if report.ok else 1

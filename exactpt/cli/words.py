@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from exactpt.kernel.numbers import shorten
+
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact
     from exactpt.scene.scene import Scene
@@ -26,16 +28,23 @@ def answer_in_words(scene: Scene, contact: Contact | None) -> list[str]:
         feature = f"vertex {pair.other_vertex}" if pair.edge is None else f"edge {pair.edge}"
         x, y = pair.point
         lines.append(
-            f"  vertex {pair.vertex} of {pair.body} on {feature} of {pair.other} at ({x}, {y})"
+            f"  vertex {pair.vertex} of {_shown(pair.body)} on {feature} "
+            f"of {_shown(pair.other)} at ({x}, {y})"
         )
-    lines += [f"  {a} and {b} share a point" for a, b in contact.overlaps]
+    lines += [f"  {_shown(a)} and {_shown(b)} share a point" for a, b in contact.overlaps]
     return lines
+
+
+def _shown(name: str) -> str:
+    """A name as it is, if that leaves a line a line."""
+    return name if name.isprintable() else shorten(name)
 
 
 def event_in_words(event: Event) -> str:
     """An event: when, of which kind, which edges of the tiling went and came."""
     changes = [f"-{u}~{v}" for u, v in event.removed] + [f"+{u}~{v}" for u, v in event.added]
-    return " ".join([f"t = {float(event.time)!r}", event.kind, *changes])
+    words = [f"t = {float(event.time)!r}", event.kind, *map(_shown, changes)]
+    return " ".join(words)
 
 
 def stats_in_words(stats: dict[str, object]) -> list[str]:

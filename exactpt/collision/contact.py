@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import final
@@ -45,7 +46,7 @@ class Pair:
     normal: tuple[float, float] | None
 
     def to_json(self) -> dict[str, object]:
-        """The pair as in the contract."""
+        """The pair as in docs/format.md."""
         if self.edge is None:
             b: dict[str, object] = {"body": self.other, "vertex": self.other_vertex}
         else:
@@ -54,7 +55,7 @@ class Pair:
             "kind": self.kind,
             "a": {"body": self.body, "vertex": self.vertex},
             "b": b,
-            "point": list(self.point),
+            "point": [_finite(c) for c in self.point],
             "normal": None if self.normal is None else list(self.normal),
         }
 
@@ -78,7 +79,7 @@ class Contact:
     overlaps: tuple[tuple[str, str], ...] = ()
 
     def to_json(self) -> dict[str, object]:
-        """The contact as in the contract."""
+        """The contact as in docs/format.md."""
         data: dict[str, object] = {
             "time": time_to_json(self.time),
             "kind": self.kind,
@@ -96,15 +97,20 @@ class Contact:
 
 
 def time_to_json(time: AlgebraicNumber) -> dict[str, object]:
-    """A time as in the contract; the same on every machine, however it was found."""
+    """A time as in docs/format.md; the same on every machine, however it was found."""
     number = time.simplified()
     low, high = number.canonical_interval()
     return {
-        "approx": float(number),
+        "approx": _finite(float(number)),
         "low": str(low),
         "high": str(high),
         "polynomial": [str(c) for c in number.polynomial],
     }
+
+
+def _finite(x: float) -> float:
+    """The finite double nearest to what was rounded to x: JSON knows no others."""
+    return min(max(x, -sys.float_info.max), sys.float_info.max)
 
 
 def tracks_before(scene: Scene, time: AlgebraicNumber) -> list[tuple[Track, ...]]:
@@ -187,15 +193,29 @@ def _normal(
     outward: int, v: Track, a: Track, b: Track, time: AlgebraicNumber
 ) -> tuple[float, float]:
     w = multiply(a.w, b.w)
-    dx = nearest_value(difference(a.x, a.w, b.x, b.w), w, time)
-    dy = nearest_value(difference(a.y, a.w, b.y, b.w), w, time)
+    dx, dy = difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
+    # The unit vector is the same at any size; at this one nothing is lost.
+    size = max(_exponent(f, w, time) for f in (dx, dy))
+    grown, shrunk = ZZ(1) << max(0, -size), ZZ(1) << max(0, size)
+    w = scale(w, shrunk)
+    x, y = (nearest_value(scale(f, grown), w, time) for f in (dx, dy))
     # Of a thin body towards the side that the vertex came from; the right one if it came
     # along the line.
     out = outward or -time.sign_before(orientation(a, b, v)) or 1
-    length = math.hypot(dx, dy)
-    if length == 0.0 or not math.isfinite(length):
-        return (0.0, 0.0)
-    return (out * dy / length + 0.0, -out * dx / length + 0.0)
+    length = math.hypot(x, y)
+    return (out * y / length + 0.0, -out * x / length + 0.0)
+
+
+def _exponent(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> int:
+    """About the binary exponent of p / w at a time; of 0, none that counts."""
+    if time.sign_of(p) == 0:
+        return -sys.maxsize
+    while True:
+        low, high = _range(p, w, time.low, time.high)
+        least = low if low > 0 else -high
+        if least > 0:
+            return least.numerator.bit_length() - least.denominator.bit_length()
+        time.refine()
 
 
 def nearest_value(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> float:

@@ -7,7 +7,7 @@ from typing import Final
 
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
-from exactpt.collision.tilings import start_tiling, tiling_for_contact
+from exactpt.collision.tilings import check_tiling, start_tiling, tiling_for_contact
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.scene.scene import Scene
@@ -44,6 +44,7 @@ def first_contact(
     """
     if method not in METHODS:
         raise InputError(f"no method {method!r}; there are: {', '.join(METHODS)}")
+    check_tiling(tiling)
     groups = list(ignoring)
     if groups and method == "kinetic":
         raise InputError("a tiling watches all bodies: to ignore some, use method='pairs'")

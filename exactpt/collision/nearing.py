@@ -66,7 +66,7 @@ def first_within(
         raise InputError(f"a distance is not negative: {d}")
     if norm not in NORMS:
         raise InputError(f"no norm {norm!r}; there are: {', '.join(NORMS)}")
-    first, second = _body(scene, a), _body(scene, b)
+    first, second = scene.body(a), scene.body(b)
     if first is second:
         raise InputError(f"two bodies are asked for, not {a!r} twice")
     if _is_within(first, second, scene.start, d, norm):
@@ -84,13 +84,6 @@ def first_within(
             return time
         begin = end
     return None
-
-
-def _body(scene: Scene, name: str) -> Body:
-    for body in scene.bodies:
-        if body.name == name:
-            return body
-    raise InputError(f"there is no body {name!r}")
 
 
 def _earliest(

@@ -80,7 +80,7 @@ class PairsSearch:
 
     @property
     def stats(self) -> dict[str, object]:
-        """Counts, as in the contract."""
+        """Counts, as in docs/format.md."""
         return {
             "bodies": len(self._scene.bodies),
             "vertices": self._scene.vertex_count,
@@ -115,14 +115,12 @@ class PairsSearch:
     def _prepare(self) -> None:
         """Number the vertices and edges, and read the first tracks."""
         scene = self._scene
-        self._vertices = Vertices.of(scene.bodies, scene.start, scene.end)
+        self._vertices = Vertices.of(scene.bodies, scene.start, scene.end, plain=True)
         ids: list[int] = []
         first_edge: list[tuple[int, int]] = []
         for moving, body in zip(self._vertices.bodies, scene.bodies, strict=True):
-            # Of the copies of a thin vertex, any one will do.
-            of = {self._vertices.all[v].index: v for v in moving.ring}
             base = len(ids)
-            ids += [of[i] for i in range(body.size)]
+            ids += moving.ring
             pairs = edges(body.size, closed=body.closed) or [(0, 0)]
             first_edge += [(base + a, base + b) for a, b in pairs]
         self._ids = ids

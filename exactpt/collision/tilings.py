@@ -16,6 +16,7 @@ __all__ = [
     "POINT_TILING",
     "TILINGS",
     "TilingPlan",
+    "check_tiling",
     "plan_tiling",
     "start_tiling",
     "tiling_class",
@@ -53,6 +54,17 @@ class TilingPlan(NamedTuple):
         return self.kind.mesh_at(Instant(self.vertices, time, after=False))
 
 
+def check_tiling(name: str) -> None:
+    """See whether there is such a tiling.
+
+    Raises:
+        InputError: if not.
+    """
+    names = ("auto", POINT_TILING, *TILINGS)
+    if name not in names:
+        raise InputError(f"no tiling {name!r}; there are: {', '.join(names)}")
+
+
 def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
     """Choose the tiling; "auto" by the shapes.
 
@@ -61,9 +73,7 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
     Raises:
         InputError: if there is no such tiling, or it is not for these bodies.
     """
-    names = ("auto", POINT_TILING, *TILINGS)
-    if name not in names:
-        raise InputError(f"no tiling {name!r}; there are: {', '.join(names)}")
+    check_tiling(name)
     points = all(body.size == 1 for body in scene.bodies)
     if name == POINT_TILING or (name == "auto" and points):
         from exactpt.tiling.incremental.incremental import IncrementalTiling

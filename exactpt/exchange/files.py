@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from exactpt.kernel.numbers import Rational
     from exactpt.scene.scene import Scene
 
-__all__ = ["ENDINGS", "read_shapes", "write_shapes"]
+__all__ = ["ENDINGS", "holds_scene", "read_shapes", "write_shapes"]
 
 Format: TypeAlias = Literal["scene", "geojson", "wkt", "svg"]
 
@@ -54,13 +54,10 @@ def read_shapes(
     Raises:
         InputError: one line that names the file, the shape and what is wrong with it.
     """
+    if holes not in ("refuse", "fill"):
+        raise InputError(f"holes: either refuse or fill: {holes!r}")
     file = Path(path)
-    kind = _format(file)
-    try:
-        text = file.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
-        raise InputError(f"{file}: cannot be read: {reason}") from None
+    kind, text = _format(file), _text_of(file)
 
     def tell(line: str) -> None:
         if skipped is not None:
@@ -73,6 +70,23 @@ def read_shapes(
         return scene_of(shapes, time=time, holes=holes, skipped=skipped and tell)
     except InputError as error:
         raise InputError(f"{file}: {error}") from None
+
+
+def holds_scene(path: Path) -> bool:
+    """Whether a file is a scene, to be read as it is.
+
+    Raises:
+        InputError: if it cannot be read.
+    """
+    return _format(path) == "scene" and not _is_geojson(_text_of(path))
+
+
+def _text_of(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
+        raise InputError(f"{path}: cannot be read: {reason}") from None
 
 
 def _format(path: Path) -> Format:

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 
 from exactpt.kernel.numbers import QQ, nearest_float
 
-__all__ = ["Boxes", "boxes_of_points", "overlapping_pairs"]
+__all__ = ["Boxes", "boxes_of_points", "overlapping_pairs", "widen_unknown"]
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
 
 Boxes: TypeAlias = NDArray[np.float64]
-"""Shape (n, 4): low x, high x, low y, high y, each rounded outward."""
+"""Shape (n, 4): low x, high x, low y, high y, each rounded outward; no NaN among them."""
 
 _CHUNK: Final = 1 << 21
 
@@ -39,6 +39,11 @@ def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
     rows[:, ::2] = np.nextafter(rows[:, ::2], -np.inf)
     rows[:, 1::2] = np.nextafter(rows[:, 1::2], np.inf)
     return rows
+
+
+def widen_unknown(boxes: Boxes) -> None:
+    """Where a box is not known to the last side, the whole plane takes its place."""
+    boxes[np.isnan(boxes).any(axis=1)] = (-np.inf, np.inf, -np.inf, np.inf)
 
 
 def overlapping_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:

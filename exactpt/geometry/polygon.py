@@ -15,7 +15,6 @@ __all__ = [
     "contains",
     "edges",
     "first_self_touch",
-    "is_convex",
     "is_counter_clockwise",
     "segments_meet",
     "signed_area2",
@@ -51,12 +50,6 @@ def is_counter_clockwise(points: Sequence[Point]) -> bool:
     first = min(range(n), key=points.__getitem__)
     turn = side(points[first - 1], points[first], points[(first + 1) % n])
     return turn > 0 if turn else signed_area2(points) > 0
-
-
-def is_convex(points: Sequence[Point]) -> bool:
-    """Whether a simple counter-clockwise polygon has no right turn (straight ones are fine)."""
-    n = len(points)
-    return all(side(points[i - 2], points[i - 1], points[i]) >= 0 for i in range(n))
 
 
 def segments_meet(a: Point, b: Point, c: Point, d: Point) -> bool:

@@ -108,6 +108,7 @@ def quadratics(
     after1, after2 = low1 > now_high, low2 > now_high
     unclear1, unclear2 = ~after1 & ~(high1 <= now_low), ~after2 & ~(high2 <= now_low)
     clear = two_roots & np.where(at_root, unclear1 != unclear2, ~(unclear1 | unclear2))
+    clear &= ~(after1 & (high1 >= low2))  # an enclosure has one root alone
     between = ~after1 & after2
     s = _sign(c2)
     signs = np.where(no_root, s, np.where(clear, np.where(between, -s, s), 0))

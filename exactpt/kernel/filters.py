@@ -142,7 +142,9 @@ def quadratic(
     elif unclear1 or unclear2:
         return UNSURE
     s = 1 if c2 > 0.0 else -1
-    if after1:  # both roots are to come
+    if after1:  # both roots are to come; an enclosure has the first one alone
+        if high1 >= low2:
+            return UNSURE
         return (s, low1, high1) if low1 <= horizon else (s, INFINITY, INFINITY)
     if after2:
         return (-s, low2, high2) if low2 <= horizon else (-s, INFINITY, INFINITY)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import operator
 import re
+from collections.abc import Iterable
 from fractions import Fraction
 from numbers import Real
 from typing import TYPE_CHECKING, Final, TypeAlias
@@ -58,6 +59,7 @@ __all__ = [
     "parse_rational",
     "power_of_two",
     "rational",
+    "rationals",
     "show",
     "sign",
 ]
@@ -66,7 +68,7 @@ Rational: TypeAlias = "int | Fraction | QQ | float | str"
 """What a caller may pass as a number; see `rational`."""
 
 _NUMBER: Final = re.compile(
-    r"([+-]?\d++)(?:/(\d++))?\Z|([+-]?)(\d*+)\.?(\d*+)(?:[eE]([+-]?\d{1,6}))?\Z", re.ASCII
+    r"([+-]?\d++)(?:/(\d++))?\Z|([+-]?)(\d*+)\.?(\d*+)(?:[eE]([+-]?\d{1,18}))?\Z", re.ASCII
 )  # possessive: digits are never given back, so a long refused text takes linear time
 _EXPONENT_LIMIT: Final = 100_000
 _EXACT: Final[type[QQ]] = type(QQ())
@@ -166,6 +168,18 @@ def rational(value: Rational) -> QQ:
         raise InputError(f"not a finite number: {value!r}") from None
     except TypeError:  # arrays have an __index__, classes a numerator, that is none
         raise InputError(f"not a number: {shorten(value)}") from None
+
+
+def rationals(values: object, count: int, what: str) -> tuple[QQ, ...]:
+    """So many numbers.
+
+    Raises:
+        InputError: if there are more or fewer; it begins with ``what``.
+    """
+    listed = list(values) if isinstance(values, Iterable) else None
+    if listed is None or isinstance(values, str) or len(listed) != count:
+        raise InputError(f"{what}: {shorten(values)}")
+    return tuple(map(rational, listed))
 
 
 def nearest_float(value: QQ) -> float:

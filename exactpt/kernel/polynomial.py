@@ -7,7 +7,7 @@ from numbers import Real
 from typing import TYPE_CHECKING, ClassVar, Final, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.kernel.numbers import QQ, Rational, rational, shorten
 
 if TYPE_CHECKING:
     from exactpt.kernel.sympy_door import Expression, Variable
@@ -35,6 +35,8 @@ class Polynomial:
     __match_args__: ClassVar = ("coefficients",)
 
     def __init__(self, coefficients: Iterable[Rational] = ()) -> None:
+        if isinstance(coefficients, str) or not isinstance(coefficients, Iterable):
+            raise InputError(f"a polynomial has a list of coefficients: {shorten(coefficients)}")
         values = [rational(c) for c in coefficients]
         while values and values[-1] == 0:
             values.pop()

@@ -14,12 +14,20 @@ from exactpt.motion.track import Track
 if TYPE_CHECKING:
     from exactpt.exchange.shapely_door import BaseGeometry
 
-__all__ = ["Body", "BodyPiece", "Keyframe", "VertexLike"]
+__all__ = ["Body", "BodyPiece", "Keyframe", "VertexLike", "is_text"]
 
 VertexLike: TypeAlias = (
     "Sequence[Rational] | Mapping[str, Coefficients] | tuple[Polynomial, Polynomial]"
 )
 """A vertex as a caller may write it: (x, y), or {"x": polynomial, "y": polynomial}."""
+
+
+def is_text(name: object) -> bool:
+    """Whether it is a text that is not empty, and can be printed: no half of a surrogate pair."""
+    try:
+        return isinstance(name, str) and bool(name.encode())
+    except UnicodeEncodeError:
+        return False
 
 
 class Keyframe(NamedTuple):
@@ -83,8 +91,10 @@ class Body:
         closed: bool = True,
         keyframes: Sequence[tuple[Rational, Sequence[Sequence[Rational]]]] | None = None,
     ) -> None:
-        if not name:
-            raise InputError("a body has a name that is not empty")
+        if not is_text(name):
+            raise InputError(f"a body's name is a text that is not empty: {shorten(name)}")
+        if not (isinstance(motion, Pieces) or hasattr(motion, "track")):
+            raise InputError(f"body {shorten(name)}: not a motion: {shorten(motion)}")
         if (vertices is None) == (keyframes is None):
             raise InputError(f"body {shorten(name)}: give either vertices or keyframes")
         self.name = name

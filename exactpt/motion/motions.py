@@ -11,7 +11,7 @@ from itertools import pairwise
 from typing import Final, Protocol, TypeAlias, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, rational, shorten, show
+from exactpt.kernel.numbers import QQ, Rational, rational, rationals, shorten, show
 from exactpt.kernel.polynomial import ONE, ZERO, Polynomial, polynomial
 from exactpt.motion.track import Track, track
 
@@ -81,9 +81,8 @@ class Rigid:
         x: Coefficients = ZERO,
         y: Coefficients = ZERO,
     ) -> None:
-        if len(pivot) != 2:
-            raise InputError(f"a pivot has two coordinates: {pivot!r}")
-        self.pivot: tuple[QQ, QQ] = (rational(pivot[0]), rational(pivot[1]))
+        px, py = rationals(pivot, 2, "a pivot has two coordinates")
+        self.pivot: tuple[QQ, QQ] = (px, py)
         self.half_turn = polynomial(half_turn)
         self.x = polynomial(x)
         self.y = polynomial(y)
@@ -121,9 +120,10 @@ class Affine:
         x: Coefficients = ZERO,
         y: Coefficients = ZERO,
     ) -> None:
-        if len(matrix) != 2 or any(len(row) != 2 for row in matrix):
-            raise InputError(f"an affine motion has a 2 x 2 matrix: {matrix!r}")
-        (a, b), (c, d) = matrix
+        try:
+            (a, b), (c, d) = matrix
+        except (TypeError, ValueError):
+            raise InputError(f"an affine motion has a 2 x 2 matrix: {shorten(matrix)}") from None
         self.matrix = ((polynomial(a), polynomial(b)), (polynomial(c), polynomial(d)))
         self.x = polynomial(x)
         self.y = polynomial(y)
@@ -158,6 +158,9 @@ class Pieces:
             if end is None:
                 raise InputError("only the last piece may go on for ever")
             ends.append(rational(end))
+        for _, motion in pieces:
+            if not hasattr(motion, "track"):
+                raise InputError(f"not a motion by one formula: {shorten(motion)}")
         for before, after in pairwise(ends):
             if before >= after:
                 raise InputError(

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Final, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.geometry.boxes import Boxes, widen_unknown
+
 if TYPE_CHECKING:
-    from exactpt.geometry.boxes import Boxes
     from exactpt.motion.image import Image
 
 __all__ = ["SweptBoxes"]
@@ -58,8 +59,7 @@ class SweptBoxes:
             x_low, x_high = np.where(self._turning, x, (x_low, x_high))
             y_low, y_high = np.where(self._turning, y, (y_low, y_high))
         boxes = np.stack((x_low, x_high, y_low, y_high), axis=1)
-        unknown = np.isnan(boxes).any(axis=1)
-        boxes[unknown] = (-np.inf, np.inf, -np.inf, np.inf)
+        widen_unknown(boxes)
         return boxes
 
     def _range(self, cs: Floats, low: float, high: float) -> tuple[Floats, Floats]:

@@ -93,11 +93,13 @@ class Vertices:
         frame: of the run.
         end: of the time span.
         free: the ids that removed bodies have left, the one to be used again first last.
+        plain: whether rings have no copies: then there are no offsets.
 
     Attributes:
         all: the vertices, by id. A body that is removed leaves its ids to later ones.
         bodies: in the order of the scene.
         frame: in which the images are.
+        changes: how often tracks have changed, or bodies come and gone.
     """
 
     def __init__(
@@ -108,8 +110,12 @@ class Vertices:
         frame: Frame,
         end: QQ,
         free: Sequence[int] = (),
+        *,
+        plain: bool = False,
     ) -> None:
         self.frame: Frame = frame
+        self.changes: int = 0
+        self._plain: bool = plain
         self._end: QQ = end
         self.all: list[Vertex] = [_nobody(v) for v in range(sum(map(len, rings)) + len(free))]
         self.bodies: list[MovingBody] = []
@@ -118,26 +124,23 @@ class Vertices:
             self._add(body, ring, t)
 
     @classmethod
-    def of(
-        cls, bodies: Sequence[Body], start: QQ, end: QQ, *, plain_points: bool = False
-    ) -> Vertices:
+    def of(cls, bodies: Sequence[Body], start: QQ, end: QQ, *, plain: bool = False) -> Vertices:
         """The rings of bodies from a time on.
 
-        With ``plain_points`` a point is a single vertex, without an inside or an offset.
+        With ``plain`` they are the vertices of the scene as they are, without copies and
+        offsets, and no inside is tiled.
         """
         positions = [body.at(start) for body in bodies]
         flat = [p for points in positions for p in points]
         ids = count()
         rings = [
-            [(next(ids), 0)]
-            if plain_points and body.size == 1
-            else [(next(ids), index) for index in _ring_indices(body, points)]
+            [(next(ids), index) for index in _ring_indices(body, points, plain=plain)]
             for body, points in zip(bodies, positions, strict=True)
         ]
         frame = frame_for(flat or [(QQ(0), QQ(0))], start, end)
-        self = cls(bodies, rings, [start] * len(bodies), frame, end)
+        self = cls(bodies, rings, [start] * len(bodies), frame, end, plain=plain)
         for i, moving in enumerate(self.bodies):
-            moving.is_tiled = self._may_pinch(i, start, end)
+            moving.is_tiled = not plain and self._may_pinch(i, start, end)
         return self
 
     def add(self, body: Body, t: QQ) -> int:
@@ -152,6 +155,7 @@ class Vertices:
 
     def remove(self, i: int) -> None:
         """Remove a body; the last one gets its number."""
+        self.changes += 1
         for v in reversed(self.bodies[i].ring):
             self.all[v] = _nobody(v)
             self._free.append(v)
@@ -208,6 +212,7 @@ class Vertices:
 
     def enter_piece(self, i: int, t: QQ) -> None:
         """Give the vertices of a body the tracks that hold just after a rational time."""
+        self.changes += 1
         moving = self.bodies[i]
         piece = moving.body.piece_after(t)
         moving.since = t
@@ -218,7 +223,7 @@ class Vertices:
             vertex = self.all[vertex_id]
             vertex.track = piece.tracks[vertex.index]
             vertex.image = images[vertex.index]
-        if _is_thin(moving.body) and len(moving.ring) > 1:
+        if not self._plain and _is_thin(moving.body) and len(moving.ring) > 1:
             end = self._end if piece.until is None else min(piece.until, self._end)
             offsets = thin_offsets(piece.tracks, t, end)
             for vertex_id, offset in zip(moving.ring, offsets.directions, strict=True):
@@ -262,7 +267,9 @@ def _deforms(images: Sequence[Image]) -> bool:
     return first < 0 or any(image.motion != first for image in images)
 
 
-def _ring_indices(body: Body, positions: list[tuple[QQ, QQ]]) -> list[int]:
+def _ring_indices(body: Body, positions: list[tuple[QQ, QQ]], *, plain: bool = False) -> list[int]:
+    if plain:
+        return list(range(body.size))
     if _is_thin(body):
         return thin_ring(body.size)
     ring = list(range(body.size))

@@ -12,16 +12,21 @@ from exactpt.errors import AuditError
 from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.mixed.tree import TOP
 
-__all__ = ["relative_hull"]
+__all__ = ["relative_hull", "top_nodes"]
 
 
-def relative_hull(mesh: LabelledMesh, body: int) -> list[int]:
-    """The vertex ids along the relative hull of a body, counter-clockwise.
+def top_nodes(mesh: LabelledMesh) -> list[int]:
+    """Of each body, the node whose cycle is its relative hull."""
+    return [tree.nodes[TOP] for tree in mesh.forest.bodies]
+
+
+def relative_hull(mesh: LabelledMesh, top: int) -> list[int]:
+    """The vertex ids along the relative hull of a body, by its node, counter-clockwise.
 
     Raises:
         AuditError: if the labels are not those of one cycle.
     """
-    top, m = mesh.forest.bodies[body].nodes[TOP], mesh.map
+    m = mesh.map
     cycle = [h for h in m.half_edges() if top in mesh.labels[h]]
     ordered = [cycle[0]]
     while True:
@@ -35,5 +40,5 @@ def relative_hull(mesh: LabelledMesh, body: int) -> list[int]:
         if len(ordered) > len(cycle):
             break
     if sorted(ordered) != cycle:
-        raise AuditError(f"the relative hull of body {body} is not one cycle: {cycle}")
+        raise AuditError(f"the relative hull of node {top} is not one cycle: {cycle}")
     return [m.origin[h] for h in ordered]

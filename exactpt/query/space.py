@@ -20,7 +20,7 @@ from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, Rational, rational
 from exactpt.query.answers import Hit, Path, Place, VertexName
 from exactpt.query.locate import cast, find, place_of
-from exactpt.query.relative import relative_hull
+from exactpt.query.relative import relative_hull, top_nodes
 from exactpt.query.subdivision import OUTSIDE, Subdivision
 from exactpt.query.surround import surrounded
 from exactpt.query.ways import Ways
@@ -55,15 +55,14 @@ class FreeSpace:
 
     def __init__(self, kinetic: Tiling, at: QQ) -> None:
         self._vertices = kinetic.vertices
+        self._changes = kinetic.vertices.changes
+        self._node = kinetic.vertices.nodes()
         self._mesh: Mesh = kinetic.mesh_now(at)
+        # The trees live on with the run; what they say now is kept.
+        self._tops = top_nodes(self._mesh) if isinstance(self._mesh, LabelledMesh) else None
         self.at = at
         self._wide: Ways | None = None
         self.snapshot: Snapshot = snapshot(self._vertices, self._mesh, kinetic.name, at)
-
-    @cached_property
-    def _node(self) -> list[int]:
-        """Of each vertex id, its node."""
-        return self._vertices.nodes()
 
     @cached_property
     def _hidden(self) -> set[tuple[int, int]]:
@@ -162,13 +161,15 @@ class FreeSpace:
         In the mixed tiling it is known; for others that tiling is built here.
 
         Raises:
-            InputError: if there is no such body.
+            InputError: if there is no such body; or if that tiling must be built, and bodies
+                have changed their motions, come or gone since the space was made.
         """
         index = self._index(body)
-        mesh = self._mesh
-        if not isinstance(mesh, LabelledMesh):
+        mesh, tops = self._mesh, self._tops
+        if not isinstance(mesh, LabelledMesh) or tops is None:
             mesh = self._mixed
-        nodes = [self._node[v] for v in relative_hull(mesh, index)]
+            tops = top_nodes(mesh)
+        nodes = [self._node[v] for v in relative_hull(mesh, tops[index])]
         cycle = [
             v for before, v in zip([nodes[-1], *nodes[:-1]], nodes, strict=True) if v != before
         ]
@@ -178,6 +179,8 @@ class FreeSpace:
 
     @cached_property
     def _mixed(self) -> LabelledMesh:
+        if self._vertices.changes != self._changes:
+            raise InputError("the bodies have other motions now: make the space anew")
         return mixed_mesh(Instant(self._vertices, self.at, after=False))
 
     def neighbours(self, body: str) -> list[str]:

@@ -1,10 +1,11 @@
-"""Scenes as JSON: read with every refusal of the contract, written exactly."""
+"""Scenes as JSON: read with every refusal of docs/format.md, written exactly."""
 
 from __future__ import annotations
 
 import contextlib
 import json
 import os
+import stat
 import tempfile
 from pathlib import Path
 from typing import Final
@@ -12,7 +13,7 @@ from typing import Final
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, shorten
 from exactpt.kernel.polynomial import Polynomial
-from exactpt.motion.body import Body
+from exactpt.motion.body import Body, is_text
 from exactpt.motion.motions import (
     REST,
     Affine,
@@ -24,11 +25,13 @@ from exactpt.motion.motions import (
     Translation,
 )
 from exactpt.scene.json_values import (
+    MOST_DIGITS,
     Json,
     Number,
     a_list,
     an_object,
     exact_number,
+    is_too_long,
     parse_json,
     shown,
 )
@@ -47,7 +50,7 @@ def load(path: Path) -> Scene:
     """
     shown = path if str(path).isprintable() else repr(str(path))
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
         raise InputError(f"{shown}: cannot be read: {reason}") from None
@@ -88,7 +91,7 @@ def _body(data: Json, index: int) -> Body:
     allowed = {"vertices", "motion", "closed", "keyframes"}
     body = an_object(data, where, required=["name"], optional=allowed)
     name = body["name"]
-    if not isinstance(name, str) or isinstance(name, Number) or not _is_text(name):
+    if not isinstance(name, str) or isinstance(name, Number) or not is_text(name):
         raise InputError(f'{where}: "name": not a text: {shown(name)}')
     if ("vertices" in body) == ("keyframes" in body):
         raise InputError(f'{where}: needs either "vertices" or "keyframes"')
@@ -104,14 +107,6 @@ def _body(data: Json, index: int) -> Body:
         raise InputError(f'{where}: "vertices": at least one is needed')
     vertices = [_vertex(row, f"{where}: vertex {i}") for i, row in enumerate(rows)]
     return Body(name, vertices, motion, closed=closed)
-
-
-def _is_text(name: str) -> bool:
-    """Whether a name is not empty, and can be printed: no half of a surrogate pair."""
-    try:
-        return bool(name.encode())
-    except UnicodeEncodeError:
-        return False
 
 
 def _vertex(data: Json, where: str) -> Position:
@@ -197,6 +192,8 @@ def _polynomial(data: Json, where: str) -> Polynomial:
 
 
 def _text(value: QQ) -> str:
+    if is_too_long(value):
+        raise InputError(f"a scene file has no number of more than {MOST_DIGITS} digits")
     return str(value)
 
 
@@ -205,7 +202,11 @@ def _coefficients(f: Polynomial) -> list[str]:
 
 
 def to_json(scene: Scene) -> dict[str, object]:
-    """The scene as JSON data, rationals as ``"p/q"``; `loads` gives the same scene back."""
+    """The scene as JSON data, rationals as ``"p/q"``; `loads` gives the same scene back.
+
+    Raises:
+        InputError: if it has a number, or a motion of the caller's own, that files have not.
+    """
     return {
         "exactpt": VERSION,
         "time": [_text(scene.start), _text(scene.end)],
@@ -269,17 +270,19 @@ def save(scene: Scene, path: Path) -> None:
 def write_atomically(path: Path, content: str | bytes) -> None:
     """Write a file by way of a temporary neighbour, so that no half of it is ever seen.
 
-    A pipe or a device is written to as it is, never replaced.
+    A link stays, what it leads to is replaced. A pipe or a device is written to as it is,
+    never replaced, and so is what a process has open (``/dev/stdout``).
 
     Raises:
         InputError: if the file cannot be written.
     """
     try:
         data = content.encode() if isinstance(content, str) else content
-        if path.exists() and not path.is_file():
+        special = any(path.absolute().is_relative_to(folder) for folder in ("/dev", "/proc"))
+        if path.exists() and (special or not path.is_file()):
             path.write_bytes(data)
         else:
-            _replace(path, data)
+            _replace(path.resolve(), data)
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror}") from None
 
@@ -289,11 +292,19 @@ def _replace(path: Path, data: bytes) -> None:
     try:
         with os.fdopen(descriptor, "wb") as file:
             file.write(data)
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(name, 0o666 & ~umask)
+        os.chmod(name, _mode(path))
         os.replace(name, path)
     except BaseException:
         with contextlib.suppress(OSError):
             os.unlink(name)
         raise
+
+
+def _mode(path: Path) -> int:
+    """Who may read and write a file: as before, if there is one."""
+    try:
+        return stat.S_IMODE(path.stat().st_mode)
+    except FileNotFoundError:
+        umask = os.umask(0)
+        os.umask(umask)
+        return 0o666 & ~umask

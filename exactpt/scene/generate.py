@@ -46,6 +46,7 @@ SIMPLE: Final[dict[str, Family]] = {
     "bodies_on_grid": grid.bodies_on_grid,
     "flat": simple.flat,
     "nested": simple.nested,
+    "hairs": degenerate.hairs,
 }
 """Families with simple polygons of any shape."""
 

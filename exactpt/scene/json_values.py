@@ -13,7 +13,17 @@ from typing import Final, TypeAlias
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, parse_rational, shorten
 
-__all__ = ["Json", "Number", "a_list", "an_object", "exact_number", "parse_json", "shown"]
+__all__ = [
+    "MOST_DIGITS",
+    "Json",
+    "Number",
+    "a_list",
+    "an_object",
+    "exact_number",
+    "is_too_long",
+    "parse_json",
+    "shown",
+]
 
 MOST_DIGITS: Final = 10_000
 """Numerators and denominators have no more: exact arithmetic would not end with many more."""
@@ -73,10 +83,14 @@ def exact_number(data: Json, where: str) -> QQ:
         value = QQ(0) if len(data) > 3 * MOST_DIGITS else parse_rational(data)
     except InputError as error:
         raise InputError(f"{where}: {error}") from None
-    bits = max(value.numerator.bit_length(), value.denominator.bit_length())
-    if len(data) > 3 * MOST_DIGITS or bits > MOST_BITS:
+    if len(data) > 3 * MOST_DIGITS or is_too_long(value):
         raise InputError(f"{where}: more than {MOST_DIGITS} digits: {shorten(str(data))}")
     return value
+
+
+def is_too_long(value: QQ) -> bool:
+    """Whether a number has more than `MOST_DIGITS`."""
+    return max(value.numerator.bit_length(), value.denominator.bit_length()) > MOST_BITS
 
 
 def a_list(data: Json, where: str, length: int | None = None) -> list[Json]:
@@ -118,6 +132,6 @@ def an_object(
 
 def shown(data: Json) -> str:
     """A value in a message, short and on one line."""
-    if isinstance(data, Number):
-        return shorten(str(data))[1:-1]
+    if isinstance(data, (Number, bool)) or data is None:
+        return shorten(str(data) if isinstance(data, Number) else json.dumps(data))[1:-1]
     return shorten(json.loads(json.dumps(data)) if isinstance(data, (list, dict)) else data)

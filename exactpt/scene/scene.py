@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, final
 
 from exactpt.errors import InputError
 from exactpt.geometry.polygon import first_self_touch, signed_area2
-from exactpt.kernel.numbers import QQ, Rational, rational, shorten, show
+from exactpt.kernel.numbers import QQ, Rational, rational, rationals, shorten, show
 from exactpt.motion.body import Body
 
 if TYPE_CHECKING:
@@ -35,9 +35,10 @@ class Scene:
 
     def __init__(self, bodies: Iterable[Body], time: Sequence[Rational] = (0, 1)) -> None:
         self.bodies = tuple(bodies)
-        if len(time) != 2:
-            raise InputError(f"a time span has a start and an end: {time!r}")
-        self.start, self.end = rational(time[0]), rational(time[1])
+        for body in self.bodies:
+            if not isinstance(body, Body):
+                raise InputError(f"not a body: {shorten(body)}")
+        self.start, self.end = rationals(time, 2, "a time span has a start and an end")
         if self.start >= self.end:
             raise InputError(f"time: the span from {show(self.start)} to {show(self.end)} is empty")
         names: set[str] = set()
@@ -71,7 +72,7 @@ class Scene:
 
     @classmethod
     def load(cls, path: str | Path) -> Scene:
-        """Read a scene from a JSON file in the format of the contract.
+        """Read a scene from a JSON file in the format of docs/format.md.
 
         Raises:
             InputError: one line that names the file, the body, the key and the value.
@@ -81,10 +82,26 @@ class Scene:
         return load(Path(path))
 
     def save(self, path: str | Path) -> None:
-        """Write the scene as JSON, exactly; the file is complete or not there."""
+        """Write the scene as JSON, exactly; the file is complete or not there.
+
+        Raises:
+            InputError: if it cannot be written, or the scene has what no file has: a number
+                of more than 10,000 digits, or a motion of the caller's own.
+        """
         from exactpt.scene.format import save
 
         save(self, Path(path))
+
+    def body(self, name: str) -> Body:
+        """The body with a name.
+
+        Raises:
+            InputError: if there is none.
+        """
+        for body in self.bodies:
+            if body.name == name:
+                return body
+        raise InputError(f"there is no body {shorten(name)}")
 
     def at(self, t: Rational) -> dict[str, list[tuple[QQ, QQ]]]:
         """The exact vertex positions of every body at a rational time, by name."""

@@ -18,8 +18,8 @@ class Event:
 
     Attributes:
         time: exactly when.
-        kind: "corner", "reflex", "hull", "diagonal", "x-order", "shadow", "motion" or
-            "contact".
+        kind: "corner", "reflex", "hull", "diagonal", "x-order", "motion" or "contact". (The
+            format has the word "shadow" too; no tiling uses it.)
         removed, added: edges of the tiling, as pairs of names "body:vertex".
     """
 
@@ -29,7 +29,7 @@ class Event:
     added: tuple[tuple[str, str], ...] = ()
 
     def to_json(self) -> dict[str, object]:
-        """The event as in the contract (a line of ``simulate --events``)."""
+        """The event as in docs/format.md (a line of ``simulate --events``)."""
         return {
             "time": time_to_json(self.time),
             "kind": self.kind,

@@ -9,7 +9,7 @@ from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, show
+from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
 from exactpt.motion.vertices import Vertices
@@ -77,7 +77,7 @@ class LivingScene:
 
     def _index(self, name: str) -> int:
         if name not in self._number:
-            raise InputError(f"no body {name!r}")
+            raise InputError(f"there is no body {shorten(name)}")
         return self._number[name]
 
     def named(self, event: TilingEvent, gone: Mapping[int, str] | None = None) -> Event:
@@ -161,7 +161,7 @@ class LivingScene:
             self._bodies[i] = last
         self._number[last.name] = i
         del self._number[name]
-        if not isinstance(kinetic, PopulatedTiling) or not kinetic.can_change_bodies:
+        if not isinstance(kinetic, PopulatedTiling):
             return self._restart(self._bodies, t, 1)
         gone = {v: kinetic.vertices.name(v) for v in kinetic.vertices.bodies[i].ring}
         events = kinetic.remove_body(i, t)

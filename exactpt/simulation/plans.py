@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, floor, power_of_two, rational, show
+from exactpt.kernel.numbers import QQ, Rational, floor, power_of_two, rational, rationals, show
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, SimpleMotion, Translation
@@ -64,8 +64,14 @@ def moved(body: Body, motion: Motion) -> Body:
 
 
 def rounded(value: Rational, grid: Rational = GRID) -> QQ:
-    """The multiple of a grid that is nearest to a number (of two, the larger)."""
+    """The multiple of a grid that is nearest to a number (of two, the larger).
+
+    Raises:
+        InputError: if the grid is not positive.
+    """
     step = rational(grid)
+    if step <= 0:
+        raise InputError(f"a grid is positive: {show(step)}")
     return floor(rational(value) / step + QQ(1, 2)) * step
 
 
@@ -81,10 +87,14 @@ def onward(
         body: whose motion is replaced.
         t: when, rational; dyadic, if numbers are to stay small.
         velocity: (x, y); rounded to the grid.
-        grid: a rational; a power of two, if numbers are to stay small.
+        grid: a positive rational; a power of two, if numbers are to stay small.
+
+    Raises:
+        InputError: if the motion is a caller's own, which has no translation to replace.
     """
     now = rational(t)
-    v = rounded(velocity[0], grid), rounded(velocity[1], grid)
+    vx, vy = rationals(velocity, 2, "a velocity has two coordinates")
+    v = rounded(vx, grid), rounded(vy, grid)
     if not isinstance(body.motion, Pieces):
         return _onward(body.motion, now, v)
     pieces: list[tuple[QQ | None, SimpleMotion]] = []

@@ -1,4 +1,4 @@
-"""The figures of a run: as in the contract, and the measures of a kinetic data structure."""
+"""The figures of a run: as in docs/format.md, and the measures of a kinetic data structure."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["report"]
 def report(scene: Scene, kinetic: Tiling | None, counts: Counts) -> dict[str, object]:
     """The counts of a run so far.
 
-    Keys, besides those of the contract:
+    Keys, besides those of docs/format.md:
 
     * ``by_kind``: events by kind. ``external``: those that change the tiling as others see
       it; ``internal``: the rest (new motions, copies of thin vertices, extremes).

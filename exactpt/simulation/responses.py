@@ -11,6 +11,7 @@ import math
 from collections.abc import Collection
 from typing import TYPE_CHECKING, Final, final
 
+from exactpt.errors import InputError
 from exactpt.kernel.integer_polynomial import derivative, evaluate
 from exactpt.kernel.numbers import QQ, Rational, nearest_float, rational
 from exactpt.motion.body import Body
@@ -46,7 +47,10 @@ class Bounce:
         fixed: names of bodies that stay as they are.
         slowest: the least speed at which what touches parts, positive.
         fastest: no coordinate of a velocity becomes larger; None for no limit.
-        grid: of the velocities.
+        grid: of the velocities, positive.
+
+    Raises:
+        InputError: if ``fixed`` is a text, or a number is not positive.
     """
 
     def __init__(
@@ -57,6 +61,11 @@ class Bounce:
         fastest: Rational | None = None,
         grid: Rational = GRID,
     ) -> None:
+        if isinstance(fixed, str):
+            raise InputError(f"fixed: a collection of names, not the text {fixed!r}")
+        for what, number in (("slowest", slowest), ("fastest", fastest), ("grid", grid)):
+            if number is not None and rational(number) <= 0:
+                raise InputError(f"{what}: not positive: {number!r}")
         self._fixed = frozenset(fixed)
         self._slowest = nearest_float(rational(slowest))
         self._fastest = math.inf if fastest is None else nearest_float(rational(fastest))
@@ -129,9 +138,10 @@ def _velocity(
         ends.append((x, y))
     if not edge:
         return ends[0]
-    a, b = (tuple(nearest_float(c) for c in track.at(t)) for track in chosen)
-    length = (b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2
-    s = ((point[0] - a[0]) * (b[0] - a[0]) + (point[1] - a[1]) * (b[1] - a[1])) / length
+    a, b = (track.at(t) for track in chosen)
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    px, py = rational(point[0]) - a[0], rational(point[1]) - a[1]
+    s = nearest_float((px * dx + py * dy) / (dx * dx + dy * dy))
     (ux, uy), (vx, vy) = ends
     return ux + s * (vx - ux), uy + s * (vy - uy)
 
@@ -145,8 +155,11 @@ def _translation_speed(body: Body, t: QQ) -> tuple[float, float]:
 def _between_centers(a: Body, b: Body, t: QQ) -> tuple[float, float]:
     """The direction from the middle of the vertices of b to that of a."""
     (ax, ay), (bx, by) = (
-        [sum(nearest_float(p[k]) for p in body.at(t)) / body.size for k in (0, 1)]
-        for body in (a, b)
+        [sum((p[k] for p in body.at(t)), QQ(0)) / body.size for k in (0, 1)] for body in (a, b)
     )
-    length = math.hypot(ax - bx, ay - by)
-    return ((ax - bx) / length, (ay - by) / length) if length else (1.0, 0.0)
+    dx, dy = ax - bx, ay - by
+    size = max(abs(dx), abs(dy))
+    if size == 0:
+        return 1.0, 0.0
+    x, y = nearest_float(dx / size), nearest_float(dy / size)
+    return x / math.hypot(x, y), y / math.hypot(x, y)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time as clock
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from typing import Self
 
@@ -14,8 +14,9 @@ from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counts, counters
-from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational
+from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
 from exactpt.kinetic.queue import EventTime
+from exactpt.motion.body import Body
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
 from exactpt.simulation.living import LivingScene
@@ -42,6 +43,9 @@ class Running(Questions):
         max_events: int | None = None,
         max_seconds: float | None = None,
     ) -> None:
+        for what, bound in (("max_events", max_events), ("max_seconds", max_seconds)):
+            if bound is not None and not bound >= 0:
+                raise InputError(f"{what}: not a number from 0 on: {bound!r}")
         plan = plan_tiling(scene, tiling, scene.start)
         self.contact: Contact | None = None
         self.contacts: int = 0
@@ -52,7 +56,9 @@ class Running(Questions):
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
         self._counted: Counts = counters.now()
         self._events = 0
+        self._proved: QQ = scene.start
         self._passed: EventTime | None = None
+        self._met: tuple[AlgebraicNumber, dict[str, Body]] | None = None
         self._pending: deque[Event] = deque()
         self._forget_space()
         self._living: LivingScene | None = None
@@ -113,7 +119,9 @@ class Running(Questions):
         Yields every event as it has been processed. The first contact is the last of them,
         unless ``on_contact`` is given: then the simulation goes back to a rational time
         just before each contact and calls it with itself and the `Contact`. If it changes
-        plans (`set_motion`, `set_motions`, `remove`), the run goes on; else it ends there.
+        anything (`set_motion`, `set_motions`, `add`, `remove`), the run goes on, and ends at
+        that contact only if it comes again while its bodies have the same plans; else it
+        ends there.
 
         Args:
             until: the last time.
@@ -125,17 +133,19 @@ class Running(Questions):
 
         Raises:
             BudgetExceeded: if the bounds of the simulation are reached.
-            InputError: if the margin is not positive.
+            InputError: if the margin is not positive, or ``until`` is before now.
         """
         end = self.scene.end if until is None else min(rational(until), self.scene.end)
         grid = self._margin if margin is None else rational(margin)
         if grid <= 0:
             raise InputError(f"the margin before contacts is not positive: {grid}")
+        if self.contact is None and self.now.compare_rational(end) > 0:
+            raise InputError(f"until: t = {show(end)} is over, it is t = {float(self.now)!r} now")
         while True:
             if self.contact is None:
-                self._check_budget()
+                self._check_time()
             if self._pending:
-                self._events += 1
+                self._count(1)
                 yield self._pending.popleft()
             elif self.contact is not None or not self._advance(end, on_contact, grid):
                 return
@@ -150,24 +160,28 @@ class Running(Questions):
             BudgetExceeded: if the bounds of the simulation are reached.
         """
         while not self._pending and self.contact is None:
-            self._check_budget()
+            self._check_time()
             if not self._advance(self.scene.end, None, QQ(1)):
                 break
+        self._count(len(self._pending))
         events = list(self._pending)
         self._pending.clear()
-        self._events += len(events)
         return events
 
     def run_to_contact(self) -> Contact | None:
-        """The first contact in the time span, or None; the fastest way to it."""
+        """The first contact in the time span, or None; the fastest way to it.
+
+        Raises:
+            BudgetExceeded: if the bounds of the simulation are reached.
+        """
         if self.contact is None:
             kinetic = self._alive().kinetic
             self._forget_space()
             try:
                 for _ in kinetic.run():
-                    self._events += 1
                     self._passed = kinetic.certifier.now
-                    self._check_budget()
+                    self._count(1)
+                    self._check_time()
             except ContactFound as found:
                 self._end_with(contact_of(self.scene, kinetic.now, found.touches))
         return self.contact
@@ -184,6 +198,8 @@ class Running(Questions):
             contact = contact_of(self.scene, living.kinetic.now, found.touches)
             if on_contact is None:
                 self._end_with(contact)
+            elif self._is_met(contact):
+                self.contact = contact
             else:
                 self._meet(contact, on_contact, grid)
             return True
@@ -202,6 +218,7 @@ class Running(Questions):
         kinetic.retreat(grid)
         self.contacts += 1
         self._pending.append(Event(contact.time, "contact"))
+        self._met = contact.time, self._plans_in(contact)
         changes = living.changes
         on_contact(self, contact)
         if living.changes == changes:
@@ -209,18 +226,32 @@ class Running(Questions):
             with suppress(ContactFound):
                 kinetic.advance(self.scene.end)
 
+    def _plans_in(self, contact: Contact) -> dict[str, Body]:
+        names = {name for pair in contact.pairs for name in (pair.body, pair.other)}
+        return {name: self._alive().body(name) for name in names}
+
+    def _is_met(self, contact: Contact) -> bool:
+        """Whether the last contact comes again: then nothing has been done about it."""
+        if self._met is None or self._met[0].compare(contact.time) != 0:
+            return False
+        now, then = self._plans_in(contact), self._met[1]
+        return now.keys() == then.keys() and all(now[name] is then[name] for name in now)
+
     def _end_with(self, contact: Contact) -> None:
         self.contact = contact
         self.contacts += 1
         self._pending.append(Event(contact.time, "contact"))
 
-    def _check_budget(self) -> None:
-        late = self._deadline is not None and clock.monotonic() > self._deadline
-        many = self._max_events is not None and self._events >= self._max_events
-        if late or many:
-            reached = self.reached()
-            what = "time" if late else "number of events"
-            raise BudgetExceeded(f"the {what} is used up", reached)
+    def _count(self, events: int) -> None:
+        """Count events that are to be told; a contact is told in any case."""
+        self._events += events
+        most = self._max_events
+        if most is not None and self._events > most and self.contact is None:
+            raise BudgetExceeded("the number of events is used up", self.reached())
+
+    def _check_time(self) -> None:
+        if self._deadline is not None and clock.monotonic() > self._deadline:
+            raise BudgetExceeded("the time is used up", self.reached())
 
     def reached(self) -> QQ:
         """A rational time at most now: up to it there is provably no contact."""
@@ -229,11 +260,15 @@ class Running(Questions):
 
     def passed(self) -> QQ:
         """As `reached`, but at once, and right in the middle of an event too."""
-        start = self._given[0].start
         if self._living is None or self._passed is None:
-            return start
+            return self._proved
         frame = self._living.kinetic.vertices.frame
-        return max(start, frame.exact_time(self._passed.low))
+        return max(self._proved, frame.exact_time(self._passed.low))
+
+    def _change(self, events: Iterable[Event]) -> None:
+        """Take over what a change of plans or bodies at a rational time has caused."""
+        self._pending.extend(events)
+        self._proved, self._passed = self.now.low, None  # a new tiling may have a new frame
 
     def _alive(self) -> LivingScene:
         if self._living is None:

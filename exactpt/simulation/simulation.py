@@ -16,13 +16,6 @@ from exactpt.scene.format import write_atomically
 from exactpt.scene.scene import Scene
 from exactpt.simulation.living import LivingScene
 from exactpt.simulation.running import Running
-from exactpt.simulation.saved import (
-    contact_from_json,
-    event_from_json,
-    tiling_from_json,
-    tiling_to_json,
-)
-from exactpt.simulation.store import VERSION, json_text, reading, scene_from_json
 
 __all__ = ["Simulation"]
 
@@ -49,8 +42,12 @@ class Simulation(Running):
         scene: what moves.
         tiling: which tiling to keep: "auto" or one of `TILINGS`.
         exact_only: decide everything by exact arithmetic, without the float filters.
-        max_events: raise `BudgetExceeded` before one more event than these.
-        max_seconds: raise `BudgetExceeded` after this time.
+        max_events: raise `BudgetExceeded` instead of telling one more event than these.
+        max_seconds: raise `BudgetExceeded` after so many seconds of the clock.
+
+    Raises:
+        InputError: if there is no such tiling, it is not for these bodies, or a bound is
+            no number from 0 on.
 
     Attributes:
         contact: the contact that has ended the run, if one has; no time passes after it.
@@ -65,7 +62,7 @@ class Simulation(Running):
         Raises:
             InputError: if there is none.
         """
-        return self._changeable().body(name)
+        return self._given[0].body(name) if self._living is None else self._living.body(name)
 
     def set_motion(self, body: str, plan: Motion | Body) -> None:
         """Let a body go on by another motion from now on; see `set_motions`."""
@@ -86,7 +83,7 @@ class Simulation(Running):
             InputError: if there is no such body, a vertex would jump (with the two
                 positions), now is not rational or is the end of the time span.
         """
-        self._pending.extend(self._changeable().set_motions(plans))
+        self._change(self._changeable().set_motions(plans))
 
     def add(self, body: Body) -> None:
         """Add a body now, which must be rational, as the last one.
@@ -100,7 +97,7 @@ class Simulation(Running):
             InputError: if its name is taken, it is not simple, it touches another body,
                 now is not rational or is the end of the time span.
         """
-        self._pending.extend(self._changeable().add(body))
+        self._change(self._changeable().add(body))
 
     def remove(self, body: str) -> None:
         """Remove a body now, which must be rational; the last one takes its place in the scene.
@@ -112,7 +109,7 @@ class Simulation(Running):
         Raises:
             InputError: if there is no such body, now is not rational or is the end.
         """
-        self._pending.extend(self._changeable().remove(body))
+        self._change(self._changeable().remove(body))
 
     def _changeable(self) -> LivingScene:
         if self.contact is not None:
@@ -135,7 +132,13 @@ class Simulation(Running):
 
         `restore` goes on with it: the events that come are the same, byte by byte, as
         without the interruption. Bounds on events and seconds are not saved.
+
+        Raises:
+            InputError: if the file cannot be written, or the scene has what no scene file has
+                (`Scene.save`).
         """
+        from exactpt.simulation.store import json_text
+
         write_atomically(Path(path), json_text(self.to_json()))
 
     @classmethod
@@ -150,12 +153,16 @@ class Simulation(Running):
 
         Args:
             path: of the file.
-            max_events: raise `BudgetExceeded` before one more event than these, from now on.
-            max_seconds: raise `BudgetExceeded` after this time.
+            max_events: raise `BudgetExceeded` instead of telling one more event than these,
+                from now on.
+            max_seconds: raise `BudgetExceeded` after so many seconds of the clock.
 
         Raises:
             InputError: if the file is none, or of another version.
         """
+        from exactpt.simulation.saved import contact_from_json, event_from_json, tiling_from_json
+        from exactpt.simulation.store import reading, scene_from_json
+
         with reading(Path(path)) as data:
             asked, exact_only = data["tiling"], data["exact_only"]
             scene = scene_from_json(data["scene"])
@@ -180,6 +187,9 @@ class Simulation(Running):
 
     def to_json(self) -> dict[str, object]:
         """What `save` writes."""
+        from exactpt.simulation.saved import tiling_to_json
+        from exactpt.simulation.store import VERSION
+
         living, counts = self._living, counters.now().since(self._counted)
         return {
             "exactpt-simulation": VERSION,

@@ -21,7 +21,7 @@ def tile_at(
     max_events: int | None = None,
     max_seconds: float | None = None,
 ) -> Snapshot:
-    """The tiling just after a time in the span of the scene.
+    """The tiling at a time in the span of the scene.
 
     Args:
         scene: the scene.

@@ -266,11 +266,11 @@ class Certifier:
     def first_coincidence(self, *ids: int) -> EventTime | None:
         """The first time at which two of some vertices, always on one line, coincide."""
         first: AlgebraicNumber | None = None
-        vertices = [self.all[v] for v in ids]
+        vertices = list({id(self.all[v].track): self.all[v] for v in ids}.values())
         until = self._until(*vertices)
         for i, u in enumerate(vertices):
             for v in vertices[:i]:
-                if u.track is v.track or (u.image.motion == v.image.motion and u.image.motion >= 0):
+                if u.image.motion == v.image.motion and u.image.motion >= 0:
                     continue
                 p, q = u.track, v.track
                 dx, dy = difference(p.x, p.w, q.x, q.w), difference(p.y, p.w, q.y, q.w)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from exactpt.geometry.boxes import Boxes, widen_unknown
 from exactpt.kernel.counters import counters
 from exactpt.kernel.integer_polynomial import add, multiply, subtract
 from exactpt.motion import incidence
@@ -18,7 +19,6 @@ from exactpt.motion.incidence import difference
 from exactpt.tiling.reasons import reason
 
 if TYPE_CHECKING:
-    from exactpt.geometry.boxes import Boxes
     from exactpt.motion.vertices import Vertex
     from exactpt.tiling.certificates import Certifier
 
@@ -58,6 +58,7 @@ def boxes_now(certifier: Certifier, vertices: Sequence[Vertex]) -> Boxes:
         x, y, error = certifier.positions.of(vertex)
         dx, dy = error + 4.0 * U * abs(x), error + 4.0 * U * abs(y)
         boxes[i] = (x - dx, x + dx, y - dy, y + dy)
+    widen_unknown(boxes)  # of what doubles cannot hold
     return boxes
 
 

@@ -31,11 +31,6 @@ class PopulatedTiling(KineticTiling):
 
     def takes(self, body: Body, t: QQ) -> bool:  # noqa: ARG002 - kinds of tilings do
         """Whether a body can be added at a time without building another tiling."""
-        return self.can_change_bodies
-
-    @property
-    def can_change_bodies(self) -> bool:
-        """Whether bodies may come and go without building another tiling."""
         return True
 
     def add_body(self, body: Body, t: QQ, site: Site) -> list[TilingEvent]:

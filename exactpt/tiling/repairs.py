@@ -37,10 +37,10 @@ class RepairedTiling(CertifiedTiling):
         Raises:
             RebuildNeeded: if that does not end in a pseudo-triangulation.
         """
-        rounds = 0
+        rounds, most = 0, 64 + 4 * (len(self.queue) + len(self._due))
         while self._due or self._has_more():
             rounds += 1
-            if rounds > 64 + 4 * len(self.queue):
+            if rounds > most:
                 raise RebuildNeeded
             self._batch.begin_repair()
             if self._due:
@@ -52,14 +52,21 @@ class RepairedTiling(CertifiedTiling):
 
     def _first_due(self) -> int:
         """The violated angle to be mended first: copies of one triple in perturbed order."""
-        first, *others = sorted(self._due)
-        for h in others:
-            p, q = self._vertices_of(h), self._vertices_of(first)
-            if {(v.body, v.index) for v in p} == {(v.body, v.index) for v in q}:
+        first = min(self._due)
+        q = self._vertices_of(first)
+        triple = {(v.body, v.index) for v in q}
+        for h in sorted(self._due_at(triple) - {first}):
+            p = self._vertices_of(h)
+            if {(v.body, v.index) for v in p} == triple:
                 signs = (-1 if self.mesh.corner[g] else 1 for g in (h, first))
                 if comes_first(p, next(signs), q, next(signs), self.now):
-                    first = h
+                    first, q = h, p
         return first
+
+    def _due_at(self, vertices: set[tuple[int, int]]) -> set[int]:
+        """The violated angles at some vertices, each given by its body and its number there."""
+        origin, every = self.mesh.map.origin, self.vertices.all
+        return {h for h in self._due if ((v := every[origin[h]]).body, v.index) in vertices}
 
     def _check_batch(self, touched: list[int]) -> None:
         """Check what several repairs at one time have left: corners, order around vertices.

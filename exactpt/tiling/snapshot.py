@@ -72,7 +72,7 @@ class Snapshot:
     """A tiling at a time.
 
     Attributes:
-        at: the time; the tiling is the one just after it.
+        at: the time; the tiling is the one of that very time.
         tiling: its name.
         nodes: all vertices of the scene, in its order.
         edges: body edges and diagonals, in order of their nodes.
@@ -103,7 +103,7 @@ class Snapshot:
         return tuple(sorted(edges))
 
     def to_json(self) -> dict[str, object]:
-        """The snapshot as in the contract (command ``tile``)."""
+        """The snapshot as in docs/format.md (command ``tile``)."""
         faces = []
         for f in self.faces:
             face: dict[str, object] = {

@@ -140,7 +140,7 @@ def test_what_is_no_tile_is_the_callers_fault(witness, pair, change, message):
     tile, shapes = pair
     change(tile)
 
-    with pytest.raises(InputError, match="not a tile of the contract: .*" + message):
+    with pytest.raises(InputError, match="not a tile as `exactpt tile` writes it: .*" + message):
         witness.check_tiling(tile, shapes)
 
 

@@ -258,7 +258,7 @@ def test_motions_that_are_none_are_refused(make, words):
 @pytest.mark.parametrize(
     "arguments, words",
     [
-        ({"name": "", "vertices": [(0, 0)]}, "a name that is not empty"),
+        ({"name": "", "vertices": [(0, 0)]}, "a text that is not empty"),
         ({"name": "a"}, "'a': give either vertices or keyframes"),
         ({"name": "a", "vertices": [(0, 0)], "keyframes": []}, "'a': give either"),
         ({"name": "a", "vertices": []}, "'a': at least one vertex"),

@@ -27,7 +27,7 @@ def close_points(draw):
         Body(str(i), [(x + draw(steps), y + draw(steps))], Translation([0, v + draw(steps)]))
         for i in range(5)
     ]
-    return Vertices.of(bodies, START, END, plain_points=True)
+    return Vertices.of(bodies, START, END, plain=True)
 
 
 scenes = st.one_of(close_points(), vertices(any_motion))

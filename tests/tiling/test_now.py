@@ -186,7 +186,7 @@ def test_many_certificates_at_once(moving, t):
 def test_left_and_right_are_told_apart_now(before, exact_only):
     places = [(0, 5), (0, 0), (1, 7)]  # of equal x, the upper one is on the left
     bodies = [Body(str(i), [p], Translation([], [0, i])) for i, p in enumerate(places)]
-    moving = Vertices.of(bodies, START, END, plain_points=True)
+    moving = Vertices.of(bodies, START, END, plain=True)
     moment = Moment(certifier_at(moving, START, exact_only=exact_only), before=before)
 
     for a, b in permutations(range(3), 2):

@@ -22,11 +22,13 @@ HAIR = QQ(1, 10**30)
 
 @pytest.fixture(params=[False, True], ids=["filtered", "exact"])
 def certified(request):
-    """A certifier at time 0, and the vertices of bodies."""
+    """A certifier at time 0, and the vertices of bodies, one for a point."""
 
     def make(*bodies):
-        vertices = Vertices.of(bodies, QQ(0), QQ(4), plain_points=True)
-        return Certifier(vertices, QQ(0), QQ(4), exact_only=request.param), vertices.all
+        vertices = Vertices.of(bodies, QQ(0), QQ(4))
+        rings = [m.ring[:1] if m.body.size == 1 else m.ring for m in vertices.bodies]
+        chosen = [vertices.all[v] for ring in rings for v in ring]
+        return Certifier(vertices, QQ(0), QQ(4), exact_only=request.param), chosen
 
     return make
 

@@ -47,7 +47,7 @@ def four_points(draw):
     bodies = [
         Body(str(i), [place], draw(st.sampled_from(shared))) for i, place in enumerate(places)
     ]
-    return Vertices.of(bodies, QQ(0), QQ(4), plain_points=True)
+    return Vertices.of(bodies, QQ(0), QQ(4), plain=True)
 
 
 times = st.one_of(
@@ -78,7 +78,7 @@ def test_what_is_clear_is_decided():
         Body("c", [(0, 5)]),
         Body("d", [(1, 5)], Affine([[[1, 1], [0]], [[0], [1]]])),
     ]
-    vertices = Vertices.of(bodies, QQ(0), QQ(4), plain_points=True)
+    vertices = Vertices.of(bodies, QQ(0), QQ(4), plain=True)
     positions = Certifier(vertices, QQ(0), QQ(4), exact_only=False).positions
     a, b, c, d = vertices.all
 
@@ -94,7 +94,7 @@ def test_coordinates_that_no_double_holds_are_left_open():
         Body("b", [(1, 0)]),
         Body("c", [(2, QQ(1, 10**400))]),
     ]
-    vertices = Vertices.of(bodies, QQ(0), QQ(1), plain_points=True)
+    vertices = Vertices.of(bodies, QQ(0), QQ(1), plain=True)
     positions = Certifier(vertices, QQ(0), QQ(1), exact_only=False).positions
 
     assert positions.sign(*vertices.all) in (0, 1)
@@ -121,7 +121,7 @@ def test_what_is_on_one_line_stays_open(place, step, along, path, half, time):
         Body(str(i), [(place[0] + t * step[0] / 7, place[1] + t * step[1] / 7)], motion)
         for i, t in enumerate(along)
     ]
-    vertices = Vertices.of(bodies, QQ(0), QQ(4), plain_points=True)
+    vertices = Vertices.of(bodies, QQ(0), QQ(4), plain=True)
     certifier = Certifier(vertices, QQ(0), QQ(4), exact_only=False)
     low, high = vertices.frame.enclosure(time)
     certifier.move_to(EventTime(low, high, -1, -1, -1, time), [])
@@ -139,7 +139,7 @@ def test_a_sign_holds_in_the_whole_enclosure_of_now(turns):
         Body("right", [(5, 0)]),
         Body("moving", [(1, 3 if turns else 0)], moving),
     ]
-    vertices = Vertices.of(bodies, QQ(0), QQ(4), plain_points=True)
+    vertices = Vertices.of(bodies, QQ(0), QQ(4), plain=True)
     certifier = Certifier(vertices, QQ(0), QQ(4), exact_only=False)
     for low, high, known in ((1 - 1e-6, 1 + 1e-9, False), (1 - 1e-6, 1 - 9e-7, True)):
         certifier.move_to(EventTime(low, high, -1, -1, -1), [])
@@ -157,7 +157,7 @@ def test_one_position_with_a_large_error_leaves_all_open(corner):
         Body(str(i), [(x, 0)], moving if i == corner else Translation())
         for i, x in enumerate((0, 10**6, 3, 10**6 + 5))
     ]
-    vertices = Vertices.of(bodies, QQ(0), QQ(4), plain_points=True)
+    vertices = Vertices.of(bodies, QQ(0), QQ(4), plain=True)
     certifier = Certifier(vertices, QQ(0), QQ(4), exact_only=False)
     time = AlgebraicNumber.root((ZZ(-2), ZZ(0), ZZ(1)), QQ(1), QQ(2))
     low, high = vertices.frame.enclosure(time)

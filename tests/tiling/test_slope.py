@@ -40,7 +40,7 @@ def test_the_order_of_parallel_bitangents(direction, motion):
     u, v = direction
     places = [(k * u + x, k * v + y) for k in (-2, 0, 1, 3) for x, y in ((0, 0), (5, 4))]
     bodies = [Body(str(i), [place], motion) for i, place in enumerate(places)]
-    vertices = Vertices.of(bodies, QQ(0), QQ(1), plain_points=True)
+    vertices = Vertices.of(bodies, QQ(0), QQ(1), plain=True)
     instant = Instant(vertices, QQ(0), after=False)
     upright = u == 0
     signs = ((1, 1), (1, -1), (-1, 1), (-1, -1))

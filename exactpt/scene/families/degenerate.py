@@ -19,6 +19,7 @@ __all__ = [
     "grazing",
     "grids",
     "grids_passing",
+    "hairs",
     "mirrored",
     "polygons_in_step",
     "rings",
@@ -186,3 +187,21 @@ def sweeping(rng: Random) -> Scene:
             outline = edge[: rng.choice([1, 2])]
         bodies.append(Body(f"b{i}", outline, Translation([0, speed if left else -speed])))
     return Scene(bodies, (0, rng.choice([4, 20])))
+
+
+def hairs(rng: Random) -> Scene:
+    """A comb that comes down on a wall with all teeth at once, by coefficients of any size."""
+    teeth = rng.choice([2, 5, 9, 28])
+    e = rng.choice([0, 1, -1]) * QQ(1, 10 ** rng.choice([20, 40, 400]))
+    gap = rng.choice([0, 0, 1, -1]) * QQ(1, 10 ** rng.choice([1, 40]))
+    # Down at t = 1: to go up again, or to go through.
+    path = rng.choice([[QQ(0), e - 2, 1 - 2 * e, e], [QQ(0), -1 - e, QQ(0), e]])
+    drift = rng.choice([poly(0), poly(0, e), poly(0, 1)])
+    tips = [p for i in range(teeth) for p in ((2 * i + 1, 1), (2 * i + 2, 5))][:-1]
+    comb = [(0, 10), *tips, (2 * teeth, 10)]
+    bodies = [
+        Body("comb", [(x, y + gap) for x, y in comb], Translation(drift, poly(*path))),
+        Body("wall", box(-5, -1, 2 * teeth + 15, 1)),
+        Body("stone", box(-20, 3), Translation(poly(0, rng.choice([QQ(1), e, 10 + e])))),
+    ]
+    return Scene(bodies, (0, rng.choice([1, 3])))

@@ -23,7 +23,7 @@ def tangent_pair(instant: Instant, a: int, b: int, side_a: int, side_b: int) -> 
     Each end moves along its ring while a neighbour is on the wrong side of the line. A
     vertex whose two neighbours are on the right side is the tangent point as seen from
     the other end, since the ring is convex. Of vertices that stay on the line the
-    nearest one is taken: it sticks out (`exactpt.tiling.exact`, step 3).
+    nearest one is taken: it sticks out (`exactpt.tiling.exact`).
 
     Args:
         instant: the predicates.

@@ -272,6 +272,8 @@ class GreedyTiling(PopulatedTiling):
             self.stats.flips += 1
             self._record("diagonal", (old,), (new,))
             self._recertify(tuple(h for h in changed if m.origin[h] >= 0))
+        if self._due:
+            raise RebuildNeeded
 
     def _edge(self, u: int, v: int) -> int | None:
         m = self.mesh.map

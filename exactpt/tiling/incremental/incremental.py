@@ -81,7 +81,7 @@ class IncrementalTiling(RepairedStructure):
                     f"body {body.name!r}: has {body.size} vertices: "
                     "the incremental tiling is for points"
                 )
-        return Vertices.of(bodies, start, end, plain_points=True)
+        return Vertices.of(bodies, start, end, plain=True)
 
     @classmethod
     def mesh_at(cls, instant: Instant) -> Mesh:

@@ -1,0 +1,57 @@
+"""Coefficients that no double image holds: their boxes are the whole plane, never nothing."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from exactpt.collision.allpairs import first_contact_allpairs
+from exactpt.collision.detector import first_contact
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.scene.scene import Scene
+from exactpt.tiling.placement import boxes_now
+
+
+def comb_on_a_wall(teeth, path):
+    """A comb that comes down on a wall with all its teeth at once."""
+    tips = [p for i in range(teeth) for p in ((2 * i + 1, 1), (2 * i + 2, 5))][:-1]
+    comb = Body("comb", [(0, 10), *tips, (2 * teeth, 10)], Translation(0, path))
+    wall = Body("wall", [(-5, -1), (75, -1), (75, 0), (-5, 0)])
+    return Scene([comb, wall], (0, 3))
+
+
+GRAZE = [0, -2 + QQ(1, 10**40), 1 - QQ(2, 10**40), QQ(1, 10**40)]
+"""(1 + 10^-40 t) (t - 1)^2 - 1: down at t = 1, and up again."""
+CROSSING = [0, -1 - QQ(1, 10**40), 0, QQ(1, 10**40)]
+"""-t + 10^-40 (t^3 - t): down at t = 1."""
+
+
+@pytest.mark.parametrize("path", [GRAZE, CROSSING], ids=["graze", "crossing"])
+@pytest.mark.parametrize("teeth", [5, 28])
+@pytest.mark.parametrize("how", ["pairs", "lazy", "mixed", "greedy"])
+def test_many_touch_at_once_by_immoderate_motions(path, teeth, how):
+    scene = comb_on_a_wall(teeth, path)
+    asked = {"method": "pairs"} if how == "pairs" else {"tiling": how}
+
+    contact = first_contact(scene, **asked)
+
+    assert contact is not None
+    assert contact.time == 1
+    assert contact.kind == "vertex-edge"
+    assert len(contact.pairs) == teeth
+
+
+def test_the_reference_agrees():
+    scene = comb_on_a_wall(5, GRAZE)
+    assert first_contact_allpairs(scene).to_json() == first_contact(scene).to_json()
+
+
+@pytest.mark.plain
+def test_a_box_that_is_not_known_is_the_whole_plane():
+    positions = SimpleNamespace(of=lambda _: (np.nan, np.nan, np.inf))
+
+    boxes = boxes_now(SimpleNamespace(positions=positions), [None])
+
+    assert boxes.tolist() == [[-np.inf, np.inf, -np.inf, np.inf]]
