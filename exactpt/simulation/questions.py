@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, rational
-from exactpt.query.answers import Hit, Path, Place, VertexName
-from exactpt.query.space import FreeSpace, PointLike
-from exactpt.tiling.snapshot import Snapshot
-from exactpt.tiling.tiling import Tiling
+
+if TYPE_CHECKING:
+    from exactpt.query.answers import Hit, Path, Place, VertexName
+    from exactpt.query.space import FreeSpace, PointLike
+    from exactpt.tiling.snapshot import Snapshot
+    from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Questions"]
 
@@ -52,6 +55,8 @@ class Questions(ABC):
             t = rational(at)
             _check_between(kinetic, t)
         if self._space is None or self._space.at != t:
+            from exactpt.query.space import FreeSpace
+
             self._space = FreeSpace(kinetic, t)
         return self._space
 
