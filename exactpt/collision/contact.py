@@ -10,7 +10,7 @@ from typing import final
 
 from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.integer_polynomial import IntPoly, multiply, scale, subtract
+from exactpt.kernel.integer_polynomial import IntPoly, multiply, range_on, scale, subtract
 from exactpt.kernel.numbers import QQ, ZZ, nearest_float
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, difference, orientation
@@ -236,16 +236,8 @@ def nearest_value(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> float:
 
 
 def _range(p: IntPoly, w: IntPoly, low: QQ, high: QQ) -> tuple[QQ, QQ]:
-    a, b = _horner(p, low, high)
-    c, d = _horner(w, low, high)
+    a, b = range_on(p, low, high)
+    c, d = range_on(w, low, high)
     if c <= 0:
         c = QQ(1, 1 << 4096)  # not narrow enough yet; w is positive
     return (a / d if a > 0 else a / c), (b / c if b > 0 else b / d)
-
-
-def _horner(f: IntPoly, low: QQ, high: QQ) -> tuple[QQ, QQ]:
-    a = b = QQ(0)
-    for c in reversed(f):
-        products = (a * low, a * high, b * low, b * high)
-        a, b = min(products) + c, max(products) + c
-    return a, b

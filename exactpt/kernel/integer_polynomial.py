@@ -28,6 +28,7 @@ __all__ = [
     "positive_remainder",
     "primitive",
     "quotient",
+    "range_on",
     "scale",
     "sign_at",
     "sign_on",
@@ -135,11 +136,17 @@ def sign_at(f: IntPoly, t: QQ) -> int:
 
 def sign_on(f: IntPoly, low: QQ, high: QQ) -> int:
     """The sign of f on all of [low, high] if Horner's rule on intervals shows it, else 0."""
-    a = b = QQ(f[-1])
-    for c in f[-2::-1]:
+    a, b = range_on(f, low, high)
+    return 1 if a > 0 else -1 if b < 0 else 0
+
+
+def range_on(f: IntPoly, low: QQ, high: QQ) -> tuple[QQ, QQ]:
+    """Bounds of f on [low, high], by Horner's rule on intervals."""
+    a = b = QQ(0)
+    for c in reversed(f):
         products = (a * low, a * high, b * low, b * high)
         a, b = min(products) + c, max(products) + c
-    return 1 if a > 0 else -1 if b < 0 else 0
+    return a, b
 
 
 def primitive(f: IntPoly) -> IntPoly:

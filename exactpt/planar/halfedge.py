@@ -14,7 +14,7 @@ from typing import final
 
 from exactpt.errors import AuditError
 
-__all__ = ["NOTHING", "PlanarMap", "without_steps_back"]
+__all__ = ["NOTHING", "PlanarMap", "edge_key", "without_steps_back"]
 
 NOTHING = -1
 """The origin of a half-edge whose edge has been removed."""
@@ -183,3 +183,8 @@ def without_steps_back(half_edges: Iterable[int]) -> list[int]:
         else:
             kept.append(h)
     return kept
+
+
+def edge_key(u: int, v: int) -> tuple[int, int]:
+    """The ends of an edge, the smaller one first."""
+    return (u, v) if u < v else (v, u)

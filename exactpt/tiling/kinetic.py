@@ -16,6 +16,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.vertices import MovingBody, Vertices
+from exactpt.planar.halfedge import edge_key
 from exactpt.tiling.angles import ANGLE, KINDS, MOTION, SHRINK
 from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.contacts import touches
@@ -86,13 +87,7 @@ class KineticTiling(RepairedTiling):
             self.queue.cancel(slot)
         else:
             self.queue.schedule(slot, time)
-        slot = KINDS * i + MOTION
-        if moving.until is None or moving.until > self.certifier.end:
-            self.queue.cancel(slot)
-            return
-        low, high = self.vertices.frame.time(moving.until)
-        exact = AlgebraicNumber(moving.until)
-        self.queue.schedule(slot, EventTime(low, high, -1, -1, -1, exact))
+        self._schedule_end(moving, KINDS * i + MOTION)
 
     def _collapse(self, moving: MovingBody) -> EventTime | None:
         if moving.body.size == 2:
@@ -227,7 +222,7 @@ class KineticTiling(RepairedTiling):
             AuditError: if none is found: a contact now has been missed.
         """
         self.stats.rebuilds += 1
-        before = {self._edge_key(h) for h in self.mesh.diagonals()}
+        before = {edge_key(*self.mesh.ends(h)) for h in self.mesh.diagonals()}
         now, following = self.now, self.next_number()
         later = self.certifier.end
         if now.compare_rational(later) >= 0:
@@ -241,7 +236,7 @@ class KineticTiling(RepairedTiling):
                 break
         else:
             raise AuditError(f"no tiling holds just after t = {float(now)!r}")
-        after = {self._edge_key(h) for h in self.mesh.diagonals()}
+        after = {edge_key(*self.mesh.ends(h)) for h in self.mesh.diagonals()}
         self._record("reflex", tuple(sorted(before - after)), tuple(sorted(after - before)))
 
     def _build_anew(self, later: QQ) -> bool:
@@ -256,7 +251,3 @@ class KineticTiling(RepairedTiling):
         return not (self._due or self._has_more()) and (
             following is None or following.compare_rational(later) > 0
         )
-
-    def _edge_key(self, h: int) -> tuple[int, int]:
-        u, v = self.mesh.ends(h)
-        return (u, v) if u < v else (v, u)

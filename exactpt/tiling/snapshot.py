@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, final
 
 from exactpt.geometry.predicates import side
 from exactpt.kernel.numbers import QQ
+from exactpt.planar.halfedge import edge_key
 from exactpt.tiling.mesh import FREE, INSIDE
 
 if TYPE_CHECKING:
@@ -199,11 +200,11 @@ class _Contraction:
         for u, v in pairwise([*nodes, nodes[0]]) if len(ordered) > 2 else ():
             low, high = sorted((rank[u], rank[v]))
             if high - low > 1:
-                self.cuts.setdefault(_key(u, v), set()).update(ordered[low + 1 : high])
+                self.cuts.setdefault(edge_key(u, v), set()).update(ordered[low + 1 : high])
 
     def _path(self, u: int, v: int) -> Iterator[int]:
         """The nodes from u to v along an edge and its cuts, without v."""
-        inside = self.cuts.get(_key(u, v))
+        inside = self.cuts.get(edge_key(u, v))
         if not inside:
             yield u
             return
@@ -227,13 +228,9 @@ class _Contraction:
             if u == v:
                 continue
             for p, q in pairwise([*self._path(u, v), v]):
-                key = _key(p, q)
+                key = edge_key(p, q)
                 old = found.get(key)
                 boundary = self.mesh.is_boundary(h) or (old is not None and old.kind == "boundary")
                 hull = self.mesh.is_hull(h) or (old is not None and old.hull)
                 found[key] = Edge(*key, "boundary" if boundary else "diagonal", hull)
         return [found[key] for key in sorted(found)]
-
-
-def _key(u: int, v: int) -> tuple[int, int]:
-    return (u, v) if u < v else (v, u)

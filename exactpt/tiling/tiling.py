@@ -10,7 +10,7 @@ from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.kinetic.queue import EventQueue, EventTime, ExactQueue
-from exactpt.motion.vertices import Vertices
+from exactpt.motion.vertices import MovingBody, Vertices
 from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.events import Stats, TilingEvent
 
@@ -177,6 +177,15 @@ class Tiling:
         """Let a rational time be now; nothing happens up to it that has not been processed."""
         low, high = self.vertices.frame.time(t)
         self.certifier.move_to(EventTime(low, high, -1, -1, -1, AlgebraicNumber(t)), [])
+
+    def _schedule_end(self, moving: MovingBody, slot: int) -> None:
+        """Schedule the end of a body's current piece, if that is not after the last time."""
+        if moving.until is None or moving.until > self.certifier.end:
+            self.queue.cancel(slot)
+            return
+        low, high = self.vertices.frame.time(moving.until)
+        exact = AlgebraicNumber(moving.until)
+        self.queue.schedule(slot, EventTime(low, high, -1, -1, -1, exact))
 
     def _record(
         self,

@@ -10,7 +10,6 @@ from collections.abc import Mapping, Sequence
 from typing import final
 
 from exactpt.errors import AuditError, InputError
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.body import Body
@@ -109,14 +108,7 @@ class IncrementalTiling(RepairedStructure):
 
     def _schedule_piece(self, p: int) -> None:
         """Schedule the end of the current piece of a point's motion."""
-        moving = self.vertices.bodies[p]
-        slot = KINDS * p + MOTION
-        if moving.until is None or moving.until > self.certifier.end:
-            self.queue.cancel(slot)
-            return
-        low, high = self.vertices.frame.time(moving.until)
-        time = EventTime(low, high, -1, -1, -1, AlgebraicNumber(moving.until))
-        self.queue.schedule(slot, time)
+        self._schedule_end(self.vertices.bodies[p], KINDS * p + MOTION)
 
     def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent]:
         """See `Tiling.change_plans`."""

@@ -19,6 +19,7 @@ from functools import cmp_to_key
 
 from exactpt.errors import AuditError
 from exactpt.motion.vertices import Vertices
+from exactpt.planar.halfedge import edge_key
 from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.events import Stats
 from exactpt.tiling.incremental.certified import ORDER, CertifiedStructure
@@ -103,8 +104,8 @@ class RepairedStructure(Tiling):
         kind = self._kind(side, b)
         p, old, new, changed = structure.repair(side, b)
         there = structure.trees[1 - side].parent[p]
-        removed = () if there == old else (_edge(p, old),)
-        added = () if there == new else (_edge(p, new),)
+        removed = () if there == old else (edge_key(p, old),)
+        added = () if there == new else (edge_key(p, new),)
         self._record(kind, removed, added)
         if self._fan:
             # The edge past the middle point goes or comes; and so, if a tile lies beyond
@@ -172,7 +173,7 @@ class RepairedStructure(Tiling):
     def _edges_of(self, *points: int) -> set[tuple[int, int]]:
         """The edges from some points to the left."""
         return {
-            _edge(p, tree.parent[p])
+            edge_key(p, tree.parent[p])
             for tree in self.structure.trees
             for p in points
             if tree.parent[p] >= 0
@@ -201,7 +202,3 @@ class RepairedStructure(Tiling):
 
     def _x_comparison(self, p: int, q: int) -> int:
         return 0 if p == q else -1 if self._certified.after.left_of(p, q) else 1
-
-
-def _edge(u: int, v: int) -> tuple[int, int]:
-    return (u, v) if u < v else (v, u)
