@@ -31,7 +31,7 @@ class Pair:
         other: the body that it touches (the same body in a self-contact).
         edge: the edge of ``other``, from vertex ``edge`` to the next; None for a vertex.
         other_vertex: the vertex of ``other``; None for an edge.
-        point: where, as the nearest doubles.
+        point: where, as the nearest finite doubles.
         normal: the unit normal of the edge, out of ``other`` (of a body without inside:
             towards where the vertex came from); None at a vertex.
     """
@@ -55,7 +55,7 @@ class Pair:
             "kind": self.kind,
             "a": {"body": self.body, "vertex": self.vertex},
             "b": b,
-            "point": [_finite(c) for c in self.point],
+            "point": list(self.point),
             "normal": None if self.normal is None else list(self.normal),
         }
 
@@ -176,7 +176,7 @@ def _pair(
         other=scene.bodies[touch.other].name,
         edge=touch.edge if touch.edge >= 0 else None,
         other_vertex=touch.other_vertex if touch.edge < 0 else None,
-        point=(nearest_value(v.x, v.w, time), nearest_value(v.y, v.w, time)),
+        point=(_finite(nearest_value(v.x, v.w, time)), _finite(nearest_value(v.y, v.w, time))),
         normal=normal,
     )
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final, TypeAlias, final
+from typing import TYPE_CHECKING, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Boxes, widen_unknown
+from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 
 if TYPE_CHECKING:
     from exactpt.motion.image import Image
@@ -16,8 +17,6 @@ if TYPE_CHECKING:
 __all__ = ["SweptBoxes"]
 
 Floats: TypeAlias = NDArray[np.float64]
-
-U: Final = 2.0**-53
 
 
 @final
@@ -47,8 +46,10 @@ class SweptBoxes:
         c'_0 + c'_1 (t - m) + ..., so it is off c'_0 by at most sum |c'_i| r^i. Computing
         the c'_i by Horner's rule takes at most 2 n operations each; their errors times
         r^i add up to at most 4 n u sum |c_i| (|m| + r)^i, and the coefficients
-        themselves are off by ``errors[i]`` (of turning tracks: by 2 u |c_i|). Whatever
-        is not a number has the whole plane.
+        themselves are off by ``errors[i]`` (of turning tracks: by 2 u |c_i|). `TINY` covers
+        what underflows: an error below 2^-1070 grows by (1 + |m| + r)^n at most, and where
+        that is large the leading term, with a coefficient of 2^-100 or more, is larger.
+        Whatever is not a number has the whole plane.
         """
         x_low, x_high = self._range(self._xs, low, high)
         y_low, y_high = self._range(self._ys, low, high)
@@ -74,13 +75,13 @@ class SweptBoxes:
         spread = np.abs(shifted[:, 1:]) @ powers[1:]
         reach = (abs(m) + r) ** np.arange(n)
         rounding = (np.abs(cs) @ reach) * (16.0 * n * U) + self._errors @ reach
-        radius = (spread + rounding) * (1.0 + 1e-10) + 4.0 * U * np.abs(shifted[:, 0])
+        radius = (spread + rounding) * SLACK + 4.0 * U * np.abs(shifted[:, 0]) + TINY
         return shifted[:, 0] - radius, shifted[:, 0] + radius
 
 
 def _quotient(low: Floats, high: Floats, w_low: Floats, w_high: Floats) -> tuple[Floats, Floats]:
     """The range of a quotient whose denominator is positive; not a number if it may not be."""
-    w_low = np.where(w_low > 0.0, w_low, np.nan)
+    w_low = np.where(w_low > SMALL, w_low, np.nan)
     quotients = np.stack((low / w_low, low / w_high, high / w_low, high / w_high))
     least, most = quotients.min(axis=0), quotients.max(axis=0)
-    return least - 2.0 * U * np.abs(least), most + 2.0 * U * np.abs(most)
+    return least - 2.0 * U * np.abs(least) - TINY, most + 2.0 * U * np.abs(most) + TINY

@@ -22,7 +22,7 @@ from exactpt.query.answers import Hit, Path, Place, VertexName
 from exactpt.query.locate import cast, find, place_of
 from exactpt.query.relative import relative_hull, top_nodes
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.query.surround import surrounded
+from exactpt.query.surround import doublings, surrounded
 from exactpt.query.ways import Ways
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import INSIDE, Mesh
@@ -61,7 +61,7 @@ class FreeSpace:
         # The trees live on with the run; what they say now is kept.
         self._tops = top_nodes(self._mesh) if isinstance(self._mesh, LabelledMesh) else None
         self.at = at
-        self._wide: Ways | None = None
+        self._wide: dict[int, Ways] = {}
         self.snapshot: Snapshot = snapshot(self._vertices, self._mesh, kinetic.name, at)
 
     @cached_property
@@ -128,14 +128,15 @@ class FreeSpace:
         return self._ways(points).shorten(points)
 
     def _ways(self, points: Sequence[Point]) -> Ways:
-        """What knows the ways between points: inside the hull, or wider if one is outside."""
-        if self._wide is None or not self._wide.reach(points):
-            plane = self._plane
+        """What knows the ways between points: in a rectangle that has them inside."""
+        plane = self._plane
+        count = doublings(self.snapshot, points) if plane.points else 0
+        if count not in self._wide:
             if plane.points:
-                wider = surrounded(self.snapshot, self._hull_nodes(), points)
+                wider = surrounded(self.snapshot, self._hull_nodes(), count)
                 plane = Subdivision(wider, self._hidden)
-            self._wide = Ways(plane)
-        return self._wide
+            self._wide[count] = Ways(plane)
+        return self._wide[count]
 
     # Bodies
 

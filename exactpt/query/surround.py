@@ -2,32 +2,45 @@
 
 Four corners of a large rectangle are added, and the ring between them and the convex hull
 is cut into triangles. A shortest path between points in the rectangle never bends at its
-corners, so they change no answer.
+corners. But of two ways, it may depend on the rectangle which one crosses fewer diagonals:
+so it is the least of a series that has the points of a question inside, and an answer does
+not depend on what has been asked before.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
 from exactpt.geometry.predicates import Point
+from exactpt.kernel.numbers import QQ
 from exactpt.query.sleeve import triangulated
 from exactpt.tiling.snapshot import Edge, Face, Node, Snapshot
 
-__all__ = ["surrounded"]
+__all__ = ["doublings", "surrounded"]
 
 
-def surrounded(snapshot: Snapshot, hull: Sequence[int], points: Iterable[Point]) -> Snapshot:
-    """The tiling with tiles around it, in a rectangle that has some points inside.
+def doublings(snapshot: Snapshot, points: Sequence[Point]) -> int:
+    """How often the margin around the bodies is doubled until points are inside."""
+    count = 0
+    while True:
+        (left, low), _, (right, high), _ = _corners(snapshot, count)
+        if all(left < x < right and low < y < high for x, y in points):
+            return count
+        count += 1
+
+
+def surrounded(snapshot: Snapshot, hull: Sequence[int], count: int) -> Snapshot:
+    """The tiling with tiles around it, in a rectangle.
 
     Args:
         snapshot: a tiling of at least one body.
         hull: the nodes on its convex hull, counter-clockwise.
-        points: the points.
+        count: which rectangle, see `doublings`.
     """
     places = [(node.x, node.y) for node in snapshot.nodes]
-    corners = _corners([*places, *points])
+    corners = _corners(snapshot, count)
     first = len(places)
     nodes = [Node("", 0, x, y) for x, y in corners]
     # One polygon: around the corners, over to the hull, clockwise around it, and back.
@@ -50,9 +63,10 @@ def surrounded(snapshot: Snapshot, hull: Sequence[int], points: Iterable[Point])
     )
 
 
-def _corners(points: Sequence[Point]) -> list[Point]:
-    """The corners, counter-clockwise from the lower left, of a rectangle well around points."""
-    (left, right), (low, high) = ((min(c), max(c)) for c in zip(*points, strict=True))
-    margin = right - left + high - low + 1
+def _corners(snapshot: Snapshot, count: int) -> list[Point]:
+    """The corners, counter-clockwise from the lower left, of a rectangle well around bodies."""
+    xs, ys = [node.x for node in snapshot.nodes], [node.y for node in snapshot.nodes]
+    left, right, low, high = min(xs), max(xs), min(ys), max(ys)
+    margin = (right - left + high - low + 1) * QQ(1 << count)
     left, right, low, high = left - margin, right + margin, low - margin, high + margin
     return [(left, low), (right, low), (right, high), (left, high)]

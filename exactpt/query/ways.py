@@ -27,11 +27,6 @@ class Ways:
         self._plane = plane
         self._sleeves = Sleeves(plane)
 
-    def reach(self, points: Sequence[Point]) -> bool:
-        """Whether all points are inside the convex hull."""
-        plane = self._plane
-        return all(place_of(plane, find(plane, p)[0]).kind != "outside" for p in points)
-
     def path(self, p: Point, q: Point) -> Path:
         """The shortest of the paths that cross the fewest diagonals in the same order."""
         if not self._plane.points:

@@ -19,6 +19,7 @@ from exactpt.simulation.plans import GRID, moved, onward, translation_at
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact, Pair
+    from exactpt.geometry.predicates import Point
     from exactpt.simulation.simulation import Simulation
 
 __all__ = ["Bounce", "stop"]
@@ -96,9 +97,12 @@ class Bounce:
         if pair.body == pair.other or not free:
             return False
         nx, ny = pair.normal or _between_centers(bodies[pair.body], bodies[pair.other], t)
-        ux, uy = _velocity(bodies[pair.body], pair.vertex, pair.point, t)
-        at = pair.other_vertex if pair.edge is None else pair.edge
-        vx, vy = _velocity(bodies[pair.other], at or 0, pair.point, t, edge=pair.edge is not None)
+        ux, uy = _velocity(bodies[pair.body], pair.vertex, t)
+        if pair.edge is None:
+            vx, vy = _velocity(bodies[pair.other], pair.other_vertex or 0, t)
+        else:
+            place = bodies[pair.body].at(t)[pair.vertex]
+            vx, vy = _velocity_beside(bodies[pair.other], pair.edge, place, t)
         a, b = change[pair.body], change[pair.other]
         approach = nx * (vx - ux) + ny * (vy - uy)
         parting = nx * (a[0] - b[0]) + ny * (a[1] - b[1]) - approach
@@ -120,29 +124,25 @@ class Bounce:
         return moved(body, onward(body, t, velocity, grid=self._grid))
 
 
-def _velocity(
-    body: Body, vertex: int, point: tuple[float, float], t: QQ, *, edge: bool = False
-) -> tuple[float, float]:
-    """The velocity of a vertex, or of the point of the edge that begins there."""
-    tracks = body.piece_after(t).tracks
-    chosen = [tracks[vertex], tracks[(vertex + 1) % len(tracks)]] if edge else [tracks[vertex]]
-    ends = []
-    for track in chosen:
-        w = evaluate(track.w, t)
-        dw = evaluate(derivative(track.w), t)
-        parts = (
-            (evaluate(derivative(f), t) * w - evaluate(f, t) * dw) / (w * w)
-            for f in (track.x, track.y)
-        )
-        x, y = (nearest_float(v) for v in parts)
-        ends.append((x, y))
-    if not edge:
-        return ends[0]
-    a, b = (track.at(t) for track in chosen)
+def _velocity(body: Body, vertex: int, t: QQ) -> tuple[float, float]:
+    """The velocity of a vertex."""
+    track = body.piece_after(t).tracks[vertex]
+    w, dw = evaluate(track.w, t), evaluate(derivative(track.w), t)
+    x, y = (
+        nearest_float((evaluate(derivative(f), t) * w - evaluate(f, t) * dw) / (w * w))
+        for f in (track.x, track.y)
+    )
+    return x, y
+
+
+def _velocity_beside(body: Body, edge: int, place: Point, t: QQ) -> tuple[float, float]:
+    """The velocity of the point of an edge that is nearest to a place."""
+    points = body.at(t)
+    a, b = points[edge], points[(edge + 1) % len(points)]
     dx, dy = b[0] - a[0], b[1] - a[1]
-    px, py = rational(point[0]) - a[0], rational(point[1]) - a[1]
-    s = nearest_float((px * dx + py * dy) / (dx * dx + dy * dy))
-    (ux, uy), (vx, vy) = ends
+    along = ((place[0] - a[0]) * dx + (place[1] - a[1]) * dy) / (dx * dx + dy * dy)
+    s = nearest_float(min(max(along, QQ(0)), QQ(1)))
+    (ux, uy), (vx, vy) = (_velocity(body, v, t) for v in (edge, (edge + 1) % len(points)))
     return ux + s * (vx - ux), uy + s * (vy - uy)
 
 

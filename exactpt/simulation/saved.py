@@ -40,6 +40,8 @@ __all__ = [
     "Data",
     "contact_from_json",
     "event_from_json",
+    "number_from_json",
+    "number_to_json",
     "tiling_from_json",
     "tiling_to_json",
 ]
@@ -135,7 +137,8 @@ def _kept(data: Data, certifier: Certifier, vertices: Vertices, stats: Stats) ->
 # Numbers and times
 
 
-def _number_to_json(number: AlgebraicNumber) -> Data:
+def number_to_json(number: AlgebraicNumber) -> Data:
+    """A number as it is, as far as it has been refined."""
     return {
         "polynomial": [str(c) for c in number.polynomial],
         "low": str(number.low),
@@ -143,7 +146,8 @@ def _number_to_json(number: AlgebraicNumber) -> Data:
     }
 
 
-def _number_from_json(data: Data) -> AlgebraicNumber:
+def number_from_json(data: Data) -> AlgebraicNumber:
+    """That number."""
     low, high = parse_rational(data["low"]), parse_rational(data["high"])
     return AlgebraicNumber.root(tuple(ZZ(c) for c in data["polynomial"]), low, high)
 
@@ -151,14 +155,14 @@ def _number_from_json(data: Data) -> AlgebraicNumber:
 def _time_to_json(time: EventTime) -> Data:
     data: Data = {"low": time.low, "high": time.high, "of": [time.a, time.b, time.c]}
     if time.exact is not None:
-        data["exact"] = _number_to_json(time.exact)
+        data["exact"] = number_to_json(time.exact)
     if not time.crossing:
         data["crossing"] = False
     return data
 
 
 def _time_from_json(data: Data) -> EventTime:
-    exact = _number_from_json(data["exact"]) if "exact" in data else None
+    exact = number_from_json(data["exact"]) if "exact" in data else None
     low, high = float(data["low"]), float(data["high"])
     a, b, c = data["of"]
     return EventTime(low, high, a, b, c, exact, data.get("crossing", True))
@@ -239,7 +243,7 @@ def _structure_from_json(data: Data) -> IncrementalStructure:
 def event_from_json(data: Mapping[str, Any]) -> Event:
     """The event that `Event.to_json` has written."""
     removed, added = (tuple((u, v) for u, v in data[key]) for key in ("removed", "added"))
-    return Event(_number_from_json(data["time"]), data["kind"], removed, added)
+    return Event(number_from_json(data["time"]), data["kind"], removed, added)
 
 
 def contact_from_json(data: Mapping[str, Any]) -> Contact:
@@ -258,4 +262,4 @@ def contact_from_json(data: Mapping[str, Any]) -> Contact:
         for pair in data["pairs"]
     )
     overlaps = tuple((a, b) for a, b in data.get("overlaps", ()))
-    return Contact(_number_from_json(data["time"]), data["kind"], pairs, overlaps)
+    return Contact(number_from_json(data["time"]), data["kind"], pairs, overlaps)

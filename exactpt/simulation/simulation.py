@@ -160,7 +160,12 @@ class Simulation(Running):
         Raises:
             InputError: if the file is none, or of another version.
         """
-        from exactpt.simulation.saved import contact_from_json, event_from_json, tiling_from_json
+        from exactpt.simulation.saved import (
+            contact_from_json,
+            event_from_json,
+            number_from_json,
+            tiling_from_json,
+        )
         from exactpt.simulation.store import reading, scene_from_json
 
         with reading(Path(path)) as data:
@@ -181,9 +186,24 @@ class Simulation(Running):
             self._pending.extend(map(event_from_json, data["pending"]))
             self.contact = data["contact"] and contact_from_json(data["contact"])
             self.contacts = counts["contacts"]
+            if data["met"] is not None:
+                time, names = number_from_json(data["met"]["time"]), data["met"]["bodies"]
+                self._met = time, {name: self._alive().body(name) for name in names}
             before = Counts(counts["exact"], counts["filtered"], counts["reasons"])
             self._counted = counters.now().since(before)
         return self
+
+    def _met_to_json(self) -> dict[str, object] | None:
+        """The last contact that was met, if none of its bodies has another plan since."""
+        from exactpt.simulation.saved import number_to_json
+
+        if self._met is None or self._living is None:
+            return None
+        time, then = self._met
+        now = {body.name: body for body in self.scene.bodies}
+        if any(now.get(name) is not body for name, body in then.items()):
+            return None
+        return {"time": number_to_json(time), "bodies": sorted(then)}
 
     def to_json(self) -> dict[str, object]:
         """What `save` writes."""
@@ -199,6 +219,7 @@ class Simulation(Running):
             "margin": str(self._margin),
             "scene": scene_to_json(self.scene),
             "contact": None if self.contact is None else self.contact.to_json(),
+            "met": self._met_to_json(),
             "pending": [event.to_json() for event in self._pending],
             "counts": {
                 "contacts": self.contacts,

@@ -14,7 +14,7 @@ from exactpt.scene.scene import Scene
 
 __all__ = ["VERSION", "json_text", "reading", "scene_from_json"]
 
-VERSION: Final = 3
+VERSION: Final = 4
 WIDTH: Final = 100
 
 

@@ -19,7 +19,10 @@ from exactpt import (
     first_contact,
     onward,
 )
+from exactpt.collision.tilings import start_tiling
 from exactpt.kernel.numbers import QQ
+from exactpt.query.space import FreeSpace
+from exactpt.scene.generate import generate
 
 POINT = Body("p", [(0, 0)])
 
@@ -182,3 +185,52 @@ def test_what_is_proved_is_not_more_than_is_so():
     simulation.add(Body("more", [(50, -50)]))
 
     assert simulation.passed() <= simulation.now.low == 99
+
+
+def test_a_contact_that_was_met_is_known_after_the_run_is_restored(tmp_path):
+    def look_elsewhere(sim, _):
+        sim.set_motion("far", Translation())
+
+    def kinds(run):
+        return [event.kind for event in run.run(on_contact=look_elsewhere)]
+
+    whole = Simulation(fall(Body("far", [(90, 0)])))
+    expected = kinds(whole)
+    cut = Simulation(fall(Body("far", [(90, 0)])))
+    events = cut.run(on_contact=look_elsewhere)
+    told = [next(events).kind for _ in range(1 + expected.index("contact"))]
+    cut.save(tmp_path / "run.json")
+    restored = Simulation.restore(tmp_path / "run.json")
+
+    assert told + kinds(restored) == expected
+    assert restored.contacts == whole.contacts == 1
+
+
+@pytest.mark.parametrize("far", [(500, -9000), (9000, 70), (-3, 4)])
+def test_a_path_does_not_depend_on_what_was_asked_before(far):
+    scene = generate("stars", 5)
+    spots = [(x, y) for x in range(-40, 41, 20) for y in range(-40, 41, 20)]
+    fresh, asked = (FreeSpace(start_tiling(scene, "lazy", scene.start), QQ(0)) for _ in range(2))
+    free = [p for p in spots if fresh.locate(p).is_free]
+    if asked.locate(far).is_free:
+        asked.path(far, free[0])
+
+    assert len(free) > 5
+    for p, q in zip(free, free[3:], strict=False):
+        assert asked.path(p, q) == fresh.path(p, q)
+
+
+def test_the_push_on_an_edge_far_away_is_where_it_touches():
+    """A board that tilts, at 10^20, where doubles are 16384 apart: hit at three quarters."""
+    far = QQ(10) ** 20
+    board = Body("board", [(far, 0), {"x": [far + 4], "y": [0, -1]}])
+    ball = Body("ball", [(far + 3, 3), (far + 4, 4), (far + 2, 4)], Translation(0, [0, -2]))
+    simulation = Simulation(Scene([board, ball], (0, 9)))
+
+    list(simulation.run("5/2", on_contact=Bounce(fixed=["board"])))
+
+    assert simulation.contacts == 1  # at t = 12/5, the edge as (4, -12/5)
+    motion = simulation.body("ball").motion
+    vx, vy = (float(f.derivative()(3)) for f in (motion.x, motion.y))
+    nx, ny = 2.4 / math.hypot(4, 2.4), 4 / math.hypot(4, 2.4)
+    assert nx * vx + ny * (vy + 0.75) == pytest.approx(ny * 1.25, rel=1e-4)

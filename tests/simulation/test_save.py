@@ -129,8 +129,8 @@ def test_a_contact_at_the_start_is_saved(tmp_path):
 
 @pytest.mark.parametrize(
     "text",
-    ["", "[]", "{}", '{"exactpt-simulation": 1}', '{"exactpt-simulation": 3}',
-     '{"exactpt-simulation": 3, "tiling": "auto", "exact_only": false, "scene": {}}'],
+    ["", "[]", "{}", '{"exactpt-simulation": 1}', '{"exactpt-simulation": 4}',
+     '{"exactpt-simulation": 4, "tiling": "auto", "exact_only": false, "scene": {}}'],
 )  # fmt: skip
 def test_other_files_are_refused(text, tmp_path):
     path = tmp_path / "run.json"
