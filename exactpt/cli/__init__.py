@@ -24,8 +24,6 @@ __all__ = ["cli", "main"]
 OK, BAD_INPUT, BROKEN, SPENT, INTERRUPTED = 0, 2, 3, 4, 130
 """Exit codes; 1 is a command's own: a contact (collide --exit-code), or a failed check."""
 
-_EXPECTED = (InputError, BudgetExceeded, OSError)
-
 
 class _Commands(click.Group):
     """The commands; here ends what is no fault of the call."""
@@ -37,7 +35,9 @@ class _Commands(click.Group):
         except BrokenPipeError:  # who reads the answer has seen enough
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return OK
-        except (*_EXPECTED, click.exceptions.Exit, click.Abort, click.ClickException):
+        except (InputError, BudgetExceeded, OSError):
+            raise
+        except (click.exceptions.Exit, click.Abort, click.ClickException):
             raise
         except Exception as error:
             if not isinstance(error, AuditError):

@@ -102,7 +102,7 @@ def check(
                     reached=reached,
                 )
     except BudgetExceeded as spent:
-        if as_json:
+        if as_json and not quiet:
             reached_by = None if spent.reached is None else str(spent.reached)
             click.echo(json.dumps({"ok": None, "reached": reached_by}))
         raise

@@ -22,7 +22,7 @@ from exactpt.query.answers import Hit, Path, Place, VertexName
 from exactpt.query.locate import cast, find, place_of
 from exactpt.query.relative import relative_hull, top_nodes
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.query.surround import doublings, surrounded
+from exactpt.query.surround import Around, surrounded
 from exactpt.query.ways import Ways
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import INSIDE, Mesh
@@ -59,7 +59,9 @@ class FreeSpace:
         self._node = kinetic.vertices.nodes()
         self._mesh: Mesh = kinetic.mesh_now(at)
         # The trees live on with the run; what they say now is kept.
-        self._tops = top_nodes(self._mesh) if isinstance(self._mesh, LabelledMesh) else None
+        self._labelled = (
+            (self._mesh, top_nodes(self._mesh)) if isinstance(self._mesh, LabelledMesh) else None
+        )
         self.at = at
         self._wide: dict[int, Ways] = {}
         self.snapshot: Snapshot = snapshot(self._vertices, self._mesh, kinetic.name, at)
@@ -130,13 +132,18 @@ class FreeSpace:
     def _ways(self, points: Sequence[Point]) -> Ways:
         """What knows the ways between points: in a rectangle that has them inside."""
         plane = self._plane
-        count = doublings(self.snapshot, points) if plane.points else 0
+        count = self._around.doublings(points) if plane.points else 0
         if count not in self._wide:
             if plane.points:
-                wider = surrounded(self.snapshot, self._hull_nodes(), count)
+                corners = self._around.corners(count)
+                wider = surrounded(self.snapshot, self._hull_nodes(), corners)
                 plane = Subdivision(wider, self._hidden)
             self._wide[count] = Ways(plane)
         return self._wide[count]
+
+    @cached_property
+    def _around(self) -> Around:
+        return Around.of(self.snapshot)
 
     # Bodies
 
@@ -166,10 +173,7 @@ class FreeSpace:
                 have changed their motions, come or gone since the space was made.
         """
         index = self._index(body)
-        mesh, tops = self._mesh, self._tops
-        if not isinstance(mesh, LabelledMesh) or tops is None:
-            mesh = self._mixed
-            tops = top_nodes(mesh)
+        mesh, tops = self._labelled or self._mixed
         nodes = [self._node[v] for v in relative_hull(mesh, tops[index])]
         cycle = [
             v for before, v in zip([nodes[-1], *nodes[:-1]], nodes, strict=True) if v != before
@@ -179,10 +183,11 @@ class FreeSpace:
         return [self._plane.node_name(v) for v in cycle[least:] + cycle[:least]]
 
     @cached_property
-    def _mixed(self) -> LabelledMesh:
+    def _mixed(self) -> tuple[LabelledMesh, list[int]]:
         if self._vertices.changes != self._changes:
             raise InputError("the bodies have other motions now: make the space anew")
-        return mixed_mesh(Instant(self._vertices, self.at, after=False))
+        mesh = mixed_mesh(Instant(self._vertices, self.at, after=False))
+        return mesh, top_nodes(mesh)
 
     def neighbours(self, body: str) -> list[str]:
         """The bodies that a diagonal joins to a body, in the order of the scene.

@@ -12,35 +12,56 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
+from typing import NamedTuple
 
 from exactpt.geometry.predicates import Point
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.query.sleeve import triangulated
 from exactpt.tiling.snapshot import Edge, Face, Node, Snapshot
 
-__all__ = ["doublings", "surrounded"]
+__all__ = ["Around", "surrounded"]
 
 
-def doublings(snapshot: Snapshot, points: Sequence[Point]) -> int:
-    """How often the margin around the bodies is doubled until points are inside."""
-    count = 0
-    while True:
-        (left, low), _, (right, high), _ = _corners(snapshot, count)
-        if all(left < x < right and low < y < high for x, y in points):
-            return count
-        count += 1
+class Around(NamedTuple):
+    """Rectangles around the bodies: a box, and a margin that is doubled again and again."""
+
+    left: QQ
+    right: QQ
+    low: QQ
+    high: QQ
+
+    @classmethod
+    def of(cls, snapshot: Snapshot) -> Around:
+        """The box of a tiling of at least one body."""
+        xs, ys = [node.x for node in snapshot.nodes], [node.y for node in snapshot.nodes]
+        return cls(min(xs), max(xs), min(ys), max(ys))
+
+    def corners(self, count: int) -> list[Point]:
+        """The corners after so many doublings, counter-clockwise from the lower left."""
+        left, right, low, high = self
+        margin = (right - left + high - low + 1) * power_of_two(count)
+        left, right, low, high = left - margin, right + margin, low - margin, high + margin
+        return [(left, low), (right, low), (right, high), (left, high)]
+
+    def doublings(self, points: Sequence[Point]) -> int:
+        """How often the margin is doubled until points are inside."""
+        count = 0
+        while True:
+            (left, low), _, (right, high), _ = self.corners(count)
+            if all(left < x < right and low < y < high for x, y in points):
+                return count
+            count += 1
 
 
-def surrounded(snapshot: Snapshot, hull: Sequence[int], count: int) -> Snapshot:
+def surrounded(snapshot: Snapshot, hull: Sequence[int], corners: Sequence[Point]) -> Snapshot:
     """The tiling with tiles around it, in a rectangle.
 
     Args:
         snapshot: a tiling of at least one body.
         hull: the nodes on its convex hull, counter-clockwise.
-        count: which rectangle, see `doublings`.
+        corners: of the rectangle, see `Around`.
     """
     places = [(node.x, node.y) for node in snapshot.nodes]
-    corners = _corners(snapshot, count)
     first = len(places)
     nodes = [Node("", 0, x, y) for x, y in corners]
     # One polygon: around the corners, over to the hull, clockwise around it, and back.
@@ -61,12 +82,3 @@ def surrounded(snapshot: Snapshot, hull: Sequence[int], count: int) -> Snapshot:
         edges=(*snapshot.edges, *(Edge(u, v, "diagonal", hull=False) for u, v in sorted(new))),
         faces=(*snapshot.faces, *(Face(t, t) for t in triangles)),
     )
-
-
-def _corners(snapshot: Snapshot, count: int) -> list[Point]:
-    """The corners, counter-clockwise from the lower left, of a rectangle well around bodies."""
-    xs, ys = [node.x for node in snapshot.nodes], [node.y for node in snapshot.nodes]
-    left, right, low, high = min(xs), max(xs), min(ys), max(ys)
-    margin = (right - left + high - low + 1) * QQ(1 << count)
-    left, right, low, high = left - margin, right + margin, low - margin, high + margin
-    return [(left, low), (right, low), (right, high), (left, high)]

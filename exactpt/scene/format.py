@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, shorten
+from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body, is_text
 from exactpt.motion.motions import (
@@ -193,7 +193,9 @@ def _polynomial(data: Json, where: str) -> Polynomial:
 
 def _text(value: QQ) -> str:
     if is_too_long(value):
-        raise InputError(f"a scene file has no number of more than {MOST_DIGITS} digits")
+        raise InputError(
+            f"more than {MOST_DIGITS} digits have no place in a scene file: {show(value)}"
+        )
     return str(value)
 
 
@@ -210,8 +212,15 @@ def to_json(scene: Scene) -> dict[str, object]:
     return {
         "exactpt": VERSION,
         "time": [_text(scene.start), _text(scene.end)],
-        "bodies": [_body_to_json(body) for body in scene.bodies],
+        "bodies": [_named_body_to_json(body) for body in scene.bodies],
     }
+
+
+def _named_body_to_json(body: Body) -> dict[str, object]:
+    try:
+        return _body_to_json(body)
+    except InputError as error:
+        raise InputError(f"body {shorten(body.name)}: {error}") from None
 
 
 def _body_to_json(body: Body) -> dict[str, object]:

@@ -35,9 +35,9 @@ class Scene:
 
     def __init__(self, bodies: Iterable[Body], time: Sequence[Rational] = (0, 1)) -> None:
         self.bodies = tuple(bodies)
-        for body in self.bodies:
+        for i, body in enumerate(self.bodies):
             if not isinstance(body, Body):
-                raise InputError(f"not a body: {shorten(body)}")
+                raise InputError(f"body {i}: not a body: {shorten(body)}")
         self.start, self.end = rationals(time, 2, "a time span has a start and an end")
         if self.start >= self.end:
             raise InputError(f"time: the span from {show(self.start)} to {show(self.end)} is empty")

@@ -34,6 +34,28 @@ def refused(capsys, *arguments):
     return err
 
 
+@pytest.mark.parametrize(
+    "option", [("--time", 0, 5), ("--tolerance", 2), ("--holes", "fill"), ("--skip-invalid",)]
+)
+def test_what_a_scene_has_no_use_for_is_refused(tmp_path, capsys, option):
+    source, target = tmp_path / "scene.json", tmp_path / "other.json"
+    generated("convex", 0).save(source)
+
+    assert f"{option[0]}: {source} is a scene" in refused(
+        capsys, "convert", source, target, *option
+    )
+    assert not target.exists()
+
+
+def test_an_empty_span_is_the_option_s_fault(tmp_path, capsys):
+    source = tmp_path / "parcels.wkt"
+    source.write_text(TOUCHING)
+
+    said = refused(capsys, "convert", source, tmp_path / "scene.json", "--time", 5, 1)
+
+    assert "--time: the span from 5 to 1 is empty" in said
+
+
 def test_shapes_become_a_scene_that_says_what_touches(tmp_path):
     source, scene = tmp_path / "parcels.wkt", tmp_path / "scene.json"
     source.write_text(TOUCHING)

@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 
 from exactpt.kernel import filters
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.integer_polynomial import from_rationals
+from exactpt.kernel.integer_polynomial import from_rationals, sign_at
 from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of_two, rational
 from exactpt.kernel.roots import roots_after
-from exactpt.kernel.sturm import cauchy_bound
+from exactpt.kernel.sturm import cauchy_bound, count_roots, sturm_sequence
 
 __all__ = [
     "Case",
@@ -86,7 +86,12 @@ def judge(case: Case, said: filters.Answer) -> str:
         return f"a root in [{low!r}, {high!r}], but there is none"
     if not rational(low) <= root.time <= rational(high):
         return f"the root in [{low!r}, {high!r}], but it is near {float(root.time)!r}"
-    return "" if root.crossing else "a crossing, but the root is even"
+    if not root.crossing:
+        return "a crossing, but the root is even"
+    alone = count_roots(sturm_sequence(f), rational(low), rational(high)) <= 1
+    if not alone or (root.time != rational(low) and sign_at(f, rational(low)) == 0):
+        return f"the root in [{low!r}, {high!r}], but another one is there too"
+    return ""
 
 
 # Hostile cases

@@ -337,3 +337,17 @@ def test_the_attack_hits():
     # (A linear polynomial on its root is unsure only if the sign of its slope is.)
     for key in itertools.product([2, 3, 4, 5, 6, 7, 8, 9], [True, False], [True, False]):
         assert seen[key] >= 3 or key == (2, False, True)
+
+
+@pytest.mark.parametrize("error", [0.0, 1e-18, 1e-17, 1e-16])
+def test_bug_an_enclosure_has_one_root_alone(error):
+    """Two roots that the rounding blurs: the first one's enclosure ends before the second."""
+    decided = 0
+    for k in range(1, 400):
+        at = k * 1e-17
+        s, low, high = filters.quadratic(
+            at, 0.0, -1.0, error, error, error, -1.0, -1.0, 2.0, at_root=False
+        )
+        decided += s != 0
+        assert s == 0 or not low <= math.sqrt(at) <= high
+    assert decided > 10

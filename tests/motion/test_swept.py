@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from strategies import as_rational, doubles, fractions
@@ -43,6 +44,22 @@ def test_boxes_contain_the_vertices(bodies, begin, length):
             x, y = track.at(first + (last - first) * QQ(k, 8))
             assert x_low <= (x - frame.center[0]) / QQ(2) ** frame.scale[0] <= x_high
             assert y_low <= (y - frame.center[1]) / QQ(2) ** frame.scale[1] <= y_high
+
+
+@pytest.mark.parametrize("numerator", [5, 7, 9, 11, 13])
+@pytest.mark.parametrize("bits", [5, 12, 40, 79])
+def test_boxes_contain_what_underflows(bits, numerator):
+    """t^n between 2^-1074 and 2^-1060, in an interval as narrow as doubles allow."""
+    t = QQ(numerator, 8 << bits)
+    for degree in range(1060 // bits - 1, 1074 // bits + 2):
+        power = Body("a", [(0, 0)], Translation([0] * degree + [1]))
+        frame = frame_for([(QQ(0), QQ(0))], QQ(0), QQ(1))
+        image = frame.image(power.piece_after(QQ(0)).tracks[0])
+        low, high = frame.time(t)[0], frame.time(t * (1 + QQ(1, 1 << 50)))[1]
+
+        x_low, x_high, *_ = SweptBoxes([image], frame.errors).during(low, high)[0].tolist()
+
+        assert x_low <= t**degree <= x_high
 
 
 def test_boxes_are_tight():

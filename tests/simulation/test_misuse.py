@@ -122,7 +122,7 @@ def test_normals_have_length_one_at_any_size(exponent):
     contact = first_contact(fall(size=size))
 
     assert contact.time == 1
-    assert [pair.normal for pair in contact.pairs] == [(-0.0 + 0.0, 1.0)]
+    assert [pair.normal for pair in contact.pairs] == [(0.0, 1.0)]
     json.dumps(contact.to_json(), allow_nan=False)
 
 
@@ -151,7 +151,7 @@ def test_what_no_file_can_hold_is_not_written(tmp_path):
     long = Scene([Body("p", [(QQ(1, 3**40_000), 0)])])
 
     for thing in (long, Simulation(long)):
-        with pytest.raises(InputError, match="10000 digits"):
+        with pytest.raises(InputError, match=r"body 'p': more than 10000 digits .* file: 1/"):
             thing.save(tmp_path / "file.json")
     assert not list(tmp_path.iterdir())
 
@@ -159,20 +159,18 @@ def test_what_no_file_can_hold_is_not_written(tmp_path):
 @pytest.mark.parametrize("tiling", ["lazy", "mixed"])
 def test_a_space_is_of_its_time_or_says_that_it_cannot_be(tiling):
     cup = [(0, 0), (9, 0), (9, 8), (8, 8), (8, 1), (1, 1), (1, 8), (0, 8)]
-    jump = Pieces([(2, Translation()), (None, Translation([-80, 40]))])
+    jump = Pieces([(2, Translation()), (None, Translation(0, [-80, 40]))])
     box = Body("box", [(4, 3), (5, 3), (5, 4), (4, 4)], jump)
     simulation = Simulation(Scene([Body("cup", cup), box], (0, 3)), tiling=tiling)
     list(simulation.run(1))
-    space, same = simulation.space(1), simulation.space(1).relative_hull("cup")
-    early = simulation.space(1)
-    late = Simulation(Scene([Body("cup", cup), box], (0, 3)), tiling=tiling)
-    list(late.run(1))
-    kept = late.space(1)
-    list(late.run("5/2"))
+    asked, kept = (FreeSpace(simulation.kinetic, QQ(1)) for _ in range(2))
+    hull = asked.relative_hull("cup")
+    list(simulation.run("5/2"))
 
-    assert space.relative_hull("cup") == same == early.relative_hull("cup")
+    assert simulation.space("5/2").relative_hull("cup") != hull
+    assert asked.relative_hull("cup") == hull
     if tiling == "mixed":
-        assert kept.relative_hull("cup") == same
+        assert kept.relative_hull("cup") == hull
     else:
         with pytest.raises(InputError, match="make the space anew"):
             kept.relative_hull("cup")

@@ -4,7 +4,13 @@ from collections import Counter
 
 import pytest
 
+from exactpt.collision.tilings import start_tiling
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.scene.families.shapes import box
 from exactpt.scene.generate import generate
+from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.exact import comes_first
 from exactpt.tiling.repairs import RepairedTiling
@@ -90,3 +96,14 @@ def test_repairs_at_one_time_are_checked_unless_they_are_apart(monkeypatch, tili
 
     assert done["apart"] >= least
     assert done["checked"] > 10
+
+
+def test_a_batch_of_more_repairs_than_are_pending_is_no_reason_to_build_anew():
+    """Squares that rise in step through a grid, all at once: what fails then is all there is."""
+    grid = [Body(f"{i},{j}", box(4 * i, 4 * j, 1, 1)) for i in range(70) for j in range(2)]
+    rise = Translation(0, [0, 1])
+    row = [Body(f"r{i}", box(4 * i + 2, -3, 1, 1), rise) for i in range(70)]
+    kinetic = start_tiling(Scene([*grid, *row], (0, 14)), "lazy", QQ(0))
+
+    assert sum(1 for _ in kinetic.run()) > 1000
+    assert kinetic.stats.rebuilds == 0
