@@ -55,6 +55,14 @@ def _exact(x: float) -> QQ:
 
 def enclosing_doubles(x: IsolatedRoot) -> tuple[float, float]:
     """Doubles lo <= x <= hi: equal if x is a double, else neighbours."""
+    near = nearest_float(x.low)
+    if near == nearest_float(x.high) and math.isfinite(near):
+        exact = _exact(near)
+        # Both ends round to this double; and no end is x, unless both are.
+        if exact <= x.low:
+            return near, (near if exact == x.high else math.nextafter(near, math.inf))
+        if exact >= x.high:
+            return math.nextafter(near, -math.inf), near
     guessing = len(x.polynomial) > 3
     while True:
         lo, hi = enclosing_floats(x.low)[0], enclosing_floats(x.high)[1]

@@ -6,7 +6,9 @@ dropped freely and integers suffice everywhere.
 
 Sources: D. E. Knuth, *TAOCP* vol. 2, section 4.6.1 (pseudo-division, gcd of
 primitive parts); J. von zur Gathen, J. Gerhard, *Modern Computer Algebra*,
-section 14.6 (square-free part).
+section 14.6 (square-free part); B. Char, K. Geddes, G. Gonnet, *GCDHEU: heuristic
+polynomial GCD algorithm based on integer GCD computation*, J. Symbolic Computation 7
+(1989) (common factors show in values).
 """
 
 from __future__ import annotations
@@ -39,7 +41,8 @@ __all__ = [
 
 IntPoly: TypeAlias = "tuple[ZZ, ...]"
 
-PRIME: Final = 2**31 - 1
+SLACK: Final = 32
+"""So many more bits than the coefficients has the point at which common factors are sought."""
 
 
 def trimmed(coefficients: Iterable[ZZ]) -> IntPoly:
@@ -201,29 +204,21 @@ def greatest_common_divisor(f: IntPoly, g: IntPoly) -> IntPoly:
     return negate(f) if f and f[-1] < 0 else f
 
 
-def _is_square_free_modulo_prime(f: IntPoly) -> bool:
-    """Whether f and f' have no common factor modulo a prime: then they have none at all.
+def _is_square_free_at_a_point(f: IntPoly) -> bool:
+    """Whether the values of a primitive f and of f' show that these have no common factor.
 
-    A common primitive factor h divides f over the integers (Gauss), so its leading
-    coefficient divides that of f. If the prime does not divide the latter, h keeps its
-    degree modulo the prime, and divides both there (Gathen and Gerhard, section 6.4).
+    A common factor h, primitive and not constant, divides both over the integers (Gauss), so
+    h(N) divides both values at N. The roots of f, and so those of h, are at most 2^bits in
+    size where all coefficients are below that (Cauchy), so |h(N)| >= N - 2^bits > N / 2 for
+    N = 2^width below. Where the gcd of the values is less, there is no h; only chance makes
+    it larger without.
     """
-    a, b = [int(c % PRIME) for c in f], [int(c % PRIME) for c in derivative(f)]
-    if not a[-1]:
-        return False
-    while b and not b[-1]:
-        b.pop()
-    while len(b) > 1:
-        inverse, size = pow(b[-1], -1, PRIME), len(b) - 1
-        while len(a) > size:
-            factor = a.pop() * inverse % PRIME
-            shift = len(a) - size
-            for i in range(size):
-                a[shift + i] = (a[shift + i] - factor * b[i]) % PRIME
-        while a and not a[-1]:
-            a.pop()
-        a, b = b, a
-    return len(b) == 1
+    width = max([c.bit_length() for c in f]) + SLACK
+    at = at_derivative = ZZ(0)
+    for c in reversed(f):
+        at_derivative = (at_derivative << width) + at
+        at = (at << width) + c
+    return gcd(at, at_derivative).bit_length() < width
 
 
 def square_free(f: IntPoly) -> IntPoly:
@@ -236,7 +231,7 @@ def square_free(f: IntPoly) -> IntPoly:
             return f
         # c2 (t + c1 / 2 c2)^2: half the derivative is c2 (t + c1 / 2 c2).
         return primitive((f[1], 2 * f[2]))
-    if _is_square_free_modulo_prime(f):
+    if _is_square_free_at_a_point(f):
         return f
     common = greatest_common_divisor(f, derivative(f))
     return f if len(common) == 1 else quotient(f, common)

@@ -92,6 +92,22 @@ class IsolatedRoot:
             self._leave_low_end()
         return self
 
+    @classmethod
+    def surd(cls, quadratic: IntPoly, low: QQ, high: QQ, *, larger: bool) -> Self:
+        """One of the two irrational roots of a quadratic, alone in (low, high).
+
+        Args:
+            quadratic: with positive leading coefficient.
+            low: a rational below the root.
+            high: one above it.
+            larger: whether it is the larger root.
+        """
+        self = cls.__new__(cls)
+        self.polynomial, self.low, self.high = primitive(quadratic), low, high
+        self._bits = -FIRST_STEPS
+        self._below = -1 if larger else 1
+        return self
+
     def _leave_low_end(self) -> None:
         # The root is inside (low, high), and low is a (simple) root as well: the sign
         # just right of it is that of the derivative. Halve until low is no root.

@@ -30,6 +30,9 @@ if TYPE_CHECKING:
     def isqrt(value: ZZ) -> ZZ:
         """The integer part of the square root of ``value >= 0``."""
 
+    def isqrt_rem(value: ZZ) -> tuple[ZZ, ZZ]:
+        """The integer part of the square root of ``value >= 0``, and what its square leaves."""
+
     def is_square(value: ZZ) -> bool:
         """Whether ``value`` is the square of an integer."""
 
@@ -41,6 +44,7 @@ else:
     ZZ = gmpy2.mpz
     gcd = gmpy2.gcd
     isqrt = gmpy2.isqrt
+    isqrt_rem = gmpy2.isqrt_rem
     is_square = gmpy2.is_square
     digits = gmpy2.unpack
 
@@ -55,6 +59,7 @@ __all__ = [
     "gcd",
     "is_square",
     "isqrt",
+    "isqrt_rem",
     "nearest_float",
     "parse_rational",
     "power_of_two",

@@ -8,21 +8,25 @@ The one question a certificate asks: what is its sign now, and when may it chang
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.descartes import sign_variations
+from exactpt.kernel.descartes import single_roots
 from exactpt.kernel.integer_polynomial import (
     IntPoly,
     greatest_common_divisor,
+    negate,
     primitive,
     sign_at,
     square_free,
 )
-from exactpt.kernel.numbers import QQ, is_square, isqrt
+from exactpt.kernel.numbers import QQ, isqrt_rem
 from exactpt.kernel.sturm import isolating_intervals, sturm_sequence
 
 __all__ = ["Root", "common_roots", "roots_after"]
+
+DIGITS: Final = 80
+"""The binary digits of a square root: its ends are seldom on two sides of a double."""
 
 
 class Root(NamedTuple):
@@ -45,37 +49,48 @@ def roots_after(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]
         start: the open end; may itself be a root.
         until: the closed end.
     """
-    if start.compare_rational(until) >= 0 or len(f) == 1:
-        return
+    if len(f) == 1 or start.compare_rational(until) >= 0:
+        return iter(())
     if len(f) == 2:
-        root = QQ(-f[0], f[1])
-        if root <= until and start.compare_rational(root) < 0:
-            yield Root(AlgebraicNumber(root), crossing=True)
-        return
+        return _linear_root(f, start, until)
     if len(f) == 3:
-        yield from _quadratic_roots(f, start, until)
-        return
-    if sign_at(f, until) != 0:
-        most = sign_variations(f, start.low, until)
-        if most == 0:
-            return
-        if most == 1:
-            only = AlgebraicNumber.root(square_free(f), start.low, until)
-            if only.compare(start) > 0:
-                yield Root(only, crossing=True)
-            return
-    # Multiplicities alternate the sign: carry it along instead of factoring.
-    before = start.sign_after(f)
-    sequence = sturm_sequence(primitive(f))
+        return _quadratic_roots(f, start, until)
+    if sign_at(f, until) == 0:
+        return _roots_by_sturm(f, sturm_sequence(primitive(f)), start, start.low, until)
+    return _roots_by_descartes(f, start, until)
+
+
+def _linear_root(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]:
+    root = QQ(-f[0], f[1])
+    if root <= until and start.compare_rational(root) < 0:
+        yield Root(AlgebraicNumber(root), crossing=True)
+
+
+def _roots_by_descartes(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]:
+    """Sturm is asked only about roots that are close together; until is none."""
+    p: IntPoly = ()
+    sequence: list[IntPoly] = []
+    for low, high, alone in single_roots(f, start.low, until):
+        if alone:
+            p = p or square_free(f)
+            root = AlgebraicNumber.root(p, low, high)
+            if root.compare(start) > 0:
+                yield Root(root, crossing=True)
+        else:
+            sequence = sequence or sturm_sequence(primitive(f))
+            yield from _roots_by_sturm(f, sequence, start, low, high)
+
+
+def _roots_by_sturm(
+    f: IntPoly, sequence: list[IntPoly], start: AlgebraicNumber, low: QQ, high: QQ
+) -> Iterator[Root]:
+    """Those in (low, high] after start; with the Sturm sequence of f."""
     p = sequence[0]
     simple = len(p) == len(f)
-    for low, high in isolating_intervals(sequence, start.low, until):
-        root_of_p = AlgebraicNumber.root(p, low, high)
-        if root_of_p.compare(start) <= 0:
-            continue
-        after = -before if simple else root_of_p.sign_after(f)
-        yield Root(root_of_p, crossing=after != before)
-        before = after
+    for left, right in isolating_intervals(sequence, low, high):
+        root = AlgebraicNumber.root(p, left, right)
+        if root.compare(start) > 0:
+            yield Root(root, crossing=simple or root.sign_before(f) != root.sign_after(f))
 
 
 def _quadratic_roots(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]:
@@ -83,21 +98,27 @@ def _quadratic_roots(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[
     d = c1 * c1 - 4 * c0 * c2
     if d < 0:
         return
-    if is_square(d):
-        s = isqrt(d)
+    # The square root to so many binary digits that doubles seldom want more.
+    places = max(0, DIGITS - (d.bit_length() >> 1))
+    s, rest = isqrt_rem(d << 2 * places)
+    if rest == 0:
+        s >>= places
         ends = sorted({QQ(-c1 - s, 2 * c2), QQ(-c1 + s, 2 * c2)})
         for value in ends:
             if value <= until and start.compare_rational(value) < 0:
                 yield Root(AlgebraicNumber(value), crossing=s > 0)
         return
-    # Two irrational roots, on either side of the vertex of the parabola, and each
-    # at most 1 + sqrt(d) / 2|c2| away from it.
-    vertex = QQ(-c1, 2 * c2)
-    reach = QQ(isqrt(d) + 1, 2 * abs(c2)) + 1
-    for low, high in ((vertex - reach, vertex), (vertex, vertex + reach)):
-        if high <= start.low or until <= low:
-            continue
-        root = AlgebraicNumber.root(f, low, high)
+    if c2 < 0:
+        f, c1, c2 = negate(f), -c1, -c2
+    middle, unit = -c1 << places, c2 << places + 1
+    p, q = start.low.numerator * unit, start.low.denominator
+    for above in (middle - s, middle + s + 1):
+        if above * q <= p:
+            continue  # the root is before the start
+        low, high = QQ(above - 1, unit), QQ(above, unit)
+        if until <= low:
+            return
+        root = AlgebraicNumber.surd(f, low, high, larger=above > middle)
         if start.compare(root) < 0 and root.compare_rational(until) <= 0:
             yield Root(root, crossing=True)
 

@@ -17,8 +17,9 @@ from strategies import (
     wide_fractions,
 )
 
+from exactpt.kernel import integer_polynomial
 from exactpt.kernel.integer_polynomial import (
-    PRIME,
+    SLACK,
     add,
     derivative,
     evaluate,
@@ -195,20 +196,39 @@ def test_the_zero_polynomial_and_constants():
     assert square_free(negate(five)) == as_int_poly([-1])
 
 
-def test_square_free_but_not_modulo_the_prime():
-    """t (t - prime) is t^2 modulo the prime, and prime t^3 + ... has a lower degree there."""
-    for f in ([0, -PRIME, 1, 0], [1, 0, -PRIME, 1], [5, 7, 0, PRIME], [PRIME, 0, 0, 1]):
-        p = trimmed(map(ZZ, f))
-        assert square_free(p) == p
-        doubled = multiply(multiply(p, p), p)
-        assert square_free(doubled) == p
+def shares_a_large_divisor_with_its_derivative():
+    """Square-free, of 40 bits, and its value at N = 2^(40 + SLACK) has a gcd above N with f'(N).
+
+    f = 2^39 (1 + t) + c2 t^2 + c3 t^3 + t^4, with c2 and c3 such that a prime of 34 bits
+    divides both values.
+    """
+    q, n = 2**34 - 41, 2 ** (40 + SLACK)
+    value, slope = 2**39 * (1 + n) + n**4, 2**39 + 4 * n**3
+    c3 = (2 * value - n * slope) * pow(n**3, -1, q) % q
+    c2 = -(value + c3 * n**3) * pow(n**2, -1, q) % q
+    return tuple(map(ZZ, (2**39, 2**39, c2, c3, 1)))
 
 
-@given(
-    f=int_polys.filter(lambda f: len(f) > 1), scale=st.sampled_from([1, PRIME, -PRIME, PRIME + 1])
-)
-def test_the_prime_takes_nothing_for_square_free(f, scale):
-    stretched = tuple(ZZ(c) * ZZ(scale) ** i for i, c in enumerate(f))
+def test_square_free_where_the_values_at_a_point_do_not_show_it(monkeypatch):
+    asked = []
+    gcd_of_polynomials = integer_polynomial.greatest_common_divisor
+    monkeypatch.setattr(
+        integer_polynomial,
+        "greatest_common_divisor",
+        lambda f, g: asked.append(f) or gcd_of_polynomials(f, g),
+    )
+    f = shares_a_large_divisor_with_its_derivative()
+
+    assert square_free(f) == f
+    assert asked == [f]
+    asked.clear()
+    assert square_free((ZZ(5), ZZ(0), ZZ(0), ZZ(7))) == (5, 0, 0, 7)
+    assert not asked
+
+
+@given(f=int_polys.filter(lambda f: len(f) > 1), scale=st.integers(0, 80))
+def test_values_at_a_point_take_nothing_for_square_free(f, scale):
+    stretched = tuple(ZZ(c) << scale * i for i, c in enumerate(f))
     square = multiply(stretched, stretched)
 
     assert len(square_free(square)) == len(square_free(stretched))

@@ -1,5 +1,6 @@
 """The roots after a time: all of them, from left to right, and which are crossings."""
 
+import math
 from itertools import islice
 
 import pytest
@@ -161,3 +162,32 @@ def test_common_roots(f, g, h, case, until):
     assert len(found) == len(expected)
     for r, root in zip(found, expected, strict=True):
         assert is_root(r.time.polynomial, r.time.low, r.time.high, root)
+
+
+def test_roots_that_descartes_leaves_to_sturm_are_the_same():
+    """Simple, double and triple ones next to each other, on a grid and beside it."""
+    near = 2**40 + 1
+    f = times((-1, 3), (-1, 3), (-near, 3 * 2**40), (-1, 2), (-1, 2), (-1, 2), (-5, 8))
+    found = list(roots_after(as_int_poly(f), AlgebraicNumber(0), QQ(1)))
+
+    assert [(r.time.simplified().low, r.crossing) for r in found] == [
+        (QQ(1, 3), False),
+        (QQ(near, 3 * 2**40), True),
+        (QQ(1, 2), True),
+        (QQ(5, 8), True),
+    ]
+
+
+@pytest.mark.parametrize("c2", [1, -1, 3, -(10**30)])
+@pytest.mark.parametrize("shift", [0, 10**25, -(10**25)])
+def test_surds_are_enclosed_at_once_by_neighbouring_doubles(c2, shift):
+    """c2 ((t - shift)^2 - 2), also where the roots cannot be told from shift by doubles."""
+    f = as_int_poly([c2 * (shift**2 - 2), -2 * c2 * shift, c2])
+    low, high = (r.time for r in roots_after(f, AlgebraicNumber(shift - 2), QQ(shift + 2)))
+
+    assert low < shift < high
+    assert (low.polynomial, high.polynomial) == (as_int_poly([shift**2 - 2, -2 * shift, 1]),) * 2
+    for root in (low, high):
+        below, above = root.enclosure()
+        assert QQ(below) <= root <= QQ(above)
+        assert above == math.nextafter(below, math.inf)
