@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from typing import NamedTuple, Self, final
+from typing import Final, NamedTuple, Self, final
 
 __all__ = ["Counters", "Counts", "counters"]
 
@@ -62,4 +62,4 @@ class Counters:
         return Counts(self.exact, self.filtered, dict(self.reasons))
 
 
-counters = Counters()
+counters: Final = Counters()

@@ -40,9 +40,24 @@ class Vertex:
         image: the track in doubles.
         offset: the direction of its infinitesimal offset; None unless the body is thin.
         ahead, behind: the ids of its neighbours on the ring.
+        x, y, error: where it was when last asked for, in the frame, and a bound on the errors
+            of both; ``seen`` says when that was (`exactpt.tiling.positions`).
     """
 
-    __slots__ = ("ahead", "behind", "body", "id", "image", "index", "offset", "track")
+    __slots__ = (
+        "ahead",
+        "behind",
+        "body",
+        "error",
+        "id",
+        "image",
+        "index",
+        "offset",
+        "seen",
+        "track",
+        "x",
+        "y",
+    )
 
     def __init__(self, vertex_id: int, body: int, index: int, track: Track, image: Image) -> None:
         self.id: int = vertex_id
@@ -53,6 +68,10 @@ class Vertex:
         self.offset: Offset | None = None
         self.ahead: int = -1
         self.behind: int = -1
+        self.x: float = 0.0
+        self.y: float = 0.0
+        self.error: float = 0.0
+        self.seen: object = None
 
 
 @final

@@ -110,8 +110,10 @@ class CertifiedTiling(Tiling):
 
     def _certify(self, h: int) -> None:
         """Certify the angle of h; note it as due if it is violated just after now."""
-        self._due.discard(h)
-        self._flat.discard(h)
+        if self._due:
+            self._due.discard(h)
+        if self._flat:
+            self._flat.discard(h)
         a, p, b = self._angle(h)
         if self.mesh.region[h] == SOLID or self._cannot_fail(h, a, p, b):
             self._skip(h)
@@ -158,14 +160,16 @@ class CertifiedTiling(Tiling):
         k = m.following[g]
         return m.following[k] == h and (g < h or k < h) and self.mesh.corner[h]
 
-    def _recertify(self, slots: tuple[int, ...]) -> None:
+    def _recertify(self, slots: list[int]) -> None:
         """Certify changed angles; of faces that are or were triangles, all angles."""
         m = self.mesh.map
         self._batch.touch(slots)
-        todo = dict.fromkeys(slots)
+        todo: dict[int, None] = {}
         for h in slots:
+            todo[h] = None
             if m.following[m.following[m.following[m.following[h]]]] == h or self._is_triangle(h):
-                todo.update(dict.fromkeys(m.face(h)))
+                for g in m.face(h):
+                    todo[g] = None
         for h in todo:
             self._certify(h)
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from itertools import pairwise
 
 from exactpt.errors import AuditError
-from exactpt.tiling.greedy.shadow import Predicates
 from exactpt.tiling.mesh import SOLID, Mesh
+from exactpt.tiling.predicates import Predicates
 
 __all__ = ["audit_angles", "audit_fan"]
 
@@ -35,12 +35,12 @@ def audit_fan(mesh: Mesh, h: int, predicates: Predicates) -> None:
     Raises:
         AuditError: if they do not.
     """
-    m, sign = mesh.map, predicates.sign
+    m = mesh.map
     v = m.origin[h]
     targets = [m.target(g) for g in m.fan(h)]
     base = targets[0]
     for u, w in pairwise(targets[1:]):
         # 1: angle below pi, 0: pi, -1: above.
-        side_u, side_w = sign(v, base, u), sign(v, base, w)
-        if side_u < side_w or (side_u == side_w and sign(v, u, w) <= 0):
+        side_u, side_w = predicates.sign(v, base, u), predicates.sign(v, base, w)
+        if side_u < side_w or (side_u == side_w and predicates.sign(v, u, w) <= 0):
             raise AuditError(f"vertex {v}: the edges to {u} and {w} are in the wrong order")

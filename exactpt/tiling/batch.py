@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import final
 
 from exactpt.tiling.mesh import Mesh
@@ -42,7 +41,7 @@ class Batch:
         """What is touched from now on is by another repair."""
         self._repair += 1
 
-    def touch(self, half_edges: Iterable[int]) -> None:
+    def touch(self, half_edges: list[int]) -> None:
         """Note that the angles of these have changed."""
         for h in half_edges:
             if self.touched.setdefault(h, self._repair) != self._repair:

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterable
 from functools import cmp_to_key
 
 from exactpt.errors import AuditError
-from exactpt.tiling.greedy.shadow import Predicates
 from exactpt.tiling.instant import Instant
 from exactpt.tiling.mesh import INSIDE, OUTER, SOLID, Diagonal, Mesh
+from exactpt.tiling.predicates import Predicates
 
 __all__ = ["build_mesh", "fan_order"]
 

@@ -153,13 +153,7 @@ class Certifier:
         va, vb, vc = self.all[a], self.all[b], self.all[c]
         if self.exact_only or va.track is vb.track or vb.track is vc.track or va.track is vc.track:
             return self._exact_orientation(va, vb, vc)
-        bodies = self._vertices.bodies
-        horizon = min(
-            self._end_high,
-            bodies[va.body].horizon,
-            bodies[vb.body].horizon,
-            bodies[vc.body].horizon,
-        )
+        horizon = min(self._horizon(va, vb), self._vertices.bodies[vc.body].horizon)
         s, low, high = coefficients.orientation(
             va.image,
             vb.image,
@@ -168,7 +162,7 @@ class Certifier:
             self.now_low,
             self.now_high,
             horizon,
-            bool(self.roots_now) and self.vanishes_now(a, b, c),
+            self.vanishes_now(a, b, c),
         )
         if s == 0:
             return self._exact_orientation(va, vb, vc)
@@ -221,10 +215,16 @@ class Certifier:
 
     def vanishes_now(self, a: int, b: int, c: int) -> bool:
         """Whether the function of these vertices is known to be zero now."""
-        for key in self.roots_now:  # noqa: SIM110 - half the time of any()
-            if a in key and b in key and c in key:
+        for i, j, k in self.roots_now:
+            if a in (i, j, k) and b in (i, j, k) and c in (i, j, k):
                 return True
         return False
+
+    def _horizon(self, a: Vertex, b: Vertex) -> float:
+        """A double at least the time until which the motions of two vertices are known."""
+        bodies = self._vertices.bodies
+        of_both = min(bodies[a.body].horizon, bodies[b.body].horizon)
+        return min(self._end_high, of_both)
 
     def _until(self, *vertices: Vertex) -> QQ:
         until = self.end
@@ -296,8 +296,7 @@ class Certifier:
         va, vb = self.all[a], self.all[b]
         if self.exact_only or va.track is vb.track:
             return self._exact_x_order(va, vb, touching=touching)
-        bodies = self._vertices.bodies
-        horizon = min(self._end_high, bodies[va.body].horizon, bodies[vb.body].horizon)
+        horizon = self._horizon(va, vb)
         s, low, high = coefficients.x_difference(
             va.image,
             vb.image,
@@ -305,7 +304,7 @@ class Certifier:
             self.now_low,
             self.now_high,
             horizon,
-            bool(self.roots_now) and self.vanishes_now(a, b, X_ORDER),
+            self.vanishes_now(a, b, X_ORDER),
         )
         if s == 0:
             return self._exact_x_order(va, vb, touching=touching)

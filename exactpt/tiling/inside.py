@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from exactpt.errors import AuditError
-from exactpt.tiling.greedy.shadow import Predicates
 from exactpt.tiling.mesh import INSIDE, Mesh
+from exactpt.tiling.predicates import Predicates
 
 __all__ = ["tile_inside"]
 

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 from functools import cmp_to_key
 from itertools import chain
 from math import isinf, isnan
-from typing import TYPE_CHECKING, Final, final
+from typing import Final, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,10 +26,8 @@ from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.motion.vertices import Vertex, Vertices
 from exactpt.tiling.exact import copies_first, cross, orientation, x_order_terms
 from exactpt.tiling.positions import K, cross_sign, positions_at
+from exactpt.tiling.predicates import Predicates
 from exactpt.tiling.reasons import reason
-
-if TYPE_CHECKING:
-    from exactpt.tiling.greedy.shadow import Predicates
 
 __all__ = ["Instant", "sorted_by_x"]
 
@@ -52,7 +50,7 @@ def _sorted_exactly(predicates: Predicates, ids: Iterable[int]) -> list[int]:
 
 
 @final
-class Instant:
+class Instant(Predicates):
     """Positions and predicates at a rational time.
 
     Attributes:

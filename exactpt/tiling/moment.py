@@ -9,6 +9,7 @@ from exactpt.tiling import coefficients
 from exactpt.tiling.certificates import X_ORDER
 from exactpt.tiling.exact import cross, orientation, x_order
 from exactpt.tiling.placement import nearer, nearer_copy
+from exactpt.tiling.predicates import Predicates
 from exactpt.tiling.reasons import reason
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ __all__ = ["Moment"]
 
 
 @final
-class Moment:
+class Moment(Predicates):
     """Signs just after now, or just before it; they differ only for what vanishes now."""
 
     def __init__(self, certifier: Certifier, *, before: bool) -> None:

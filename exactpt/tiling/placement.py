@@ -55,7 +55,8 @@ def boxes_now(certifier: Certifier, vertices: Sequence[Vertex]) -> Boxes:
     """Boxes that contain the positions now, in the frame."""
     boxes = np.empty((len(vertices), 4))
     for i, vertex in enumerate(vertices):
-        x, y, error = certifier.positions.of(vertex)
+        certifier.positions.find(vertex)
+        x, y, error = vertex.x, vertex.y, vertex.error
         dx, dy = error + 4.0 * U * abs(x), error + 4.0 * U * abs(y)
         boxes[i] = (x - dx, x + dx, y - dy, y + dy)
     widen_unknown(boxes)  # of what doubles cannot hold

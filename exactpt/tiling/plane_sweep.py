@@ -18,9 +18,9 @@ from collections.abc import Iterable
 from functools import cmp_to_key
 from typing import final
 
-from exactpt.tiling.greedy.shadow import Predicates
 from exactpt.tiling.instant import Instant, sorted_by_x
 from exactpt.tiling.mesh import FREE, INSIDE, SOLID, Diagonal
+from exactpt.tiling.predicates import Predicates
 
 __all__ = ["Sweep", "SweptEdge", "body_edges", "sweep_diagonals"]
 

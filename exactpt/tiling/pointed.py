@@ -20,8 +20,9 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from exactpt.errors import AuditError
-from exactpt.tiling.greedy.shadow import Predicates, flip, shadow
+from exactpt.tiling.greedy.shadow import flip, shadow
 from exactpt.tiling.mesh import OUTER, Mesh
+from exactpt.tiling.predicates import Predicates
 
 __all__ = ["Change", "make_pointed", "point_vertex"]
 

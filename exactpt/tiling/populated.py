@@ -55,7 +55,7 @@ class PopulatedTiling(KineticTiling):
             if moving.is_tiled:
                 first = self.mesh.ring_edge[moving.ring[0]]
                 tile_inside(self.mesh, first, Moment(self.certifier, before=False))
-                self._recertify(tuple(self._ring_angles(moving.ring)))
+                self._recertify(self._ring_angles(moving.ring))
             self._enter_body(i)
         return self._resume(is_whole=is_whole)
 
@@ -135,7 +135,7 @@ class PopulatedTiling(KineticTiling):
             tuple(sorted(edge for key, edge in removed.items() if key not in added)),
             tuple(sorted(edge for key, edge in added.items() if key not in removed)),
         )
-        self._recertify(tuple(retiled.angles))
+        self._recertify(retiled.angles)
         return True
 
     def _by_scene_edge(

@@ -44,7 +44,9 @@ def positions_at(vertices: Vertices, low: float, high: float) -> tuple[Floats, F
     single.move_to(low, high)
     for k, image in enumerate(images):
         if image.degree > 1 or image.ws:
-            x[k], y[k], error[k] = single.of(vertices.all[k])
+            vertex = vertices.all[k]
+            single.find(vertex)
+            x[k], y[k], error[k] = vertex.x, vertex.y, vertex.error
     unknown = ~(np.isfinite(x) & np.isfinite(y) & np.isfinite(error))
     x[unknown] = y[unknown] = np.nan
     return x, y, float(np.max(error[~unknown], initial=0.0))
@@ -62,31 +64,29 @@ class Positions:
         self._errors: list[float] = errors
         self._middle: float = 0.0
         self._width: float = 0.0
-        self._known: dict[int, tuple[float, float, float]] = {}
+        self._now: object = object()
 
     def move_to(self, low: float, high: float) -> None:
         """Let the current time be in [low, high]."""
         self._middle, self._width = 0.5 * (low + high), high - low
-        self._known.clear()
+        self._now = object()
 
-    def of(self, vertex: Vertex) -> tuple[float, float, float]:
-        """x, y, and a bound on the error of both; infinite where nothing is known.
+    def find(self, vertex: Vertex) -> None:
+        """Let a vertex know its place: x, y, and a bound on the error of both.
 
-        At the current time a vertex that enters another piece of its motion is where it
-        was, so what is known stays.
+        That is infinite where nothing is known. At the current time a vertex that enters
+        another piece of its motion is where it was, so what is known stays.
         """
-        found = self._known.get(vertex.id)
-        if found is None:
+        if vertex.seen is not self._now:
             image = vertex.image
             if image.degree <= 1 and not image.ws:
-                found = self._linear(image)
+                self._find_linear(vertex, image)
             else:
-                found = self._any(image)
-            self._known[vertex.id] = found
-        return found
+                self._find_any(vertex, image)
+            vertex.seen = self._now
 
-    def _linear(self, image: Image) -> tuple[float, float, float]:
-        """As `_any`, by the formula of `_value` for two coefficients, once for x and y."""
+    def _find_linear(self, vertex: Vertex, image: Image) -> None:
+        """As `_find_any`, by the formula of `_value` for two coefficients, once for x and y."""
         m, r = self._middle, self._width
         reach = abs(m) + r
         x0, y0, x1, y1 = image.x0, image.y0, image.x1, image.y1
@@ -94,16 +94,16 @@ class Positions:
         bound = slope * reach + max(abs(x0), abs(y0))
         of_image = self._errors[0] + self._errors[1] * reach
         error = (16.0 * U * bound + of_image + r * slope) * SLACK + TINY
-        return x1 * m + x0, y1 * m + y0, min(INFINITY, error)
+        vertex.x, vertex.y, vertex.error = x1 * m + x0, y1 * m + y0, min(INFINITY, error)
 
-    def _any(self, image: Image) -> tuple[float, float, float]:
+    def _find_any(self, vertex: Vertex, image: Image) -> None:
         x, dx = self._value(image.xs)
         y, dy = self._value(image.ys)
         if image.ws:
             w, dw = self._value(image.ws)
             x, dx = _quotient(x, dx, w, dw)
             y, dy = _quotient(y, dy, w, dw)
-        return x, y, min(INFINITY, max(dx, dy))
+        vertex.x, vertex.y, vertex.error = x, y, min(INFINITY, max(dx, dy))
 
     def sign(self, a: Vertex, b: Vertex, c: Vertex) -> int:
         """The certain sign of the orientation now, or 0.
@@ -112,25 +112,29 @@ class Positions:
         by du = da + db, dv = da + dc besides their own rounding, and their determinant by
         du (|vx| + |vy|) + dv (|ux| + |uy|) + 2 du dv.
         """
-        known = self._known
-        ax, ay, da = known.get(a.id) or self.of(a)
-        bx, by, db = known.get(b.id) or self.of(b)
-        cx, cy, dc = known.get(c.id) or self.of(c)
-        return cross_sign(bx - ax, by - ay, da + db, cx - ax, cy - ay, da + dc)
+        now = self._now
+        if a.seen is not now:
+            self.find(a)
+        if b.seen is not now:
+            self.find(b)
+        if c.seen is not now:
+            self.find(c)
+        x, y, d = a.x, a.y, a.error
+        return cross_sign(b.x - x, b.y - y, d + b.error, c.x - x, c.y - y, d + c.error)
 
     def turn(self, a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> int:
         """The certain sign of (b - a) x (d - c) now, or 0."""
-        ax, ay, da = self.of(a)
-        bx, by, db = self.of(b)
-        cx, cy, dc = self.of(c)
-        dx, dy, dd = self.of(d)
-        return cross_sign(bx - ax, by - ay, da + db, dx - cx, dy - cy, dc + dd)
+        for vertex in (a, b, c, d):
+            self.find(vertex)
+        du, dv = a.error + b.error, c.error + d.error
+        return cross_sign(b.x - a.x, b.y - a.y, du, d.x - c.x, d.y - c.y, dv)
 
     def order(self, a: Vertex, b: Vertex, axis: int) -> int:
         """The certain sign of x(b) - x(a) (axis 0) or of y(b) - y(a) (axis 1) now, or 0."""
-        p, q = self.of(a), self.of(b)
-        difference = q[1] - p[1] if axis else q[0] - p[0]
-        bound = p[2] + q[2] + K * abs(difference)
+        self.find(a)
+        self.find(b)
+        difference = b.y - a.y if axis else b.x - a.x
+        bound = a.error + b.error + K * abs(difference)
         return 1 if difference > bound else -1 if difference < -bound else 0
 
     def _value(self, cs: list[float]) -> tuple[float, float]:

@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING, NamedTuple
 from exactpt.errors import AuditError
 from exactpt.planar.halfedge import NOTHING
 from exactpt.tiling.build import fan_order
-from exactpt.tiling.greedy.shadow import Predicates
 from exactpt.tiling.mesh import FREE, OUTER, SOLID, Mesh
 from exactpt.tiling.plane_sweep import Sweep, SweptEdge
 from exactpt.tiling.pointed import make_pointed
+from exactpt.tiling.predicates import Predicates
 
 if TYPE_CHECKING:
     from exactpt.motion.vertices import MovingBody, Vertices

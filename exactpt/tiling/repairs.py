@@ -53,6 +53,8 @@ class RepairedTiling(CertifiedTiling):
     def _first_due(self) -> int:
         """The violated angle to be mended first: copies of one triple in perturbed order."""
         first = min(self._due)
+        if len(self._due) == 1:
+            return first
         q = self._vertices_of(first)
         triple = {(v.body, v.index) for v in q}
         for h in sorted(self._due_at(triple) - {first}):
@@ -123,7 +125,7 @@ class RepairedTiling(CertifiedTiling):
         after = mesh.map.following[edge ^ 1]
         mesh.dissolve_triangle(edge)
         self._cancel_edge(edge)
-        self._recertify((first, second, after) if len(across) > 3 else tuple(mesh.map.face(first)))
+        self._recertify([first, second, after] if len(across) > 3 else mesh.map.face(first))
 
     def _repair_corner(self, h: int) -> None:
         mesh, m = self.mesh, self.mesh.map
@@ -168,7 +170,7 @@ class RepairedTiling(CertifiedTiling):
         e = self.mesh.cut_off(h)
         self._record(kind, (), ((a, b),))
         m = self.mesh.map
-        self._recertify((e, m.following[e], e ^ 1, h, m.previous[h]))
+        self._recertify([e, m.following[e], e ^ 1, h, m.previous[h]])
 
     def _slid(
         self, h: int, before: int, kind: str, ends: tuple[int, int, int], *, origin_moves: bool
@@ -178,10 +180,10 @@ class RepairedTiling(CertifiedTiling):
         old, fixed, new = ends
         self._record(kind, ((old, fixed),), ((new, fixed),))
         if origin_moves:
-            changed = (h, m.following[h], h ^ 1, before, m.following[before])
+            changed = [h, m.following[h], h ^ 1, before, m.following[before]]
         else:
             t = before ^ 1
-            changed = (before, m.following[before], h, t, m.following[t])
+            changed = [before, m.following[before], h, t, m.following[t]]
         self._recertify(changed)
 
     def _record(
@@ -191,10 +193,17 @@ class RepairedTiling(CertifiedTiling):
         added: tuple[tuple[int, int], ...],
     ) -> None:
         """Note a change; one between copies of a thin vertex is none for the outside."""
-        if removed and self._scene_edges(removed) == self._scene_edges(added):
+        if self._has_copies(removed) and self._scene_edges(removed) == self._scene_edges(added):
             self.stats.count("internal")
         else:
             super()._record(kind, removed, added)
+
+    def _has_copies(self, edges: tuple[tuple[int, int], ...]) -> bool:
+        """Whether an edge ends at a vertex that has copies."""
+        for a, b in edges:
+            if self.vertices.all[a].offset is not None or self.vertices.all[b].offset is not None:
+                return True
+        return False
 
     def _scene_edges(self, edges: tuple[tuple[int, int], ...]) -> set[frozenset[tuple[int, int]]]:
         v = self.vertices.all

@@ -11,6 +11,7 @@ from exactpt.scene.generate import generate
 from exactpt.tiling.greedy.greedy import GreedyTiling
 from exactpt.tiling.greedy.shadow import flip_until_greedy, shadow
 from exactpt.tiling.instant import Instant
+from exactpt.tiling.predicates import Predicates
 
 FAMILIES = ("mixed_shapes", "small_grid", "row", "mirrored", "concentric", "polygons_in_step")
 
@@ -50,7 +51,7 @@ def test_flips_lead_from_any_tiling_back_to_the_greedy_one():
     assert flips > 100
 
 
-class Nonsense:
+class Nonsense(Predicates):
     """Predicates that answer anything, but always the same."""
 
     def __init__(self, seed):
@@ -60,6 +61,7 @@ class Nonsense:
         return Random(f"{self.seed}:{a}:{b}:{c}").choice((-1, 1))
 
 
+@pytest.mark.plain
 @pytest.mark.parametrize("seed", range(40))
 def test_the_walk_to_a_shadow_ends_whatever_the_signs(seed):
     """Where a mesh is no pseudo-triangulation just after now, its ends may go to and fro."""

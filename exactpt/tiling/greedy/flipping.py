@@ -91,7 +91,7 @@ class FlippingTiling(PopulatedTiling):
         self._stale.clear()
         self._restore_greedy(Moment(self.certifier, before=False), self.mesh.flippable())
 
-    def _recertify(self, slots: tuple[int, ...]) -> None:
+    def _recertify(self, slots: list[int]) -> None:
         super()._recertify(slots)
         self._stale.update(slots)
 
@@ -129,7 +129,7 @@ class FlippingTiling(PopulatedTiling):
             raise RebuildNeeded from None
         for old, new, changed in flips:
             self._record("diagonal", (old,), (new,))
-            super()._recertify(tuple(h for h in changed if m.origin[h] >= 0))
+            super()._recertify([h for h in changed if m.origin[h] >= 0])
         if self._due:
             raise RebuildNeeded
         for h in sorted(nearby | shadows.keys()):

@@ -16,7 +16,7 @@ from exactpt.motion.vertices import Vertices
 from exactpt.tiling.angles import CELL, EXTREME, KINDS
 from exactpt.tiling.build import build_mesh
 from exactpt.tiling.greedy import cells
-from exactpt.tiling.greedy.shadow import facing_visit, flip, flip_until_greedy, shadow
+from exactpt.tiling.greedy.shadow import crosses, facing_visit, flip, flip_until_greedy, shadow
 from exactpt.tiling.greedy.sweep import greedy_diagonals
 from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition, is_above, lower_chain
 from exactpt.tiling.greedy.vertical_view import seen_from
@@ -271,7 +271,7 @@ class GreedyTiling(PopulatedTiling):
         for old, new, changed in flips:
             self.stats.flips += 1
             self._record("diagonal", (old,), (new,))
-            self._recertify(tuple(h for h in changed if m.origin[h] >= 0))
+            self._recertify([h for h in changed if m.origin[h] >= 0])
         if self._due:
             raise RebuildNeeded
 
@@ -297,12 +297,17 @@ class GreedyTiling(PopulatedTiling):
         m = self.mesh.map
         around = m.fan(self.mesh.ring_edge[u])
         g = facing_visit(self.mesh, around, v, moment)
-        for h in [] if g is None else m.face(g):
-            if self.mesh.is_boundary(h) or self.mesh.is_hull(h):
-                continue
-            # It crosses its diagonal into the tile across, which v is in; or both start at u.
-            if u not in self.mesh.ends(h) and v not in [m.origin[e] for e in m.face(h ^ 1)]:
-                continue
+        tile = [] if g is None else [h for h in m.face(g) if self.mesh.is_flippable(h)]
+        # It crosses its diagonal into the tile across, which v is in; or both share an end.
+        meeting = [h for h in tile if u in self.mesh.ends(h) or v in self.mesh.ends(h)]
+        crossed = [
+            h
+            for h in tile
+            if h not in meeting
+            and v in [m.origin[e] for e in m.face(h ^ 1)]
+            and crosses(u, v, *self.mesh.ends(h), moment)
+        ]
+        for h in (*crossed, *meeting):
             visits = shadow(self.mesh, h, moment)
             if visits is not None and {m.origin[visits[0]], m.origin[visits[1]]} == {u, v}:
                 self._flip(h, visits, moment)
@@ -314,7 +319,7 @@ class GreedyTiling(PopulatedTiling):
         new = (self.mesh.map.origin[visits[0]], self.mesh.map.origin[visits[1]])
         changed = flip(self.mesh, h, visits, moment)
         self._record("diagonal", (old,), (new,))
-        self._recertify(tuple(changed))
+        self._recertify(changed)
 
     def _repair_convex_vertex(self, h: int, kind: str) -> None:  # noqa: ARG002
         vertex = self.vertices.all[self.mesh.map.origin[h]]

@@ -11,14 +11,15 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 from exactpt.errors import AuditError
 from exactpt.tiling.mesh import FREE, Mesh
+from exactpt.tiling.predicates import Predicates
 
 __all__ = [
     "Flip",
-    "Predicates",
+    "crosses",
     "facing_visit",
     "flip",
     "flip_until_greedy",
@@ -26,26 +27,6 @@ __all__ = [
     "shadow",
     "tangency",
 ]
-
-
-class Predicates(Protocol):
-    """What is asked of vertices, just after some time."""
-
-    def sign(self, a: int, b: int, c: int) -> int:
-        """1 if a, b, c turn left, -1 if right, 0 if collinear for ever (counts as right)."""
-        ...
-
-    def left_of(self, a: int, b: int) -> bool:
-        """Whether a comes before b from left to right."""
-        ...
-
-    def turn(self, a: int, b: int, c: int, d: int) -> int:
-        """1 if the direction from a to b turns left to that from c to d, -1 if right."""
-        ...
-
-    def nearer(self, p: int, a: int, b: int) -> bool:
-        """Whether a is nearer to p than b is, for a and b in one direction from p."""
-        ...
 
 
 def opposite_corner(mesh: Mesh, h: int) -> int:
@@ -85,23 +66,21 @@ def shadow(mesh: Mesh, h: int, predicates: Predicates) -> tuple[int, int] | None
         is_corner[k] = predicates.sign(points[k - 1], points[k], points[(k + 1) % n]) > 0
     ends = [0, cycle.index(there)]
     distances = [0, 0]  # from their corners, negative: backwards
-    e = stuck = steps = 0
+    e = stuck = steps = moved = 0
+    is_tangent = True
     while stuck < 2 and steps < 8 * n:
         steps += 1
         i, y = ends[e], points[ends[1 - e]]
-        step = 0 if points[i] == y else _step(points, i, distances[e], y, predicates)
-        if step == 0 or (is_corner[(i + step) % n] and distances[e] + step != 0):
-            stuck += 1
-            e = 1 - e
+        at_other = points[i] == y  # then it is for the other end to move
+        step = 0 if at_other else _step(points, i, distances[e], moved, y, predicates)
+        if step and (not is_corner[(i + step) % n] or distances[e] + step == 0):
+            ends[e], distances[e], moved = (i + step) % n, distances[e] + step, step
+            stuck, is_tangent = 0, True
         else:
-            ends[e], distances[e], stuck = (i + step) % n, distances[e] + step, 0
+            stuck, e, moved = stuck + 1, 1 - e, 0
+            is_tangent = is_tangent and step == 0 and not at_other
     x, y = ends
-    if (
-        points[x] == points[y]
-        or _step(points, x, distances[0], points[y], predicates)
-        or _step(points, y, distances[1], points[x], predicates)
-        or not _crosses(points[x], points[y], *mesh.ends(h), predicates)
-    ):
+    if not (stuck == 2 and is_tangent and crosses(points[x], points[y], *mesh.ends(h), predicates)):
         return None
     return cycle[x], cycle[y]
 
@@ -142,33 +121,37 @@ def _cycle(mesh: Mesh, h: int, start: int) -> list[int]:
         g = following[g]
 
 
-def _step(points: list[int], i: int, distance: int, y: int, predicates: Predicates) -> int:
+def _step(
+    points: list[int], i: int, distance: int, moved: int, y: int, predicates: Predicates
+) -> int:
     """Which way visit i has to move to be tangent to the segment to y: 1, -1 or 0.
 
     At its corner (distance 0) the segment must be inside the angle. On the chain after
     the corner both neighbours must be on the right of the segment, on the chain before
     it on the left: the solid side. A neighbour farther from the corner that is on the
     line for ever is nearer to y and sticks out: the end moves there. (A neighbour may be
-    another visit of the vertex of y; then it is for the other end to move.)
+    another visit of the vertex of y; then it is for the other end to move.) What made
+    the visit move here, away from its corner, shows that it need not move back.
     """
     x, after, before = points[i], points[(i + 1) % len(points)], points[i - 1]
     if distance >= 0 and y != after and predicates.sign(x, after, y) <= 0:
         return 1
     if distance <= 0 and y != before and predicates.sign(x, y, before) <= 0:
         return -1
-    if distance > 0 and predicates.sign(x, y, before) > 0:
+    if distance > 0 and moved <= 0 and predicates.sign(x, y, before) > 0:
         return -1
-    if distance < 0 and predicates.sign(x, y, after) < 0:
+    if distance < 0 and moved >= 0 and predicates.sign(x, y, after) < 0:
         return 1
     return 0
 
 
-def _crosses(x: int, y: int, u: int, v: int, predicates: Predicates) -> bool:
+def crosses(x: int, y: int, u: int, v: int, predicates: Predicates) -> bool:
     """Whether segments xy and uv cross inside, or share one end."""
     if x in (u, v) or y in (u, v):
         return {x, y} != {u, v}
-    sign = predicates.sign
-    return sign(x, y, u) != sign(x, y, v) and sign(u, v, x) != sign(u, v, y)
+    return predicates.sign(x, y, u) != predicates.sign(x, y, v) and predicates.sign(
+        u, v, x
+    ) != predicates.sign(u, v, y)
 
 
 def flip(mesh: Mesh, h: int, visits: tuple[int, int], predicates: Predicates) -> list[int]:
@@ -183,12 +166,12 @@ def flip(mesh: Mesh, h: int, visits: tuple[int, int], predicates: Predicates) ->
     g, k = visits
     joined = mesh.flip_out(h)
     e = mesh.flip_in(g, k)
-    changed = dict.fromkeys((e, e ^ 1, g, k, *joined))
+    changed = [e, e ^ 1, g, k, *[a for a in joined if a not in visits]]
     for a in changed:
         mesh.corner[a] = predicates.sign(m.origin[m.previous[a]], m.origin[a], m.origin[a ^ 1]) > 0
     if was_triangle:
-        changed.update(dict.fromkeys((*m.face(e), *m.face(e ^ 1))))
-    return list(changed)
+        changed += [a for a in (*m.face(e), *m.face(e ^ 1)) if a not in changed]
+    return changed
 
 
 class Flip(NamedTuple):
@@ -289,15 +272,27 @@ def _side(mesh: Mesh, v: int, a: int, b: int, predicates: Predicates) -> int:
 
 
 def facing_visit(mesh: Mesh, around: list[int], target: int, predicates: Predicates) -> int | None:
-    """Of the half-edges out of a vertex, the one whose free angle a target is seen in."""
-    m, sign = mesh.map, predicates.sign
+    """Of the half-edges out of a vertex, the one whose free angle a target is seen in.
+
+    Args:
+        mesh: a tiling.
+        around: some half-edges out of one vertex.
+        target: another vertex.
+        predicates: of the time.
+    """
+    m = mesh.map
+    known = -1
+    side = 0  # of the target, on the left or on the right of the vertex ``known``
     for h in around:
         if mesh.region[h] != FREE:
             continue
         p, after, before = m.origin[h], m.origin[h ^ 1], m.origin[m.previous[h]]
         if target in (after, before):
             continue
-        left, right = sign(p, after, target) > 0, sign(p, target, before) > 0
-        if (left and right) if mesh.corner[h] else (left or right):
+        left = (side if after == known else predicates.sign(p, after, target)) > 0
+        if mesh.corner[h] and not left:
+            continue
+        known, side = before, predicates.sign(p, before, target)
+        if (left and side < 0) if mesh.corner[h] else (left or side < 0):
             return h
     return None

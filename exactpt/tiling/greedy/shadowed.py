@@ -101,6 +101,6 @@ class ShadowedTiling(FlippingTiling):
                 self._cancel_edge(change.handle)
                 added = () if change.new is None else (change.new,)
                 self._record("corner", (change.old,), added)
-                self._recertify(tuple(h for h in change.angles if self.mesh.map.origin[h] >= 0))
+                self._recertify([h for h in change.angles if self.mesh.map.origin[h] >= 0])
             self._certify_turn(v)
         self._turned.clear()

@@ -17,8 +17,8 @@ from __future__ import annotations
 
 from typing import Final, final
 
-from exactpt.tiling.greedy.shadow import Predicates
 from exactpt.tiling.instant import Instant, sorted_by_x
+from exactpt.tiling.predicates import Predicates
 
 __all__ = ["NO_ARC", "NO_CELL", "VerticalDecomposition", "is_above", "lower_chain"]
 

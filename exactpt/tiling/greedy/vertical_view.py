@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from exactpt.tiling.greedy.shadow import Predicates
 from exactpt.tiling.mesh import SOLID, Mesh
+from exactpt.tiling.predicates import Predicates
 
 __all__ = ["seen_from"]
 

@@ -39,27 +39,16 @@ nearest one is the tangent point.
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple, Protocol, final
+from typing import Final, NamedTuple, final
 
 from exactpt.tiling.incremental.paths import SearchableTree
 from exactpt.tiling.incremental.tree import NONE, TangentTree
+from exactpt.tiling.predicates import Predicates
 
-__all__ = ["LOWER", "UPPER", "Exchanged", "IncrementalStructure", "Predicates"]
+__all__ = ["LOWER", "UPPER", "Exchanged", "IncrementalStructure"]
 
 UPPER: Final = 0
 LOWER: Final = 1
-
-
-class Predicates(Protocol):
-    """What is asked of points at, or just after, some time."""
-
-    def sign(self, a: int, b: int, c: int) -> int:
-        """1 if a, b, c turn left, -1 if right, 0 if collinear."""
-        ...
-
-    def left_of(self, a: int, b: int) -> bool:
-        """Whether a comes before b from left to right."""
-        ...
 
 
 class Exchanged(NamedTuple):
@@ -105,12 +94,11 @@ class IncrementalStructure:
             order: the points, sorted.
             predicates: of the time.
         """
-        sign = predicates.sign
         trees = TangentTree(len(order)), TangentTree(len(order))
         for wanted, tree in zip((1, -1), trees, strict=True):
             hull = order[:1]
             for p in order[1:]:
-                while len(hull) > 1 and sign(hull[-2], hull[-1], p) == wanted:
+                while len(hull) > 1 and predicates.sign(hull[-2], hull[-1], p) == wanted:
                     hull.pop()
                 tree.append(hull[-1], p)
                 hull.append(p)

@@ -21,8 +21,8 @@ from itertools import pairwise
 from typing import Final, NamedTuple, final
 
 from exactpt.planar.halfedge import without_steps_back
-from exactpt.tiling.greedy.shadow import Predicates
 from exactpt.tiling.mesh import Mesh
+from exactpt.tiling.predicates import Predicates
 
 __all__ = ["Geodesics", "Part", "joined"]
 

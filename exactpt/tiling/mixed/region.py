@@ -26,13 +26,13 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, final
 
 from exactpt.errors import AuditError
-from exactpt.tiling.greedy.shadow import Predicates
 from exactpt.tiling.mesh import FREE, OUTER, SOLID
 from exactpt.tiling.mixed.changing import Chains, chains_of, nodes_left, nodes_met
 from exactpt.tiling.mixed.geodesics import Geodesics, joined
 from exactpt.tiling.mixed.labels import BodyTree, LabelledMesh
 from exactpt.tiling.mixed.tree import TOP
 from exactpt.tiling.plane_sweep import Sweep
+from exactpt.tiling.predicates import Predicates
 from exactpt.tiling.region import Region, Retiled
 
 if TYPE_CHECKING:
