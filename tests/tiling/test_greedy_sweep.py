@@ -9,6 +9,7 @@ from exactpt.collision.tilings import start_tiling
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
+from exactpt.planar.halfedge import edge_key
 from exactpt.tiling.build import build_mesh
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.greedy.shadow import flip_until_greedy
@@ -55,6 +56,26 @@ def test_the_order_of_parallel_bitangents_on_different_lines_does_not_matter(sid
         assert tied or not flips
         parallel += not tied and len(set(slopes)) < len(slopes)
     assert parallel
+
+
+def test_on_grids_those_on_one_line_are_in_the_right_order():
+    """So there is nothing to flip, neither among them nor anywhere else."""
+    rng = Random(5)
+    met = 0
+    for _ in range(60):
+        bodies = [
+            Body(f"{i} {j}", [(4 * i + x, 4 * j + y) for x, y in rng.choice(SHAPES)])
+            for i in range(3)
+            for j in range(3)
+        ]
+        instant, diagonals, tied = swept(bodies)
+        mesh = build_mesh(instant, diagonals)
+        edges = {edge_key(*mesh.ends(h)) for h in mesh.diagonals()}
+
+        assert tied <= edges
+        assert not flip_until_greedy(mesh, instant, mesh.diagonals())
+        met += bool(tied) and tied < edges
+    assert met > 30
 
 
 def test_two_bitangents_on_one_line_are_told():

@@ -107,14 +107,20 @@ class Bitangent:
         self.key: float = instant.descent(self.a, self.b)
 
     def __lt__(self, other: Bitangent) -> bool:
-        """Whether theta is smaller, for equal keys; perturbed, so that the order is total."""
-        order = self.compare(other)
-        return order < 0 if order else self.number < other.number
+        """Whether the sweep meets it first, for equal keys: a total order.
 
-    def compare(self, other: Bitangent) -> int:
-        """-1 or 1 as theta is smaller or larger just after the instant, perturbed; 0 if equal."""
+        By theta at the instant; of parallel ones by their lines, since none crosses one of
+        another line, so that it does not matter which of them comes first; on one line by
+        theta just after the instant, perturbed.
+        """
         now = self._instant.turn_now(self.a, self.b, other.a, other.b)
-        return now or self._instant.first_sign(slope_terms(self._slope(), other._slope()))
+        if now:
+            return now < 0
+        mine, its = self.offset(), other.offset()
+        if mine != its:
+            return mine < its
+        order = self._instant.first_sign(slope_terms(self._slope(), other._slope()))
+        return order < 0 if order else self.number < other.number
 
     def is_parallel(self, other: Bitangent) -> bool:
         """Whether two bitangents are parallel at the instant."""

@@ -13,6 +13,7 @@ from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
+from exactpt.planar.halfedge import edge_key
 from exactpt.tiling.angles import CELL, EXTREME, KINDS
 from exactpt.tiling.build import build_mesh
 from exactpt.tiling.greedy import cells
@@ -33,12 +34,13 @@ __all__ = ["GreedyTiling", "greedy_mesh"]
 def greedy_mesh(instant: Instant, cells: VerticalDecomposition) -> tuple[Mesh, int]:
     """The greedy tiling, and how many flips were needed after the sweep.
 
-    None, unless the sweep met two bitangents on one line; then the result is checked. Uses up
-    the vertical decomposition.
+    None, unless the sweep met two bitangents on one line; then these are checked. Uses up the
+    vertical decomposition.
     """
     diagonals, tied = greedy_diagonals(instant, cells)
     mesh = build_mesh(instant, diagonals)
-    flips = flip_until_greedy(mesh, instant, mesh.diagonals()) if tied else []
+    doubtful = [h for h in mesh.diagonals() if edge_key(*mesh.ends(h)) in tied] if tied else []
+    flips = flip_until_greedy(mesh, instant, doubtful)
     return mesh, len(flips)
 
 

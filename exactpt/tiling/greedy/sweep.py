@@ -16,6 +16,7 @@ from typing import final
 
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
+from exactpt.planar.halfedge import edge_key
 from exactpt.tiling.greedy.bitangent import Bitangent, tangent_pair
 from exactpt.tiling.greedy.vertical import NO_ARC, NO_CELL, VerticalDecomposition
 from exactpt.tiling.instant import Instant
@@ -26,13 +27,14 @@ __all__ = ["greedy_diagonals"]
 
 def greedy_diagonals(
     instant: Instant, decomposition: VerticalDecomposition
-) -> tuple[list[Diagonal], bool]:
+) -> tuple[list[Diagonal], set[tuple[int, int]]]:
     """The 3k - 3 bitangents of the pseudo-triangulation, from left to right.
 
-    Also says whether there were two on one line, so that their order came from the
-    perturbation (the caller may want to check the result). That of parallel ones on
-    different lines does not matter: moving their bodies a little makes it either, and
-    changes nothing else.
+    And the ends of those that share a line with another one, so that their order came from the
+    perturbation (the caller may want to check these: whatever the order, the result is
+    greedy for it, so that a bitangent with a shadow of smaller theta shares a line with it).
+    The order of parallel ones on different lines does not matter: moving their bodies a
+    little makes it either, and changes nothing else.
 
     Args:
         instant: the predicates.
@@ -57,14 +59,14 @@ class _Sweep:
         self.dead: list[bool] = [False] * len(cells.left)
         self.heap: list[tuple[float, Bitangent]] = []
         self.pushed = 0
-        self.tied = False
+        self.tied: set[tuple[int, int]] = set()
 
     def run(self) -> list[Diagonal]:
         found: list[Diagonal] = []
         for cell in range(len(self.cells.left)):
             self._push(cell)
         previous: Bitangent | None = None
-        offsets: set[QQ] = set()
+        on_line: dict[QQ, Diagonal] = {}  # of those that are parallel to the previous one
         while self.heap:
             _, s = heapq.heappop(self.heap)
             cells = self.cells
@@ -75,14 +77,15 @@ class _Sweep:
                 or not self._is_ready(s.cell)
             ):
                 continue
-            if not self.tied:
-                if previous is not None and previous.is_parallel(s):
-                    offsets.add(previous.offset())
-                    self.tied = s.offset() in offsets
-                else:
-                    offsets.clear()
-            previous = s
             found.append(Diagonal(s.a, s.b))
+            if previous is not None and previous.is_parallel(s):
+                on_line.setdefault(previous.offset(), found[-2])
+                other = on_line.setdefault(s.offset(), found[-1])
+                if other is not found[-1]:
+                    self.tied |= {edge_key(d.u, d.v) for d in (other, found[-1])}
+            else:
+                on_line.clear()
+            previous = s
             self._pass(s.cell, s.left, s.right)
         return found
 
