@@ -15,23 +15,10 @@ from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, ZZ, sign
 from exactpt.kernel.sturm import sign_changes
 
-__all__ = ["sign_variations", "single_roots"]
+__all__ = ["single_roots"]
 
 HALVINGS: Final = 8
 """So often an interval is halved at most: roots as close as that are left to Sturm."""
-
-
-def sign_variations(f: IntPoly, low: QQ, high: QQ) -> int:
-    """A bound for the roots of f in the open interval (low, high), each with its multiplicity.
-
-    It exceeds their number by an even number: so 0 and 1 are that number.
-
-    Args:
-        f: not zero.
-        low: the left end.
-        high: the right end, larger.
-    """
-    return _variations(_on_unit_interval(f, low, high))
 
 
 def single_roots(f: IntPoly, low: QQ, high: QQ) -> Iterator[tuple[QQ, QQ, bool]]:
@@ -79,9 +66,11 @@ def _on_unit_interval(f: IntPoly, low: QQ, high: QQ) -> list[ZZ]:
 
 
 def _variations(g: list[ZZ]) -> int:
-    """How often the coefficients of (1 + s)^deg(g) g(1 / (1 + s)) change their sign.
+    """A bound for the roots of g in the open unit interval, each with its multiplicity.
 
-    1 / (1 + s) maps the positive s to the open unit interval.
+    It exceeds their number by an even number: so 0 and 1 are that number. How often the
+    coefficients of (1 + s)^deg(g) g(1 / (1 + s)) change their sign: 1 / (1 + s) maps the
+    positive s to the interval.
     """
     return sign_changes([sign(c) for c in _shifted_by_one(g[::-1])])
 

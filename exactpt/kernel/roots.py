@@ -1,6 +1,7 @@
-"""The real roots of a polynomial after a time: closed form up to degree 2, else Sturm.
+"""The real roots of a polynomial after a time: closed form up to degree 2, else Descartes.
 
-Descartes' rule comes first: it says at once that there is none, or one, most of the time.
+His rule, and a few halvings, tell most roots apart; those that are close, or multiple, are
+left to Sturm's sequence.
 
 The one question a certificate asks: what is its sign now, and when may it change?
 """
@@ -67,7 +68,7 @@ def _linear_root(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root
 
 
 def _roots_by_descartes(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]:
-    """Sturm is asked only about roots that are close together; until is none."""
+    """For an end that is no root."""
     p: IntPoly = ()
     sequence: list[IntPoly] = []
     for low, high, alone in single_roots(f, start.low, until):

@@ -8,50 +8,7 @@ from hypothesis import strategies as st
 from oracles import compare_with_rational, real_roots
 from strategies import as_int_poly, as_rational, fractions, int_polys, planted_polys, times
 
-from exactpt.kernel.descartes import HALVINGS, sign_variations, single_roots
-
-
-def roots_inside(f, low, high):
-    """How many in the open interval, with multiplicity."""
-    return sum(
-        r.multiplicity
-        for r in real_roots(f)
-        if compare_with_rational(r, low) > 0 > compare_with_rational(r, high)
-    )
-
-
-def variations(f, low, high):
-    return sign_variations(as_int_poly(f), as_rational(low), as_rational(high))
-
-
-@given(f=st.one_of(int_polys.filter(bool), planted_polys()), low=fractions, high=fractions)
-@example(f=(0, 0, 1), low=Fraction(0), high=Fraction(1))
-@example(f=(-1, 1), low=Fraction(0), high=Fraction(1))
-@example(f=(1, -2, 1), low=Fraction(0), high=Fraction(2))
-def test_a_bound_that_is_off_by_an_even_number(f, low, high):
-    assume(low != high)
-    low, high = min(low, high), max(low, high)
-    excess = variations(f, low, high) - roots_inside(f, low, high)
-
-    assert excess >= 0
-    assert excess % 2 == 0
-
-
-def test_real_roots_alone_are_counted_exactly():
-    f = times((-1, 2), (-1, 1), (-3, 2), (5, 1), (5, 1))
-
-    assert [
-        variations(f, Fraction(a), Fraction(b)) for a, b in ((0, 1), (0, 2), (1, 2), (-6, 2))
-    ] == [1, 3, 1, 5]
-
-
-@pytest.mark.parametrize("shift", [Fraction(0), Fraction(10**30), Fraction(-7, 10**20)])
-def test_a_pair_of_complex_roots_is_outside_a_narrow_interval(shift):
-    """1 + (t - shift)^2 has none; next to the interval the bound says so."""
-    f = tuple(int(c * shift.denominator**2) for c in (1 + shift**2, -2 * shift, 1))
-
-    assert variations(f, shift - 9, shift + 9) == 2
-    assert variations(f, shift - Fraction(1, 2), shift + Fraction(1, 2)) == 0
+from exactpt.kernel.descartes import HALVINGS, single_roots
 
 
 def roots_and_pieces(f, low, high):
@@ -89,6 +46,22 @@ def test_pieces_from_left_to_right_hold_all_roots(f, low, high):
     assert missed == 0
     assert ends == sorted(ends)
     assert all(roots == [1] for roots, alone in held if alone)
+
+
+def test_roots_are_told_apart_in_any_interval():
+    f = times((-1, 2), (-1, 1), (-3, 2), (5, 1))
+
+    for low, high, count in ((-6, 2, 4), (0, 2, 3), (1, 2, 1), (0, 1, 1), (2, 9, 0)):
+        held = roots_and_pieces(f, Fraction(low) + Fraction(1, 64), Fraction(high))[0]
+        assert held == [([1], True)] * count
+
+
+@pytest.mark.parametrize("shift", [Fraction(0), Fraction(10**30), Fraction(-7, 10**20)])
+def test_a_pair_of_complex_roots_ends_in_no_piece(shift):
+    """1 + (t - shift)^2 has none; next to the whole interval the rule allows two."""
+    f = tuple(int(c * shift.denominator**2) for c in (1 + shift**2, -2 * shift, 1))
+
+    assert roots_and_pieces(f, shift - 9, shift + 9)[0] == []
 
 
 def test_close_roots_are_told_apart_as_far_as_promised():
