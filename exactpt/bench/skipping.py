@@ -36,7 +36,7 @@ __all__ = ["FULL", "QUICK", "Sizes", "run"]
 
 CALLS: Final = {
     "polynomials": (incidence.orientation, exact.copy_orientation, exact.x_order, exact.cross),
-    "exact times": (IsolatedRoot.__init__, IsolatedRoot.root),
+    "exact times": (IsolatedRoot.__init__, IsolatedRoot.root, IsolatedRoot.surd),
     "comparisons": (AlgebraicNumber.compare,),
 }
 """What is counted, by the functions that do it; they are plain Python in every build."""

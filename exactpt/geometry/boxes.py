@@ -19,14 +19,20 @@ Indices: TypeAlias = NDArray[np.int64]
 Boxes: TypeAlias = NDArray[np.float64]
 """Shape (n, 4): low x, high x, low y, high y, each rounded outward; no NaN among them."""
 
+FAR: Final = 2.0**20
+"""So many times as far from the origin as they are from each other: then points are far."""
+
 _CHUNK: Final = 1 << 21
 
 
+@np.errstate(invalid="ignore")
 def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
     """The bounding box of each group of points, rounded outward.
 
-    Rounding is monotone, so the nearest double of the least coordinate is the least of the
-    nearest doubles; and the one below that is no larger than the coordinate.
+    Where all points are close together but far from the origin, boxes are relative to one of
+    the points, so that rounding keeps them apart. Rounding is monotone, so the nearest double
+    of the least coordinate is the least of the nearest doubles; and the one below that is no
+    larger than the coordinate.
     """
     rows = np.empty((len(groups), 4))
     if not groups:
@@ -34,6 +40,9 @@ def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
     firsts = np.cumsum([0, *map(len, groups[:-1])])
     for axis in (0, 1):
         near = np.array([nearest_float(p[axis]) for points in groups for p in points])
+        if not abs(near).max() <= FAR * np.ptp(near):
+            origin = groups[0][0][axis]
+            near = np.array([nearest_float(p[axis] - origin) for points in groups for p in points])
         rows[:, 2 * axis] = np.minimum.reduceat(near, firsts)
         rows[:, 2 * axis + 1] = np.maximum.reduceat(near, firsts)
     rows[:, ::2] = np.nextafter(rows[:, ::2], -np.inf)

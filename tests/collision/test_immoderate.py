@@ -50,8 +50,9 @@ def test_the_reference_agrees():
 
 @pytest.mark.plain
 def test_a_box_that_is_not_known_is_the_whole_plane():
-    positions = SimpleNamespace(of=lambda _: (np.nan, np.nan, np.inf))
+    positions = SimpleNamespace(find=lambda _: None)
+    nowhere = SimpleNamespace(x=np.nan, y=np.nan, error=np.inf)
 
-    boxes = boxes_now(SimpleNamespace(positions=positions), [None])
+    boxes = boxes_now(SimpleNamespace(positions=positions), [nowhere])
 
     assert boxes.tolist() == [[-np.inf, np.inf, -np.inf, np.inf]]

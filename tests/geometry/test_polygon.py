@@ -7,8 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from strategies import as_rational, fractions
 
-from exactpt.geometry.boxes import boxes_of_points
+from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.geometry.polygon import is_counter_clockwise, signed_area2
+from exactpt.kernel.numbers import QQ
 
 SIMPLE = (
     [(0, 0), (2, 0), (0, 1)],
@@ -40,8 +41,22 @@ def test_boxes_contain_their_points(groups):
 
     boxes = boxes_of_points(exact)
 
+    def hold(axis, origin):
+        return all(
+            low <= point[axis] - origin <= high
+            for points, (low, high) in zip(exact, boxes[:, 2 * axis :][:, :2], strict=True)
+            for point in points
+        )
+
     assert boxes.shape == (len(groups), 4)
-    for points, (x_low, x_high, y_low, y_high) in zip(groups, boxes.tolist(), strict=True):
-        for x, y in points:
-            assert x_low <= x <= x_high
-            assert y_low <= y <= y_high
+    for axis in (0, 1):
+        assert hold(axis, 0) or hold(axis, exact[0][0][axis])
+
+
+def test_boxes_of_points_far_away_are_as_apart_as_near_the_origin():
+    """A grid of squares, also where doubles are 2^147 apart."""
+    corners = [(QQ(3 * i), QQ(3 * j)) for i in range(5) for j in range(5)]
+    for shift in (QQ(0), QQ(2) ** 60, -(QQ(2) ** 200), QQ(10) ** 400):
+        boxes = boxes_of_points([[(x + shift, y), (x + shift + 2, y + 2)] for x, y in corners])
+
+        assert not sum(len(first) for first, _ in overlapping_pairs(boxes))
