@@ -25,7 +25,7 @@ FAR: Final = 2.0**20
 _CHUNK: Final = 1 << 21
 
 
-@np.errstate(invalid="ignore")
+@np.errstate(over="ignore", invalid="ignore")
 def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
     """The bounding box of each group of points, rounded outward.
 

@@ -1,5 +1,6 @@
 """Orientation of polygons, and their boxes in doubles."""
 
+import math
 from fractions import Fraction
 
 import pytest
@@ -51,6 +52,18 @@ def test_boxes_contain_their_points(groups):
     assert boxes.shape == (len(groups), 4)
     for axis in (0, 1):
         assert hold(axis, 0) or hold(axis, exact[0][0][axis])
+
+
+@pytest.mark.parametrize("size", [QQ(2) ** 1010, QQ(2) ** 1030, QQ(1, 2**1010)])
+def test_boxes_of_points_of_any_size(size):
+    """Beyond the largest double they may be as large as the plane."""
+    boxes = boxes_of_points([[(k * size, -k * size)] for k in range(5)])
+
+    for k, (x_low, x_high, y_low, y_high) in enumerate(boxes.tolist()):
+        assert x_low == -math.inf or QQ(x_low) <= k * size
+        assert x_high == math.inf or k * size <= QQ(x_high)
+        assert y_low == -math.inf or QQ(y_low) <= -k * size
+        assert y_high == math.inf or -k * size <= QQ(y_high)
 
 
 def test_boxes_of_points_far_away_are_as_apart_as_near_the_origin():
