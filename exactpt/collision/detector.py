@@ -69,8 +69,8 @@ def searches_pairs(method: str, tiling: str, groups: Collection[object] = ()) ->
     """Whether a method is a search over pairs: "auto" is, unless a tiling is asked for.
 
     Measured (`exactpt bench first-contact`): for one first contact from a cold start the
-    search takes an eighth of the time of a tiling to as much, whether bodies deform, change
-    their motion, are entangled, or never touch; in long spirals 1.6 times as much. It is a
+    search takes a fifth of the time of a tiling to as much, whether bodies deform, change
+    their motion, are entangled, or never touch; in spirals up to 1.7 times as much. It is a
     tiling that goes on from there, and knows the free space.
     """
     return method == "pairs" or (method == "auto" and (bool(groups) or tiling == "auto"))
