@@ -49,14 +49,17 @@ def read_wkt(text: str, where: str) -> tuple[BaseGeometry, int, int]:
     """The geometry of a text, the number of its points, and that of coordinates of each.
 
     Raises:
-        InputError: if it is not well-known text.
+        InputError: if it is not well-known text, or of a kind that shapely cannot read.
     """
     try:
         with errstate(over="ignore"):  # the text keeps numbers that no double can
             geometry = shapely.from_wkt(text)
-    except (shapely.errors.ShapelyError, NotImplementedError) as error:
+    except shapely.errors.ShapelyError as error:
         reason = shorten(str(error).split("Exception: ")[-1].strip())
         raise InputError(f"{where}: not well-known text: {reason[1:-1]}") from None
+    except NotImplementedError:
+        kind = text.split("(", maxsplit=1)[0].strip()
+        raise InputError(f"{where}: shapely reads no curves: {shorten(kind)}") from None
     size = shapely.get_num_coordinates(geometry)
     return geometry, size, shapely.get_coordinate_dimension(geometry)
 

@@ -25,7 +25,6 @@ FAR: Final = 2.0**20
 _CHUNK: Final = 1 << 21
 
 
-@np.errstate(over="ignore", invalid="ignore")
 def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
     """The bounding box of each group of points, rounded outward.
 
@@ -39,10 +38,11 @@ def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
         return rows
     firsts = np.cumsum([0, *map(len, groups[:-1])])
     for axis in (0, 1):
-        near = np.array([nearest_float(p[axis]) for points in groups for p in points])
-        if not abs(near).max() <= FAR * np.ptp(near):
+        near = [nearest_float(p[axis]) for points in groups for p in points]
+        least, most = min(near), max(near)
+        if not max(-least, most) <= FAR * (most - least):  # nor where both are infinite
             origin = groups[0][0][axis]
-            near = np.array([nearest_float(p[axis] - origin) for points in groups for p in points])
+            near = [nearest_float(p[axis] - origin) for points in groups for p in points]
         rows[:, 2 * axis] = np.minimum.reduceat(near, firsts)
         rows[:, 2 * axis + 1] = np.maximum.reduceat(near, firsts)
     rows[:, ::2] = np.nextafter(rows[:, ::2], -np.inf)

@@ -223,6 +223,7 @@ class Certifier:
     def _horizon(self, a: Vertex, b: Vertex) -> float:
         """A double at least the time until which the motions of two vertices are known."""
         bodies = self._vertices.bodies
+        # The least of two compiles to a comparison, that of three to a call.
         of_both = min(bodies[a.body].horizon, bodies[b.body].horizon)
         return min(self._end_high, of_both)
 

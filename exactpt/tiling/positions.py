@@ -112,7 +112,7 @@ class Positions:
         by du = da + db, dv = da + dc besides their own rounding, and their determinant by
         du (|vx| + |vy|) + dv (|ux| + |uy|) + 2 du dv.
         """
-        now = self._now
+        now = self._now  # `find` asks too, but most places are known
         if a.seen is not now:
             self.find(a)
         if b.seen is not now:

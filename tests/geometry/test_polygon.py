@@ -3,6 +3,7 @@
 import math
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -59,6 +60,7 @@ def test_boxes_of_points_of_any_size(size):
     """Beyond the largest double they may be as large as the plane."""
     boxes = boxes_of_points([[(k * size, -k * size)] for k in range(5)])
 
+    assert np.isfinite(boxes).all() == (size < QQ(2) ** 1020)
     for k, (x_low, x_high, y_low, y_high) in enumerate(boxes.tolist()):
         assert x_low == -math.inf or QQ(x_low) <= k * size
         assert x_high == math.inf or k * size <= QQ(x_high)

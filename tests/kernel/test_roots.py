@@ -180,7 +180,7 @@ def test_roots_that_descartes_leaves_to_sturm_are_the_same():
 
 @pytest.mark.parametrize("c2", [1, -1, 3, -(10**30)])
 @pytest.mark.parametrize("shift", [0, 10**25, -(10**25)])
-def test_surds_are_enclosed_at_once_by_neighbouring_doubles(c2, shift):
+def test_surds_are_enclosed_by_neighbouring_doubles(c2, shift):
     """c2 ((t - shift)^2 - 2), also where the roots cannot be told from shift by doubles."""
     f = as_int_poly([c2 * (shift**2 - 2), -2 * c2 * shift, c2])
     low, high = (r.time for r in roots_after(f, AlgebraicNumber(shift - 2), QQ(shift + 2)))

@@ -13,8 +13,8 @@ from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 
 
-@pytest.fixture(autouse=True)
-def _with_filters(request):
+@pytest.fixture
+def with_filters(request):
     if request.config.getoption("--exact-only"):
         pytest.skip("is about what the filters leave open")
 
@@ -32,6 +32,7 @@ def points(*placed):
             enumerate(placed)]  # fmt: skip
 
 
+@pytest.mark.usefixtures("with_filters")
 @pytest.mark.parametrize("tiling", TILINGS)
 @pytest.mark.parametrize("family", ["convex", "small_grid", "turning", "convoy"])
 def test_every_exact_decision_has_a_reason(tiling, family):
@@ -47,6 +48,7 @@ def test_without_filters_the_reason_is_that():
     assert {key for key in reasons if not key.endswith(": asked")} == set()
 
 
+@pytest.mark.usefixtures("with_filters")
 def test_points_on_a_line_are_zeros():
     """Three in a row for ever, at rest: nothing is merely close."""
     reasons, _ = reasons_of(Scene(points(((0, 0), (0, 0)), ((1, 1), (0, 0)), ((2, 2), (0, 0)))))
@@ -55,6 +57,7 @@ def test_points_on_a_line_are_zeros():
     assert reasons["sign: zero"] > 0
 
 
+@pytest.mark.usefixtures("with_filters")
 def test_points_that_nearly_meet_on_a_line_are_close():
     """One passes the line of two others by 2^-60 of their distance."""
     tiny = QQ(1, 1 << 60)
@@ -64,6 +67,7 @@ def test_points_that_nearly_meet_on_a_line_are_close():
     assert sum(n for key, n in reasons.items() if key.endswith(": close")) > 0
 
 
+@pytest.mark.usefixtures("with_filters")
 def test_huge_numbers_are_out_of_range():
     """Two neighbours at a distance of 2^-300 of the scene's width."""
     far = 1 << 300
@@ -75,6 +79,7 @@ def test_huge_numbers_are_out_of_range():
     assert sum(n for key, n in reasons.items() if key.endswith(": range")) > 0
 
 
+@pytest.mark.usefixtures("with_filters")
 def test_segments_have_copies():
     rng = Random(1)
     bodies = []

@@ -149,9 +149,9 @@ def crosses(x: int, y: int, u: int, v: int, predicates: Predicates) -> bool:
     """Whether segments xy and uv cross inside, or share one end."""
     if x in (u, v) or y in (u, v):
         return {x, y} != {u, v}
-    return predicates.sign(x, y, u) != predicates.sign(x, y, v) and predicates.sign(
-        u, v, x
-    ) != predicates.sign(u, v, y)
+    if predicates.sign(x, y, u) == predicates.sign(x, y, v):
+        return False
+    return predicates.sign(u, v, x) != predicates.sign(u, v, y)
 
 
 def flip(mesh: Mesh, h: int, visits: tuple[int, int], predicates: Predicates) -> list[int]:
