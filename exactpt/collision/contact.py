@@ -10,7 +10,14 @@ from typing import final
 
 from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.integer_polynomial import IntPoly, multiply, range_on, scale, subtract
+from exactpt.kernel.integer_polynomial import (
+    IntPoly,
+    greatest_common_divisor,
+    multiply,
+    range_on,
+    scale,
+    subtract,
+)
 from exactpt.kernel.numbers import QQ, ZZ, nearest_float
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, difference, orientation
@@ -97,7 +104,7 @@ class Contact:
 
 
 def time_to_json(time: AlgebraicNumber) -> dict[str, object]:
-    """A time as in docs/format.md; the same on every machine, however it was found."""
+    """A time as in docs/format.md; the same on every machine, for one polynomial."""
     number = time.simplified()
     low, high = number.canonical_interval()
     return {
@@ -137,14 +144,35 @@ def contact_of(
         touches: every incidence then.
         overlaps: bodies that overlap, at the start.
     """
-    number = time.simplified()
     touches = sorted(touches)
     outward = {i: _outward(scene, i) for i in {touch.other for touch in touches}}
     involved = sorted({i for touch in touches for i in (touch.body, touch.other)})
-    tracks = {i: _tracks_of(scene.bodies[i], number, scene.start) for i in involved}
+    tracks = {i: _tracks_of(scene.bodies[i], time, scene.start) for i in involved}
+    number = _as_root(time, tracks, touches)
     pairs = tuple(_pair(scene, tracks, touch, number, outward[touch.other]) for touch in touches)
     names = tuple((scene.bodies[i].name, scene.bodies[j].name) for i, j in overlaps)
     return Contact(number, _kind(scene, number, pairs), pairs, names)
+
+
+def _as_root(
+    time: AlgebraicNumber, tracks: Mapping[int, tuple[Track, ...]], touches: Sequence[Touch]
+) -> AlgebraicNumber:
+    """The time as a root of the first incidence's polynomial, however it has been found."""
+    if time.simplified().is_rational or not touches:
+        return time
+    touch = touches[0]
+    v, other = tracks[touch.body][touch.vertex], tracks[touch.other]
+    if touch.edge >= 0:
+        f = orientation(other[touch.edge], other[(touch.edge + 1) % len(other)], v)
+    else:
+        f = _coincidence(v, other[touch.other_vertex])
+    return time.as_root_of(f) if f else time
+
+
+def _coincidence(v: Track, w: Track) -> IntPoly:
+    """A polynomial whose roots are the times at which two vertices coincide."""
+    dx, dy = difference(v.x, v.w, w.x, w.w), difference(v.y, v.w, w.y, w.w)
+    return greatest_common_divisor(dx, dy) if dx and dy else dx or dy
 
 
 def _kind(scene: Scene, time: AlgebraicNumber, pairs: Sequence[Pair]) -> str:

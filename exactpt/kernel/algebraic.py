@@ -9,7 +9,7 @@ Source: S. Basu, R. Pollack, M.-F. Roy, *Algorithms in Real Algebraic Geometry*,
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Final, final
+from typing import TYPE_CHECKING, Final, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.approximation import (
@@ -26,6 +26,7 @@ from exactpt.kernel.integer_polynomial import (
     positive_remainder,
     sign_at,
     sign_on,
+    square_free,
 )
 from exactpt.kernel.isolated_root import IsolatedRoot
 from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, sign
@@ -45,11 +46,10 @@ class AlgebraicNumber(IsolatedRoot):
 
     Compares exactly with other numbers and with rationals. ``float(x)`` is the
     nearest double. Comparing refines the interval in place, which changes no
-    answer; there is no hash, since one number has many polynomials.
+    answer. Equal numbers have equal hashes, whatever their polynomials.
     """
 
     __slots__ = ()
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
     def compare(self, other: AlgebraicNumber) -> int:
         """-1, 0 or 1 as this number is smaller than, equal to, or larger than ``other``."""
@@ -149,15 +149,57 @@ class AlgebraicNumber(IsolatedRoot):
     def __float__(self) -> float:
         return nearest_double(self)
 
+    def as_root_of(self, f: IntPoly) -> AlgebraicNumber:
+        """This number, if it is irrational as the root of another polynomial.
+
+        Args:
+            f: vanishes here, and is not zero.
+        """
+        if self.simplified().is_rational:
+            return self
+        p = square_free(f)
+        slope = derivative(p)
+        # Where p is monotone, its root is alone.
+        while not sign_on(slope, self.low, self.high):
+            self.refine()
+        return AlgebraicNumber.root(p, self.low, self.high)
+
+    def minimal_polynomial(self) -> tuple[int, ...]:
+        """The irreducible integer polynomial with this root, constant term first.
+
+        Primitive, with a positive leading coefficient; of a rational p/q it is (-p, q). A
+        polynomial of degree 3 or more is factored by python-flint, or else by SymPy.
+
+        Raises:
+            ImportError: if a polynomial is to be factored and neither is installed.
+        """
+        f = self.simplified().polynomial
+        if len(f) > 3:
+            from exactpt.kernel.factors import irreducible_factors
+
+            # f is square-free: of its factors, one alone changes its sign around the root.
+            f = next(
+                g
+                for g in irreducible_factors(f)
+                if sign_at(g, self.low) * sign_at(g, self.high) < 0
+            )
+        return tuple(map(int, f))
+
     def to_sympy(self) -> Expression:
         """The number as a SymPy expression (a rational, a surd or a ``CRootOf``)."""
         from exactpt.kernel.sympy_door import algebraic_to_sympy
 
         return algebraic_to_sympy(self)
 
+    def __hash__(self) -> int:
+        """That of the rational, or of the double nearest to an irrational number."""
+        return hash(self.low) if self.simplified().is_rational else hash(float(self))
+
     def __eq__(self, other: object) -> bool:
         if isinstance(other, AlgebraicNumber):
             return self.compare(other) == 0
+        if isinstance(other, str):
+            return NotImplemented
         try:
             return self.compare_rational(rational(other)) == 0  # type: ignore[arg-type]
         except InputError:

@@ -19,6 +19,7 @@ __all__ = [
     "Variable",
     "algebraic_to_sympy",
     "coefficients_from_sympy",
+    "integer_factors",
     "polynomial_to_sympy",
 ]
 
@@ -57,3 +58,10 @@ def algebraic_to_sympy(number: AlgebraicNumber) -> Expression:
     place = count_roots(sturm_sequence(f), min(-cauchy_bound(f), number.low), number.low)
     poly = sympy.Poly([int(c) for c in reversed(f)], sympy.Symbol("t"))
     return poly.real_roots()[place]
+
+
+def integer_factors(coefficients: list[int]) -> list[list[int]]:
+    """The primitive irreducible factors of an integer polynomial, constant terms first."""
+    poly = sympy.Poly(coefficients[::-1], sympy.Symbol("t"), domain="ZZ")
+    _, factors = poly.factor_list()
+    return [[int(c) for c in reversed(factor.all_coeffs())] for factor, _ in factors]

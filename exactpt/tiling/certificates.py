@@ -146,8 +146,8 @@ class Certifier:
         """The sign of the orientation just after now, and its first zero later.
 
         The sign is 0 if the orientation is zero for ever; then the time is the first at
-        which two of the vertices coincide. A zero without change of sign counts, since
-        it may be a touch.
+        which two of the vertices coincide. A zero without change of sign counts, of copies
+        too: it may be a touch (`exactpt.tiling.contacts`).
         """
         self.made += 1
         va, vb, vc = self.all[a], self.all[b], self.all[c]
@@ -251,11 +251,11 @@ class Certifier:
         f = orientation(a, b, c)
         if not f:
             return 0, time
-        root = next((r for r in roots_after(f, now, until) if r.crossing), None)
+        root = next(roots_after(f, now, until), None)
         if root is not None and (
             time is None or time.exact is None or root.time.compare(time.exact) < 0
         ):
-            time = self._event_time(root.time, (a.id, b.id, c.id), crossing=True)
+            time = self._event_time(root.time, (a.id, b.id, c.id), crossing=root.crossing)
         return now.sign_after(f), time
 
     def _first_root(self, f: IntPoly, until: QQ, a: int, b: int, c: int) -> EventTime | None:
@@ -292,6 +292,9 @@ class Certifier:
         """Whether a is left of b just after now (1, else -1), and when that ends.
 
         With ``touching``, a time at which the two are level without passing counts too.
+        Without, such a time is none: the tiling is the same just before and just after it
+        (`exactpt.tiling.exact`), and contacts are found by angles alone
+        (`exactpt.tiling.contacts`).
         """
         self.made += 1
         va, vb = self.all[a], self.all[b]

@@ -1,18 +1,36 @@
 """Which vertices touch which edges at the current time: the decision that a contact is one.
 
-Proof that nothing is missed. Let t be the first contact and look at the tiling just
-before it, in the limit towards t. A contact of vertex v and body edge e squeezes to a
-point every face between them. A face that is pinched at a point z falls into two loops;
-its three corners share out, so one loop has at most one corner besides z and encloses
-no area. If it has none, an edge has shrunk to a point: two neighbours coincide. If it
-has one, q, both its chains from q to z lie on one line: every angle of the loop is zero
-or straight at t. So all vertices of the loop, v and the ends of the edge it meets
-included, belong to angles whose orientation vanishes at t: either for the first time in
-a while, and then that angle has an event at t (touching zeros are scheduled too), or for
-ever; but a corner that is zero for ever is never left standing (`exactpt.tiling.exact`),
-and a straight angle that is so for ever is found by following the chain. Hence testing
-the vertices of all angles with an event at t, extended along straight angles, finds
-every contact.
+Proof that nothing is missed. Let t be the first contact. Look at the tiling just before t,
+in the limit towards t, with the copies of a vertex (`exactpt.motion.thin`) drawn together
+to the vertex: its faces are pseudo-triangles, but for those that have lost all area, which
+are edges.
+
+*Which angles vanish.* Let vertex v meet a body edge e, or a vertex. Just before t, a short
+segment from v to e leaves v through a face, crosses diagonals, and ends in a face at e; it
+shrinks to a point z. Each of these faces is squeezed at z and falls into two loops. Its
+three corners share out, so one loop has at most one corner besides z. The turns along a
+closed loop add up to 2 pi; z and a corner turn by at most pi, everything else by at most 0.
+So either there is no corner, and an edge has shrunk to a point: two neighbours coincide. Or
+there is one, q, with an angle of 0, and every other angle of the loop is straight. So the
+vertices of the loop, v and both ends of e included, belong to angles (previous, here, next)
+whose orientation vanishes at t.
+
+*Copies vanish with their vertex.* Let a face turn at a vertex by the sum of the turns at
+its copies. At most one of these is a corner: a face with two at one vertex has at most two
+real corners, and no area. A corner turns by less than pi, the others by at most 0. So if the
+angle at the vertex becomes 0 (a turn of pi), the corner among the copies becomes pi and the
+others 0; and if a reflex angle becomes straight (a turn of 0), all of them become 0: there
+is no corner among them, or the face would have two real corners only. So each of these
+copies has an orientation that vanishes at t, or is zero for ever.
+
+*Each has an event.* An orientation that vanishes at t has an event at t, whether it changes
+its sign or only touches 0, at the end of a piece of motion too (`Certifier.orientation`);
+and if it is zero for ever, there is one when two of its vertices coincide. A corner that is
+zero for ever is never left standing (`exactpt.tiling.exact`), so q has an event, and the
+angles beside it that are straight for ever are found by following the chain. Hence testing
+the vertices of all angles with an event at t, extended along straight angles, finds every
+contact. (Where more than two features meet at z, consecutive ones do so as above, and all
+pairs of what is found are tested.)
 
 The faces are those of the free space, and of the insides that are tiled. A deforming
 body without a diagonal, a segment or a triangle, may lose its inside too: then all its

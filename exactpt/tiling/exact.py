@@ -20,12 +20,24 @@ face is reflex; and a corner of angle 0 at a, between m and b, has collapsed. In
 of these cases the orientation (previous, here, next) around a free face counts as
 *negative*: **zero counts as -1**. That is all that the code has to know of step 2.
 
-The perturbed bodies contain the bodies, so no contact is lost: a touch becomes an
-overlap. A contact itself is always decided on the unperturbed input
-(`exactpt.motion.incidence`).
+**What the perturbation preserves, and what it does not.** Let g be the function of a
+certificate, and g + eps h + ... the one of the perturbed vertices.
 
-The perturbation is smaller than every time step: for a function f of t that is not zero
-for ever, the sign just after a time is that of f, whatever the perturbation.
+- Where g is not zero for ever, the sign just after a time is that of g, and likewise just
+  before: eps is smaller than every time step. So the tiling just before a time, and the one
+  just after it, are those of the scene itself.
+- At a zero at which g changes its sign, the perturbed function has just one zero
+  infinitesimally near: one event.
+- At a zero at which g does *not* change its sign, the perturbed function has no zero, or
+  two, infinitesimally near, and its sign between these is the other one. Just before and
+  just after, the sign is the same, so the tiling needs no repair. But it is not preserved
+  *at* the zero: there the perturbed tiling may be another one for an infinitesimal time, and
+  the perturbed bodies, which contain the bodies, may overlap.
+
+Hence a zero without a change of sign may be left out where only the tiling just before and
+just after counts (x-orders). It may not where contacts are sought: the angles of a tiling
+are watched for *every* zero, those of copies included, and a contact itself is decided on
+the unperturbed vertices (`exactpt.tiling.contacts`, `exactpt.motion.incidence`).
 """
 
 from __future__ import annotations

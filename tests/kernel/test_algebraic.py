@@ -1,6 +1,7 @@
 """Algebraic numbers against their factored, isolated and bisected twins."""
 
 import math
+import sys
 from fractions import Fraction
 
 import gmpy2
@@ -25,7 +26,7 @@ from strategies import algebraics, as_int_poly, as_rational, factors, fractions,
 from exactpt.errors import InputError
 from exactpt.kernel import approximation
 from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
-from exactpt.kernel.integer_polynomial import sign_at
+from exactpt.kernel.integer_polynomial import multiply, sign_at
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.kernel.roots import roots_after
 
@@ -194,11 +195,6 @@ def test_what_is_no_number_is_not_equal_and_not_ordered(other):
     assert not x == other  # noqa: SIM201 - the operator is what is tested
     with pytest.raises(InputError):
         x < other  # noqa: B015
-
-
-def test_there_is_no_hash():
-    with pytest.raises(TypeError):
-        hash(AlgebraicNumber(1))
 
 
 @given(a=algebraics(), f=int_polys, extra=st.booleans(), history=histories)
@@ -612,3 +608,74 @@ def test_the_repr_of_a_root_shows_its_polynomial():
     x = AlgebraicNumber.root(as_int_poly([2, 0, -1]), QQ(0), QQ(2))
 
     assert repr(x) == "<root of (-2, 0, 1) near 1.4142135623730951>"
+
+
+@given(algebraics(), histories)
+def test_equal_numbers_have_equal_hashes(drawn, history):
+    """However far they have been refined, and by whatever polynomial they are known."""
+    x, _ = drawn
+    twin = AlgebraicNumber.root(x.polynomial, x.low, x.high)
+    other = x.as_root_of(multiply(x.polynomial, as_int_poly([-7, 0, 0, 1])))
+    use(x, history)
+
+    assert x == twin == other
+    assert hash(x) == hash(twin) == hash(other)
+
+
+@given(fractions)
+def test_a_rational_number_has_the_hash_of_the_rational(q):
+    x = AlgebraicNumber(as_rational(q))
+    cubed = AlgebraicNumber.root(
+        as_int_poly([-(q.numerator**3), 0, 0, q.denominator**3]), x.low, x.low
+    )
+
+    assert x == q == cubed
+    assert hash(x) == hash(q) == hash(cubed)
+    assert len({x, q, cubed}) == 1
+
+
+def test_a_rational_root_of_a_cubic_has_the_hash_of_the_integer():
+    x = AlgebraicNumber.root(as_int_poly([-8, 0, 0, 1]), QQ(1), QQ(5))
+
+    assert hash(x) == hash(2)
+    assert {x: 0}[2] == 0
+
+
+def test_a_number_is_not_its_text():
+    """Their hashes differ."""
+    assert AlgebraicNumber(1) != "1"
+
+
+def root_of(f, low, high):
+    return AlgebraicNumber.root(as_int_poly(f), QQ(low), QQ(high))
+
+
+@pytest.mark.parametrize("hidden", [(), ("flint",)], ids=["flint", "sympy"])
+@pytest.mark.parametrize(
+    "x, expected",
+    [
+        (AlgebraicNumber(QQ(3, 2)), (-3, 2)),
+        (root_of([-8, 0, 0, 1], 1, 5), (-2, 1)),
+        (root_of([-2, 0, 1], 1, 2), (-2, 0, 1)),
+        (root_of([6, 0, -5, 0, 1], 1, QQ(3, 2)), (-2, 0, 1)),
+        (root_of([6, 0, -5, 0, 1], QQ(3, 2), 2), (-3, 0, 1)),
+        (root_of([-2, 0, 0, 1], 1, 2), (-2, 0, 0, 1)),
+        (root_of([6, 0, -2, -3, 0, 1], 1, QQ(3, 2)), (-2, 0, 0, 1)),
+    ],
+)
+def test_minimal_polynomial(monkeypatch, x, expected, hidden):
+    for name in hidden:
+        monkeypatch.setitem(sys.modules, name, None)
+
+    found = x.minimal_polynomial()
+
+    assert found == expected
+    assert all(type(c) is int for c in found)
+
+
+@pytest.mark.parametrize("f", [[-3, 2], [-2, 0, 1]])
+def test_minimal_polynomials_of_low_degree_need_no_library(monkeypatch, f):
+    for name in ("flint", "sympy"):
+        monkeypatch.setitem(sys.modules, name, None)
+
+    assert root_of(f, 1, 2).minimal_polynomial() == tuple(f)

@@ -1,0 +1,32 @@
+"""Factors of integer polynomials, by python-flint or SymPy, imported when they are asked for."""
+
+from __future__ import annotations
+
+from exactpt.kernel.integer_polynomial import IntPoly, negate
+from exactpt.kernel.numbers import ZZ
+
+__all__ = ["irreducible_factors"]
+
+
+def irreducible_factors(f: IntPoly) -> list[IntPoly]:
+    """The primitive irreducible factors of a polynomial, with positive leading coefficients.
+
+    Raises:
+        ImportError: if neither python-flint nor SymPy is installed.
+    """
+    coefficients = [int(c) for c in f]
+    try:
+        factors = _factors_by_flint(coefficients)
+    except ImportError:
+        from exactpt.kernel.sympy_door import integer_factors
+
+        factors = integer_factors(coefficients)
+    found = [tuple(map(ZZ, factor)) for factor in factors]
+    return [g if g[-1] > 0 else negate(g) for g in found]
+
+
+def _factors_by_flint(coefficients: list[int]) -> list[list[int]]:
+    from flint import fmpz_poly
+
+    _, factors = fmpz_poly(coefficients).factor()
+    return [[int(c) for c in factor.coeffs()] for factor, _ in factors]
