@@ -77,6 +77,18 @@ def _even_roots(right: Function) -> Function:
     return wrong
 
 
+def _even_zeros_of_copies(right: Function) -> Function:
+    """The same of the orientations of copies of one vertex alone."""
+
+    def wrong(self: Certifier, a: Any, b: Any, c: Any) -> Any:
+        if len({id(v.track) for v in (a, b, c)}) == 3:
+            return right(self, a, b, c)
+        with patch.object(certificates, "roots_after", _even_roots(certificates.roots_after)):
+            return right(self, a, b, c)
+
+    return wrong
+
+
 def _always(value: object) -> Callable[[Function], Function]:
     def make(right: Function) -> Function:  # noqa: ARG001
         return lambda *args, **kwargs: value
@@ -176,6 +188,9 @@ PLANTED: Final[dict[str, Callable[[], Any]]] = {
     "events dropped": lambda: _replaced(EventQueue, "schedule", _events_dropped),
     "equal times not equal": lambda: _replaced(EventQueue, "_compare", _order_of_ties),
     "even roots ignored": lambda: _replaced(certificates, "roots_after", _even_roots),
+    "even zeros of copies ignored": lambda: _replaced(
+        Certifier, "_exact_orientation", _even_zeros_of_copies
+    ),
     "contact proof skipped": lambda: _replaced(KineticTiling, "_may_touch", _always(False)),
     "straight chains not followed": lambda: _replaced(KineticTiling, "_is_flat", _always(False)),
     "vertex on vertex ignored": lambda: _replaced(contacts, "coincide", _no_meetings),

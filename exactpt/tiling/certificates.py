@@ -247,16 +247,12 @@ class Certifier:
                 s = now.sign_after(f)
             return s, self._first_root(f, until, a.id, b.id, c.id)
         self.zeros += 1
-        time = self.first_coincidence(a.id, b.id, c.id)
+        meeting = self.first_coincidence(a.id, b.id, c.id)
         f = orientation(a, b, c)
         if not f:
-            return 0, time
-        root = next(roots_after(f, now, until), None)
-        if root is not None and (
-            time is None or time.exact is None or root.time.compare(time.exact) < 0
-        ):
-            time = self._event_time(root.time, (a.id, b.id, c.id), crossing=root.crossing)
-        return now.sign_after(f), time
+            return 0, meeting
+        root = self._first_root(f, until, a.id, b.id, c.id)
+        return now.sign_after(f), _earlier(meeting, root)
 
     def _first_root(self, f: IntPoly, until: QQ, a: int, b: int, c: int) -> EventTime | None:
         root = next(roots_after(f, self.exact_now, until), None)
@@ -332,3 +328,10 @@ class Certifier:
             else self._event_time(root.time, (a.id, b.id, X_ORDER), crossing=root.crossing)
         )
         return s or now.sign_after(f), time
+
+
+def _earlier(s: EventTime | None, t: EventTime | None) -> EventTime | None:
+    """The earlier of two exact times; None is later than any."""
+    if s is None or t is None or s.exact is None or t.exact is None:
+        return s or t
+    return t if t.exact.compare(s.exact) < 0 else s

@@ -205,3 +205,19 @@ def test_a_box_of_bouncing_bodies():
 
     assert last[0] <= first[0] + 16
     assert last[1] <= 2 * first[1]
+
+
+@pytest.mark.parametrize("tiling", ["lazy", "greedy", "mixed"])
+def test_a_contact_at_a_breakpoint_can_be_gone_back_from(tiling):
+    """AuditError: there is no contact to go back from; a second look had found it."""
+    motion = Translation([1, -2, 1], [0, -1])
+    chain = Body(
+        "g", [(0, 0), (3, 0), (0, -2)], Pieces([(1, motion), (None, motion)]), closed=False
+    )
+    scene = Scene([chain, Body("o", [(0, -3), (0, -4)])], (0, 3))
+
+    simulation = Simulation(scene, tiling=tiling)
+    events = list(simulation.run(on_contact=stop))
+
+    assert [event.time for event in events if event.kind == "contact"] == [1]
+    assert simulation.contact is None
