@@ -13,6 +13,7 @@ from typing import Final
 
 from exactpt.cgal import BodyShape, CgalCheck
 from exactpt.collision.allpairs import first_contact_allpairs
+from exactpt.collision.comparison import contrast
 from exactpt.collision.contact import Contact
 from exactpt.errors import ExactPTError
 from exactpt.kernel.numbers import QQ
@@ -22,7 +23,7 @@ from exactpt.scene.families.degenerate import grids, rings
 from exactpt.scene.families.shapes import box, poly
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
-from fuzz.witnesses import contrast, tilings_of
+from fuzz.witnesses import tilings_of
 
 __all__ = ["BATTERY", "Row", "Trial", "play", "table"]
 

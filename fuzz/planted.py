@@ -83,7 +83,7 @@ def _even_zeros_of_copies(right: Function) -> Function:
     def wrong(self: Certifier, a: Any, b: Any, c: Any) -> Any:
         if len({id(v.track) for v in (a, b, c)}) == 3:
             return right(self, a, b, c)
-        with patch.object(certificates, "roots_after", _even_roots(certificates.roots_after)):
+        with _replaced(certificates, "roots_after", _even_roots):
             return right(self, a, b, c)
 
     return wrong

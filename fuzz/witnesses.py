@@ -7,6 +7,7 @@ from typing import Final, TypeAlias
 
 from exactpt.check import check_scene
 from exactpt.collision.allpairs import first_contact_allpairs
+from exactpt.collision.comparison import contrast, in_words
 from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
 from exactpt.collision.tilings import POINT_TILING, TILINGS
@@ -15,7 +16,7 @@ from exactpt.simulation.simulation import Simulation
 from fuzz.statics import run_and_audit
 from fuzz.variants import VARIANTS, difference
 
-__all__ = ["WITNESSES", "Difference", "Witness", "contrast", "tilings_of"]
+__all__ = ["WITNESSES", "Difference", "Witness", "tilings_of"]
 
 Witness: TypeAlias = Callable[[Scene, int | None], None]
 """Raises `Difference`, or whatever broke, if something is wrong with a scene.
@@ -43,7 +44,7 @@ def reference(scene: Scene, turn: int | None) -> None:  # noqa: ARG001 - always 
 
     def compare(name: str, found: Contact | None) -> None:
         if kind := contrast(expected, found):
-            said = f"{_in_words(found)}, but the reference {_in_words(expected)}"
+            said = f"{in_words(found)}, but the reference {in_words(expected)}"
             raise Difference(f"{name}: {kind}", said)
 
     compare("pairs", first_contact(scene, method="pairs"))
@@ -90,7 +91,7 @@ def symmetry(scene: Scene, turn: int | None) -> None:
             variant.scene(scene), tiling=tilings[(i + (turn or 0)) % len(tilings)]
         )
         if kind := difference(variant, scene, contact, found):
-            said = f"{_in_words(found)}, but the original {_in_words(contact)}"
+            said = f"{in_words(found)}, but the original {in_words(contact)}"
             raise Difference(f"{name}: {kind}", said)
 
 
@@ -126,29 +127,3 @@ def _with_tilings(scene: Scene, check: Callable[[str], None], turn: int | None) 
     names = tilings_of(scene)
     for name in names if turn is None else [names[turn % len(names)]]:
         check(name)
-
-
-def contrast(expected: Contact | None, found: Contact | None) -> str | None:
-    """What differs between two contacts of one scene; None: nothing."""
-    if expected is None or found is None:
-        if (expected is None) == (found is None):
-            return None
-        return "found" if expected is None else "missed"
-    if found.time.compare(expected.time) != 0:
-        return "time"
-    for what in ("kind", "pairs", "overlaps"):
-        if getattr(found, what) != getattr(expected, what):
-            return what
-    return None
-
-
-def _in_words(contact: Contact | None) -> str:
-    if contact is None:
-        return "finds no contact"
-    pairs = ", ".join(
-        f"{p.body}:{p.vertex} on "
-        + (f"{p.other}:{p.other_vertex}" if p.edge is None else f"edge {p.edge} of {p.other}")
-        for p in contact.pairs[:4]
-    )
-    more = f" and {len(contact.pairs) - 4} more" if len(contact.pairs) > 4 else ""
-    return f"finds t = {float(contact.time)!r}, {contact.kind}: {pairs}{more}"

@@ -145,7 +145,29 @@ def test_a_check_of_bodies_in_touch_says_so(tmp_path, program, capsys):
     said = capsys.readouterr().out
     assert said == (
         "CGAL agrees: 0 tilings (greedy), 1 event times "
-        "(bodies touch at the start: there is nothing to tile)\n"
+        "(bodies touch at the start: there is nothing to tile); a search over pairs agrees\n"
+    )
+
+
+@pytest.mark.plain
+def test_a_check_finds_a_contact_that_the_tiling_missed(tmp_path, program, capsys, monkeypatch):
+    """ "CGAL agrees" was all that it said: every tiling was one, and a contact was missed."""
+    path = tmp_path / "scene.json"
+    graze = {"y": ["1", "-2", "1"]}
+    bodies = [
+        {"name": "a", "vertices": [[0, 0]], "motion": graze},
+        {"name": "b", "vertices": [[0, 0]]},
+    ]
+    path.write_text(json.dumps({"exactpt": 1, "time": [0, 3], "bodies": bodies}))
+    monkeypatch.setattr("exactpt.tiling.kinetic.touches", lambda *_: [])
+
+    assert code_of("check", path, "--tiling", "lazy") == 1
+
+    head, line = capsys.readouterr().out.splitlines()
+    assert "a search over pairs DISAGREES" in head
+    assert line.strip() == (
+        "first contact (missed): the tiling finds no contact, but the search over pairs "
+        "finds t = 1.0, vertex-vertex: a:0 on b:0"
     )
 
 

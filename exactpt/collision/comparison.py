@@ -1,0 +1,34 @@
+"""Two answers for the first contact of one scene, compared."""
+
+from __future__ import annotations
+
+from exactpt.collision.contact import Contact
+
+__all__ = ["contrast", "in_words"]
+
+
+def contrast(expected: Contact | None, found: Contact | None) -> str | None:
+    """What differs between two contacts of one scene; None: nothing."""
+    if expected is None or found is None:
+        if (expected is None) == (found is None):
+            return None
+        return "found" if expected is None else "missed"
+    if found.time.compare(expected.time) != 0:
+        return "time"
+    for what in ("kind", "pairs", "overlaps"):
+        if getattr(found, what) != getattr(expected, what):
+            return what
+    return None
+
+
+def in_words(contact: Contact | None) -> str:
+    """A contact in a line: when, and the first incidences."""
+    if contact is None:
+        return "finds no contact"
+    pairs = ", ".join(
+        f"{p.body}:{p.vertex} on "
+        + (f"{p.other}:{p.other_vertex}" if p.edge is None else f"edge {p.edge} of {p.other}")
+        for p in contact.pairs[:4]
+    )
+    more = f" and {len(contact.pairs) - 4} more" if len(contact.pairs) > 4 else ""
+    return f"finds t = {float(contact.time)!r}, {contact.kind}: {pairs}{more}"
