@@ -14,6 +14,7 @@ from exactpt.scene.generate import POINTS
 from fuzz import battery, corpus, planted
 from fuzz.campaign import Campaign, run
 from fuzz.cases import Outcome
+from fuzz.thin import SUFFIX
 from fuzz.witnesses import WITNESSES
 
 FAILED, INTERRUPTED = 1, 130
@@ -26,6 +27,7 @@ HELP = {"help_option_names": ["-h", "--help"]}
 @click.command("fuzz", context_settings=HELP)
 @click.argument("families", nargs=-1, type=click.Choice(sorted(FAMILIES)), metavar="[FAMILY]...")
 @click.option("--family", "more", multiple=True, type=click.Choice(sorted(FAMILIES)))
+@click.option("--thin", is_flag=True, help="Make half of the bodies chains, segments, points.")
 @click.option("--witness", "witnesses", multiple=True, type=click.Choice(list(WITNESSES)))
 @click.option("--cases", "--count", "count", type=click.IntRange(min=1), help="How many scenes.")
 @click.option("--seconds", type=click.FloatRange(min=0), help="For how long.")
@@ -38,6 +40,7 @@ HELP = {"help_option_names": ["-h", "--help"]}
 def fuzz(
     families: tuple[str, ...],
     more: tuple[str, ...],
+    thin: bool,  # noqa: FBT001
     witnesses: tuple[str, ...],
     count: int | None,
     seconds: float | None,
@@ -61,8 +64,9 @@ def fuzz(
         seconds = 60 * minutes
     if count is None and seconds is None:
         count = 200
+    chosen = (*families, *more) or FAMILIES
     campaign = Campaign(
-        families=(*families, *more) or FAMILIES,
+        families=[name + SUFFIX for name in chosen] if thin else chosen,
         witnesses=witnesses or tuple(WITNESSES),
         seed=seed,
         start=start,

@@ -14,6 +14,7 @@ from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
+from fuzz.thin import SUFFIX, thinned
 
 __all__ = ["excerpt", "scene_of"]
 
@@ -26,11 +27,17 @@ three, a segment too: what has no inside has copies, which move apart from each 
 
 
 def scene_of(family: str, seed: int) -> Scene:
-    """The scene that a campaign looks at: mostly an excerpt of the family's."""
-    scene = generate(family, seed)
-    if seed % WHOLE == 0:
-        return scene
-    return excerpt(scene, Random(f"excerpt of {family}:{seed}"))
+    """The scene that a campaign looks at: mostly an excerpt of the family's.
+
+    Args:
+        family: its name; with `fuzz.thin.SUFFIX`, half of the bodies are thinned.
+        seed: of the scene.
+    """
+    name = family.removesuffix(SUFFIX)
+    scene = generate(name, seed)
+    if seed % WHOLE:
+        scene = excerpt(scene, Random(f"excerpt of {name}:{seed}"))
+    return scene if name == family else thinned(scene, Random(f"{family}:{seed}"))
 
 
 def _gap(p: Sequence[Point], q: Sequence[Point]) -> QQ:

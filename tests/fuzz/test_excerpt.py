@@ -8,6 +8,7 @@ from exactpt.scene.format import to_json
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 from exactpt.scene.scene import Scene
 from fuzz.excerpt import MOST, WHOLE, excerpt, scene_of
+from fuzz.thin import SUFFIX
 
 ALL = [*FAMILIES, *POINTS]
 
@@ -54,3 +55,21 @@ def test_neighbours_are_more_likely_than_strangers():
 
 def test_a_scene_without_bodies_is_its_own_excerpt():
     assert excerpt(Scene([], (0, 1)), Random(0)).bodies == ()
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_thinned_scenes_have_chains_segments_or_points(family):
+    """Half of the bodies are parts of what they were; the others are as they were."""
+    bodies = [body for seed in range(1, 9) for body in to_json(scene_of(family, seed))["bodies"]]
+    thin = [
+        body for seed in range(1, 9) for body in to_json(scene_of(family + SUFFIX, seed))["bodies"]
+    ]
+
+    changed = [body for body in thin if body not in bodies]
+    assert len(thin) == len(bodies)
+    assert 0 < len(changed) < len(bodies)
+    assert all(body.get("closed", len(shape(body)) > 2) is False for body in changed)
+
+
+def shape(body):
+    return body["keyframes"][0]["vertices"] if "keyframes" in body else body["vertices"]
