@@ -8,6 +8,7 @@ placement to placement and from round to round.
 
 from __future__ import annotations
 
+from collections import Counter
 from functools import cache
 from typing import Final, NamedTuple
 
@@ -18,7 +19,7 @@ from fuzz.small_scope.placements import Placement, complete
 from fuzz.small_scope.sample import SAMPLES, Third, sampled
 from fuzz.small_scope.scenes import Plan, Presentation, scene_of, touching
 
-__all__ = ["COMPLETE", "Cell", "Planned", "planned", "sizes"]
+__all__ = ["COMPLETE", "Cell", "Planned", "entries", "in_part", "planned", "sizes"]
 
 COMPLETE: Final = "complete"
 
@@ -57,10 +58,41 @@ class Planned(NamedTuple):
     scene: Scene
 
 
+LEAST: Final = 200
+"""Scenes of a round with the same kinds of shapes, order and place, at least: where there are
+fewer placements, each comes more than once."""
+
+
+class Entry(NamedTuple):
+    """A placement of the complete part.
+
+    Attributes:
+        placement: the placement.
+        copy: which one it is of the times that it comes in a round.
+        copies: how often it comes.
+    """
+
+    placement: Placement
+    copy: int
+    copies: int
+
+
+@cache
+def entries() -> tuple[Entry, ...]:
+    """The placements of the complete part, those of rare kinds more than once."""
+    counts = Counter((p.kinds, p.place) for p in complete())
+    times = {key: -(-LEAST // count) for key, count in counts.items()}
+    return tuple(
+        Entry(p, copy, times[p.kinds, p.place])
+        for p in complete()
+        for copy in range(times[p.kinds, p.place])
+    )
+
+
 @cache
 def sizes() -> dict[str, int]:
     """How many scenes each part of a round has."""
-    return {COMPLETE: len(complete()) * len(ORDERS), **SAMPLES}
+    return {COMPLETE: len(entries()) * len(ORDERS), **SAMPLES}
 
 
 def planned(number: int) -> Planned:
@@ -72,15 +104,18 @@ def planned(number: int) -> Planned:
     index = spread(place, sum(sizes().values()))
     for part, size in sizes().items():
         if index < size:
-            return _in_part(number, part, index, turn)
+            return in_part(number, part, index, turn)
         index -= size
     raise AssertionError("an index is in one of the parts")
 
 
-def _in_part(number: int, part: str, index: int, turn: int) -> Planned:
+def in_part(number: int, part: str, index: int, turn: int) -> Planned:
+    """The scene with an index in a part of a round, to be shown as its number wants it."""
     if part == COMPLETE:
         place, k = divmod(index, len(ORDERS))
-        placement, third, order = complete()[place], None, ORDERS[k]
+        placement, copy, copies = entries()[place]
+        place, turn = place - copy, turn * copies + copy
+        third, order = None, ORDERS[k]
     else:
         place = index + turn * SAMPLES[part]
         placement, third = sampled(part, place)
@@ -97,6 +132,7 @@ def _plan(placement: Placement, third: Third | None, order: str, place: int, tur
         return Plan(placement, third, order, SLOTS[-1], Way("alone", 0), 0)
     both = [ways(order, placement.free, touching(placement, mover)[0]) for mover in (0, 1)]
     count = len(SLOTS) * (len(both[0]) + len(both[1]))
-    k, slot = divmod((mixed(place) + spread(turn, count)) % count, len(SLOTS))
+    first = mixed(place * len(ORDERS) + ORDERS.index(order))
+    k, slot = divmod((first + spread(turn, count)) % count, len(SLOTS))
     mover = int(k >= len(both[0]))
     return Plan(placement, third, order, SLOTS[slot], (both[0] + both[1])[k], mover)
