@@ -110,4 +110,4 @@ class _Reporter:
             click.echo("  it does not fail again")
             return
         path = corpus.save(failure, Case(number, "small scope", number))
-        click.echo(f"  {failure.why}\n  shrunk: {path}")
+        click.echo(f"  {failure.why}\n  saved: {path}")

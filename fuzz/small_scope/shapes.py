@@ -21,6 +21,7 @@ __all__ = [
     "image",
     "meet",
     "on_segment",
+    "shape_of",
     "shapes",
     "turned",
 ]
@@ -67,7 +68,8 @@ def corner(vertices: Sequence[Vector]) -> Vector:
     return min(x for x, _ in vertices), min(y for _, y in vertices)
 
 
-def _shape(vertices: tuple[Vector, ...], *, closed: bool) -> Shape:
+def shape_of(vertices: tuple[Vector, ...], *, closed: bool) -> Shape:
+    """The shape with these vertices, moved to the corner and listed as shapes are."""
     left, low = corner(vertices)
     moved = tuple((x - left, y - low) for x, y in vertices)
     listings = [moved, moved[::-1]]
@@ -79,7 +81,7 @@ def _shape(vertices: tuple[Vector, ...], *, closed: bool) -> Shape:
 @cache
 def image(matrix: Matrix, shape: Shape) -> Shape:
     """The image of a shape under a symmetry."""
-    return _shape(tuple(turned(matrix, v) for v in shape.vertices), closed=shape.closed)
+    return shape_of(tuple(turned(matrix, v) for v in shape.vertices), closed=shape.closed)
 
 
 @cache
@@ -90,7 +92,7 @@ def shapes(size: int, *, closed: bool, grid: int = 3) -> tuple[Shape, ...]:
     """
     places = [(x, y) for x in range(grid) for y in range(grid)]
     found = {
-        _shape(vertices, closed=closed)
+        shape_of(vertices, closed=closed)
         for vertices in permutations(places, size)
         if corner(vertices) == (0, 0) and vertices <= vertices[::-1]
     }
