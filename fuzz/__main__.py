@@ -14,6 +14,7 @@ from exactpt.scene.generate import POINTS
 from fuzz import battery, corpus, planted
 from fuzz.campaign import Campaign, run
 from fuzz.cases import Outcome
+from fuzz.small_scope.command import small_scope
 from fuzz.thin import SUFFIX
 from fuzz.witnesses import WITNESSES
 
@@ -59,6 +60,7 @@ def fuzz(
       python -m fuzz row grazing --witness reference --minutes 5
       python -m fuzz battery
       python -m fuzz planted
+      python -m fuzz small-scope
     """
     if minutes is not None:
         seconds = 60 * minutes
@@ -139,7 +141,7 @@ def find_planted(words: tuple[str, ...], most: int, seed: int) -> None:
     sys.exit(FAILED if escaped else 0)
 
 
-COMMANDS = {"battery": run_battery, "planted": find_planted}
+COMMANDS = {"battery": run_battery, "planted": find_planted, "small-scope": small_scope}
 
 
 def main() -> None:

@@ -20,7 +20,7 @@ from fuzz.excerpt import scene_of
 from fuzz.shrink import shrink
 from fuzz.witnesses import WITNESSES, Difference
 
-__all__ = ["HANGS", "Case", "Failure", "Outcome", "failure_of", "run_case"]
+__all__ = ["HANGS", "Case", "Failure", "Outcome", "failure_of", "limit", "run_case", "shrunk"]
 
 HANGS: Final = "hangs"
 PATIENCE: Final = 60.0
@@ -85,7 +85,7 @@ def run_case(case: Case, witnesses: Sequence[str], shrink_seconds: float = 60.0)
             # What fails at once fails at once when it is smaller, too.
             hangs = failure.signature == HANGS
             patience = 15.0 if hangs else min(PATIENCE, 2.0 + 4.0 * seconds[name])
-            failures.append(_shrunk(failure, case.seed, shrink_seconds, patience))
+            failures.append(shrunk(failure, case.seed, shrink_seconds, patience))
     return Outcome(case, seconds, tuple(failures))
 
 
@@ -94,7 +94,7 @@ def failure_of(
 ) -> Failure | None:
     """What a witness objects to in a scene, or None; for ``turn`` see `Witness`."""
     try:
-        with _limit(patience):
+        with limit(patience):
             WITNESSES[name](scene, turn)
     except Difference as found:
         return _failure(name, found.kind, str(found), scene)
@@ -109,7 +109,8 @@ def _failure(name: str, signature: str, why: str, scene: Scene) -> Failure:
     return Failure(name, signature, why, json.dumps(to_json(scene)))
 
 
-def _shrunk(failure: Failure, turn: int, seconds: float, patience: float) -> Failure:
+def shrunk(failure: Failure, turn: int, seconds: float, patience: float) -> Failure:
+    """The same failure in the smallest scene that is found in this time."""
     best = failure
 
     def still_fails(data: object) -> bool:
@@ -133,7 +134,7 @@ class _TooSlow(Difference):
 
 
 @contextlib.contextmanager
-def _limit(seconds: float) -> Iterator[None]:
+def limit(seconds: float) -> Iterator[None]:
     """Interrupt what takes longer; only in a main thread, elsewhere signals cannot."""
     if threading.current_thread() is not threading.main_thread():
         yield

@@ -16,7 +16,7 @@ from exactpt.simulation.simulation import Simulation
 from fuzz.statics import run_and_audit
 from fuzz.variants import VARIANTS, difference
 
-__all__ = ["WITNESSES", "Difference", "Witness", "tilings_of"]
+__all__ = ["WITNESSES", "Difference", "Witness", "contact_by", "tilings_of"]
 
 Witness: TypeAlias = Callable[[Scene, int | None], None]
 """Raises `Difference`, or whatever broke, if something is wrong with a scene.
@@ -41,14 +41,18 @@ class Difference(Exception):  # noqa: N818 - what was found, the purpose of it a
 def reference(scene: Scene, turn: int | None) -> None:  # noqa: ARG001 - always all
     """The first contact by every tiling, and by none, is that of the all-pairs reference."""
     expected = first_contact_allpairs(scene)
-
-    def compare(name: str, found: Contact | None) -> None:
+    for name in ("pairs", *tilings_of(scene)):
+        found = contact_by(scene, name)
         if kind := contrast(expected, found):
             said = f"{in_words(found)}, but the reference {in_words(expected)}"
             raise Difference(f"{name}: {kind}", said)
 
-    compare("pairs", first_contact(scene, method="pairs"))
-    _with_tilings(scene, lambda name: compare(name, first_contact(scene, tiling=name)), None)
+
+def contact_by(scene: Scene, name: str) -> Contact | None:
+    """The first contact by pairs, or by the tiling with this name."""
+    if name == "pairs":
+        return first_contact(scene, method="pairs")
+    return first_contact(scene, tiling=name)
 
 
 def static(scene: Scene, turn: int | None) -> None:

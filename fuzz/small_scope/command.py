@@ -1,0 +1,113 @@
+"""The command ``python -m fuzz small-scope``."""
+
+from __future__ import annotations
+
+import datetime
+import json
+import sys
+from pathlib import Path
+
+import click
+
+from exactpt.errors import InputError
+from exactpt.scene.format import to_json
+from fuzz import corpus
+from fuzz.cases import Case
+from fuzz.small_scope.run import Progress, failure_in, run, start_of
+from fuzz.small_scope.scope import planned, sizes
+from fuzz.small_scope.tally import Fault
+
+__all__ = ["small_scope"]
+
+FAILED, INTERRUPTED = 1, 130
+
+
+@click.command("small-scope", context_settings={"help_option_names": ["-h", "--help"]})
+@click.option("--count", type=click.IntRange(min=1), help="How many scenes; by default a round.")
+@click.option("--seconds", type=click.FloatRange(min=0), help="For how long.")
+@click.option("--start", type=click.IntRange(min=0), help="The number of the first scene.")
+@click.option("--today", is_flag=True, help="Start where it is the turn of this day.")
+@click.option(
+    "--state",
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="Go on from this file if it is there, and keep it up to date.",
+)
+@click.option("--jobs", type=click.IntRange(min=1), default=1, help="How many processes.")
+@click.option("--shrink", default=20.0, show_default=True, help="Seconds for each kind of failure.")
+@click.option("--show", type=click.IntRange(min=0), help="Print the scene with a number, no more.")
+def small_scope(
+    count: int | None,
+    seconds: float | None,
+    start: int | None,
+    today: bool,  # noqa: FBT001
+    state: Path | None,
+    jobs: int,
+    shrink: float,
+    show: int | None,
+) -> None:
+    r"""Compare all methods on all small scenes, up to symmetry, and on a sample of larger ones.
+
+    \b
+    Examples:
+      python -m fuzz small-scope --state scope.json --jobs 2
+      python -m fuzz small-scope --today --seconds 60
+      python -m fuzz small-scope --show 1510 > scene.json
+    """
+    if show is not None:
+        click.echo(json.dumps(to_json(planned(show).scene), indent=1))
+        return
+    try:
+        progress = _progress(start, today=today, state=state)
+    except InputError as error:
+        raise click.UsageError(str(error)) from None
+    click.echo(f"scenes of a round: {', '.join(f'{k} {v:,}' for k, v in sizes().items())}")
+    click.echo(f"from scene {progress.next} on")
+    report = _Reporter(progress, state, shrink)
+    if count is None and seconds is None:
+        count = max(0, progress.start + sum(sizes().values()) - progress.next)
+    run(progress, report.new_faults, most=count, seconds=seconds, jobs=jobs)
+    click.echo("\n".join(progress.tally.table()))
+    if not progress.finished:
+        click.echo(f"interrupted; to go on: --start {progress.next}", err=True)
+        sys.exit(INTERRUPTED)
+    sys.exit(FAILED if progress.tally.disagreements else 0)
+
+
+def _progress(start: int | None, *, today: bool, state: Path | None) -> Progress:
+    """Where to begin, or to go on."""
+    if start is not None and today:
+        raise InputError("either --start or --today")
+    if state is not None and state.exists():
+        if start is not None or today:
+            raise InputError(f"--start and --today are for a new run, but there is {state}")
+        return Progress.load(state)
+    first = start_of(datetime.datetime.now(datetime.UTC).date()) if today else start or 0
+    return Progress(first, first)
+
+
+class _Reporter:
+    """Prints faults as they come, saves the first of each kind, and where the run is."""
+
+    def __init__(self, progress: Progress, state: Path | None, shrink: float) -> None:
+        self._progress = progress
+        self._state = state
+        self._shrink = shrink
+        self._saved = {(f.method, f.what) for f in progress.tally.faults}
+
+    def new_faults(self, faults: list[tuple[Fault, int]]) -> None:
+        """Report faults that were not met before."""
+        if self._state is not None:
+            self._progress.save(self._state)
+        for fault, number in faults:
+            click.echo(f"scene {number}: {' - '.join(fault)}")
+            if (fault.method, fault.what) not in self._saved:
+                self._saved.add((fault.method, fault.what))
+                self._save(fault, number)
+
+    def _save(self, fault: Fault, number: int) -> None:
+        failure = failure_in(number, fault, self._shrink)
+        if failure is None:
+            click.echo("  it does not fail again")
+            return
+        path = corpus.save(failure, Case(number, "small scope", number))
+        click.echo(f"  {failure.why}\n  saved: {path}")

@@ -1,0 +1,228 @@
+"""Motions with a contact of a given order at a given time.
+
+A motion is written in a local time s that is 0 at the contact: t - 1, t^2 - 2, ...
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from typing import Final, NamedTuple, TypeAlias
+
+from exactpt.kernel.numbers import QQ
+from exactpt.kernel.polynomial import ONE, ZERO, Polynomial
+from exactpt.motion.body import Body
+from exactpt.motion.motions import REST, Motion, Pieces, Rigid, SimpleMotion, Translation
+from fuzz.small_scope.placements import DIRECTIONS
+from fuzz.small_scope.shapes import Vector
+
+__all__ = [
+    "DRIFTS",
+    "ORDERS",
+    "SLOTS",
+    "TIMES",
+    "Clock",
+    "Path",
+    "Points",
+    "Way",
+    "deforming",
+    "drifting",
+    "motion_of",
+    "ways",
+]
+
+Points: TypeAlias = list[tuple[QQ, QQ]]
+Path: TypeAlias = tuple[Polynomial, Polynomial]
+
+POWERS: Final = {"linear": 1, "square": 2, "cube": 3, "fourth": 4}
+COMPANIONS: Final = {
+    "linear": (),
+    "square": ("linear",),
+    "cube": ("linear", "square"),
+    "fourth": ("linear", "square"),
+}
+"""What the other coordinate does; a linear one with a square is a square with a linear one."""
+
+ORDERS: Final = ("rest", *POWERS, "turn", "deform")
+"""How bodies come into contact: at rest, by a power of the time, by a turn, by a vertex."""
+
+
+class Clock(NamedTuple):
+    """When the planned contact is.
+
+    Attributes:
+        time: its name.
+        local: the local time; with two entries the second one holds from t = 1 on.
+        span: the time span of the scene.
+    """
+
+    time: str
+    local: tuple[Polynomial, ...]
+    span: tuple[int, int]
+
+
+MIDDLE: Final = Polynomial([-1, 1])
+SLOTS: Final = (
+    Clock("middle", (MIDDLE,), (0, 3)),
+    Clock("root", (Polynomial([-2, 0, 1]),), (1, 2)),
+    Clock("break", (MIDDLE, -MIDDLE), (0, 3)),
+    Clock("end", (MIDDLE,), (0, 1)),
+    Clock("start", (Polynomial([0, 1]),), (0, 2)),
+)
+"""The times of contacts in turn. At a break bodies touch, and part the way they came."""
+
+TIMES: Final = ("start", "middle", "root", "break", "end")
+
+DRIFTS: Final[tuple[Path, ...]] = (
+    (ZERO, ZERO),
+    (ZERO, ZERO),
+    (Polynomial([0, 1]), Polynomial([0, "-1/2"])),
+    (Polynomial([0, -1]), Polynomial([1, 0, 1])),
+)
+"""Motions that all bodies have in common."""
+
+
+class Way(NamedTuple):
+    """A motion up to its time.
+
+    Attributes:
+        companion: what the other coordinate does: "alone" if the motion is along a line, else
+            it is "linear" or the "square" of that. Of a turn and of a vertex: "alone" if the
+            motion goes on, "square" if it turns back.
+        direction: the index of the direction in which the body is before the contact.
+        part: of a turn, on which side the pivot is; of a deforming body, which vertex.
+    """
+
+    companion: str
+    direction: int
+    part: int = 0
+
+
+def ways(order: str, free: int, parts: Sequence[int]) -> list[Way]:
+    """The ways to come into contact with an order from the free directions.
+
+    There is one for each free direction at least; ``parts`` are the vertices that may deform.
+    """
+    open_ways = [i for i in range(len(DIRECTIONS)) if free >> i & 1]
+    if order == "rest":
+        return [Way("alone", 0)]
+    if order in POWERS:
+        curved = [
+            Way(c, i) for i in open_ways if _is_curved(DIRECTIONS[i]) for c in COMPANIONS[order]
+        ]
+        return [Way("alone", i) for i in open_ways] + curved
+    chosen = (0, 1) if order == "turn" else parts
+    return [Way(c, i, k) for i in open_ways for c in ("alone", "square") for k in chosen]
+
+
+def _is_curved(step: Vector) -> bool:
+    """Whether it stands for the directions next to an axis: there parabolas begin."""
+    return 8 in map(abs, step)
+
+
+def _unit(step: Vector) -> tuple[QQ, QQ]:
+    """A direction at about the length of an edge."""
+    size = max(map(abs, step))
+    scale = 4 if size == 8 else 2 if size == 3 else 1
+    return QQ(step[0], scale), QQ(step[1], scale)
+
+
+@cache
+def _path(power: int, companion: str, step: Vector, local: Polynomial) -> Path:
+    """A displacement that is 0 at local time 0, and in the direction of a step before it."""
+    f = _power(local, power)
+    f = -f if power % 2 else f
+    if companion == "alone":
+        x, y = _unit(step)
+        return _times(f, x), _times(f, y)
+    along = -local if companion == "linear" else local * local
+    u, v = ((s > 0) - (s < 0) for s in step)
+    parts = (f, along) if abs(step[0]) < abs(step[1]) else (along, f)
+    return _times(parts[0], QQ(u)), _times(parts[1], QQ(v))
+
+
+def _power(f: Polynomial, n: int) -> Polynomial:
+    return ONE if n == 0 else f * _power(f, n - 1)
+
+
+def _times(f: Polynomial, factor: QQ) -> Polynomial:
+    return f * Polynomial([factor])
+
+
+def _in_pieces(motions: Sequence[SimpleMotion]) -> Motion:
+    return motions[0] if len(motions) == 1 else Pieces([(1, motions[0]), (None, motions[1])])
+
+
+def drifting(drift: Path) -> Motion:
+    """The motion of a body that only has the common one."""
+    return Translation(*drift) if drift != (ZERO, ZERO) else REST
+
+
+def motion_of(
+    order: str, way: Way, step: Vector, clock: Clock, drift: Path, pivot: tuple[QQ, QQ]
+) -> Motion:
+    """The motion of a body that keeps its shape; at the contact it is where it rests.
+
+    Args:
+        order: of contact.
+        way: the motion.
+        step: its direction, as the scene is turned.
+        clock: the time of contact.
+        drift: what is added to the motion.
+        pivot: a point of contact; a turn is about a point beside it.
+    """
+    if order == "rest":
+        return drifting(drift)
+    if order == "turn":
+        return _in_pieces([_turn(way, step, local, drift, pivot) for local in clock.local])
+    paths = [_path(POWERS[order], way.companion, step, local) for local in clock.local]
+    return _in_pieces([Translation(drift[0] + x, drift[1] + y) for x, y in paths])
+
+
+def _turn(way: Way, step: Vector, local: Polynomial, drift: Path, touched: tuple[QQ, QQ]) -> Rigid:
+    """A quarter turn in a unit of local time, by which the point of contact moves sideways."""
+    half_turn = local * local if way.companion == "square" else -local
+    x, y = _unit(step)
+    side = -2 if way.part else 2
+    pivot = (touched[0] - side * y, touched[1] + side * x)
+    half_turn = _times(half_turn, QQ(side, 2))
+    return Rigid(half_turn, pivot=pivot, x=drift[0], y=drift[1])
+
+
+def deforming(
+    name: str, points: Points, vertex: int, way: Way, step: Vector, clock: Clock, drift: Path,
+    factor: QQ, *, closed: bool,
+) -> Body:  # fmt: skip
+    """A body of which a vertex moves, and has its place in the shape at the contact.
+
+    Args:
+        name: of the body.
+        points: its vertices at the contact.
+        vertex: the index of the one that moves.
+        way: its motion.
+        step: the direction of that, as the scene is turned.
+        clock: the time of contact.
+        drift: what is added to the motion of all vertices.
+        factor: how far the vertex moves.
+        closed: whether the body is a polygon.
+    """
+    power = 2 if way.companion == "square" else 1
+    path = _path(power, "alone", step, clock.local[0])
+
+    def place(displacement: tuple[Polynomial, Polynomial]) -> Path:
+        x, y = points[vertex]
+        return (
+            Polynomial([x]) + _times(displacement[0], factor),
+            Polynomial([y]) + _times(displacement[1], factor),
+        )
+
+    motion = drifting(drift)
+    if len(clock.local) == 1:
+        tracks: list[Path] = [(Polynomial([x]), Polynomial([y])) for x, y in points]
+        tracks[vertex] = place(path)
+        return Body(name, tracks, motion, closed=closed)
+    x, y = place(path)
+    away = [*points]
+    away[vertex] = (x(0), y(0))
+    frames = [(0, away), (1, points), (3, away)]
+    return Body(name, motion=motion, closed=closed, keyframes=frames)

@@ -1,0 +1,144 @@
+"""Runs through the scope: in processes, up to a number or a time, resumed by a small file."""
+
+from __future__ import annotations
+
+import datetime
+import itertools
+import json
+import time as clock
+from collections import deque
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ProcessPoolExecutor
+from dataclasses import dataclass, field
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Final
+
+from exactpt.errors import InputError
+from exactpt.scene.format import write_atomically
+from fuzz.cases import Failure, failure_of, shrunk
+from fuzz.small_scope.look import AUDITED, look
+from fuzz.small_scope.scope import planned, sizes
+from fuzz.small_scope.tally import Fault, Tally
+
+__all__ = ["Progress", "count", "failure_in", "run", "start_of"]
+
+CHUNK: Final = 50
+"""So many scenes are looked at between two looks at the clock."""
+
+A_DAY: Final = 4000
+"""How far the start of a day is from that of the day before."""
+
+
+@dataclass(slots=True)
+class Progress:
+    """How far a run through the scope has come.
+
+    Attributes:
+        start: the number of its first scene.
+        next: the number of the first scene that has not been looked at.
+        tally: of the others.
+        finished: whether it was not interrupted.
+    """
+
+    start: int = 0
+    next: int = 0
+    tally: Tally = field(default_factory=Tally)
+    finished: bool = True
+
+    def save(self, path: Path) -> None:
+        """Write it to a file, to go on from there."""
+        data = {"round": sizes(), "start": self.start, "next": self.next, **self.tally.to_json()}
+        write_atomically(path, json.dumps(data) + "\n")
+
+    @classmethod
+    def load(cls, path: Path) -> Progress:
+        """Read it from a file.
+
+        Raises:
+            InputError: if there is another scope in it, or none.
+        """
+        try:
+            data = json.loads(path.read_text())
+            if data["round"] != sizes():
+                raise InputError(f"{path}: of another scope, {data['round']}")
+            return cls(data["start"], data["next"], Tally.from_json(data))
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise InputError(f"{path}: not the state of a run: {error}") from None
+
+
+def start_of(day: datetime.date) -> int:
+    """The first scene of a day; what a day leaves out comes in later rounds."""
+    return day.toordinal() * A_DAY
+
+
+def count(numbers: range) -> Tally:
+    """Look at the scenes with these numbers."""
+    began = clock.process_time()
+    tally = Tally()
+    for number in numbers:
+        tally.note(look(planned(number)))
+    tally.seconds = clock.process_time() - began
+    return tally
+
+
+def run(
+    progress: Progress,
+    report: Callable[[list[tuple[Fault, int]]], None],
+    *,
+    most: int | None = None,
+    seconds: float | None = None,
+    jobs: int = 1,
+) -> None:
+    """Go on through the scope.
+
+    Args:
+        progress: how far it has come; changed after every few scenes.
+        report: called then, with the new faults and the first scene of each.
+        most: how many scenes more; None for as many as there is time for.
+        seconds: stop after this time; None for never.
+        jobs: how many processes.
+    """
+    deadline = None if seconds is None else clock.monotonic() + seconds
+    todo = _chunks(progress.next, most, deadline)
+    counted = ((c, count(c)) for c in todo) if jobs == 1 else _on_cores(todo, jobs)
+    try:
+        for numbers, tally in counted:
+            new = progress.tally.add(tally)
+            progress.next = numbers.stop
+            report(new)
+    except KeyboardInterrupt:
+        progress.finished = False
+
+
+def _chunks(start: int, most: int | None, deadline: float | None) -> Iterator[range]:
+    for first in itertools.count(start, CHUNK):
+        end = first + CHUNK if most is None else min(first + CHUNK, start + most)
+        if end <= first or (deadline is not None and clock.monotonic() > deadline):
+            return
+        yield range(first, end)
+
+
+def _on_cores(todo: Iterator[range], jobs: int) -> Iterator[tuple[range, Tally]]:
+    """The tallies in order; a few chunks are ahead of those at work."""
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        pending: deque[tuple[range, Future[Tally]]] = deque()
+        try:
+            while True:
+                for numbers in itertools.islice(todo, 2 * jobs - len(pending)):
+                    pending.append((numbers, pool.submit(count, numbers)))
+                if not pending:
+                    return
+                numbers, future = pending.popleft()
+                yield numbers, future.result()
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def failure_in(number: int, fault: Fault, seconds: float) -> Failure | None:
+    """The failure of a scene as a campaign has it, shrunk for so long; None if it is not again."""
+    witness = "static" if fault.method.startswith("static") else "reference"
+    failure = failure_of(witness, planned(number).scene, number // AUDITED)
+    if failure is None or not seconds:
+        return failure
+    return shrunk(failure, number // AUDITED, seconds, patience=5.0)
