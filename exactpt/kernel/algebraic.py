@@ -46,7 +46,8 @@ class AlgebraicNumber(IsolatedRoot):
 
     Compares exactly with other numbers and with rationals. ``float(x)`` is the
     nearest double. Comparing refines the interval in place, which changes no
-    answer. Equal numbers have equal hashes, whatever their polynomials.
+    answer. Equal numbers have equal hashes, whatever their polynomials. (A text is read as
+    a number where one is compared with it; its hash is its own.)
     """
 
     __slots__ = ()
@@ -198,8 +199,6 @@ class AlgebraicNumber(IsolatedRoot):
     def __eq__(self, other: object) -> bool:
         if isinstance(other, AlgebraicNumber):
             return self.compare(other) == 0
-        if isinstance(other, str):
-            return NotImplemented
         try:
             return self.compare_rational(rational(other)) == 0  # type: ignore[arg-type]
         except InputError:

@@ -641,11 +641,6 @@ def test_a_rational_root_of_a_cubic_has_the_hash_of_the_integer():
     assert {x: 0}[2] == 0
 
 
-def test_a_number_is_not_its_text():
-    """Their hashes differ."""
-    assert AlgebraicNumber(1) != "1"
-
-
 def root_of(f, low, high):
     return AlgebraicNumber.root(as_int_poly(f), QQ(low), QQ(high))
 
