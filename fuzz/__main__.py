@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import signal
 import sys
+from pathlib import Path
 
 import click
 
 from exactpt.cgal import find_program
 from exactpt.errors import InputError
+from exactpt.scene.format import write_atomically
 from exactpt.scene.generate import FAMILIES as BODIES
 from exactpt.scene.generate import POINTS
 from fuzz import battery, corpus, planted
 from fuzz.campaign import Campaign, run
 from fuzz.cases import Outcome
+from fuzz.record import differences, record
 from fuzz.small_scope.command import small_scope
 from fuzz.thin import SUFFIX
 from fuzz.witnesses import WITNESSES
@@ -141,7 +144,32 @@ def find_planted(words: tuple[str, ...], most: int, seed: int) -> None:
     sys.exit(FAILED if escaped else 0)
 
 
-COMMANDS = {"battery": run_battery, "planted": find_planted, "small-scope": small_scope}
+@click.command("record", context_settings=HELP)
+@click.argument("output", type=click.Path(dir_okay=False, path_type=Path))
+@click.option("--cases", "count", type=click.IntRange(min=1), default=2000, show_default=True)
+@click.option("--seed", type=int, default=0, show_default=True, help="Of the first scenes.")
+@click.option(
+    "--against",
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="Print what differs from this record.",
+)
+def make_record(output: Path, count: int, seed: int, against: Path | None) -> None:
+    """Write a digest of all events, contacts, tilings and saved runs of many scenes."""
+    lines = list(record(FAMILIES, count, seed))
+    write_atomically(output, "\n".join(lines) + "\n")
+    click.echo(f"{len(lines)} lines")
+    if against is not None:
+        changed = differences(against.read_text(encoding="utf-8").splitlines(), lines)
+        click.echo("\n".join([*changed, f"{len(changed)} differences"]))
+        sys.exit(FAILED if changed else 0)
+
+
+COMMANDS = {
+    "record": make_record,
+    "battery": run_battery,
+    "planted": find_planted,
+    "small-scope": small_scope,
+}
 
 
 def main() -> None:

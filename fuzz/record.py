@@ -1,0 +1,83 @@
+"""Records: a digest of all that runs tell, before a change and after it.
+
+A change of the structure of the code must not change an answer. A record has a line for
+every scene and tiling; two records of one seed are equal if and only if all event logs,
+contacts, tilings and saved simulations are, byte for byte.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Final
+
+from exactpt.collision.contact import Contact
+from exactpt.collision.detector import first_contact
+from exactpt.kernel.numbers import QQ
+from exactpt.scene.scene import Scene
+from exactpt.simulation.simulation import Simulation
+from fuzz.excerpt import scene_of
+from fuzz.witnesses import tilings_of
+
+__all__ = ["differences", "record"]
+
+SHARES: Final = (0, 1, 2, 3)
+"""The quarters of the time up to the contact at which a run is looked at."""
+
+
+def record(families: Sequence[str], count: int, seed: int = 0) -> Iterator[str]:
+    """The lines of a record of the first scenes, the families taken in turn."""
+    for number in range(count):
+        family, turn = families[number % len(families)], seed + number // len(families)
+        scene = scene_of(family, turn)
+        contact = first_contact(scene, method="pairs")
+        last = scene.end if contact is None else contact.time.canonical_interval()[0]
+        yield f"{family} {turn} pairs {_digest(_told(contact))}"
+        for tiling in tilings_of(scene):
+            run = _run(scene, tiling, last)
+            told = " ".join(f"{name} {_digest(data)}" for name, data in run.items())
+            yield f"{family} {turn} {tiling} {told}"
+
+
+def differences(old: Sequence[str], new: Sequence[str]) -> list[str]:
+    """What differs between two records: lines of the new one, and what is only in the old."""
+    known, made = set(old), set(new)
+    changed = [f"+ {line}" for line in new if line not in known]
+    return changed + [f"- {line}" for line in old if line not in made]
+
+
+def _told(contact: Contact | None) -> object:
+    return None if contact is None else contact.to_json()
+
+
+def _run(scene: Scene, tiling: str, last: QQ) -> dict[str, object]:
+    """The events, the contact, tilings and saved simulations of a run."""
+    simulation = Simulation(scene, tiling=tiling)
+    events: list[object] = []
+    tilings: list[object] = []
+    saved: list[object] = []
+    for share in SHARES:
+        time = scene.start + (last - scene.start) * share / len(SHARES)
+        events += [event.to_json() for event in simulation.run(time)]
+        if simulation.contact is None:
+            tilings.append(simulation.snapshot().to_json())
+            saved.append(_saved(simulation))
+    events += [event.to_json() for event in simulation.run()]
+    contact = _told(simulation.contact)
+    return {"events": events, "contact": contact, "tilings": tilings, "saved": saved}
+
+
+def _saved(simulation: Simulation) -> object:
+    """The saved simulation."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "run.json"
+        simulation.save(path)
+        data: object = json.loads(path.read_text(encoding="utf-8"))
+    return data
+
+
+def _digest(data: object) -> str:
+    return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:16]

@@ -1,0 +1,31 @@
+"""Records of runs: the same twice, another one if an answer changes."""
+
+import pytest
+
+from exactpt.tiling import kinetic
+from fuzz.record import differences, record
+
+FAMILIES = ["convex", "chains_on_grid", "points_in_line"]
+
+
+@pytest.fixture(scope="module")
+def lines():
+    return list(record(FAMILIES, 6))
+
+
+def test_a_record_has_a_line_for_every_scene_and_way(lines):
+    ways = [line.split()[:3] for line in lines]
+
+    assert len(ways) == 2 * (4 + 4 + 5)
+    assert ways[:4] == [["convex", "0", way] for way in ("pairs", "greedy", "mixed", "lazy")]
+
+
+def test_a_record_is_the_same_twice(lines):
+    assert differences(lines, list(record(FAMILIES, 6))) == []
+
+
+@pytest.mark.plain
+def test_a_missed_contact_changes_the_record(lines, monkeypatch):
+    monkeypatch.setattr(kinetic, "touches", lambda *_: [])
+
+    assert differences(lines, list(record(FAMILIES, 6)))
