@@ -2,7 +2,6 @@
 
 import pytest
 
-from exactpt.tiling import kinetic
 from fuzz.record import differences, record
 
 FAMILIES = ["convex", "chains_on_grid", "points_in_line"]
@@ -24,8 +23,7 @@ def test_a_record_is_the_same_twice(lines):
     assert differences(lines, list(record(FAMILIES, 6))) == []
 
 
-@pytest.mark.plain
-def test_a_missed_contact_changes_the_record(lines, monkeypatch):
-    monkeypatch.setattr(kinetic, "touches", lambda *_: [])
+def test_another_answer_is_another_record(lines, monkeypatch):
+    monkeypatch.setattr("exactpt.collision.contact._finite", lambda x: x + 1.0)
 
     assert differences(lines, list(record(FAMILIES, 6)))
