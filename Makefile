@@ -10,7 +10,7 @@ JOBS ?= 2
 COMPILED_TESTS := $(addprefix tests/,kernel kinetic motion planar tiling collision simulation)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-exact test-browser compiled plain test-compiled coverage lint quick pictures docs package check-cgal clean
+.PHONY: help demo test test-slow test-exact test-browser small-scope compiled plain test-compiled coverage lint quick pictures docs package check-cgal clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -44,6 +44,9 @@ plain: ## remove what `make compiled` made
 
 test-compiled: compiled ## the quick tests of what is compiled
 	$(BIN)/python -m pytest -n $(JOBS) $(COMPILED_TESTS); status=$$?; $(MAKE) plain; exit $$status
+
+small-scope: $(VENV)/developing ## a slice of the fuzzer's small scope, another one each day: a minute
+	$(BIN)/python -m fuzz small-scope --today --seconds 60 --jobs $(JOBS)
 
 coverage: $(VENV)/developing cgal_check/build/cgal_check ## branches covered by the tests
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser" --cov=exactpt --cov-report=term:skip-covered

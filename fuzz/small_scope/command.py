@@ -92,7 +92,7 @@ class _Reporter:
         self._progress = progress
         self._state = state
         self._shrink = shrink
-        self._saved = {(f.method, f.what) for f in progress.tally.faults}
+        self._met = {(f.method, f.what) for f in progress.tally.faults}
 
     def new_faults(self, faults: list[tuple[Fault, int]]) -> None:
         """Report faults that were not met before."""
@@ -100,14 +100,11 @@ class _Reporter:
             self._progress.save(self._state)
         for fault, number in faults:
             click.echo(f"scene {number}: {' - '.join(fault)}")
-            if (fault.method, fault.what) not in self._saved:
-                self._saved.add((fault.method, fault.what))
+            if (fault.method, fault.what) not in self._met:
+                self._met.add((fault.method, fault.what))
                 self._save(fault, number)
 
     def _save(self, fault: Fault, number: int) -> None:
         failure = failure_in(number, fault, self._shrink)
-        if failure is None:
-            click.echo("  it does not fail again")
-            return
         path = corpus.save(failure, Case(number, "small scope", number))
         click.echo(f"  {failure.why}\n  saved: {path}")

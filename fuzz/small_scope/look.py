@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time as clock
+from collections.abc import Callable
 from typing import Final, NamedTuple
 
 from exactpt.collision.allpairs import first_contact_allpairs
@@ -10,6 +11,8 @@ from exactpt.collision.comparison import contrast
 from exactpt.collision.contact import Contact
 from exactpt.kernel.numbers import ZZ
 from exactpt.scene.scene import Scene
+from exactpt.simulation.responses import stop
+from exactpt.simulation.simulation import Simulation
 from fuzz.cases import limit
 from fuzz.small_scope.scope import Planned
 from fuzz.statics import run_and_audit
@@ -18,7 +21,8 @@ from fuzz.witnesses import contact_by, tilings_of
 __all__ = ["AUDITED", "Answer", "Look", "look"]
 
 AUDITED: Final = 16
-"""Of so many scenes in one the tiling is compared with the static one between events."""
+"""Of so many scenes in one a tiling is compared with the static one between events, and in
+one a simulation goes on after the contact."""
 
 PATIENCE: Final = 20.0
 """A method that takes more seconds than this, of processor time, hangs."""
@@ -28,7 +32,7 @@ class Answer(NamedTuple):
     """What a method says of a scene.
 
     Attributes:
-        method: "pairs", the name of a tiling, or "static" and that.
+        method: "pairs", the name of a tiling, or "static" or "going on" and that.
         seconds: of processor time.
         fault: what is wrong with it; None: nothing.
     """
@@ -57,12 +61,29 @@ class Look(NamedTuple):
 def look(planned: Planned) -> Look:
     """Compare all methods with the reference."""
     scene = planned.scene
-    expected = first_contact_allpairs(scene)
+    try:
+        expected = first_contact_allpairs(scene)
+    except Exception as error:  # whatever breaks is a finding
+        broken = Answer("reference", 0.0, type(error).__name__)
+        return Look(planned, contact=False, as_planned=False, answers=[broken])
+
+    def compare(name: str) -> str | None:
+        return contrast(expected, contact_by(scene, name))
+
+    def go_on(name: str) -> str | None:
+        return contrast(expected, _before_going_on(scene, name))
+
+    def audit(name: str) -> None:
+        run_and_audit(scene, name, middle=False)
+
     names = tilings_of(scene)
-    answers = [_answer(scene, name, expected) for name in ("pairs", *names)]
+    answers = [_answer(name, compare, name) for name in ("pairs", *names)]
     turn, rest = divmod(planned.number, AUDITED)
+    name = names[turn % len(names)]
     if rest == 0:
-        answers.append(_audit(scene, names[turn % len(names)]))
+        answers.append(_answer(f"static {name}", audit, name))
+    elif rest == AUDITED // 2:
+        answers.append(_answer(f"going on {name}", go_on, name))
     return Look(planned, expected is not None, _as_planned(planned, expected), answers)
 
 
@@ -71,22 +92,25 @@ def _as_planned(planned: Planned, contact: Contact | None) -> bool:
     return contact is not None and not contact.time.sign_of(tuple(ZZ(c) for c in local))
 
 
-def _answer(scene: Scene, name: str, expected: Contact | None) -> Answer:
+def _answer(method: str, judge: Callable[[str], str | None], name: str) -> Answer:
     began = clock.process_time()
     try:
         with limit(PATIENCE):
-            fault = contrast(expected, contact_by(scene, name))
+            fault = judge(name)
     except Exception as error:  # whatever breaks is a finding
         fault = type(error).__name__
-    return Answer(name, clock.process_time() - began, fault)
+    return Answer(method, clock.process_time() - began, fault)
 
 
-def _audit(scene: Scene, name: str) -> Answer:
-    began = clock.process_time()
-    fault = None
-    try:
-        with limit(PATIENCE):
-            run_and_audit(scene, name, middle=False)
-    except Exception as error:
-        fault = type(error).__name__
-    return Answer(f"static {name}", clock.process_time() - began, fault)
+def _before_going_on(scene: Scene, tiling: str) -> Contact | None:
+    """The first contact of a simulation in which bodies stop where they touch."""
+    met: list[Contact] = []
+
+    def respond(simulation: Simulation, contact: Contact) -> None:
+        met.append(contact)
+        stop(simulation, contact)
+
+    simulation = Simulation(scene, tiling=tiling)
+    for _ in simulation.run(on_contact=respond):
+        pass
+    return met[0] if met else simulation.contact

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Final
 
 from exactpt.errors import InputError
-from exactpt.scene.format import write_atomically
+from exactpt.scene.format import to_json, write_atomically
 from fuzz.cases import Failure, failure_of, shrunk
 from fuzz.small_scope.look import AUDITED, look
 from fuzz.small_scope.scope import planned, sizes
@@ -135,10 +135,15 @@ def _on_cores(todo: Iterator[range], jobs: int) -> Iterator[tuple[range, Tally]]
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-def failure_in(number: int, fault: Fault, seconds: float) -> Failure | None:
-    """The failure of a scene as a campaign has it, shrunk for so long; None if it is not again."""
+def failure_in(number: int, fault: Fault, seconds: float) -> Failure:
+    """The failure of a scene as a campaign has it, shrunk for so long.
+
+    What no witness of campaigns objects to is left as it is.
+    """
+    scene, turn = planned(number).scene, number // AUDITED
     witness = "static" if fault.method.startswith("static") else "reference"
-    failure = failure_of(witness, planned(number).scene, number // AUDITED)
-    if failure is None or not seconds:
-        return failure
-    return shrunk(failure, number // AUDITED, seconds, patience=5.0)
+    failure = failure_of(witness, scene, turn)
+    if failure is None:
+        said = f"{fault.method}: {fault.what}"
+        return Failure("small-scope", said, said, json.dumps(to_json(scene)))
+    return shrunk(failure, turn, seconds, patience=5.0) if seconds else failure

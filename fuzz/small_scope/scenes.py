@@ -153,7 +153,7 @@ def _listed(
     name: str, shape: Shape, corners: list[Vector], shown: Presentation, motion: Motion
 ) -> Body:
     points = [shown.point(corners[i]) for i in shown.listed(shape)]
-    return Body(name, points, motion, closed=shape.closed)
+    return Body(name, points, motion, closed=shape.closed or len(points) < 3)
 
 
 def _deformed(plan: Plan, shown: Presentation, step: Vector, factor: QQ) -> Body:
