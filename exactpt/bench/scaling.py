@@ -18,7 +18,6 @@ from exactpt.bench.plots import series_of
 from exactpt.bench.shapes import TANGLES, TangleFamily, crowd, tangle
 from exactpt.bench.timing import exponent, memory_of, per_event, timed
 from exactpt.collision.tilings import TILINGS, start_tiling
-from exactpt.kernel.counters import counters
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.tiling import Tiling
@@ -123,11 +122,10 @@ def measure(scene: Scene, tiling: str, sizes: Sizes) -> Measured:
 
 
 def _run_once(scene: Scene, tiling: str, events: int) -> Measured:
-    exact, filtered = counters.exact, counters.filtered
     kinetic, start = timed(lambda: start_tiling(scene, tiling, scene.start))
     certificates, pending = kinetic.certifier.made, len(kinetic.queue)
     _, seconds = timed(lambda: _pass(kinetic, events))
-    exact, filtered = counters.exact - exact, counters.filtered - filtered
+    exact, filtered, _ = kinetic.vertices.counters.now()
     return Measured(
         start,
         certificates,

@@ -25,7 +25,7 @@ from exactpt.errors import BudgetExceeded, InputError
 from exactpt.geometry.boxes import overlapping_pairs
 from exactpt.geometry.polygon import edges
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.counters import counters
+from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.swept import SweptBoxes
@@ -73,7 +73,7 @@ class PairsSearch:
         self._scene = scene
         self._exact_only = exact_only
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
-        self._counted = (counters.exact, counters.filtered)
+        self._counters = Counters()
         self._group: Indices = np.array(_groups(scene, ignoring), dtype=np.int64)
         self.certificates = 0
         self._passed: QQ | None = None
@@ -87,8 +87,8 @@ class PairsSearch:
             "events": 0,
             "certificates": self.certificates,
             "skipped": 0,
-            "exact": counters.exact - self._counted[0],
-            "filtered": counters.filtered - self._counted[1],
+            "exact": self._counters.exact,
+            "filtered": self._counters.filtered,
         }
 
     def passed(self) -> QQ | None:
@@ -116,6 +116,7 @@ class PairsSearch:
         """Number the vertices and edges, and read the first tracks."""
         scene = self._scene
         self._vertices = Vertices.of(scene.bodies, scene.start, scene.end, plain=True)
+        self._counters = self._vertices.counters
         ids: list[int] = []
         first_edge: list[tuple[int, int]] = []
         for moving, body in zip(self._vertices.bodies, scene.bodies, strict=True):

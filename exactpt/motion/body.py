@@ -158,10 +158,11 @@ class Body:
 
     def at(self, t: Rational) -> list[tuple[QQ, QQ]]:
         """The exact positions of the vertices at a rational time; those of the last are kept."""
-        time = rational(t)
-        if self._at is None or self._at[0] != time:
-            self._at = time, [track.at(time) for track in self.piece_after(time).tracks]
-        return self._at[1][:]
+        time, last = rational(t), self._at  # runs in other threads may share the body
+        if last is None or last[0] != time:
+            last = time, [track.at(time) for track in self.piece_after(time).tracks]
+            self._at = last
+        return last[1][:]
 
     def _tracks(self, shape: Sequence[Position], motion: SimpleMotion) -> tuple[Track, ...]:
         return tuple(motion.track(position) for position in shape)

@@ -25,7 +25,7 @@ class Track:
         length: the most coefficients that one of x, y, w has.
     """
 
-    __slots__ = ("_bits", "_packed", "_width", "frame", "length", "w", "x", "y")
+    __slots__ = ("_bits", "_packed", "frame", "length", "w", "x", "y")
 
     def __init__(self, x: IntPoly, y: IntPoly, w: IntPoly, frame: Hashable) -> None:
         self.x = x
@@ -34,8 +34,8 @@ class Track:
         self.frame = frame
         self.length: int = max(len(x), len(y), len(w))
         self._bits: int = -1
-        self._width: int = 0
-        self._packed: tuple[ZZ, ZZ, ZZ] = (ZZ(0), ZZ(0), ZZ(0))
+        # In one piece with its width: runs in other threads may share the track.
+        self._packed: tuple[int, tuple[ZZ, ZZ, ZZ]] = (0, (ZZ(0), ZZ(0), ZZ(0)))
 
     @property
     def bits(self) -> int:
@@ -46,10 +46,11 @@ class Track:
 
     def packed(self, width: int) -> tuple[ZZ, ZZ, ZZ]:
         """x, y and w as integers (`exactpt.kernel.packed`); kept for the last width."""
-        if self._width != width:
-            self._width = width
-            self._packed = (pack(self.x, width), pack(self.y, width), pack(self.w, width))
-        return self._packed
+        kept, packed = self._packed
+        if kept != width:
+            packed = (pack(self.x, width), pack(self.y, width), pack(self.w, width))
+            self._packed = width, packed
+        return packed
 
     def at(self, t: QQ) -> tuple[QQ, QQ]:
         """The exact position at a rational time."""

@@ -12,6 +12,7 @@ from itertools import accumulate, count
 from typing import TYPE_CHECKING, Final, final
 
 from exactpt.geometry.polygon import is_counter_clockwise
+from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.motion.convexity import stays_convex
 from exactpt.motion.frame import Frame, frame_for
@@ -117,6 +118,7 @@ class Vertices:
     Attributes:
         all: the vertices, by id. A body that is removed leaves its ids to later ones.
         bodies: in the order of the scene.
+        counters: of the decisions about these vertices.
         frame: in which the images are.
         changes: how often tracks have changed, or bodies come and gone.
     """
@@ -132,6 +134,7 @@ class Vertices:
         *,
         plain: bool = False,
     ) -> None:
+        self.counters: Counters = Counters()
         self.frame: Frame = frame
         self.changes: int = 0
         self._plain: bool = plain

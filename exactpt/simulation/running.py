@@ -13,7 +13,7 @@ from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.counters import Counts, counters
+from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.body import Body
@@ -54,7 +54,6 @@ class Running(Questions):
         self._asked_for = tiling, exact_only
         self._max_events = max_events
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
-        self._counted: Counts = counters.now()
         self._events = 0
         self._proved: QQ = scene.start
         self._passed: EventTime | None = None
@@ -102,8 +101,14 @@ class Running(Questions):
     def stats(self) -> dict[str, object]:
         """The figures of the run so far; see `exactpt.simulation.report`."""
         changes = 0 if self._living is None else self._living.changes
-        data = report(self.scene, self.kinetic, counters.now().since(self._counted))
+        data = report(self.scene, self.kinetic, self._counts())
         return data | {"contacts": self.contacts, "plans": changes}
+
+    def _counts(self) -> Counts:
+        """The decisions of the run so far."""
+        if self._living is None:
+            return Counts(0, 0, {})
+        return self._living.kinetic.vertices.counters.now()
 
     # Time
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import final
 
 from exactpt.errors import InputError
-from exactpt.kernel.counters import Counts, counters
+from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import parse_rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
@@ -189,8 +189,9 @@ class Simulation(Running):
             if data["met"] is not None:
                 time, names = number_from_json(data["met"]["time"]), data["met"]["bodies"]
                 self._met = time, {name: self._alive().body(name) for name in names}
-            before = Counts(counts["exact"], counts["filtered"], counts["reasons"])
-            self._counted = counters.now().since(before)
+            if self._living is not None:
+                before = Counts(counts["exact"], counts["filtered"], counts["reasons"])
+                self._living.kinetic.vertices.counters.set(before)
         return self
 
     def _met_to_json(self) -> dict[str, object] | None:
@@ -210,7 +211,7 @@ class Simulation(Running):
         from exactpt.simulation.saved import tiling_to_json
         from exactpt.simulation.store import VERSION
 
-        living, counts = self._living, counters.now().since(self._counted)
+        living, counts = self._living, self._counts()
         return {
             "exactpt-simulation": VERSION,
             "name": self.name,
