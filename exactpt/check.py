@@ -94,22 +94,22 @@ def check_scene(
         InputError: if the program cgal_check is missing.
         BudgetExceeded: if the bounds are reached.
     """
-    plan = plan_tiling(scene, tiling, scene.start)
+    plan = plan_tiling(scene, tiling, scene._start)
     report = Report(plan.name)
     deadline = None if max_seconds is None else clock.monotonic() + max_seconds
     with CgalCheck() as cgal:
         witness = _Witness(scene, cgal, report)
         if initial_touches(scene)[1]:
-            start = AlgebraicNumber(scene.start)
+            start = AlgebraicNumber(scene._start)
             witness.time(start)
             report.contact = time_to_json(start)
             return report
-        kinetic = plan.start(scene.start)
+        kinetic = plan.start(scene._start)
         try:
-            witness.tiling(kinetic, scene.start)
+            witness.tiling(kinetic, scene._start)
             while True:
                 witness.between(kinetic)
-                events = kinetic.advance(scene.end)
+                events = kinetic.advance(scene._end)
                 if events is None:
                     break
                 report.events += len(events)
@@ -121,7 +121,7 @@ def check_scene(
                 ):
                     low = kinetic.now.canonical_interval()[0]
                     raise BudgetExceeded("the budget of the check is used up", low)
-            witness.tiling(kinetic, scene.end)
+            witness.tiling(kinetic, scene._end)
         except ContactFound:
             witness.time(kinetic.now)
             report.contact = time_to_json(kinetic.now)
@@ -154,7 +154,7 @@ class _Witness:
     def time(self, time: AlgebraicNumber) -> None:
         """Verify an event time, and that it is not before the last one."""
         number = time.simplified()
-        root = IsolatedRoot(number.polynomial, *number.canonical_interval())
+        root = IsolatedRoot(number._polynomial, *number._canonical_interval())
         verdict = self._cgal.check_root(*root)
         self._report.times += 1
         if not verdict.ok:

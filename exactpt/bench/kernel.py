@@ -103,7 +103,7 @@ def _rows(finders: Sequence[Finder], degree: int, bits: int, fs: Sequence[IntPol
     order = [x.compare(y) < 0 for x, y in pairwise(truth)]
     equal, same = microseconds(
         lambda f: AlgebraicNumber.root(*f).compare(AlgebraicNumber.root(*f)),
-        [(x.polynomial, x.low, x.high) for x in truth],
+        [(x._polynomial, x._low, x._high) for x in truth],
     )
     if any(same):
         raise AuditError("a number is not equal to itself")

@@ -126,8 +126,8 @@ def measure(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> Meas
 
 
 def _start(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> IncrementalTiling:
-    vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
-    return IncrementalTiling.begin(vertices, scene.start, scene.end, chains=chains, fan=fan)
+    vertices = IncrementalTiling.vertices_of(scene.bodies, scene._start, scene._end)
+    return IncrementalTiling.begin(vertices, scene._start, scene._end, chains=chains, fan=fan)
 
 
 def _pass(tiling: IncrementalTiling) -> None:

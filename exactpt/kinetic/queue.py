@@ -206,4 +206,4 @@ def _simplest(times: list[EventTime]) -> EventTime:
 
 
 def _size(number: AlgebraicNumber) -> tuple[int, IntPoly]:
-    return len(number.polynomial), number.polynomial
+    return len(number._polynomial), number._polynomial

@@ -7,11 +7,21 @@ deforms, to the vertex's track. Time is the scene's time, not time since a piece
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from fractions import Fraction
 from itertools import pairwise
 from typing import Final, Protocol, TypeAlias, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, rational, rationals, shorten, show
+from exactpt.kernel.numbers import (
+    QQ,
+    Rational,
+    fractions,
+    place,
+    rational,
+    rationals,
+    shorten,
+    show,
+)
 from exactpt.kernel.polynomial import ONE, ZERO, Polynomial, polynomial
 from exactpt.motion.track import Track, track
 
@@ -71,7 +81,7 @@ class Rigid:
     coordinates are rational functions with the positive denominator 1 + h^2.
     """
 
-    __slots__ = ("half_turn", "pivot", "x", "y")
+    __slots__ = ("_pivot", "half_turn", "x", "y")
 
     def __init__(
         self,
@@ -82,28 +92,33 @@ class Rigid:
         y: Coefficients = ZERO,
     ) -> None:
         px, py = rationals(pivot, 2, "a pivot has two coordinates")
-        self.pivot: tuple[QQ, QQ] = (px, py)
+        self._pivot: tuple[QQ, QQ] = (px, py)
         self.half_turn = polynomial(half_turn)
         self.x = polynomial(x)
         self.y = polynomial(y)
 
+    @property
+    def pivot(self) -> tuple[Fraction, Fraction]:
+        """The point about which the body turns."""
+        return place(self._pivot)
+
     def track(self, position: Position) -> Track:
         """The track of the vertex with this position in the body's frame."""
-        px, py = Polynomial([self.pivot[0]]), Polynomial([self.pivot[1]])
+        px, py = Polynomial([self._pivot[0]]), Polynomial([self._pivot[1]])
         h = self.half_turn
         w, cosine, sine = ONE + h * h, ONE - h * h, h + h
         dx, dy = position[0] - px, position[1] - py
         x = cosine * dx - sine * dy + w * (px + self.x)
         y = sine * dx + cosine * dy + w * (py + self.y)
         if h.degree <= 0:
-            scale = Polynomial([1 / w(0)])
+            scale = Polynomial([1 / w._at(QQ(0))])
             return track(x * scale, y * scale, None, None)
         rigid = position[0].degree <= 0 and position[1].degree <= 0
-        frame = ("turn", h, self.pivot, self.x, self.y) if rigid else None
+        frame = ("turn", h, self._pivot, self.x, self.y) if rigid else None
         return track(x, y, w, frame)
 
     def __repr__(self) -> str:
-        pivot = (str(self.pivot[0]), str(self.pivot[1]))
+        pivot = (str(self._pivot[0]), str(self._pivot[1]))
         return f"Rigid({self.half_turn!r}, pivot={pivot}, x={self.x!r}, y={self.y!r})"
 
 
@@ -146,7 +161,7 @@ class Pieces:
     checks it, since it knows the vertices.
     """
 
-    __slots__ = ("motions", "until")
+    __slots__ = ("_until", "motions")
 
     def __init__(self, pieces: Sequence[tuple[Rational | None, SimpleMotion]]) -> None:
         if not pieces:
@@ -166,11 +181,16 @@ class Pieces:
                 raise InputError(
                     f"pieces end in increasing order: {show(before)}, then {show(after)}"
                 )
-        self.until: tuple[QQ, ...] = tuple(ends)
+        self._until: tuple[QQ, ...] = tuple(ends)
         self.motions: tuple[SimpleMotion, ...] = tuple(motion for _, motion in pieces)
 
+    @property
+    def until(self) -> tuple[Fraction, ...]:
+        """The times at which the motions end, but the last."""
+        return fractions(self._until)
+
     def __repr__(self) -> str:
-        ends = [*map(str, self.until), None]
+        ends = [*map(str, self._until), None]
         return f"Pieces({list(zip(ends, self.motions, strict=True))!r})"
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
+from fractions import Fraction
 from typing import final
 
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate
-from exactpt.kernel.numbers import QQ, ZZ, gcd
+from exactpt.kernel.numbers import QQ, ZZ, Rational, gcd, place, rational
 from exactpt.kernel.packed import coefficient_bits, pack
 from exactpt.kernel.polynomial import Polynomial
 
@@ -16,6 +17,8 @@ __all__ = ["Track", "track"]
 @final
 class Track:
     """The path (x / w, y / w) of a vertex, with integer polynomials x, y, w in t.
+
+    For the engine: its integers are GMP's.
 
     Attributes:
         x, y: numerators.
@@ -52,8 +55,11 @@ class Track:
             self._packed = width, packed
         return packed
 
-    def at(self, t: QQ) -> tuple[QQ, QQ]:
+    def at(self, t: Rational) -> tuple[Fraction, Fraction]:
         """The exact position at a rational time."""
+        return place(self._at(rational(t)))
+
+    def _at(self, t: QQ) -> tuple[QQ, QQ]:
         if len(self.w) == 1:
             return evaluate(self.x, t) / self.w[0], evaluate(self.y, t) / self.w[0]
         w = evaluate(self.w, t)
@@ -70,11 +76,11 @@ def track(x: Polynomial, y: Polynomial, w: Polynomial | None, turning: Hashable)
     translates is identified by its coefficients of t, t^2, ...
     """
     if w is None:
-        frame: Hashable = (x.coefficients[1:], y.coefficients[1:])
-        parts = [x.coefficients, y.coefficients]
+        frame: Hashable = (x._coefficients[1:], y._coefficients[1:])
+        parts = [x._coefficients, y._coefficients]
     else:
         frame = turning
-        parts = [x.coefficients, y.coefficients, w.coefficients]
+        parts = [x._coefficients, y._coefficients, w._coefficients]
     denominator = ZZ(1)
     for part in parts:
         for c in part:

@@ -200,7 +200,7 @@ def _text(value: QQ) -> str:
 
 
 def _coefficients(f: Polynomial) -> list[str]:
-    return [_text(c) for c in f.coefficients] or ["0"]
+    return [_text(c) for c in f._coefficients] or ["0"]
 
 
 def to_json(scene: Scene) -> dict[str, object]:
@@ -211,7 +211,7 @@ def to_json(scene: Scene) -> dict[str, object]:
     """
     return {
         "exactpt": VERSION,
-        "time": [_text(scene.start), _text(scene.end)],
+        "time": [_text(scene._start), _text(scene._end)],
         "bodies": [_named_body_to_json(body) for body in scene.bodies],
     }
 
@@ -227,14 +227,14 @@ def _body_to_json(body: Body) -> dict[str, object]:
     data: dict[str, object] = {"name": body.name}
     if not body.closed:
         data["closed"] = False
-    if body.keyframes:
+    if body._keyframes:
         data["keyframes"] = [
             {"t": _text(f.t), "vertices": [[_text(x), _text(y)] for x, y in f.vertices]}
-            for f in body.keyframes
+            for f in body._keyframes
         ]
     else:
         data["vertices"] = [
-            [_text(x(0)), _text(y(0))]
+            [_text(x._at(QQ(0))), _text(y._at(QQ(0)))]
             if x.degree <= 0 and y.degree <= 0
             else {"x": _coefficients(x), "y": _coefficients(y)}
             for x, y in body.vertices
@@ -246,7 +246,7 @@ def _body_to_json(body: Body) -> dict[str, object]:
 
 def _motion_to_json(motion: Motion) -> dict[str, object]:
     if isinstance(motion, Pieces):
-        ends = [{"until": _text(t)} for t in motion.until]
+        ends = [{"until": _text(t)} for t in motion._until]
         return {
             "pieces": [
                 {**end, "motion": _motion_to_json(m)}
@@ -256,7 +256,7 @@ def _motion_to_json(motion: Motion) -> dict[str, object]:
     if isinstance(motion, Rigid):
         return {
             "rigid": {
-                "pivot": [_text(c) for c in motion.pivot],
+                "pivot": [_text(c) for c in motion._pivot],
                 "half_turn": _coefficients(motion.half_turn),
                 "x": _coefficients(motion.x),
                 "y": _coefficients(motion.y),

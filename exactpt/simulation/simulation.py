@@ -172,7 +172,7 @@ class Simulation(Running):
             asked, exact_only = data["tiling"], data["exact_only"]
             scene = scene_from_json(data["scene"])
             counts, state = data["counts"], data["state"]
-            self = cls(Scene([], (scene.start, scene.end)), tiling=asked, exact_only=exact_only,
+            self = cls(Scene([], (scene._start, scene._end)), tiling=asked, exact_only=exact_only,
                        max_events=max_events, max_seconds=max_seconds)  # fmt: skip
             self._given = scene, data["name"]
             self._margin = parse_rational(data["margin"])

@@ -85,7 +85,7 @@ class Instant(Predicates):
         """The exact unperturbed position of a vertex."""
         found = self._exact.get(v)
         if found is None:
-            found = self._exact[v] = self.vertices.all[v].track.at(self.time)
+            found = self._exact[v] = self.vertices.all[v].track._at(self.time)
         return found
 
     def sign(self, a: int, b: int, c: int) -> int:

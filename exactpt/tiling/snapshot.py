@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, final
 
 from exactpt.geometry.predicates import side
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, fraction
 from exactpt.planar.halfedge import edge_key
 from exactpt.tiling.mesh import FREE, INSIDE
 
@@ -32,8 +33,21 @@ class Node:
 
     body: str
     vertex: int
-    x: QQ
-    y: QQ
+    _x: QQ
+    _y: QQ
+
+    @property
+    def x(self) -> Fraction:
+        """The exact coordinate."""
+        return fraction(self._x)
+
+    @property
+    def y(self) -> Fraction:
+        """The exact coordinate."""
+        return fraction(self._y)
+
+    def __repr__(self) -> str:
+        return f"Node({self.body!r}, {self.vertex}, '{self._x}', '{self._y}')"
 
 
 @final
@@ -73,18 +87,22 @@ class Snapshot:
     """A tiling at a time.
 
     Attributes:
-        at: the time; the tiling is the one of that very time.
         tiling: its name.
         nodes: all vertices of the scene, in its order.
         edges: body edges and diagonals, in order of their nodes.
         faces: the pseudo-triangles.
     """
 
-    at: QQ
+    _at: QQ
     tiling: str
     nodes: tuple[Node, ...]
     edges: tuple[Edge, ...]
     faces: tuple[Face, ...]
+
+    @property
+    def at(self) -> Fraction:
+        """The time; the tiling is the one of that very time."""
+        return fraction(self._at)
 
     @property
     def diagonals(self) -> tuple[Edge, ...]:
@@ -99,7 +117,7 @@ class Snapshot:
         """
         edges = []
         for face in self.faces:
-            tip = max(face.corners, key=lambda v: (self.nodes[v].x, -self.nodes[v].y))
+            tip = max(face.corners, key=lambda v: (self.nodes[v]._x, -self.nodes[v]._y))
             edges += [(min(tip, v), max(tip, v)) for v in face.nodes if v not in face.corners]
         return tuple(sorted(edges))
 
@@ -116,10 +134,10 @@ class Snapshot:
                 face |= {"body": f.body, "level": f.level}
             faces.append(face)
         data: dict[str, object] = {
-            "at": str(self.at),
+            "at": str(self._at),
             "tiling": self.tiling,
             "vertices": [
-                {"body": n.body, "vertex": n.vertex, "x": str(n.x), "y": str(n.y)}
+                {"body": n.body, "vertex": n.vertex, "x": str(n._x), "y": str(n._y)}
                 for n in self.nodes
             ],
             "edges": [{"u": e.u, "v": e.v, "kind": e.kind, "hull": e.hull} for e in self.edges],
@@ -152,7 +170,7 @@ class _Contraction:
         for moving in vertices.bodies:
             body = moving.body
             tracks = {vertices.all[v].index: vertices.all[v].track for v in moving.ring}
-            self.nodes += [Node(body.name, i, *tracks[i].at(at)) for i in range(body.size)]
+            self.nodes += [Node(body.name, i, *tracks[i]._at(at)) for i in range(body.size)]
         self.node = vertices.nodes()
         self.cuts: dict[tuple[int, int], set[int]] = {}
 
@@ -190,12 +208,12 @@ class _Contraction:
 
     def _has_area(self, corners: Sequence[int]) -> bool:
         """Whether a face with these corners bounds an area."""
-        a, b, c = ((self.nodes[v].x, self.nodes[v].y) for v in corners)
+        a, b, c = ((self.nodes[v]._x, self.nodes[v]._y) for v in corners)
         return side(a, b, c) != 0
 
     def _cut_along(self, nodes: Sequence[int]) -> None:
         """Cut the edges of a face without area at its vertices that lie inside them."""
-        ordered = sorted(set(nodes), key=lambda v: (self.nodes[v].x, self.nodes[v].y))
+        ordered = sorted(set(nodes), key=lambda v: (self.nodes[v]._x, self.nodes[v]._y))
         rank = {v: i for i, v in enumerate(ordered)}
         for u, v in pairwise([*nodes, nodes[0]]) if len(ordered) > 2 else ():
             low, high = sorted((rank[u], rank[v]))
@@ -210,7 +228,7 @@ class _Contraction:
             return
         a = self.nodes[u]
         along = sorted(
-            inside, key=lambda w: abs(self.nodes[w].x - a.x) + abs(self.nodes[w].y - a.y)
+            inside, key=lambda w: abs(self.nodes[w]._x - a._x) + abs(self.nodes[w]._y - a._y)
         )
         for p, q in pairwise([u, *along, v]):
             yield from self._path(p, q)
