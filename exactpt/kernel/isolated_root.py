@@ -238,6 +238,12 @@ class IsolatedRoot:
             self.compare_rational(QQ(floor(self._high * lead), lead))
         return self
 
+    def __reduce__(self) -> tuple[object, ...]:
+        kind = type(self)
+        if self._low == self._high:
+            return kind, (str(self._low),)
+        return kind.root, (self.polynomial, str(self._low), str(self._high))
+
 
 def _discriminant(f: IntPoly) -> ZZ:
     return f[1] * f[1] - 4 * f[0] * f[2]

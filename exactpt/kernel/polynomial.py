@@ -124,6 +124,9 @@ class Polynomial:
     def __hash__(self) -> int:
         return hash(self._coefficients)
 
+    def __reduce__(self) -> tuple[object, ...]:
+        return Polynomial, (tuple(map(str, self._coefficients)),)
+
     def __repr__(self) -> str:
         return f"Polynomial({[str(c) for c in self._coefficients]})"
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, final
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, fraction, fractions, place, rational, shorten, show
 from exactpt.kernel.polynomial import Polynomial, polynomial
-from exactpt.motion.motions import REST, Coefficients, Motion, Pieces, Position, SimpleMotion
+from exactpt.motion.motions import REST, Coefficients, Motion, Pieces, Position, SimpleMotion, made
 from exactpt.motion.track import Track
 
 if TYPE_CHECKING:
@@ -217,6 +217,25 @@ class Body:
                         f"from {show(*a._at(t))} to {show(*b._at(t))}"
                     )
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Body):
+            return NotImplemented
+        return (self.name, self.closed, self.vertices, self._keyframes, self.motion) == (
+            other.name, other.closed, other.vertices, other._keyframes, other.motion
+        )  # fmt: skip
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.closed, self.size))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        shape: dict[str, object] = {"vertices": tuple(map(_given, self.vertices))}
+        if self._keyframes:
+            shape = {"keyframes": tuple(
+                (str(frame.t), tuple((str(x), str(y)) for x, y in frame.vertices))
+                for frame in self._keyframes
+            )}  # fmt: skip
+        return made, (Body, (self.name,), shape | {"motion": self.motion, "closed": self.closed})
+
     def __repr__(self) -> str:
         what = {1: "point", 2: "segment"}.get(self.size, "polygon" if self.closed else "chain")
         return f"<Body {self.name!r}: {what} of {self.size} vertices>"
@@ -246,6 +265,14 @@ def _read_vertex(name: str, index: int, vertex: VertexLike) -> Position:
         return polynomial(x), polynomial(y)
     except InputError as error:
         raise InputError(f"body {shorten(name)}: vertex {index}: {error}") from None
+
+
+def _given(vertex: Position) -> tuple[object, object]:
+    """A vertex as the constructor takes it, short if it is at rest."""
+    if vertex[0].degree > 0 or vertex[1].degree > 0:
+        return vertex
+    x, y = (f._at(QQ(0)) for f in vertex)
+    return str(x), str(y)
 
 
 def _read_keyframes(

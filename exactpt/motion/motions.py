@@ -6,10 +6,11 @@ deforms, to the vertex's track. Time is the scene's time, not time since a piece
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from abc import abstractmethod
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from itertools import pairwise
-from typing import Final, Protocol, TypeAlias, final
+from typing import Final, Protocol, TypeAlias, TypeVar, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import (
@@ -35,13 +36,43 @@ __all__ = [
     "Rigid",
     "SimpleMotion",
     "Translation",
+    "made",
 ]
+
+T = TypeVar("T")
 
 Coefficients: TypeAlias = "Polynomial | Rational | Iterable[Rational]"
 """A polynomial as a caller may write it: coefficients (constant first), or a number."""
 
 Position: TypeAlias = tuple[Polynomial, Polynomial]
 """The coordinates of a vertex in its body's frame; constants unless the body deforms."""
+
+
+def made(kind: Callable[..., T], values: tuple[object, ...], options: dict[str, object]) -> T:
+    """What a pickle calls: a constructor with what it was given, so no pickle knows of GMP."""
+    return kind(*values, **options)
+
+
+class _Given:
+    """Motions are equal, and are pickled and copied, by what they are made of."""
+
+    __slots__ = ()
+
+    @abstractmethod
+    def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
+        """The arguments of the constructor, by place and by name."""
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, _Given):
+            return NotImplemented
+        return type(self) is type(other) and self._given() == other._given()
+
+    def __hash__(self) -> int:
+        values, options = self._given()
+        return hash((type(self), values, tuple(options.values())))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return made, (type(self), *self._given())
 
 
 class SimpleMotion(Protocol):
@@ -53,7 +84,7 @@ class SimpleMotion(Protocol):
 
 
 @final
-class Translation:
+class Translation(_Given):
     """A translation by (x(t), y(t)), added to every vertex."""
 
     __slots__ = ("x", "y")
@@ -66,6 +97,9 @@ class Translation:
         """The track of the vertex with this position in the body's frame."""
         return track(position[0] + self.x, position[1] + self.y, None, None)
 
+    def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
+        return (self.x, self.y), {}
+
     def __repr__(self) -> str:
         return f"Translation(x={self.x!r}, y={self.y!r})"
 
@@ -74,7 +108,7 @@ REST: Final = Translation()
 
 
 @final
-class Rigid:
+class Rigid(_Given):
     """A turn about ``pivot`` by the angle a(t), tan(a / 2) = half_turn(t), then a translation.
 
     With h = half_turn, cos a = (1 - h^2) / (1 + h^2) and sin a = 2 h / (1 + h^2): the
@@ -117,13 +151,17 @@ class Rigid:
         frame = ("turn", h, self._pivot, self.x, self.y) if rigid else None
         return track(x, y, w, frame)
 
+    def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
+        pivot = (str(self._pivot[0]), str(self._pivot[1]))
+        return (self.half_turn,), {"pivot": pivot, "x": self.x, "y": self.y}
+
     def __repr__(self) -> str:
         pivot = (str(self._pivot[0]), str(self._pivot[1]))
         return f"Rigid({self.half_turn!r}, pivot={pivot}, x={self.x!r}, y={self.y!r})"
 
 
 @final
-class Affine:
+class Affine(_Given):
     """The map (u, v) -> M(t) (u, v) + (x(t), y(t)), with a 2 x 2 matrix of polynomials."""
 
     __slots__ = ("matrix", "x", "y")
@@ -149,12 +187,15 @@ class Affine:
         u, v = position
         return track(a * u + b * v + self.x, c * u + d * v + self.y, None, None)
 
+    def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
+        return (self.matrix,), {"x": self.x, "y": self.y}
+
     def __repr__(self) -> str:
         return f"Affine({self.matrix!r}, x={self.x!r}, y={self.y!r})"
 
 
 @final
-class Pieces:
+class Pieces(_Given):
     """Motions one after the other: each holds until its time, the last for ever.
 
     Where two pieces meet, every vertex must be at the same place under both; the body
@@ -188,6 +229,10 @@ class Pieces:
     def until(self) -> tuple[Fraction, ...]:
         """The times at which the motions end, but the last."""
         return fractions(self._until)
+
+    def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
+        ends = [*map(str, self._until), None]
+        return (tuple(zip(ends, self.motions, strict=True)),), {}
 
     def __repr__(self) -> str:
         ends = [*map(str, self._until), None]

@@ -71,6 +71,9 @@ class FreeSpace:
         """The time."""
         return fraction(self._at)
 
+    def __reduce__(self) -> tuple[object, ...]:
+        raise TypeError("a FreeSpace is of its run: copy the simulation, or take the snapshot")
+
     @cached_property
     def _hidden(self) -> set[tuple[int, int]]:
         """The edges inside bodies, as pairs of nodes."""

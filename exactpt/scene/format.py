@@ -7,6 +7,7 @@ import json
 import os
 import stat
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Final
 
@@ -37,7 +38,7 @@ from exactpt.scene.json_values import (
 )
 from exactpt.scene.scene import Scene
 
-__all__ = ["load", "loads", "save", "to_json", "write_atomically"]
+__all__ = ["from_json", "load", "loads", "save", "to_json", "write_atomically"]
 
 VERSION: Final = 1
 
@@ -70,6 +71,19 @@ def loads(text: str) -> Scene:
         return _scene(parse_json(text))
     except RecursionError:
         raise InputError("not a scene: nested too deeply") from None
+
+
+def from_json(data: Mapping[str, object]) -> Scene:
+    """The scene that is given as JSON data.
+
+    Raises:
+        InputError: one line that names the body, the key and the value.
+    """
+    try:
+        text = json.dumps(data)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise InputError(f"not JSON data: {error}") from None
+    return loads(text)
 
 
 def _scene(data: Json) -> Scene:
@@ -239,7 +253,7 @@ def _body_to_json(body: Body) -> dict[str, object]:
             else {"x": _coefficients(x), "y": _coefficients(y)}
             for x, y in body.vertices
         ]
-    if body.motion is not REST:
+    if body.motion != REST:
         data["motion"] = _motion_to_json(body.motion)
     return data
 

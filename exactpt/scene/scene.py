@@ -102,6 +102,29 @@ class Scene:
         """The last time, after ``start``."""
         return fraction(self._end)
 
+    @classmethod
+    def from_json(cls, data: Mapping[str, object]) -> Scene:
+        """The scene that `to_json` has written; see docs/format.md.
+
+        A float counts as the decimal that Python writes for it, as in a file.
+
+        Raises:
+            InputError: one line that names the body, the key and the value.
+        """
+        from exactpt.scene.format import from_json
+
+        return from_json(data)
+
+    def to_json(self) -> dict[str, object]:
+        """The scene as data for ``json.dump``, exactly: what `save` writes.
+
+        Raises:
+            InputError: see `save`.
+        """
+        from exactpt.scene.format import to_json
+
+        return to_json(self)
+
     def body(self, name: str) -> Body:
         """The body with a name.
 
@@ -177,6 +200,18 @@ class Scene:
         """The number of vertices of all bodies."""
         return sum(body.size for body in self.bodies)
 
+    def __eq__(self, other: object) -> bool:
+        """Whether all bodies are the same, in order, and the time span is."""
+        if not isinstance(other, Scene):
+            return NotImplemented
+        return (self.bodies, self._start, self._end) == (other.bodies, other._start, other._end)
+
+    def __hash__(self) -> int:
+        return hash((self.bodies, self._start, self._end))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _valid_scene, (self.bodies, str(self._start), str(self._end))
+
     def _repr_svg_(self) -> str:
         """The bodies at the start, for notebooks."""
         from exactpt.render.notebook import scene_svg
@@ -188,3 +223,10 @@ class Scene:
             f"<Scene: {len(self.bodies)} bodies, {self.vertex_count} vertices, "
             f"t in [{self._start}, {self._end}]>"
         )
+
+
+def _valid_scene(bodies: tuple[Body, ...], start: str, end: str) -> Scene:
+    """A scene that has been one before."""
+    scene = Scene.__new__(Scene)
+    scene.bodies, scene._start, scene._end = bodies, rational(start), rational(end)
+    return scene

@@ -15,6 +15,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.integer_polynomial import derivative, evaluate
 from exactpt.kernel.numbers import QQ, Rational, nearest_float, rational
 from exactpt.motion.body import Body
+from exactpt.motion.motions import made
 from exactpt.simulation.plans import GRID, moved, onward, translation_at
 
 if TYPE_CHECKING:
@@ -88,6 +89,11 @@ class Bounce:
             if name not in self._fixed and any(change[name]):
                 plans[name] = self._plan(bodies[name], change[name], t)
         simulation.set_motions(plans)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        fastest = None if math.isinf(self._fastest) else self._fastest
+        options = {"slowest": self._slowest, "fastest": fastest, "grid": str(self._grid)}
+        return made, (Bounce, (tuple(sorted(self._fixed)),), options)
 
     def _push(
         self, pair: Pair, bodies: dict[str, Body], change: dict[str, list[float]], t: QQ

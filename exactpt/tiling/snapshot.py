@@ -15,7 +15,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, final
 
 from exactpt.geometry.predicates import side
-from exactpt.kernel.numbers import QQ, fraction
+from exactpt.kernel.numbers import QQ, fraction, parse_rational
 from exactpt.planar.halfedge import edge_key
 from exactpt.tiling.mesh import FREE, INSIDE
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from exactpt.motion.vertices import Vertices
     from exactpt.tiling.mesh import Mesh
 
-__all__ = ["Edge", "Face", "Node", "Snapshot", "snapshot"]
+__all__ = ["Edge", "Face", "Node", "Snapshot", "node_of", "snapshot", "snapshot_of"]
 
 
 @final
@@ -46,8 +46,16 @@ class Node:
         """The exact coordinate."""
         return fraction(self._y)
 
+    def __reduce__(self) -> tuple[object, ...]:
+        return node_of, (self.body, self.vertex, str(self._x), str(self._y))
+
     def __repr__(self) -> str:
         return f"Node({self.body!r}, {self.vertex}, '{self._x}', '{self._y}')"
+
+
+def node_of(body: str, vertex: int, x: str, y: str) -> Node:
+    """The node that a pickle tells."""
+    return Node(body, vertex, parse_rational(x), parse_rational(y))
 
 
 @final
@@ -59,6 +67,9 @@ class Edge:
     v: int
     kind: str
     hull: bool
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Edge, (self.u, self.v, self.kind, self.hull)
 
 
 @final
@@ -80,6 +91,9 @@ class Face:
     body: str | None = None
     level: int | None = None
 
+    def __reduce__(self) -> tuple[object, ...]:
+        return Face, (self.nodes, self.corners, self.region, self.body, self.level)
+
 
 @final
 @dataclass(frozen=True, slots=True)
@@ -98,6 +112,9 @@ class Snapshot:
     nodes: tuple[Node, ...]
     edges: tuple[Edge, ...]
     faces: tuple[Face, ...]
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return snapshot_of, (str(self._at), self.tiling, self.nodes, self.edges, self.faces)
 
     @property
     def at(self) -> Fraction:
@@ -146,6 +163,17 @@ class Snapshot:
         if self.tiling == "incremental":
             data["fan"] = [list(edge) for edge in self.fan]
         return data
+
+
+def snapshot_of(
+    at: str,
+    tiling: str,
+    nodes: tuple[Node, ...],
+    edges: tuple[Edge, ...],
+    faces: tuple[Face, ...],
+) -> Snapshot:
+    """The snapshot that a pickle tells."""
+    return Snapshot(parse_rational(at), tiling, nodes, edges, faces)
 
 
 def snapshot(vertices: Vertices, mesh: Mesh, name: str, at: QQ) -> Snapshot:

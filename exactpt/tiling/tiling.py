@@ -84,6 +84,9 @@ class Tiling:
         self.certifier.zeros += other.certifier.zeros
         self.vertices.counters.add(other.vertices.counters.now())
 
+    def __reduce__(self) -> tuple[object, ...]:
+        raise TypeError("the tiling of a run is copied and pickled with its simulation")
+
     @property
     def now(self) -> AlgebraicNumber:
         """The current time."""
