@@ -108,7 +108,7 @@ def check_scene(
         InputError: if the program cgal_check is missing.
         BudgetExceeded: if the bounds are reached.
     """
-    plan = plan_tiling(scene, tiling, scene.start)
+    plan = plan_tiling(scene, tiling, scene._start)
     report = Report(plan.name)
     deadline = None if max_seconds is None else clock.monotonic() + max_seconds
     with CgalCheck() as cgal:
@@ -116,10 +116,10 @@ def check_scene(
         touches, overlaps = initial_touches(scene)
         contact: Contact | None
         if overlaps:
-            contact = contact_of(scene, AlgebraicNumber(scene.start), touches, overlaps)
+            contact = contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)
             witness.time(contact.time)
         else:
-            contact = _watch(plan.start(scene.start), witness, max_events, deadline, reached)
+            contact = _watch(plan.start(scene._start), witness, max_events, deadline, reached)
     report.contact = None if contact is None else time_to_json(contact.time)
     remaining = None if deadline is None else max(0.0, deadline - clock.monotonic())
     expected = PairsSearch(scene, max_seconds=remaining).run_to_contact()
@@ -143,10 +143,10 @@ def _watch(
     """Run to the first contact, with a witness to all tilings and times."""
     scene, report = witness.scene, witness.report
     try:
-        witness.tiling(kinetic, scene.start)
+        witness.tiling(kinetic, scene._start)
         while True:
             witness.between(kinetic)
-            events = kinetic.advance(scene.end)
+            events = kinetic.advance(scene._end)
             if events is None:
                 break
             report.events += len(events)
@@ -158,7 +158,7 @@ def _watch(
             ):
                 low = kinetic.now.canonical_interval()[0]
                 raise BudgetExceeded("the budget of the check is used up", low)
-        witness.tiling(kinetic, scene.end)
+        witness.tiling(kinetic, scene._end)
     except ContactFound as found:
         witness.time(kinetic.now)
         return contact_of(scene, kinetic.now, found.touches)
@@ -194,7 +194,7 @@ class _Witness:
     def time(self, time: AlgebraicNumber) -> None:
         """Verify an event time, and that it is not before the last one."""
         number = time.simplified()
-        root = IsolatedRoot(number.polynomial, *number.canonical_interval())
+        root = IsolatedRoot(number._polynomial, *number._canonical_interval())
         verdict = self._cgal.check_root(*root)
         self.report.times += 1
         if not verdict.ok:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import SupportsFloat
+import math
+from fractions import Fraction
 
 __all__ = ["AuditError", "BudgetExceeded", "ExactPTError", "InputError"]
 
@@ -26,10 +27,15 @@ class BudgetExceeded(ExactPTError):  # noqa: N818 - an outcome, named as one
     start of the scene to it. None: nothing is proved.
     """
 
-    def __init__(self, message: str, reached: SupportsFloat | None) -> None:
-        super().__init__(message)
+    def __init__(self, message: str, reached: Fraction | None) -> None:
+        super().__init__(message, reached)  # both: a pickle makes the error from these
         self.reached = reached
 
     def __str__(self) -> str:
-        what = super().__str__()
-        return what if self.reached is None else f"{what} at t = {float(self.reached)!r}"
+        what = str(self.args[0])
+        if self.reached is None:
+            return what
+        try:
+            return f"{what} at t = {float(self.reached)!r}"
+        except OverflowError:
+            return f"{what} at t = {math.inf if self.reached > 0 else -math.inf!r}"

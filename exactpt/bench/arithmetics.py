@@ -136,7 +136,7 @@ class _Certified(Questions):
         return self._certifier.orientation(a, b, c)[0]
 
     def order(self, p: Triple, q: Triple) -> int:
-        queue = self._queue(self._certifier)
+        queue = self._queue(self._certifier, self._certifier.counters)
         for slot, triple in enumerate((p, q)):
             a, b, c = (self._ids[i] for i in triple)
             time = self._certifier.orientation(a, b, c)[1]

@@ -22,7 +22,6 @@ from exactpt.bench.timing import microseconds
 from exactpt.errors import AuditError
 from exactpt.kernel import batch, filters
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.counters import counters
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
@@ -104,7 +103,7 @@ def _rows(finders: Sequence[Finder], degree: int, bits: int, fs: Sequence[IntPol
     order = [x.compare(y) < 0 for x, y in pairwise(truth)]
     equal, same = microseconds(
         lambda f: AlgebraicNumber.root(*f).compare(AlgebraicNumber.root(*f)),
-        [(x.polynomial, x.low, x.high) for x in truth],
+        [(x._polynomial, x._low, x._high) for x in truth],
     )
     if any(same):
         raise AuditError("a number is not equal to itself")
@@ -182,9 +181,8 @@ def _certificate_row(rng: Random, degree: int, count: int) -> Row:
     vertices = Vertices.of(bodies, QQ(0), QQ(SPAN), plain=True)
     filtered = Certifier(vertices, QQ(0), QQ(SPAN), exact_only=False)
     exact = Certifier(vertices, QQ(0), QQ(SPAN), exact_only=True)
-    before = counters.filtered
     answers = [filtered.orientation(*triple) for triple in triples]
-    decided = counters.filtered - before
+    decided = vertices.counters.filtered
     cost, _ = microseconds(lambda triple: filtered.orientation(*triple), triples)
     exact_cost, truth = microseconds(lambda triple: exact.orientation(*triple), triples)
     if [(s, t is None) for s, t in answers] != [(s, t is None) for s, t in truth]:

@@ -17,7 +17,6 @@ from exactpt.bench.output import Output, Row
 from exactpt.bench.plots import series_of
 from exactpt.bench.point_scenes import FAMILIES, random_linear, swaps_beside_arc
 from exactpt.bench.timing import exponent, memory_of, per_event, timed
-from exactpt.kernel.counters import counters
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.incremental.incremental import IncrementalTiling
@@ -113,13 +112,13 @@ def measure(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> Meas
     """Run a scene to its end, or its first contact."""
     tiling, start = timed(lambda: _start(scene, chains=chains, fan=fan))
     pending = len(tiling.queue)
-    exact = counters.exact
+    exact = tiling.vertices.counters.exact
     _, seconds = timed(lambda: _pass(tiling))
     return Measured(
         tiling.stats.total - tiling.stats.events.get("motion", 0),
         tiling.stats.fan,
         seconds,
-        counters.exact - exact,
+        tiling.vertices.counters.exact - exact,
         sum(tree.steps for tree in tiling.structure.trees),
         start,
         pending,
@@ -127,8 +126,8 @@ def measure(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> Meas
 
 
 def _start(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> IncrementalTiling:
-    vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
-    return IncrementalTiling.begin(vertices, scene.start, scene.end, chains=chains, fan=fan)
+    vertices = IncrementalTiling.vertices_of(scene.bodies, scene._start, scene._end)
+    return IncrementalTiling.begin(vertices, scene._start, scene._end, chains=chains, fan=fan)
 
 
 def _pass(tiling: IncrementalTiling) -> None:

@@ -52,7 +52,7 @@ def exact_first(f: IntPoly) -> AlgebraicNumber:
 def _made_anew(f: IntPoly) -> tuple[IntPoly, QQ, QQ]:
     """What a number is made of, so that no refinement is shared."""
     root = exact_first(f)
-    return root.polynomial, root.low, root.high
+    return root._polynomial, root._low, root._high
 
 
 def _exact_before(p: tuple[IntPoly, QQ, QQ], q: tuple[IntPoly, QQ, QQ]) -> bool:

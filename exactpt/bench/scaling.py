@@ -18,7 +18,6 @@ from exactpt.bench.plots import series_of
 from exactpt.bench.shapes import TANGLES, TangleFamily, crowd, tangle
 from exactpt.bench.timing import exponent, memory_of, per_event, timed
 from exactpt.collision.tilings import TILINGS, start_tiling
-from exactpt.kernel.counters import counters
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.tiling import Tiling
@@ -114,20 +113,19 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
 
 def measure(scene: Scene, tiling: str, sizes: Sizes) -> Measured:
     """The fastest of some runs, and the memory of another one."""
-    start_tiling(fresh(scene), tiling, scene.start)  # what is imported on first use
+    start_tiling(fresh(scene), tiling, scene._start)  # what is imported on first use
     runs = [_run_once(fresh(scene), tiling, sizes.events) for _ in range(sizes.runs)]
     best = min(runs, key=lambda m: m.start + m.seconds)
     given = fresh(scene)
-    kilobytes = memory_of(lambda: start_tiling(given, tiling, given.start))
+    kilobytes = memory_of(lambda: start_tiling(given, tiling, given._start))
     return best._replace(kilobytes=kilobytes)
 
 
 def _run_once(scene: Scene, tiling: str, events: int) -> Measured:
-    exact, filtered = counters.exact, counters.filtered
-    kinetic, start = timed(lambda: start_tiling(scene, tiling, scene.start))
+    kinetic, start = timed(lambda: start_tiling(scene, tiling, scene._start))
     certificates, pending = kinetic.certifier.made, len(kinetic.queue)
     _, seconds = timed(lambda: _pass(kinetic, events))
-    exact, filtered = counters.exact - exact, counters.filtered - filtered
+    exact, filtered, _ = kinetic.vertices.counters.now()
     return Measured(
         start,
         certificates,

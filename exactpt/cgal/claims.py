@@ -38,7 +38,7 @@ class BodyShape(NamedTuple):
     def of_scene(cls, scene: Scene) -> list[BodyShape]:
         """The shapes of all bodies, with the orientation at the start, which never changes."""
         return [
-            cls(body.name, body.size, body.closed, signed_area2(body.at(scene.start)) < 0)
+            cls(body.name, body.size, body.closed, signed_area2(body._at(scene._start)) < 0)
             for body in scene.bodies
         ]
 

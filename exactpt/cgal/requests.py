@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final, TypedDict, cast
 
-from exactpt.cgal.claims import BodyShape, RootClaim, Tile, Verdict, exactly
+from exactpt.cgal.claims import BodyShape, IsolatedRoot, RootClaim, Tile, Verdict, exactly
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, ZZ, Rational, rational, shorten
 
@@ -150,5 +150,7 @@ def polynomial_words(f: Sequence[int]) -> str:
 
 def root_words(root: RootClaim) -> str:
     """A root: its polynomial and the interval that isolates it."""
+    if not isinstance(root, IsolatedRoot):
+        root = IsolatedRoot(root._polynomial, root._low, root._high)
     low, high = _rational_words(root.low), _rational_words(root.high)
     return f"polynomial {polynomial_words(root.polynomial)} between {low} {high}"

@@ -14,7 +14,7 @@ from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load
 from exactpt.cli.progress import QUIET, progress
 from exactpt.cli.words import answer_in_words, event_in_words, stats_in_words
 from exactpt.errors import BudgetExceeded, InputError
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, rational
 
 if TYPE_CHECKING:
     from exactpt.collision.pairs import PairsSearch
@@ -75,7 +75,7 @@ def collide(
     try:
         with time_limit(max_seconds):
             given = load(scene, until)
-            answer |= {"until": str(given.end), "tiling": tiling}
+            answer |= {"until": str(given._end), "tiling": tiling}
             search = _search(
                 given,
                 method,
@@ -91,7 +91,7 @@ def collide(
             told = answer_in_words(given, contact)
     except BudgetExceeded as spent:
         _tell_how_far(spent, search)
-        reached = None if spent.reached is None else str(spent.reached)
+        reached = None if spent.reached is None else str(rational(spent.reached))
         if as_json:
             answer |= {"stats": {} if search is None else search.stats, "reached": reached}
             click.echo(json.dumps(answer, indent=1))

@@ -35,6 +35,6 @@ def progress(
     if quiet or not sys.stderr.isatty():
         yield None
         return
-    start, span = float(scene.start), float(scene.end - scene.start)
+    start, span = float(scene._start), float(scene._end - scene._start)
     with click.progressbar(length=_STEPS, label=label, file=sys.stderr) as bar:
         yield lambda time: bar.update(int(_STEPS * (float(time) - start) / span) - bar.pos)

@@ -11,7 +11,7 @@ from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, output
 from exactpt.cli.progress import QUIET, progress
 from exactpt.errors import BudgetExceeded
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, rational
 
 __all__ = ["check", "tile"]
 
@@ -50,7 +50,7 @@ def tile(
         given = load(scene)
         snapshot = tile_at(
             given,
-            given.start if at is None else at,
+            given._start if at is None else at,
             tiling=tiling,
             by_running=by_running,
             max_events=max_events,
@@ -103,7 +103,7 @@ def check(
                 )
     except BudgetExceeded as spent:
         if as_json and not quiet:
-            reached_by = None if spent.reached is None else str(spent.reached)
+            reached_by = None if spent.reached is None else str(rational(spent.reached))
             click.echo(json.dumps({"ok": None, "reached": reached_by}))
         raise
     if not quiet:

@@ -19,10 +19,10 @@ def answer_in_words(scene: Scene, contact: Contact | None) -> list[str]:
     from exactpt.render.words import polynomial_in_words
 
     if contact is None:
-        return [f"no contact from t = {scene.start} to t = {scene.end}"]
+        return [f"no contact from t = {scene._start} to t = {scene._end}"]
     time = contact.time
-    root = f"root of {polynomial_in_words(time.polynomial)}"
-    exactly = str(time.low) if time.is_rational else root
+    root = f"root of {polynomial_in_words(time._polynomial)}"
+    exactly = str(time._low) if time.is_rational else root
     lines = [f"first contact at t = {float(time)!r} ({exactly}), kind {contact.kind}"]
     for pair in contact.pairs:
         feature = f"vertex {pair.other_vertex}" if pair.edge is None else f"edge {pair.edge}"

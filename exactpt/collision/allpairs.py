@@ -22,15 +22,17 @@ __all__ = ["first_contact_allpairs"]
 
 def first_contact_allpairs(scene: Scene) -> Contact | None:
     """The first contact in the scene's time span, by trying everything."""
-    start = AlgebraicNumber(scene.start)
+    start = AlgebraicNumber(scene._start)
     overlaps = _overlapping_at_start(scene)
     if overlaps:
-        touches = _touches(scene, [b.piece_after(scene.start).tracks for b in scene.bodies], start)
+        touches = _touches(
+            scene, [b._piece_after(scene._start).tracks for b in scene.bodies], start
+        )
         return contact_of(scene, start, touches, overlaps)
     best: AlgebraicNumber | None = None
     for i in range(len(scene.bodies)):
         for j in range(i + 1):
-            until = scene.end if best is None else best.high
+            until = scene._end if best is None else best._high
             time = _first_between(scene, i, j, until)
             if time is not None and (best is None or time.compare(best) < 0):
                 best = time
@@ -42,16 +44,16 @@ def first_contact_allpairs(scene: Scene) -> Contact | None:
 def _first_between(scene: Scene, i: int, j: int, until: QQ) -> AlgebraicNumber | None:
     """The first time in (start, until] at which bodies i and j (perhaps one body) touch."""
     a, b = scene.bodies[i], scene.bodies[j]
-    ends = sorted({t for t in (*a.breakpoints, *b.breakpoints) if scene.start < t < until})
-    begin = scene.start
+    ends = sorted({t for t in (*a._breakpoints, *b._breakpoints) if scene._start < t < until})
+    begin = scene._start
     for end in (*ends, until):
-        p, q = a.piece_after(begin).tracks, b.piece_after(begin).tracks
+        p, q = a._piece_after(begin).tracks, b._piece_after(begin).tracks
         pairs = _vertex_edge_pairs(p, q, edges(b.size, closed=b.closed), same=i == j)
         if i != j:
             pairs += _vertex_edge_pairs(q, p, edges(a.size, closed=a.closed), same=False)
         best: AlgebraicNumber | None = None
         for v, u, w in pairs:
-            limit = end if best is None else best.high
+            limit = end if best is None else best._high
             time = next(_meetings(v, u, w, AlgebraicNumber(begin), limit), None)
             if time is not None and (best is None or time.compare(best) < 0):
                 best = time
@@ -126,7 +128,7 @@ def _touches(
 
 
 def _overlapping_at_start(scene: Scene) -> list[tuple[int, int]]:
-    points = [body.at(scene.start) for body in scene.bodies]
+    points = [body._at(scene._start) for body in scene.bodies]
     found = []
     for j, b in enumerate(scene.bodies):
         for i, a in enumerate(scene.bodies[:j]):

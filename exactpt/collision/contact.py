@@ -106,12 +106,12 @@ class Contact:
 def time_to_json(time: AlgebraicNumber) -> dict[str, object]:
     """A time as in docs/format.md; the same on every machine, for one polynomial."""
     number = time.simplified()
-    low, high = number.canonical_interval()
+    low, high = number._canonical_interval()
     return {
         "approx": _finite(float(number)),
         "low": str(low),
         "high": str(high),
-        "polynomial": [str(c) for c in number.polynomial],
+        "polynomial": [str(c) for c in number._polynomial],
     }
 
 
@@ -122,12 +122,12 @@ def _finite(x: float) -> float:
 
 def tracks_before(scene: Scene, time: AlgebraicNumber) -> list[tuple[Track, ...]]:
     """The tracks of every body in the piece that leads up to a time after the start."""
-    return [_tracks_of(body, time, scene.start) for body in scene.bodies]
+    return [_tracks_of(body, time, scene._start) for body in scene.bodies]
 
 
 def _tracks_of(body: Body, time: AlgebraicNumber, start: QQ) -> tuple[Track, ...]:
-    since = max((b for b in body.breakpoints if time.compare_rational(b) > 0), default=start)
-    return body.piece_after(since).tracks
+    since = max((b for b in body._breakpoints if time.compare_rational(b) > 0), default=start)
+    return body._piece_after(since).tracks
 
 
 def contact_of(
@@ -147,7 +147,7 @@ def contact_of(
     touches = sorted(touches)
     outward = {i: _outward(scene, i) for i in {touch.other for touch in touches}}
     involved = sorted({i for touch in touches for i in (touch.body, touch.other)})
-    tracks = {i: _tracks_of(scene.bodies[i], time, scene.start) for i in involved}
+    tracks = {i: _tracks_of(scene.bodies[i], time, scene._start) for i in involved}
     number = _as_root(time, tracks, touches)
     pairs = tuple(_pair(scene, tracks, touch, number, outward[touch.other]) for touch in touches)
     names = tuple((scene.bodies[i].name, scene.bodies[j].name) for i, j in overlaps)
@@ -166,7 +166,7 @@ def _as_root(
         f = orientation(other[touch.edge], other[(touch.edge + 1) % len(other)], v)
     else:
         f = _coincidence(v, other[touch.other_vertex])
-    return time.as_root_of(f) if f else time
+    return time._as_root_of(f) if f else time
 
 
 def _coincidence(v: Track, w: Track) -> IntPoly:
@@ -176,7 +176,7 @@ def _coincidence(v: Track, w: Track) -> IntPoly:
 
 
 def _kind(scene: Scene, time: AlgebraicNumber, pairs: Sequence[Pair]) -> str:
-    if time.compare_rational(scene.start) == 0:
+    if time.compare_rational(scene._start) == 0:
         return "initial"
     kinds = {pair.kind for pair in pairs if pair.body != pair.other}
     if not kinds:
@@ -214,7 +214,7 @@ def _outward(scene: Scene, i: int) -> int:
     body = scene.bodies[i]
     if not body.closed or body.size < 3:
         return 0
-    return 1 if signed_area2(body.at(scene.start)) > 0 else -1
+    return 1 if signed_area2(body._at(scene._start)) > 0 else -1
 
 
 def _normal(
@@ -239,7 +239,7 @@ def _exponent(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> int:
     if time.sign_of(p) == 0:
         return -sys.maxsize
     while True:
-        low, high = _range(p, w, time.low, time.high)
+        low, high = _range(p, w, time._low, time._high)
         least = low if low > 0 else -high
         if least > 0:
             return least.numerator.bit_length() - least.denominator.bit_length()
@@ -251,7 +251,7 @@ def nearest_value(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> float:
     if time.sign_of(p) == 0:
         return 0.0
     while True:
-        low, high = _range(p, w, time.low, time.high)
+        low, high = _range(p, w, time._low, time._high)
         a, b = nearest_float(low), nearest_float(high)
         if a == b:
             return a

@@ -54,9 +54,9 @@ def first_contact(
         return PairsSearch(scene, exact_only=exact_only, ignoring=groups).run_to_contact()
     touches, overlaps = initial_touches(scene)
     if overlaps:
-        return contact_of(scene, AlgebraicNumber(scene.start), touches, overlaps)
+        return contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)
     name = tiling_for_contact(scene, tiling)
-    kinetic = start_tiling(scene, name, scene.start, exact_only=exact_only)
+    kinetic = start_tiling(scene, name, scene._start, exact_only=exact_only)
     try:
         for _ in kinetic.run():
             pass

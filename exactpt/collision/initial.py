@@ -20,7 +20,7 @@ def initial_touches(scene: Scene) -> tuple[list[Touch], list[tuple[int, int]]]:
     The second list is empty if and only if there is no contact at the start. (Within one
     body there is none: a scene whose polygons are not simple at the start is refused.)
     """
-    points = [body.at(scene.start) for body in scene.bodies]
+    points = [body._at(scene._start) for body in scene.bodies]
     near = [
         (i, j)
         for first, second in overlapping_pairs(boxes_of_points(points))

@@ -69,12 +69,12 @@ def first_within(
     first, second = scene.body(a), scene.body(b)
     if first is second:
         raise InputError(f"two bodies are asked for, not {a!r} twice")
-    if _is_within(first, second, scene.start, d, norm):
-        return AlgebraicNumber(scene.start)
-    begin = scene.start
-    ends = {t for t in (*first.breakpoints, *second.breakpoints) if begin < t < scene.end}
-    for end in (*sorted(ends), scene.end):
-        p, q = first.piece_after(begin).tracks, second.piece_after(begin).tracks
+    if _is_within(first, second, scene._start, d, norm):
+        return AlgebraicNumber(scene._start)
+    begin = scene._start
+    ends = {t for t in (*first._breakpoints, *second._breakpoints) if begin < t < scene._end}
+    for end in (*sorted(ends), scene._end):
+        p, q = first._piece_after(begin).tracks, second._piece_after(begin).tracks
         if norm == "max":
             candidates = _in_both(first, second, p, q, d)
         else:
@@ -92,7 +92,7 @@ def _earliest(
     """The first root in (begin, end] that counts."""
     best: AlgebraicNumber | None = None
     for f, counts in candidates:
-        limit = end if best is None else best.high
+        limit = end if best is None else best._high
         # Where f vanishes for ever, another candidate tells when the distance is reached.
         for root in roots_after(f, begin, limit) if f else ():
             if counts(root.time):
@@ -158,7 +158,7 @@ def _moved(v: Track, by: Point) -> Track:
 
 
 def _is_within(a: Body, b: Body, t: QQ, d: QQ, norm: Norm) -> bool:
-    p, q = a.at(t), b.at(t)
+    p, q = a._at(t), b._at(t)
     if norm != "max":
         axis = "xy".index(norm)
         (low, high), (left, right) = (

@@ -14,6 +14,7 @@ from __future__ import annotations
 import heapq
 import time as clock
 from collections.abc import Collection, Iterable
+from fractions import Fraction
 from typing import Final, TypeAlias, final
 
 import numpy as np
@@ -25,8 +26,8 @@ from exactpt.errors import BudgetExceeded, InputError
 from exactpt.geometry.boxes import overlapping_pairs
 from exactpt.geometry.polygon import edges
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.counters import counters
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.counters import Counters
+from exactpt.kernel.numbers import QQ, fraction
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.vertices import Vertices
@@ -73,7 +74,7 @@ class PairsSearch:
         self._scene = scene
         self._exact_only = exact_only
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
-        self._counted = (counters.exact, counters.filtered)
+        self._counters = Counters()
         self._group: Indices = np.array(_groups(scene, ignoring), dtype=np.int64)
         self.certificates = 0
         self._passed: QQ | None = None
@@ -87,13 +88,13 @@ class PairsSearch:
             "events": 0,
             "certificates": self.certificates,
             "skipped": 0,
-            "exact": counters.exact - self._counted[0],
-            "filtered": counters.filtered - self._counted[1],
+            "exact": self._counters.exact,
+            "filtered": self._counters.filtered,
         }
 
-    def passed(self) -> QQ | None:
+    def passed(self) -> Fraction | None:
         """A rational time: up to it, no contact has been found; None: nothing is known."""
-        return self._passed
+        return None if self._passed is None else fraction(self._passed)
 
     def run_to_contact(self) -> Contact | None:
         """The first contact in the closed time span of the scene, or None.
@@ -106,7 +107,7 @@ class PairsSearch:
         overlaps = [(i, j) for i, j in overlaps if not self._ignores(i, j)]
         if overlaps:
             seen = [touch for touch in initial if not self._ignores(touch.body, touch.other)]
-            return contact_of(scene, AlgebraicNumber(scene.start), seen, overlaps)
+            return contact_of(scene, AlgebraicNumber(scene._start), seen, overlaps)
         if not scene.bodies:
             return None
         self._prepare()
@@ -115,7 +116,8 @@ class PairsSearch:
     def _prepare(self) -> None:
         """Number the vertices and edges, and read the first tracks."""
         scene = self._scene
-        self._vertices = Vertices.of(scene.bodies, scene.start, scene.end, plain=True)
+        self._vertices = Vertices.of(scene.bodies, scene._start, scene._end, plain=True)
+        self._counters = self._vertices.counters
         ids: list[int] = []
         first_edge: list[tuple[int, int]] = []
         for moving, body in zip(self._vertices.bodies, scene.bodies, strict=True):
@@ -138,13 +140,13 @@ class PairsSearch:
 
     def _run(self) -> Contact | None:
         """Search slab by slab."""
-        now, end = self._scene.start, self._scene.end
+        now, end = self._scene._start, self._scene._end
         step = (end - now) / SLABS
         least = (end - now) / SMALLEST_SLAB
         while now < end:
             self._passed = now
             if self._deadline is not None and clock.monotonic() > self._deadline:
-                raise BudgetExceeded("the time is used up", now)
+                raise BudgetExceeded("the time is used up", fraction(now))
             until = min([end, *(m.until for m in self._vertices.bodies if m.until is not None)])
             later = min(now + step, until)
             near = self._near(now, later)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final, NamedTuple
 
 from exactpt.errors import InputError
+from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.scene.scene import Scene
@@ -78,13 +79,14 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
     if name == POINT_TILING or (name == "auto" and points):
         from exactpt.tiling.incremental.incremental import IncrementalTiling
 
-        vertices = IncrementalTiling.vertices_of(scene.bodies, start, scene.end)
-        return TilingPlan(POINT_TILING, IncrementalTiling, vertices, scene.end)
-    vertices = Vertices.of(scene.bodies, start, scene.end)
+        vertices = IncrementalTiling.vertices_of(scene.bodies, start, scene._end)
+        return TilingPlan(POINT_TILING, IncrementalTiling, vertices, scene._end)
+    vertices = Vertices.of(scene.bodies, start, scene._end)
     convex = name in ("auto", "greedy") and Instant(vertices, start).all_stay_convex()
+    vertices.counters = Counters()  # the choice is no decision of the run
     if name == "auto":
         name = "greedy" if convex else "mixed"
-    return TilingPlan(name, tiling_class(name, convex=convex), vertices, scene.end)
+    return TilingPlan(name, tiling_class(name, convex=convex), vertices, scene._end)
 
 
 def tiling_for_contact(scene: Scene, name: str) -> str:

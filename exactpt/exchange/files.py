@@ -131,6 +131,6 @@ def write_shapes(scene: Scene, path: str | Path, at: Rational | None = None) -> 
             raise InputError(f"{file}: a scene has all times: leave the time away")
         save(scene, file)
         return
-    shapes = shapes_at(scene, scene.start if at is None else rational(at))
+    shapes = shapes_at(scene, scene._start if at is None else rational(at))
     writers = {"geojson": geojson.geojson_of, "wkt": wkt.wkt_of, "svg": svg.svg_of}
     write_atomically(file, writers[kind](shapes))

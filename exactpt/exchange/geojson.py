@@ -41,8 +41,8 @@ def shapes_of(text: str) -> Iterator[Shape]:
 
     >>> from exactpt.exchange.shapes import scene_of
     >>> text = '{"type": "Polygon", "coordinates": [[[0, 0], [0.1, 0], [0, 2], [0, 0]]]}'
-    >>> scene_of(shapes_of(text)).bodies[0].at(0)
-    [(mpq(0,1), mpq(0,1)), (mpq(1,10), mpq(0,1)), (mpq(0,1), mpq(2,1))]
+    >>> scene_of(shapes_of(text)).bodies[0].at(0)[1]
+    (Fraction(1, 10), Fraction(0, 1))
 
     Raises:
         InputError: one line that names the feature and what is wrong with it.

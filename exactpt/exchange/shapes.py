@@ -79,7 +79,7 @@ def scene_of(
             skipped(str(error))
             continue
         bodies[body.name] = body
-    return empty.going_on(bodies.values(), empty.start)
+    return empty.going_on(bodies.values(), empty._start)
 
 
 def body_of(shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "refuse") -> Body:
@@ -118,10 +118,10 @@ def shapes_at(scene: Scene, at: QQ) -> list[Shape]:
     Raises:
         InputError: if the time is outside the time span.
     """
-    if not scene.start <= at <= scene.end:
-        raise InputError(f"t = {at} is outside the time span from {scene.start} to {scene.end}")
+    if not scene._start <= at <= scene._end:
+        raise InputError(f"t = {at} is outside the time span from {scene._start} to {scene._end}")
     return [
-        Shape(f"body {body.name!r}", body.name, _kind(body), body.at(at)) for body in scene.bodies
+        Shape(f"body {body.name!r}", body.name, _kind(body), body._at(at)) for body in scene.bodies
     ]
 
 

@@ -9,6 +9,7 @@ Source: S. Basu, R. Pollack, M.-F. Roy, *Algorithms in Real Algebraic Geometry*,
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING, Final, final
 
 from exactpt.errors import InputError
@@ -29,7 +30,7 @@ from exactpt.kernel.integer_polynomial import (
     square_free,
 )
 from exactpt.kernel.isolated_root import IsolatedRoot
-from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, sign
+from exactpt.kernel.numbers import QQ, Rational, place, power_of_two, rational, sign
 
 if TYPE_CHECKING:
     from exactpt.kernel.sympy_door import Expression
@@ -56,17 +57,17 @@ class AlgebraicNumber(IsolatedRoot):
         """-1, 0 or 1 as this number is smaller than, equal to, or larger than ``other``."""
         differ = False
         while True:
-            if self.high < other.low:
+            if self._high < other._low:
                 return -1
-            if self.low > other.high:
+            if self._low > other._high:
                 return 1
-            if other.low == other.high:
-                return self.compare_rational(other.low)
-            if self.low == self.high:
-                return -other.compare_rational(self.low)
-            width, width_of_other = self.high - self.low, other.high - other.low
+            if other._low == other._high:
+                return self.compare_rational(other._low)
+            if self._low == self._high:
+                return -other.compare_rational(self._low)
+            width, width_of_other = self._high - self._low, other._high - other._low
             if not differ and (
-                max(width, width_of_other) <= FINE or self.polynomial == other.polynomial
+                max(width, width_of_other) <= FINE or self._polynomial == other._polynomial
             ):
                 if self._shares_root(other):
                     return 0
@@ -75,37 +76,37 @@ class AlgebraicNumber(IsolatedRoot):
             (self if width >= width_of_other else other).refine()
 
     def _shares_root(self, other: AlgebraicNumber) -> bool:
-        low, high = max(self.low, other.low), min(self.high, other.high)
+        low, high = max(self._low, other._low), min(self._high, other._high)
         if low >= high:
             return False
-        common = self.polynomial
-        if common != other.polynomial:
-            common = greatest_common_divisor(common, other.polynomial)
-        # common divides self.polynomial, which has one simple root in [self.low, self.high];
+        common = self._polynomial
+        if common != other._polynomial:
+            common = greatest_common_divisor(common, other._polynomial)
+        # common divides self._polynomial, which has one simple root in [self._low, self._high];
         # its sign changes in [low, high] (the ends are no roots) iff that root is common.
         return len(common) > 1 and sign_at(common, low) * sign_at(common, high) < 0
 
     def sign_of(self, f: IntPoly) -> int:
         """The sign of f at this number."""
-        if self.low == self.high:
-            return sign_at(f, self.low)
-        if len(f) >= len(self.polynomial):
-            f = positive_remainder(f, self.polynomial)
+        if self._low == self._high:
+            return sign_at(f, self._low)
+        if len(f) >= len(self._polynomial):
+            f = positive_remainder(f, self._polynomial)
         if len(f) <= 1:
             return sign(f[0]) if f else 0
         if len(f) == 2:
             return sign(f[1]) * self.compare_rational(QQ(-f[0], f[1]))
-        s = sign_on(f, self.low, self.high)
+        s = sign_on(f, self._low, self._high)
         if s:
             return s
-        common = greatest_common_divisor(f, self.polynomial)
-        if len(common) > 1 and sign_at(common, self.low) * sign_at(common, self.high) < 0:
+        common = greatest_common_divisor(f, self._polynomial)
+        if len(common) > 1 and sign_at(common, self._low) * sign_at(common, self._high) < 0:
             return 0
         while not s:
             self.refine()
-            if self.low == self.high:
-                return sign_at(f, self.low)
-            s = sign_on(f, self.low, self.high)
+            if self._low == self._high:
+                return sign_at(f, self._low)
+            s = sign_on(f, self._low, self._high)
         return s
 
     def sign_after(self, f: IntPoly) -> int:
@@ -130,7 +131,7 @@ class AlgebraicNumber(IsolatedRoot):
             f, factor = derivative(f), -factor
         return 0
 
-    def canonical_interval(self) -> tuple[QQ, QQ]:
+    def canonical_interval(self) -> tuple[Fraction, Fraction]:
         """Rational bounds that depend on the number and its polynomial alone.
 
         Two dyadic neighbours m/2^k, (m+1)/2^k that enclose the number, with the
@@ -138,6 +139,9 @@ class AlgebraicNumber(IsolatedRoot):
         between; so the same on every machine, by whatever comparisons the number has
         been refined. Of a rational, known as one or not: the number twice.
         """
+        return place(self._canonical_interval())
+
+    def _canonical_interval(self) -> tuple[QQ, QQ]:
         return canonical_interval(self)
 
     def enclosure(self) -> tuple[float, float]:
@@ -150,7 +154,7 @@ class AlgebraicNumber(IsolatedRoot):
     def __float__(self) -> float:
         return nearest_double(self)
 
-    def as_root_of(self, f: IntPoly) -> AlgebraicNumber:
+    def _as_root_of(self, f: IntPoly) -> AlgebraicNumber:
         """This number, if it is irrational as the root of another polynomial.
 
         Args:
@@ -161,9 +165,9 @@ class AlgebraicNumber(IsolatedRoot):
         p = square_free(f)
         slope = derivative(p)
         # Where p is monotone, its root is alone.
-        while not sign_on(slope, self.low, self.high):
+        while not sign_on(slope, self._low, self._high):
             self.refine()
-        return AlgebraicNumber.root(p, self.low, self.high)
+        return AlgebraicNumber._root(p, self._low, self._high)
 
     def minimal_polynomial(self) -> tuple[int, ...]:
         """The irreducible integer polynomial with this root, constant term first.
@@ -174,7 +178,7 @@ class AlgebraicNumber(IsolatedRoot):
         Raises:
             ImportError: if a polynomial is to be factored and neither is installed.
         """
-        f = self.simplified().polynomial
+        f = self.simplified()._polynomial
         if len(f) > 3:
             from exactpt.kernel.factors import irreducible_factors
 
@@ -182,7 +186,7 @@ class AlgebraicNumber(IsolatedRoot):
             f = next(
                 g
                 for g in irreducible_factors(f)
-                if sign_at(g, self.low) * sign_at(g, self.high) < 0
+                if sign_at(g, self._low) * sign_at(g, self._high) < 0
             )
         return tuple(map(int, f))
 
@@ -194,7 +198,7 @@ class AlgebraicNumber(IsolatedRoot):
 
     def __hash__(self) -> int:
         """That of the rational, or of the double nearest to an irrational number."""
-        return hash(self.low) if self.simplified().is_rational else hash(float(self))
+        return hash(self._low) if self.simplified().is_rational else hash(float(self))
 
     def __eq__(self, other: object) -> bool:
         if isinstance(other, AlgebraicNumber):
@@ -222,7 +226,7 @@ class AlgebraicNumber(IsolatedRoot):
         return self.compare_rational(rational(other))
 
     def __repr__(self) -> str:
-        if self.low == self.high:
-            return f"AlgebraicNumber('{self.low}')"
-        coefficients = ", ".join(map(str, self.polynomial))
+        if self._low == self._high:
+            return f"AlgebraicNumber('{self._low}')"
+        coefficients = ", ".join(map(str, self._polynomial))
         return f"<root of ({coefficients}) near {float(self)!r}>"

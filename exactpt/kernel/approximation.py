@@ -35,7 +35,7 @@ ROUNDING: Final = 2.0**-54
 def nearest_double(x: IsolatedRoot) -> float:
     """The nearest double (ties, which only a rational can have, to even); ±inf beyond all."""
     while True:
-        low, high = nearest_float(x.low), nearest_float(x.high)
+        low, high = nearest_float(x._low), nearest_float(x._high)
         if low == high:
             return low + 0.0  # never -0.0
         if high == math.nextafter(low, math.inf):
@@ -55,17 +55,17 @@ def _exact(x: float) -> QQ:
 
 def enclosing_doubles(x: IsolatedRoot) -> tuple[float, float]:
     """Doubles lo <= x <= hi: equal if x is a double, else neighbours."""
-    near = nearest_float(x.low)
-    if near == nearest_float(x.high) and math.isfinite(near):
+    near = nearest_float(x._low)
+    if near == nearest_float(x._high) and math.isfinite(near):
         exact = _exact(near)
         # Both ends round to this double; and no end is x, unless both are.
-        if exact <= x.low:
-            return near, (near if exact == x.high else math.nextafter(near, math.inf))
-        if exact >= x.high:
+        if exact <= x._low:
+            return near, (near if exact == x._high else math.nextafter(near, math.inf))
+        if exact >= x._high:
             return math.nextafter(near, -math.inf), near
-    guessing = len(x.polynomial) > 3
+    guessing = len(x._polynomial) > 3
     while True:
-        lo, hi = enclosing_floats(x.low)[0], enclosing_floats(x.high)[1]
+        lo, hi = enclosing_floats(x._low)[0], enclosing_floats(x._high)[1]
         between = math.nextafter(lo, math.inf)
         if hi <= between:
             return lo, hi
@@ -83,9 +83,9 @@ def _narrow_around_guess(x: IsolatedRoot) -> None:
 
     If they are wrong, no more is known of x than on which side of some doubles it is.
     """
-    lo, hi = nearest_float(x.low), nearest_float(x.high)
-    shift = max(0, max(abs(c) for c in x.polynomial).bit_length() - LARGEST_BITS)
-    f = [float(c >> shift) for c in reversed(x.polynomial)]
+    lo, hi = nearest_float(x._low), nearest_float(x._high)
+    shift = max(0, max(abs(c) for c in x._polynomial).bit_length() - LARGEST_BITS)
+    f = [float(c >> shift) for c in reversed(x._polynomial)]
     rises, t = _value_and_slope(f, hi)[0] > 0.0, (lo + hi) / 2
     for _ in range(MOST_STEPS):
         value, slope = _value_and_slope(f, t)
@@ -116,7 +116,7 @@ def _value_and_slope(f: list[float], t: float) -> tuple[float, float]:
 def canonical_interval(x: IsolatedRoot) -> tuple[QQ, QQ]:
     """See `AlgebraicNumber.canonical_interval`."""
     if x.simplified().is_rational:
-        return x.low, x.high
+        return x._low, x._high
     bits = 64
     while True:
         grid = power_of_two(-bits)
@@ -128,11 +128,11 @@ def canonical_interval(x: IsolatedRoot) -> tuple[QQ, QQ]:
 
 
 def _is_alone_in(x: IsolatedRoot, low: QQ, high: QQ) -> bool:
-    if x.low <= low and high <= x.high:
+    if x._low <= low and high <= x._high:
         return True
     return (
-        sign_at(x.polynomial, low) != 0
-        and count_roots(sturm_sequence(x.polynomial), low, high) == 1
+        sign_at(x._polynomial, low) != 0
+        and count_roots(sturm_sequence(x._polynomial), low, high) == 1
     )
 
 
@@ -170,7 +170,7 @@ def _next_on_grid(x: IsolatedRoot, bits: int) -> QQ:
 def _floor_on_grid(x: IsolatedRoot, grid: QQ) -> ZZ:
     """The largest integer m with m * grid <= x."""
     x.refine_to(grid)
-    m = floor(x.low / grid)
+    m = floor(x._low / grid)
     while x.compare_rational((m + 1) * grid) >= 0:
         m += 1
     return m

@@ -1,20 +1,20 @@
 """How many decisions the float filter settled, and how many needed exact arithmetic, and why.
 
-The one piece of process-wide state: written where decisions are made, read by the
-statistics of a run (as differences), never by logic.
+Each run has counters of its own (`exactpt.motion.vertices.Vertices.counters`): written where
+decisions are made, read by the statistics of the run, never by logic.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from typing import Final, NamedTuple, Self, final
+from typing import NamedTuple, final
 
-__all__ = ["Counters", "Counts", "counters"]
+__all__ = ["Counters", "Counts"]
 
 
 class Counts(NamedTuple):
-    """How many decisions were made in a while.
+    """How many decisions were made.
 
     Attributes:
         exact: those that needed exact arithmetic.
@@ -26,20 +26,10 @@ class Counts(NamedTuple):
     filtered: int
     reasons: Mapping[str, int]
 
-    def since(self, earlier: Self) -> Counts:
-        """What has been counted after other counts."""
-        reasons = Counter(self.reasons)
-        reasons.subtract(earlier.reasons)
-        return Counts(
-            self.exact - earlier.exact,
-            self.filtered - earlier.filtered,
-            {reason: n for reason, n in sorted(reasons.items()) if n},
-        )
-
 
 @final
 class Counters:
-    """Running totals.
+    """Running totals of one run.
 
     Attributes:
         filtered: signs and comparisons of times settled by floats with a proven bound.
@@ -59,7 +49,15 @@ class Counters:
 
     def now(self) -> Counts:
         """The totals so far."""
-        return Counts(self.exact, self.filtered, dict(self.reasons))
+        return Counts(self.exact, self.filtered, dict(sorted(self.reasons.items())))
 
+    def add(self, counts: Counts) -> None:
+        """Count what another part of the same run has counted."""
+        self.exact += counts.exact
+        self.filtered += counts.filtered
+        self.reasons.update(counts.reasons)
 
-counters: Final = Counters()
+    def set(self, counts: Counts) -> None:
+        """Go on from what a run had counted when it was saved."""
+        self.exact, self.filtered = counts.exact, counts.filtered
+        self.reasons = Counter(counts.reasons)

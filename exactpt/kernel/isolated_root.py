@@ -10,6 +10,8 @@ refinement for real roots*, ACM Communications in Computer Algebra 48 (2014).
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from fractions import Fraction
 from typing import Final, Self
 
 from exactpt.kernel.integer_polynomial import (
@@ -25,6 +27,7 @@ from exactpt.kernel.numbers import (
     ZZ,
     Rational,
     floor,
+    fraction,
     is_square,
     isqrt,
     power_of_two,
@@ -42,31 +45,32 @@ class IsolatedRoot:
 
     Narrowing changes what is known of the number, not the number.
 
-    Attributes:
-        polynomial: square-free, integer, primitive, leading coefficient positive,
-            constant term first; of a rational p/q it is ``(-p, q)``.
-        low: a rational at most the number.
-        high: a rational at least the number; no other real root of ``polynomial``
-            lies in [low, high], and ``low == high`` if and only if the number is
-            known to be rational. Where ``low < high``, neither end is a root.
+    The polynomial is square-free, integer and primitive, its leading coefficient positive;
+    of a rational p/q it is ``(-p, q)``. No other real root of it lies in [low, high], and
+    ``low == high`` if and only if the number is known to be rational. Where ``low < high``,
+    neither end is a root.
     """
 
-    __slots__ = ("_below", "_bits", "high", "low", "polynomial")
+    __slots__ = ("_below", "_bits", "_high", "_low", "_polynomial")
 
     def __init__(self, value: Rational) -> None:
-        self.polynomial: IntPoly
-        self.low: QQ
-        self.high: QQ
+        self._polynomial: IntPoly
+        self._low: QQ
+        self._high: QQ
         self._below: int  # the sign of the polynomial at low
         self._bits: int  # how many the next step may gain; below 1: one
         self._become(rational(value))
 
     @classmethod
-    def root(cls, polynomial: IntPoly, low: QQ, high: QQ) -> Self:
+    def root(cls, polynomial: Iterable[int], low: Rational, high: Rational) -> Self:
         """The root of a square-free polynomial in (low, high], where it has exactly one.
 
         ``low`` itself may be another root; ``low == high`` says that it is the root.
         """
+        return cls._root(tuple(map(ZZ, polynomial)), rational(low), rational(high))
+
+    @classmethod
+    def _root(cls, polynomial: IntPoly, low: QQ, high: QQ) -> Self:
         self = cls.__new__(cls)
         if low == high:
             self._become(high)
@@ -83,7 +87,7 @@ class IsolatedRoot:
         if len(polynomial) == 2:
             self._become(QQ(-polynomial[0], polynomial[1]))
             return self
-        self.polynomial, self.low, self.high = polynomial, low, high
+        self._polynomial, self._low, self._high = polynomial, low, high
         self._bits = -FIRST_STEPS
         self._below = sign_at(polynomial, low)
         if sign_at(polynomial, high) == 0:
@@ -103,7 +107,7 @@ class IsolatedRoot:
             larger: whether it is the larger root.
         """
         self = cls.__new__(cls)
-        self.polynomial, self.low, self.high = primitive(quadratic), low, high
+        self._polynomial, self._low, self._high = primitive(quadratic), low, high
         self._bits = -FIRST_STEPS
         self._below = -1 if larger else 1
         return self
@@ -111,42 +115,57 @@ class IsolatedRoot:
     def _leave_low_end(self) -> None:
         # The root is inside (low, high), and low is a (simple) root as well: the sign
         # just right of it is that of the derivative. Halve until low is no root.
-        self._below = sign_at(derivative(self.polynomial), self.low)
+        self._below = sign_at(derivative(self._polynomial), self._low)
         while True:
-            middle = (self.low + self.high) / 2
-            s = sign_at(self.polynomial, middle)
+            middle = (self._low + self._high) / 2
+            s = sign_at(self._polynomial, middle)
             if s == 0:
                 self._become(middle)
                 return
             if s == self._below:
-                self.low = middle
+                self._low = middle
                 return
-            self.high = middle
+            self._high = middle
 
     def _become(self, value: QQ) -> None:
-        self.polynomial = (-ZZ(value.numerator), ZZ(value.denominator))
-        self.low = self.high = value
+        self._polynomial = (-ZZ(value.numerator), ZZ(value.denominator))
+        self._low = self._high = value
         self._below = self._bits = 0
+
+    @property
+    def polynomial(self) -> tuple[int, ...]:
+        """An integer polynomial of which the number is a simple root, constant term first."""
+        return tuple(map(int, self._polynomial))
+
+    @property
+    def low(self) -> Fraction:
+        """A rational at most the number."""
+        return fraction(self._low)
+
+    @property
+    def high(self) -> Fraction:
+        """A rational at least the number."""
+        return fraction(self._high)
 
     @property
     def is_rational(self) -> bool:
         """Whether the number is known to be rational (a root of degree 3 or more may hide one)."""
-        return self.low == self.high
+        return self._low == self._high
 
     def refine(self) -> None:
         """Shrink the interval: to a half at least, near the root to the square of its width.
 
         (An interval around 0 is cut there: so 0 is found, and tiny numbers know their sign.)
         """
-        if self.low == self.high:
+        if self._low == self._high:
             return
-        if len(self.polynomial) == 3:
+        if len(self._polynomial) == 3:
             self._refine_quadratic()
             return
-        if self._bits > 1 and not self.low < 0 < self.high:
+        if self._bits > 1 and not self._low < 0 < self._high:
             self._refine_by_secant()
             return
-        self.compare_rational(QQ(0) if self.low < 0 < self.high else (self.low + self.high) / 2)
+        self.compare_rational(QQ(0) if self._low < 0 < self._high else (self._low + self._high) / 2)
         self._bits = self._bits + 1 if self._bits < 1 else 4
 
     def _refine_by_secant(self) -> None:
@@ -156,21 +175,21 @@ class IsolatedRoot:
         tries the square of the number of cells; else the root of it, and the interval is
         halved.
         """
-        low, width = self.low, self.high - self.low
-        at_low, at_high = (abs(evaluate(self.polynomial, t)) for t in (low, self.high))
+        low, width = self._low, self._high - self._low
+        at_low, at_high = (abs(evaluate(self._polynomial, t)) for t in (low, self._high))
         cell = width * power_of_two(-self._bits)
         left = low + floor(at_low / (at_low + at_high) / power_of_two(-self._bits)) * cell
         if self.compare_rational(left) > 0 > self.compare_rational(left + cell):
             self._bits *= 2
         else:
             self._bits //= 2
-            if self.high - self.low > width / 2:
-                self.compare_rational((self.low + self.high) / 2)
+            if self._high - self._low > width / 2:
+                self.compare_rational((self._low + self._high) / 2)
 
     def _refine_quadratic(self) -> None:
         # (-c1 ± sqrt(d)) / 2 c2, the square root to as many bits as double the precision.
-        c0, c1, c2 = self.polynomial
-        width = self.high - self.low
+        c0, c1, c2 = self._polynomial
+        width = self._high - self._low
         bits = 2 * max(8, width.denominator.bit_length() - width.numerator.bit_length()) + 8
         root = isqrt(_discriminant((c0, c1, c2)) << 2 * bits)
         centre = QQ(-c1, 2 * c2)
@@ -180,29 +199,30 @@ class IsolatedRoot:
             low, high = centre - (root + 1) * unit, centre - root * unit
         else:
             low, high = centre + root * unit, centre + (root + 1) * unit
-        self.low, self.high = max(self.low, low), min(self.high, high)
+        self._low, self._high = max(self._low, low), min(self._high, high)
 
     def refine_to(self, width: QQ) -> None:
         """Refine until ``high - low <= width`` (positive)."""
-        while self.high - self.low > width:
+        while self._high - self._low > width:
             self.refine()
 
-    def compare_rational(self, q: QQ) -> int:
-        """-1, 0 or 1 as this number is smaller than, equal to, or larger than ``q``."""
-        if self.high < q:
+    def compare_rational(self, number: Rational) -> int:
+        """-1, 0 or 1 as this number is smaller than, equal to, or larger than a rational."""
+        q = rational(number)  # it may become an end of the interval
+        if self._high < q:
             return -1
-        if self.low > q:
+        if self._low > q:
             return 1
-        if self.low == self.high:
+        if self._low == self._high:
             return 0
-        s = sign_at(self.polynomial, q)
+        s = sign_at(self._polynomial, q)
         if s == 0:
             self._become(q)
             return 0
         if s == self._below:
-            self.low = q
+            self._low = q
             return 1
-        self.high = q
+        self._high = q
         return -1
 
     def simplified(self) -> Self:
@@ -212,11 +232,17 @@ class IsolatedRoot:
         coefficient c (Gauss), so c * root is an integer: one candidate is left once
         the interval is narrower than 1/c.
         """
-        if self.low < self.high and len(self.polynomial) > 3:
-            lead = self.polynomial[-1]
+        if self._low < self._high and len(self._polynomial) > 3:
+            lead = self._polynomial[-1]
             self.refine_to(QQ(ZZ(1), 2 * lead))
-            self.compare_rational(QQ(floor(self.high * lead), lead))
+            self.compare_rational(QQ(floor(self._high * lead), lead))
         return self
+
+    def __reduce__(self) -> tuple[object, ...]:
+        kind = type(self)
+        if self._low == self._high:
+            return kind, (str(self._low),)
+        return kind.root, (self.polynomial, str(self._low), str(self._high))
 
 
 def _discriminant(f: IntPoly) -> ZZ:

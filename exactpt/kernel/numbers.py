@@ -56,12 +56,15 @@ __all__ = [
     "digits",
     "enclosing_floats",
     "floor",
+    "fraction",
+    "fractions",
     "gcd",
     "is_square",
     "isqrt",
     "isqrt_rem",
     "nearest_float",
     "parse_rational",
+    "place",
     "power_of_two",
     "rational",
     "rationals",
@@ -98,6 +101,25 @@ def power_of_two(exponent: int) -> QQ:
     """2**exponent, for an exponent of either sign."""
     one = ZZ(1)
     return QQ(one << exponent) if exponent >= 0 else QQ(one, one << -exponent)
+
+
+def fraction(value: QQ) -> Fraction:
+    """The number as Python's own, for those outside of the package.
+
+    GMP's numbers stay inside: `limit_denominator` of gmpy2 2.3 frees the number that it is
+    called on where it returns that.
+    """
+    return Fraction(int(value.numerator), int(value.denominator))
+
+
+def fractions(values: Iterable[QQ]) -> tuple[Fraction, ...]:
+    """Numbers as Python's own."""
+    return tuple(map(fraction, values))
+
+
+def place(point: tuple[QQ, QQ]) -> tuple[Fraction, Fraction]:
+    """A point with coordinates of Python's own."""
+    return fraction(point[0]), fraction(point[1])
 
 
 def parse_rational(text: str) -> QQ:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from fractions import Fraction
 from numbers import Real
 from typing import TYPE_CHECKING, ClassVar, Final, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, rational, shorten
+from exactpt.kernel.numbers import QQ, Rational, fraction, fractions, rational, shorten
 
 if TYPE_CHECKING:
     from exactpt.kernel.sympy_door import Expression, Variable
@@ -21,17 +22,13 @@ class Polynomial:
 
     >>> f = Polynomial([0, "1/2", -1])
     >>> f(3)
-    mpq(-15,2)
+    Fraction(-15, 2)
     >>> f.derivative()
     Polynomial(['1/2', '-2'])
-
-    Attributes:
-        coefficients: ``coefficients[i]`` belongs to t**i; the last is never 0, so
-            the zero polynomial has none.
     """
 
-    __slots__ = ("coefficients",)
-    coefficients: tuple[QQ, ...]
+    __slots__ = ("_coefficients",)
+    _coefficients: tuple[QQ, ...]
     __match_args__: ClassVar = ("coefficients",)
 
     def __init__(self, coefficients: Iterable[Rational] = ()) -> None:
@@ -40,7 +37,7 @@ class Polynomial:
         values = [rational(c) for c in coefficients]
         while values and values[-1] == 0:
             values.pop()
-        object.__setattr__(self, "coefficients", tuple(values))
+        object.__setattr__(self, "_coefficients", tuple(values))
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a Polynomial cannot be changed: {name}")
@@ -50,7 +47,7 @@ class Polynomial:
         while values and values[-1] == 0:
             values.pop()
         self = cls.__new__(cls)
-        object.__setattr__(self, "coefficients", tuple(values))
+        object.__setattr__(self, "_coefficients", tuple(values))
         return self
 
     @classmethod
@@ -71,31 +68,39 @@ class Polynomial:
         return polynomial_to_sympy(self, variable)
 
     @property
+    def coefficients(self) -> tuple[Fraction, ...]:
+        """``coefficients[i]`` belongs to t**i; the last is not 0, so that of 0 there are none."""
+        return fractions(self._coefficients)
+
+    @property
     def degree(self) -> int:
         """The degree; -1 for the zero polynomial."""
-        return len(self.coefficients) - 1
+        return len(self._coefficients) - 1
 
-    def __call__(self, t: Rational) -> QQ:
+    def __call__(self, t: Rational) -> Fraction:
         """The value at a rational t."""
-        at, value = rational(t), QQ(0)
-        for c in reversed(self.coefficients):
-            value = value * at + c
+        return fraction(self._at(rational(t)))
+
+    def _at(self, t: QQ) -> QQ:
+        value = QQ(0)
+        for c in reversed(self._coefficients):
+            value = value * t + c
         return value
 
     def __add__(self, other: Polynomial) -> Polynomial:
-        f, g = self.coefficients, other.coefficients
+        f, g = self._coefficients, other._coefficients
         if len(f) < len(g):
             f, g = g, f
         return Polynomial._of([*(a + b for a, b in zip(f, g, strict=False)), *f[len(g) :]])
 
     def __neg__(self) -> Polynomial:
-        return Polynomial._of([-c for c in self.coefficients])
+        return Polynomial._of([-c for c in self._coefficients])
 
     def __sub__(self, other: Polynomial) -> Polynomial:
         return self + -other
 
     def __mul__(self, other: Polynomial) -> Polynomial:
-        f, g = self.coefficients, other.coefficients
+        f, g = self._coefficients, other._coefficients
         if not f or not g:
             return ZERO
         product = [QQ(0)] * (len(f) + len(g) - 1)
@@ -106,21 +111,24 @@ class Polynomial:
 
     def derivative(self) -> Polynomial:
         """The derivative."""
-        return Polynomial._of([i * c for i, c in enumerate(self.coefficients) if i])
+        return Polynomial._of([i * c for i, c in enumerate(self._coefficients) if i])
 
-    def __iter__(self) -> Iterator[QQ]:
+    def __iter__(self) -> Iterator[Fraction]:
         return iter(self.coefficients)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Polynomial):
             return NotImplemented
-        return self.coefficients == other.coefficients
+        return self._coefficients == other._coefficients
 
     def __hash__(self) -> int:
-        return hash(self.coefficients)
+        return hash(self._coefficients)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Polynomial, (tuple(map(str, self._coefficients)),)
 
     def __repr__(self) -> str:
-        return f"Polynomial({[str(c) for c in self.coefficients]})"
+        return f"Polynomial({[str(c) for c in self._coefficients]})"
 
 
 ZERO: Final = Polynomial()

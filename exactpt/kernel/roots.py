@@ -57,7 +57,7 @@ def roots_after(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]
     if len(f) == 3:
         return _quadratic_roots(f, start, until)
     if sign_at(f, until) == 0:
-        return _roots_by_sturm(f, sturm_sequence(primitive(f)), start, start.low, until)
+        return _roots_by_sturm(f, sturm_sequence(primitive(f)), start, start._low, until)
     return _roots_by_descartes(f, start, until)
 
 
@@ -71,7 +71,7 @@ def _roots_by_descartes(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterat
     """For an end that is no root."""
     p: IntPoly = ()
     sequence: list[IntPoly] = []
-    for low, high, alone in single_roots(f, start.low, until):
+    for low, high, alone in single_roots(f, start._low, until):
         if alone:
             p = p or square_free(f)
             root = AlgebraicNumber.root(p, low, high)
@@ -112,7 +112,7 @@ def _quadratic_roots(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[
     if c2 < 0:
         f, c1, c2 = negate(f), -c1, -c2
     middle, unit = -c1 << places, c2 << places + 1
-    p, q = start.low.numerator * unit, start.low.denominator
+    p, q = start._low.numerator * unit, start._low.denominator
     for above in (middle - s, middle + s + 1):
         if above * q <= p:
             continue  # the root is before the start

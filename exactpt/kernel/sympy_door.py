@@ -46,16 +46,16 @@ def coefficients_from_sympy(expression: Expression, variable: Variable) -> list[
 
 def polynomial_to_sympy(f: Polynomial, variable: Variable) -> Expression:
     """The expression sum(c[i] * variable**i)."""
-    terms = (_rational(c) * variable**i for i, c in enumerate(f.coefficients))
+    terms = (_rational(c) * variable**i for i, c in enumerate(f._coefficients))
     return sum(terms, start=sympy.Integer(0))
 
 
 def algebraic_to_sympy(number: AlgebraicNumber) -> Expression:
     """A rational, or the real root with the same place among those of the polynomial."""
     if number.is_rational:
-        return _rational(number.low)
-    f = number.polynomial
-    place = count_roots(sturm_sequence(f), min(-cauchy_bound(f), number.low), number.low)
+        return _rational(number._low)
+    f = number._polynomial
+    place = count_roots(sturm_sequence(f), min(-cauchy_bound(f), number._low), number._low)
     poly = sympy.Poly([int(c) for c in reversed(f)], sympy.Symbol("t"))
     return poly.real_roots()[place]
 

@@ -10,7 +10,7 @@ import heapq
 from typing import Protocol, final
 
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.counters import counters
+from exactpt.kernel.counters import Counters
 from exactpt.kernel.integer_polynomial import IntPoly
 
 __all__ = ["EventQueue", "EventTime", "ExactQueue", "Resolver"]
@@ -59,8 +59,9 @@ class Resolver(Protocol):
 class EventQueue:
     """At most one pending event a slot, popped in the order of time."""
 
-    def __init__(self, resolver: Resolver) -> None:
+    def __init__(self, resolver: Resolver, counters: Counters) -> None:
         self._resolver = resolver
+        self._counters: Counters = counters
         self._heap: list[tuple[float, int, int, EventTime]] = []
         self._live: dict[int, EventTime] = {}
         self._sequence: int = 0
@@ -114,7 +115,7 @@ class EventQueue:
                 candidates.append(entry)
                 bound = min(bound, entry[3].high)
         if not candidates:
-            counters.filtered += 1
+            self._counters.filtered += 1
             del live[slot]
             return time, [(slot, time)]
         return self._pop_exactly([(slot, time), *((e[2], e[3]) for e in candidates)])
@@ -155,7 +156,7 @@ class EventQueue:
         x = s.exact or self._resolver.resolve(s)
         y = t.exact or self._resolver.resolve(t)
         order = x.compare(y)
-        counters.count_exact("time", "close" if order else "zero")
+        self._counters.count_exact("time", "close" if order else "zero")
         return order
 
 
@@ -163,8 +164,8 @@ class EventQueue:
 class ExactQueue(EventQueue):
     """The same without floats: every comparison of two times is exact."""
 
-    def __init__(self, resolver: Resolver) -> None:
-        super().__init__(resolver)
+    def __init__(self, resolver: Resolver, counters: Counters) -> None:
+        super().__init__(resolver, counters)
         self._exact_heap: list[tuple[AlgebraicNumber, int, int, EventTime]] = []
 
     def schedule(self, slot: int, time: EventTime) -> None:
@@ -182,7 +183,7 @@ class ExactQueue(EventQueue):
         while heap:
             number, _, slot, time = heap[0]
             if live.get(slot) is time:
-                counters.count_exact("time", "asked")
+                self._counters.count_exact("time", "asked")
                 if first is not None and number.compare(first) > 0:
                     break
                 first = number
@@ -205,4 +206,4 @@ def _simplest(times: list[EventTime]) -> EventTime:
 
 
 def _size(number: AlgebraicNumber) -> tuple[int, IntPoly]:
-    return len(number.polynomial), number.polynomial
+    return len(number._polynomial), number._polynomial

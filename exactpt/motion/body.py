@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, rational, shorten, show
+from exactpt.kernel.numbers import QQ, Rational, fraction, fractions, place, rational, shorten, show
 from exactpt.kernel.polynomial import Polynomial, polynomial
-from exactpt.motion.motions import REST, Coefficients, Motion, Pieces, Position, SimpleMotion
+from exactpt.motion.motions import REST, Coefficients, Motion, Pieces, Position, SimpleMotion, made
 from exactpt.motion.track import Track
 
 if TYPE_CHECKING:
@@ -33,8 +34,8 @@ def is_text(name: object) -> bool:
 class Keyframe(NamedTuple):
     """The shape of a deforming body at one time."""
 
-    t: QQ
-    vertices: tuple[tuple[QQ, QQ], ...]
+    t: Fraction
+    vertices: tuple[tuple[Fraction, Fraction], ...]
 
 
 class BodyPiece(NamedTuple):
@@ -65,18 +66,15 @@ class Body:
 
     Raises:
         InputError: if the arguments do not describe a body, or the motion jumps.
-
-    Attributes:
-        breakpoints: the rational times at which the formulas of the tracks change, in order.
     """
 
     __slots__ = (
-        "_at",
+        "_breakpoints",
+        "_keyframes",
+        "_last",
         "_pieces",
         "_shapes",
-        "breakpoints",
         "closed",
-        "keyframes",
         "motion",
         "name",
         "vertices",
@@ -100,10 +98,10 @@ class Body:
         self.name = name
         self.motion = motion
         self.closed = closed
-        self.keyframes: tuple[Keyframe, ...] = ()
+        self._keyframes: tuple[Keyframe, ...] = ()
         self.vertices: tuple[Position, ...] = ()
         if keyframes is not None:
-            self.keyframes = _read_keyframes(name, keyframes)
+            self._keyframes = _read_keyframes(name, keyframes)
         else:
             self.vertices = tuple(
                 _read_vertex(name, i, v) for i, v in enumerate(_listed(name, "vertices", vertices))
@@ -111,10 +109,10 @@ class Body:
         self._shapes = self._shape_pieces()
         ends = {until for until, _ in self._shapes if until is not None}
         if isinstance(motion, Pieces):
-            ends.update(motion.until)
-        self.breakpoints: tuple[QQ, ...] = tuple(sorted(ends))
+            ends.update(motion._until)
+        self._breakpoints: tuple[QQ, ...] = tuple(sorted(ends))
         self._pieces: dict[QQ | None, BodyPiece] = {}
-        self._at: tuple[QQ, list[tuple[QQ, QQ]]] | None = None
+        self._last: tuple[QQ, list[tuple[QQ, QQ]]] | None = None
         if not self._shapes[0][1]:
             raise InputError(f"body {shorten(name)}: at least one vertex is needed")
         self._check_continuity()
@@ -148,30 +146,47 @@ class Body:
         """The number of vertices."""
         return len(self._shapes[0][1])
 
-    def piece_after(self, t: QQ) -> BodyPiece:
+    @property
+    def keyframes(self) -> tuple[Keyframe, ...]:
+        """The shapes that the body goes through, if it was given by them."""
+        return tuple(
+            Keyframe(fraction(frame.t), tuple(map(place, frame.vertices)))
+            for frame in self._keyframes
+        )
+
+    @property
+    def breakpoints(self) -> tuple[Fraction, ...]:
+        """The rational times at which the formulas of the tracks change, in order."""
+        return fractions(self._breakpoints)
+
+    def _piece_after(self, t: QQ) -> BodyPiece:
         """What the body does just after a rational time."""
-        end = next((b for b in self.breakpoints if b > t), None)
+        end = next((b for b in self._breakpoints if b > t), None)
         if end not in self._pieces:
             tracks = self._tracks(self._shape_after(t), self._motion_after(t))
             self._pieces[end] = BodyPiece(end, tracks)
         return self._pieces[end]
 
-    def at(self, t: Rational) -> list[tuple[QQ, QQ]]:
-        """The exact positions of the vertices at a rational time; those of the last are kept."""
-        time = rational(t)
-        if self._at is None or self._at[0] != time:
-            self._at = time, [track.at(time) for track in self.piece_after(time).tracks]
-        return self._at[1][:]
+    def at(self, t: Rational) -> list[tuple[Fraction, Fraction]]:
+        """The exact positions of the vertices at a rational time."""
+        return list(map(place, self._at(rational(t))))
+
+    def _at(self, t: QQ) -> list[tuple[QQ, QQ]]:
+        """The positions at a time; those of the last one are kept."""
+        last = self._last  # runs in other threads may share the body
+        if last is None or last[0] != t:
+            self._last = last = t, [track._at(t) for track in self._piece_after(t).tracks]
+        return last[1][:]
 
     def _tracks(self, shape: Sequence[Position], motion: SimpleMotion) -> tuple[Track, ...]:
         return tuple(motion.track(position) for position in shape)
 
     def _shape_pieces(self) -> list[tuple[QQ | None, tuple[Position, ...]]]:
-        if not self.keyframes:
+        if not self._keyframes:
             return [(None, self.vertices)]
-        first, last = self.keyframes[0], self.keyframes[-1]
+        first, last = self._keyframes[0], self._keyframes[-1]
         pieces: list[tuple[QQ | None, tuple[Position, ...]]] = [(first.t, _at_rest(first))]
-        for before, after in zip(self.keyframes, self.keyframes[1:], strict=False):
+        for before, after in zip(self._keyframes, self._keyframes[1:], strict=False):
             pieces.append((after.t, _between(before, after)))
         pieces.append((None, _at_rest(last)))
         return pieces
@@ -182,7 +197,7 @@ class Body:
     def _motion_after(self, t: QQ) -> SimpleMotion:
         if not isinstance(self.motion, Pieces):
             return self.motion
-        for until, motion in zip(self.motion.until, self.motion.motions, strict=False):
+        for until, motion in zip(self.motion._until, self.motion.motions, strict=False):
             if until > t:
                 return motion
         return self.motion.motions[-1]
@@ -191,16 +206,35 @@ class Body:
         if not isinstance(self.motion, Pieces):
             return
         pairs = zip(self.motion.motions, self.motion.motions[1:], strict=False)
-        for t, (before, after) in zip(self.motion.until, pairs, strict=True):
+        for t, (before, after) in zip(self.motion._until, pairs, strict=True):
             shape = self._shape_after(t)
             for i, (a, b) in enumerate(
                 zip(self._tracks(shape, before), self._tracks(shape, after), strict=True)
             ):
-                if a.at(t) != b.at(t):
+                if a._at(t) != b._at(t):
                     raise InputError(
                         f"body {shorten(self.name)}: vertex {i} jumps at t = {show(t)} "
-                        f"from {show(*a.at(t))} to {show(*b.at(t))}"
+                        f"from {show(*a._at(t))} to {show(*b._at(t))}"
                     )
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Body):
+            return NotImplemented
+        return (self.name, self.closed, self.vertices, self._keyframes, self.motion) == (
+            other.name, other.closed, other.vertices, other._keyframes, other.motion
+        )  # fmt: skip
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.closed, self.size))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        shape: dict[str, object] = {"vertices": tuple(map(_given, self.vertices))}
+        if self._keyframes:
+            shape = {"keyframes": tuple(
+                (str(frame.t), tuple((str(x), str(y)) for x, y in frame.vertices))
+                for frame in self._keyframes
+            )}  # fmt: skip
+        return made, (Body, (self.name,), shape | {"motion": self.motion, "closed": self.closed})
 
     def __repr__(self) -> str:
         what = {1: "point", 2: "segment"}.get(self.size, "polygon" if self.closed else "chain")
@@ -231,6 +265,14 @@ def _read_vertex(name: str, index: int, vertex: VertexLike) -> Position:
         return polynomial(x), polynomial(y)
     except InputError as error:
         raise InputError(f"body {shorten(name)}: vertex {index}: {error}") from None
+
+
+def _given(vertex: Position) -> tuple[object, object]:
+    """A vertex as the constructor takes it, short if it is at rest."""
+    if vertex[0].degree > 0 or vertex[1].degree > 0:
+        return vertex
+    x, y = (f._at(QQ(0)) for f in vertex)
+    return str(x), str(y)
 
 
 def _read_keyframes(

@@ -75,7 +75,7 @@ class Frame:
         if self._identity:
             return t.enclosure()
         while True:
-            lo, hi = self.time(t.low)[0], self.time(t.high)[1]
+            lo, hi = self.time(t._low)[0], self.time(t._high)[1]
             if hi <= math.nextafter(math.nextafter(lo, math.inf), math.inf) or t.is_rational:
                 return lo, hi
             t.refine()

@@ -6,12 +6,23 @@ deforms, to the vertex's track. Time is the scene's time, not time since a piece
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from abc import abstractmethod
+from collections.abc import Callable, Iterable, Sequence
+from fractions import Fraction
 from itertools import pairwise
-from typing import Final, Protocol, TypeAlias, final
+from typing import Final, Protocol, TypeAlias, TypeVar, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, rational, rationals, shorten, show
+from exactpt.kernel.numbers import (
+    QQ,
+    Rational,
+    fractions,
+    place,
+    rational,
+    rationals,
+    shorten,
+    show,
+)
 from exactpt.kernel.polynomial import ONE, ZERO, Polynomial, polynomial
 from exactpt.motion.track import Track, track
 
@@ -25,13 +36,43 @@ __all__ = [
     "Rigid",
     "SimpleMotion",
     "Translation",
+    "made",
 ]
+
+T = TypeVar("T")
 
 Coefficients: TypeAlias = "Polynomial | Rational | Iterable[Rational]"
 """A polynomial as a caller may write it: coefficients (constant first), or a number."""
 
 Position: TypeAlias = tuple[Polynomial, Polynomial]
 """The coordinates of a vertex in its body's frame; constants unless the body deforms."""
+
+
+def made(kind: Callable[..., T], values: tuple[object, ...], options: dict[str, object]) -> T:
+    """What a pickle calls: a constructor with what it was given, so no pickle knows of GMP."""
+    return kind(*values, **options)
+
+
+class _Given:
+    """Motions are equal, and are pickled and copied, by what they are made of."""
+
+    __slots__ = ()
+
+    @abstractmethod
+    def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
+        """The arguments of the constructor, by place and by name."""
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, _Given):
+            return NotImplemented
+        return type(self) is type(other) and self._given() == other._given()
+
+    def __hash__(self) -> int:
+        values, options = self._given()
+        return hash((type(self), values, tuple(options.values())))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return made, (type(self), *self._given())
 
 
 class SimpleMotion(Protocol):
@@ -43,7 +84,7 @@ class SimpleMotion(Protocol):
 
 
 @final
-class Translation:
+class Translation(_Given):
     """A translation by (x(t), y(t)), added to every vertex."""
 
     __slots__ = ("x", "y")
@@ -56,6 +97,9 @@ class Translation:
         """The track of the vertex with this position in the body's frame."""
         return track(position[0] + self.x, position[1] + self.y, None, None)
 
+    def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
+        return (self.x, self.y), {}
+
     def __repr__(self) -> str:
         return f"Translation(x={self.x!r}, y={self.y!r})"
 
@@ -64,14 +108,14 @@ REST: Final = Translation()
 
 
 @final
-class Rigid:
+class Rigid(_Given):
     """A turn about ``pivot`` by the angle a(t), tan(a / 2) = half_turn(t), then a translation.
 
     With h = half_turn, cos a = (1 - h^2) / (1 + h^2) and sin a = 2 h / (1 + h^2): the
     coordinates are rational functions with the positive denominator 1 + h^2.
     """
 
-    __slots__ = ("half_turn", "pivot", "x", "y")
+    __slots__ = ("_pivot", "half_turn", "x", "y")
 
     def __init__(
         self,
@@ -82,33 +126,42 @@ class Rigid:
         y: Coefficients = ZERO,
     ) -> None:
         px, py = rationals(pivot, 2, "a pivot has two coordinates")
-        self.pivot: tuple[QQ, QQ] = (px, py)
+        self._pivot: tuple[QQ, QQ] = (px, py)
         self.half_turn = polynomial(half_turn)
         self.x = polynomial(x)
         self.y = polynomial(y)
 
+    @property
+    def pivot(self) -> tuple[Fraction, Fraction]:
+        """The point about which the body turns."""
+        return place(self._pivot)
+
     def track(self, position: Position) -> Track:
         """The track of the vertex with this position in the body's frame."""
-        px, py = Polynomial([self.pivot[0]]), Polynomial([self.pivot[1]])
+        px, py = Polynomial([self._pivot[0]]), Polynomial([self._pivot[1]])
         h = self.half_turn
         w, cosine, sine = ONE + h * h, ONE - h * h, h + h
         dx, dy = position[0] - px, position[1] - py
         x = cosine * dx - sine * dy + w * (px + self.x)
         y = sine * dx + cosine * dy + w * (py + self.y)
         if h.degree <= 0:
-            scale = Polynomial([1 / w(0)])
+            scale = Polynomial([1 / w._at(QQ(0))])
             return track(x * scale, y * scale, None, None)
         rigid = position[0].degree <= 0 and position[1].degree <= 0
-        frame = ("turn", h, self.pivot, self.x, self.y) if rigid else None
+        frame = ("turn", h, self._pivot, self.x, self.y) if rigid else None
         return track(x, y, w, frame)
 
+    def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
+        pivot = (str(self._pivot[0]), str(self._pivot[1]))
+        return (self.half_turn,), {"pivot": pivot, "x": self.x, "y": self.y}
+
     def __repr__(self) -> str:
-        pivot = (str(self.pivot[0]), str(self.pivot[1]))
+        pivot = (str(self._pivot[0]), str(self._pivot[1]))
         return f"Rigid({self.half_turn!r}, pivot={pivot}, x={self.x!r}, y={self.y!r})"
 
 
 @final
-class Affine:
+class Affine(_Given):
     """The map (u, v) -> M(t) (u, v) + (x(t), y(t)), with a 2 x 2 matrix of polynomials."""
 
     __slots__ = ("matrix", "x", "y")
@@ -134,19 +187,22 @@ class Affine:
         u, v = position
         return track(a * u + b * v + self.x, c * u + d * v + self.y, None, None)
 
+    def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
+        return (self.matrix,), {"x": self.x, "y": self.y}
+
     def __repr__(self) -> str:
         return f"Affine({self.matrix!r}, x={self.x!r}, y={self.y!r})"
 
 
 @final
-class Pieces:
+class Pieces(_Given):
     """Motions one after the other: each holds until its time, the last for ever.
 
     Where two pieces meet, every vertex must be at the same place under both; the body
     checks it, since it knows the vertices.
     """
 
-    __slots__ = ("motions", "until")
+    __slots__ = ("_until", "motions")
 
     def __init__(self, pieces: Sequence[tuple[Rational | None, SimpleMotion]]) -> None:
         if not pieces:
@@ -166,11 +222,20 @@ class Pieces:
                 raise InputError(
                     f"pieces end in increasing order: {show(before)}, then {show(after)}"
                 )
-        self.until: tuple[QQ, ...] = tuple(ends)
+        self._until: tuple[QQ, ...] = tuple(ends)
         self.motions: tuple[SimpleMotion, ...] = tuple(motion for _, motion in pieces)
 
+    @property
+    def until(self) -> tuple[Fraction, ...]:
+        """The times at which the motions end, but the last."""
+        return fractions(self._until)
+
+    def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
+        ends = [*map(str, self._until), None]
+        return (tuple(zip(ends, self.motions, strict=True)),), {}
+
     def __repr__(self) -> str:
-        ends = [*map(str, self.until), None]
+        ends = [*map(str, self._until), None]
         return f"Pieces({list(zip(ends, self.motions, strict=True))!r})"
 
 

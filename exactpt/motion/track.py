@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
+from fractions import Fraction
 from typing import final
 
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate
-from exactpt.kernel.numbers import QQ, ZZ, gcd
+from exactpt.kernel.numbers import QQ, ZZ, Rational, gcd, place, rational
 from exactpt.kernel.packed import coefficient_bits, pack
 from exactpt.kernel.polynomial import Polynomial
 
@@ -17,6 +18,8 @@ __all__ = ["Track", "track"]
 class Track:
     """The path (x / w, y / w) of a vertex, with integer polynomials x, y, w in t.
 
+    For the engine: its integers are GMP's.
+
     Attributes:
         x, y: numerators.
         w: their denominator, positive at every time; a constant unless the body turns.
@@ -25,7 +28,7 @@ class Track:
         length: the most coefficients that one of x, y, w has.
     """
 
-    __slots__ = ("_bits", "_packed", "_width", "frame", "length", "w", "x", "y")
+    __slots__ = ("_bits", "_packed", "frame", "length", "w", "x", "y")
 
     def __init__(self, x: IntPoly, y: IntPoly, w: IntPoly, frame: Hashable) -> None:
         self.x = x
@@ -34,8 +37,8 @@ class Track:
         self.frame = frame
         self.length: int = max(len(x), len(y), len(w))
         self._bits: int = -1
-        self._width: int = 0
-        self._packed: tuple[ZZ, ZZ, ZZ] = (ZZ(0), ZZ(0), ZZ(0))
+        # In one piece with its width: runs in other threads may share the track.
+        self._packed: tuple[int, tuple[ZZ, ZZ, ZZ]] = (0, (ZZ(0), ZZ(0), ZZ(0)))
 
     @property
     def bits(self) -> int:
@@ -46,13 +49,17 @@ class Track:
 
     def packed(self, width: int) -> tuple[ZZ, ZZ, ZZ]:
         """x, y and w as integers (`exactpt.kernel.packed`); kept for the last width."""
-        if self._width != width:
-            self._width = width
-            self._packed = (pack(self.x, width), pack(self.y, width), pack(self.w, width))
-        return self._packed
+        kept, packed = self._packed
+        if kept != width:
+            packed = (pack(self.x, width), pack(self.y, width), pack(self.w, width))
+            self._packed = width, packed
+        return packed
 
-    def at(self, t: QQ) -> tuple[QQ, QQ]:
+    def at(self, t: Rational) -> tuple[Fraction, Fraction]:
         """The exact position at a rational time."""
+        return place(self._at(rational(t)))
+
+    def _at(self, t: QQ) -> tuple[QQ, QQ]:
         if len(self.w) == 1:
             return evaluate(self.x, t) / self.w[0], evaluate(self.y, t) / self.w[0]
         w = evaluate(self.w, t)
@@ -69,11 +76,11 @@ def track(x: Polynomial, y: Polynomial, w: Polynomial | None, turning: Hashable)
     translates is identified by its coefficients of t, t^2, ...
     """
     if w is None:
-        frame: Hashable = (x.coefficients[1:], y.coefficients[1:])
-        parts = [x.coefficients, y.coefficients]
+        frame: Hashable = (x._coefficients[1:], y._coefficients[1:])
+        parts = [x._coefficients, y._coefficients]
     else:
         frame = turning
-        parts = [x.coefficients, y.coefficients, w.coefficients]
+        parts = [x._coefficients, y._coefficients, w._coefficients]
     denominator = ZZ(1)
     for part in parts:
         for c in part:

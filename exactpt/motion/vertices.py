@@ -12,6 +12,7 @@ from itertools import accumulate, count
 from typing import TYPE_CHECKING, Final, final
 
 from exactpt.geometry.polygon import is_counter_clockwise
+from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.motion.convexity import stays_convex
 from exactpt.motion.frame import Frame, frame_for
@@ -117,6 +118,7 @@ class Vertices:
     Attributes:
         all: the vertices, by id. A body that is removed leaves its ids to later ones.
         bodies: in the order of the scene.
+        counters: of the decisions about these vertices.
         frame: in which the images are.
         changes: how often tracks have changed, or bodies come and gone.
     """
@@ -132,6 +134,7 @@ class Vertices:
         *,
         plain: bool = False,
     ) -> None:
+        self.counters: Counters = Counters()
         self.frame: Frame = frame
         self.changes: int = 0
         self._plain: bool = plain
@@ -149,7 +152,7 @@ class Vertices:
         With ``plain`` they are the vertices of the scene as they are, without copies and
         offsets, and no inside is tiled.
         """
-        positions = [body.at(start) for body in bodies]
+        positions = [body._at(start) for body in bodies]
         flat = [p for points in positions for p in points]
         ids = count()
         rings = [
@@ -164,7 +167,7 @@ class Vertices:
 
     def add(self, body: Body, t: QQ) -> int:
         """Add a body as the last one, at a rational time; its number."""
-        i, indices = len(self.bodies), _ring_indices(body, body.at(t))
+        i, indices = len(self.bodies), _ring_indices(body, body._at(t))
         while len(self._free) < len(indices):
             self._free.insert(0, len(self.all))
             self.all.append(_nobody(len(self.all)))
@@ -224,8 +227,8 @@ class Vertices:
         """Whether a body deforms in any of its pieces from a time in the present one on."""
         body = self.bodies[i].body
         return self.bodies[i].deforms or any(
-            _deforms(self.frame.images(body.piece_after(t).tracks))
-            for t in body.breakpoints
+            _deforms(self.frame.images(body._piece_after(t).tracks))
+            for t in body._breakpoints
             if t > start
         )
 
@@ -233,7 +236,7 @@ class Vertices:
         """Give the vertices of a body the tracks that hold just after a rational time."""
         self.changes += 1
         moving = self.bodies[i]
-        piece = moving.body.piece_after(t)
+        piece = moving.body._piece_after(t)
         moving.since = t
         self._set_until(moving, piece.until)
         images = self.frame.images(piece.tracks)

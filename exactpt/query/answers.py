@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import pairwise
 from typing import TypeAlias, final
 
-from exactpt.geometry.predicates import Point
-from exactpt.kernel.numbers import QQ, nearest_float
+from exactpt.kernel.numbers import nearest_float
 
 __all__ = ["Hit", "Path", "Place", "VertexName"]
 
@@ -65,8 +65,8 @@ class Hit:
     body: str
     vertex: int | None
     edge: int | None
-    point: Point
-    at: QQ
+    point: tuple[Fraction, Fraction]
+    at: Fraction
     crossed: int
 
 
@@ -81,7 +81,7 @@ class Path:
         crossed: how many diagonals its sleeve of tiles crosses.
     """
 
-    points: tuple[Point, ...]
+    points: tuple[tuple[Fraction, Fraction], ...]
     bends: tuple[VertexName, ...]
     crossed: int
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from exactpt.geometry.predicates import Point
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, fraction
+from exactpt.kernel.numbers import place as in_fractions
 from exactpt.query.answers import Hit, Place
 from exactpt.query.subdivision import OUTSIDE, Subdivision
 from exactpt.query.walk import On, Ray, Spot, next_leg
@@ -66,7 +69,7 @@ def cast(
     spot, _ = find(plane, origin)
     place = place_of(plane, spot)
     if place.body is not None:
-        return Hit(place.body, place.vertex, place.edge, origin, QQ(0), 0)
+        return Hit(place.body, place.vertex, place.edge, in_fractions(origin), Fraction(0), 0)
     if not plane.points:
         return None
     ray = Ray(plane, origin, direction)
@@ -80,7 +83,8 @@ def cast(
         spot, at = leg.end, leg.at
         place = place_of(plane, spot)
         if place.body is not None:
-            return Hit(place.body, place.vertex, place.edge, ray.point(at), at, crossed)
+            point = in_fractions(ray.point(at))
+            return Hit(place.body, place.vertex, place.edge, point, fraction(at), crossed)
         crossed += 1
 
 
@@ -89,4 +93,4 @@ def _cast_at_point(plane: Subdivision, ray: Ray, limit: QQ | None) -> Hit | None
     at = ray.reaches(0)
     if ray.side(0) != 0 or at < 0 or (limit is not None and at > limit):
         return None
-    return Hit(plane.names[0], 0, None, plane.points[0], at, 0)
+    return Hit(plane.names[0], 0, None, in_fractions(plane.points[0]), fraction(at), 0)

@@ -12,12 +12,13 @@ Source: the paper, sections 4 and 5 (Lemma 5.4 for the number of edges crossed).
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from functools import cached_property
 from typing import TypeAlias, final
 
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
-from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.kernel.numbers import QQ, Rational, fraction, rational
 from exactpt.query.answers import Hit, Path, Place, VertexName
 from exactpt.query.locate import cast, find, place_of
 from exactpt.query.relative import relative_hull, top_nodes
@@ -49,7 +50,6 @@ class FreeSpace:
         at: a rational time, now or before the next event.
 
     Attributes:
-        at: the time.
         snapshot: the tiling then; `Place.tile` counts its faces.
     """
 
@@ -62,9 +62,17 @@ class FreeSpace:
         self._labelled = (
             (self._mesh, top_nodes(self._mesh)) if isinstance(self._mesh, LabelledMesh) else None
         )
-        self.at = at
+        self._at = at
         self._wide: dict[int, Ways] = {}
         self.snapshot: Snapshot = snapshot(self._vertices, self._mesh, kinetic.name, at)
+
+    @property
+    def at(self) -> Fraction:
+        """The time."""
+        return fraction(self._at)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        raise TypeError("a FreeSpace is of its run: copy the simulation, or take the snapshot")
 
     @cached_property
     def _hidden(self) -> set[tuple[int, int]]:
@@ -172,7 +180,9 @@ class FreeSpace:
             InputError: if there is no such body; or if that tiling must be built, and bodies
                 have changed their motions, come or gone since the space was made.
         """
-        index = self._index(body)
+        index, first = self._index(body), self._plane.first
+        if first[index + 1] - first[index] == 1:
+            return [(body, 0)]
         mesh, tops = self._labelled or self._mixed
         nodes = [self._node[v] for v in relative_hull(mesh, tops[index])]
         cycle = [
@@ -186,7 +196,7 @@ class FreeSpace:
     def _mixed(self) -> tuple[LabelledMesh, list[int]]:
         if self._vertices.changes != self._changes:
             raise InputError("the bodies have other motions now: make the space anew")
-        mesh = mixed_mesh(Instant(self._vertices, self.at, after=False))
+        mesh = mixed_mesh(Instant(self._vertices, self._at, after=False))
         return mesh, top_nodes(mesh)
 
     def neighbours(self, body: str) -> list[str]:

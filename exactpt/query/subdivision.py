@@ -55,7 +55,7 @@ class Subdivision:
 
     def __init__(self, snapshot: Snapshot, hidden: Collection[tuple[int, int]] = ()) -> None:
         self.snapshot = snapshot
-        self.points: list[Point] = [(node.x, node.y) for node in snapshot.nodes]
+        self.points: list[Point] = [(node._x, node._y) for node in snapshot.nodes]
         self.names: list[str] = []
         self.first: list[int] = []
         self.body: list[int] = []

@@ -33,7 +33,7 @@ class Around(NamedTuple):
     @classmethod
     def of(cls, snapshot: Snapshot) -> Around:
         """The box of a tiling of at least one body."""
-        xs, ys = [node.x for node in snapshot.nodes], [node.y for node in snapshot.nodes]
+        xs, ys = [node._x for node in snapshot.nodes], [node._y for node in snapshot.nodes]
         return cls(min(xs), max(xs), min(ys), max(ys))
 
     def corners(self, count: int) -> list[Point]:
@@ -61,7 +61,7 @@ def surrounded(snapshot: Snapshot, hull: Sequence[int], corners: Sequence[Point]
         hull: the nodes on its convex hull, counter-clockwise.
         corners: of the rectangle, see `Around`.
     """
-    places = [(node.x, node.y) for node in snapshot.nodes]
+    places = [(node._x, node._y) for node in snapshot.nodes]
     first = len(places)
     nodes = [Node("", 0, x, y) for x, y in corners]
     # One polygon: around the corners, over to the hull, clockwise around it, and back.

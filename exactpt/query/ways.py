@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import final
 
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, place
 from exactpt.planar.halfedge import without_steps_back
-from exactpt.query.answers import Path
+from exactpt.query.answers import Path, VertexName
 from exactpt.query.locate import find, place_of
 from exactpt.query.sleeve import Sleeves, pull_tight
 from exactpt.query.subdivision import OUTSIDE, Subdivision
@@ -30,14 +30,14 @@ class Ways:
     def path(self, p: Point, q: Point) -> Path:
         """The shortest of the paths that cross the fewest diagonals in the same order."""
         if not self._plane.points:
-            return Path((p, q), (), 0)
+            return _path((p, q), (), 0)
         first = self._tile(p)
         return self._tight(p, first, self._sleeves.doors(first, self._tile(q)), q)
 
     def shorten(self, points: Sequence[Point]) -> Path:
         """The shortest path that a polyline can be deformed into."""
         if not self._plane.points:
-            return Path((points[0], points[-1]), (), 0)
+            return _path((points[0], points[-1]), (), 0)
         first = tile = self._tile(points[0])
         doors: list[int] = []
         for p, q in pairwise(points):
@@ -86,4 +86,9 @@ class Ways:
         portals = self._sleeves.portals(start, tile, doors, goal)
         bends = pull_tight(start, goal, portals, plane.points)
         points = (start, *(plane.points[v] for v in bends), goal)
-        return Path(points, tuple(plane.node_name(v) for v in bends), len(doors))
+        return _path(points, tuple(plane.node_name(v) for v in bends), len(doors))
+
+
+def _path(points: Iterable[Point], bends: tuple[VertexName, ...], crossed: int) -> Path:
+    """A path in numbers of Python's own."""
+    return Path(tuple(map(place, points)), bends, crossed)

@@ -31,7 +31,7 @@ _LONGEST: Final = 1200
 def data_of(film: Film, *, at: AlgebraicNumber | QQ | None = None) -> dict[str, object]:
     """What the page needs, as JSON data; ``at`` is the time that is shown first."""
     scene = film.scene
-    time_unit = exponent_above(scene.end - scene.start)
+    time_unit = exponent_above(scene._end - scene._start)
     time_bits = BITS - time_unit
     length_unit, origin = _extent(film)
     end = film.end
@@ -39,11 +39,11 @@ def data_of(film: Film, *, at: AlgebraicNumber | QQ | None = None) -> dict[str, 
         "tiling": film.tiling,
         "timeUnit": time_unit,
         "lengthUnit": length_unit,
-        "start": _integer(fixed(scene.start, time_bits)),
+        "start": _integer(fixed(scene._start, time_bits)),
         "end": _integer(fixed(end, time_bits)),
         "at": None if at is None else _integer(fixed(at, time_bits)),
-        "startText": str(scene.start),
-        "endText": str(scene.end),
+        "startText": str(scene._start),
+        "endText": str(scene._end),
         "origin": [_integer(fixed(c, BITS - length_unit)) for c in origin],
         "bodies": [
             _body(body, body_colour(i), scene, end, time_bits)
@@ -67,12 +67,12 @@ def _integer(value: int) -> int | str:
 def _extent(film: Film) -> tuple[int, tuple[QQ, QQ]]:
     """The exponent of a power of two above the size of the scene, and a place in it."""
     scene = film.scene
-    last = film.end.simplified().canonical_interval()[0]
-    times = (scene.start, (scene.start + last) / 2, last)
+    last = film.end.simplified()._canonical_interval()[0]
+    times = (scene._start, (scene._start + last) / 2, last)
     boxes = [
         (min(values), max(values))
         for t in times
-        for values in zip(*(p for body in scene.bodies for p in body.at(t)), strict=True)
+        for values in zip(*(p for body in scene.bodies for p in body._at(t)), strict=True)
     ]
     if not boxes:
         return 0, (QQ(0), QQ(0))
@@ -85,9 +85,9 @@ def _body(
     body: Body, colour: str, scene: Scene, end: AlgebraicNumber, time_bits: int
 ) -> list[object]:
     pieces: list[object] = []
-    time: QQ | None = scene.start
+    time: QQ | None = scene._start
     while time is not None and end.compare_rational(time) >= 0:
-        piece = body.piece_after(time)
+        piece = body._piece_after(time)
         tracks = [[[_integer(c) for c in f] for f in (t.x, t.y, t.w)] for t in piece.tracks]
         time = piece.until
         pieces.append([None if time is None else _integer(fixed(time, time_bits)), tracks])
@@ -104,9 +104,9 @@ def _step(step: Step, time_bits: int) -> dict[str, object]:
         "certificate": list(step.certificate),
     }
     if number.is_rational:
-        data["exact"] = str(number.low)
+        data["exact"] = str(number._low)
         return data
-    digits = [str(c) for c in number.polynomial]
+    digits = [str(c) for c in number._polynomial]
     data["degree"] = len(digits) - 1
     data["exact"] = digits if sum(map(len, digits)) <= _LONGEST else None
     return data

@@ -69,7 +69,7 @@ def draw(
         first = _shown_first(film, at)
         write_atomically(path, page_of(film, title=path.stem, at=first, theme=theme))
         return
-    then = None if at == "contact" else scene.start if at is None else at
+    then = None if at == "contact" else scene._start if at is None else at
     picture = still(scene, then, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
     if ending == ".svg":
         write_atomically(path, svg_of(frame_of(picture), theme=theme))
@@ -82,13 +82,13 @@ def _shown_first(film: Film, at: QQ | Literal["contact"] | None) -> AlgebraicNum
     if at == "contact":
         if film.contact is None:
             raise InputError(
-                f"no contact to draw from t = {show(film.scene.start)} "
-                f"to t = {show(film.scene.end)}"
+                f"no contact to draw from t = {show(film.scene._start)} "
+                f"to t = {show(film.scene._end)}"
             )
         return film.end
-    if at is not None and (at < film.scene.start or film.end.compare_rational(at) < 0):
+    if at is not None and (at < film.scene._start or film.end.compare_rational(at) < 0):
         raise InputError(
             f"--at: nothing to show at t = {show(at)}: the animation runs from "
-            f"t = {show(film.scene.start)} to t = {float(film.end)!r}"
+            f"t = {show(film.scene._start)} to t = {float(film.end)!r}"
         )
     return at

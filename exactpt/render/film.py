@@ -71,7 +71,7 @@ class Film:
         """The last time."""
         if self.contact is not None:
             return self.contact.time
-        return AlgebraicNumber(self.scene.end)
+        return AlgebraicNumber(self.scene._end)
 
 
 def film_of(

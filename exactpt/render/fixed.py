@@ -33,7 +33,7 @@ def fixed(value: AlgebraicNumber | QQ, bits: int) -> int:
     # Once a rational number is known to be one, the ends meet; an irrational one is inside
     # a unit, and the ends get there too.
     number = value.simplified()
-    while (n := floor(number.low * scale)) != floor(number.high * scale):
+    while (n := floor(number._low * scale)) != floor(number._high * scale):
         number.refine()
     return int(n)
 
@@ -45,6 +45,6 @@ def near(value: AlgebraicNumber, span: QQ) -> QQ:
     """
     number = value.simplified()
     if number.is_rational:
-        return number.low
+        return number._low
     bits = BITS - exponent_above(span)
     return fixed(number, bits) * power_of_two(-bits)

@@ -104,7 +104,7 @@ class Frame:
 def frame_of(still: Still) -> Frame:
     """The primitives of a still."""
     scene = still.scene
-    places = {body.name: body.at(still.at) for body in scene.bodies}
+    places = {body.name: body._at(still.at) for body in scene.bodies}
     window = window_of([place for body in places.values() for place in body])
     pixels = {name: tuple(window.pixel(x, y) for x, y in body) for name, body in places.items()}
     named = len(scene.bodies) <= NAMED
@@ -162,7 +162,7 @@ def _inside_at(pixels: Sequence[Pixel], y: float) -> list[tuple[float, float]]:
 def _tiling(
     tiling: Snapshot, window: Window, colours: dict[str, str]
 ) -> tuple[tuple[Tile, ...], tuple[Line, ...]]:
-    pixels = [window.pixel(node.x, node.y) for node in tiling.nodes]
+    pixels = [window.pixel(node._x, node._y) for node in tiling.nodes]
     tiles = tuple(
         Tile(
             tuple(pixels[v] for v in face.nodes),

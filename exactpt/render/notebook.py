@@ -20,7 +20,7 @@ __all__ = ["contact_html", "scene_svg", "simulation_svg"]
 
 def scene_svg(scene: Scene) -> str:
     """The bodies of a scene at its start."""
-    return svg_of(frame_of(Still(scene, scene.start, None, None)))
+    return svg_of(frame_of(Still(scene, scene._start, None, None)))
 
 
 def simulation_svg(simulation: Simulation) -> str:
@@ -34,6 +34,6 @@ def contact_html(contact: Contact) -> str:
     heading = f"First contact at {time_in_words(number)} ({contact.kind})"
     lines = incidences_in_words(contact)
     if not number.is_rational:
-        lines.insert(0, f"the time is a root of {polynomial_in_words(number.polynomial)}")
+        lines.insert(0, f"the time is a root of {polynomial_in_words(number._polynomial)}")
     items = "".join(f"<li>{escape(clean(line))}</li>" for line in lines)
     return f"<div><b>{escape(heading)}</b><ul>{items}</ul></div>"

@@ -76,7 +76,7 @@ def _summary(film: Film) -> str:
     count = sum(len(step.changes) for step in film.steps)
     return (
         f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices, {film.tiling} tiling, "
-        f"{count} events from t = {scene.start} to {scene.end}"
+        f"{count} events from t = {scene._start} to {scene._end}"
     )
 
 

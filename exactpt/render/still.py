@@ -53,10 +53,10 @@ def still(
             no contact.
         BudgetExceeded: if the bounds are reached.
     """
-    if at is not None and not scene.start <= at <= scene.end:
+    if at is not None and not scene._start <= at <= scene._end:
         raise InputError(
             f"--at: t = {show(at)} is outside the time span "
-            f"from {show(scene.start)} to {show(scene.end)}"
+            f"from {show(scene._start)} to {show(scene._end)}"
         )
     simulation = Simulation(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
     for _ in simulation.run(at):
@@ -64,7 +64,7 @@ def still(
     contact = simulation.contact
     if at is None and contact is None:
         raise InputError(
-            f"no contact to draw from t = {show(scene.start)} to t = {show(scene.end)}"
+            f"no contact to draw from t = {show(scene._start)} to t = {show(scene._end)}"
         )
     if at is not None and contact is not None and contact.time.compare_rational(at) != 0:
         raise InputError(
@@ -78,7 +78,7 @@ def still_of(simulation: Simulation) -> Still:
     """A simulation at its current time."""
     scene, kinetic, contact = simulation.scene, simulation.kinetic, simulation.contact
     now = (simulation.now if contact is None else contact.time).simplified()
-    at = near(now, scene.end - scene.start)
+    at = near(now, scene._end - scene._start)
     if kinetic is None:
         return Still(scene, at, None, contact)
     # Where it is not defined, the tiling is the one that ends or has just begun then.

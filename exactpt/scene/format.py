@@ -7,6 +7,7 @@ import json
 import os
 import stat
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Final
 
@@ -37,7 +38,7 @@ from exactpt.scene.json_values import (
 )
 from exactpt.scene.scene import Scene
 
-__all__ = ["load", "loads", "save", "to_json", "write_atomically"]
+__all__ = ["from_json", "load", "loads", "save", "to_json", "write_atomically"]
 
 VERSION: Final = 1
 
@@ -70,6 +71,19 @@ def loads(text: str) -> Scene:
         return _scene(parse_json(text))
     except RecursionError:
         raise InputError("not a scene: nested too deeply") from None
+
+
+def from_json(data: Mapping[str, object]) -> Scene:
+    """The scene that is given as JSON data.
+
+    Raises:
+        InputError: one line that names the body, the key and the value.
+    """
+    try:
+        text = json.dumps(data)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise InputError(f"not JSON data: {error}") from None
+    return loads(text)
 
 
 def _scene(data: Json) -> Scene:
@@ -200,7 +214,7 @@ def _text(value: QQ) -> str:
 
 
 def _coefficients(f: Polynomial) -> list[str]:
-    return [_text(c) for c in f.coefficients] or ["0"]
+    return [_text(c) for c in f._coefficients] or ["0"]
 
 
 def to_json(scene: Scene) -> dict[str, object]:
@@ -211,7 +225,7 @@ def to_json(scene: Scene) -> dict[str, object]:
     """
     return {
         "exactpt": VERSION,
-        "time": [_text(scene.start), _text(scene.end)],
+        "time": [_text(scene._start), _text(scene._end)],
         "bodies": [_named_body_to_json(body) for body in scene.bodies],
     }
 
@@ -227,26 +241,26 @@ def _body_to_json(body: Body) -> dict[str, object]:
     data: dict[str, object] = {"name": body.name}
     if not body.closed:
         data["closed"] = False
-    if body.keyframes:
+    if body._keyframes:
         data["keyframes"] = [
             {"t": _text(f.t), "vertices": [[_text(x), _text(y)] for x, y in f.vertices]}
-            for f in body.keyframes
+            for f in body._keyframes
         ]
     else:
         data["vertices"] = [
-            [_text(x(0)), _text(y(0))]
+            [_text(x._at(QQ(0))), _text(y._at(QQ(0)))]
             if x.degree <= 0 and y.degree <= 0
             else {"x": _coefficients(x), "y": _coefficients(y)}
             for x, y in body.vertices
         ]
-    if body.motion is not REST:
+    if body.motion != REST:
         data["motion"] = _motion_to_json(body.motion)
     return data
 
 
 def _motion_to_json(motion: Motion) -> dict[str, object]:
     if isinstance(motion, Pieces):
-        ends = [{"until": _text(t)} for t in motion.until]
+        ends = [{"until": _text(t)} for t in motion._until]
         return {
             "pieces": [
                 {**end, "motion": _motion_to_json(m)}
@@ -256,7 +270,7 @@ def _motion_to_json(motion: Motion) -> dict[str, object]:
     if isinstance(motion, Rigid):
         return {
             "rigid": {
-                "pivot": [_text(c) for c in motion.pivot],
+                "pivot": [_text(c) for c in motion._pivot],
                 "half_turn": _coefficients(motion.half_turn),
                 "x": _coefficients(motion.x),
                 "y": _coefficients(motion.y),

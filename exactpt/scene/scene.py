@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, final
 
 from exactpt.errors import InputError
 from exactpt.geometry.polygon import first_self_touch, signed_area2
-from exactpt.kernel.numbers import QQ, Rational, rational, rationals, shorten, show
+from exactpt.kernel.numbers import QQ, Rational, fraction, rational, rationals, shorten, show
 from exactpt.motion.body import Body
 
 if TYPE_CHECKING:
@@ -23,24 +24,23 @@ class Scene:
 
     Attributes:
         bodies: in the order of the file; names are unique.
-        start: the first time.
-        end: the last time, after ``start``.
 
     Raises:
         InputError: if names repeat, the span is empty or reversed, or a polygon or
             chain is not simple at the start.
     """
 
-    __slots__ = ("bodies", "end", "start")
+    __slots__ = ("_end", "_start", "bodies")
 
     def __init__(self, bodies: Iterable[Body], time: Sequence[Rational] = (0, 1)) -> None:
         self.bodies = tuple(bodies)
         for i, body in enumerate(self.bodies):
             if not isinstance(body, Body):
                 raise InputError(f"body {i}: not a body: {shorten(body)}")
-        self.start, self.end = rationals(time, 2, "a time span has a start and an end")
-        if self.start >= self.end:
-            raise InputError(f"time: the span from {show(self.start)} to {show(self.end)} is empty")
+        self._start, self._end = rationals(time, 2, "a time span has a start and an end")
+        if self._start >= self._end:
+            span = f"from {show(self._start)} to {show(self._end)}"
+            raise InputError(f"time: the span {span} is empty")
         names: set[str] = set()
         for body in self.bodies:
             if body.name in names:
@@ -49,7 +49,7 @@ class Scene:
             self._check_simple(body)
 
     def _check_simple(self, body: Body) -> None:
-        points = body.at(self.start)
+        points = body._at(self._start)
         touch = first_self_touch(points, closed=body.closed)
         if touch is not None:
             i, j = touch
@@ -58,16 +58,16 @@ class Scene:
                 u = points[i]
                 raise InputError(
                     f"body {shorten(body.name)}: vertex {i} and the next one are both at "
-                    f"{show(*u)} at the start, t = {show(self.start)}"
+                    f"{show(*u)} at the start, t = {show(self._start)}"
                 )
             raise InputError(
                 f"body {shorten(body.name)}: not a simple {what} "
-                f"at the start, t = {show(self.start)}: "
+                f"at the start, t = {show(self._start)}: "
                 f"edge {i} from {show(*points[i])} meets edge {j} from {show(*points[j])}"
             )
         if body.closed and len(points) > 2 and signed_area2(points) == 0:
             raise InputError(
-                f"body {shorten(body.name)}: the polygon has no area at t = {show(self.start)}"
+                f"body {shorten(body.name)}: the polygon has no area at t = {show(self._start)}"
             )
 
     @classmethod
@@ -92,6 +92,39 @@ class Scene:
 
         save(self, Path(path))
 
+    @property
+    def start(self) -> Fraction:
+        """The first time."""
+        return fraction(self._start)
+
+    @property
+    def end(self) -> Fraction:
+        """The last time, after ``start``."""
+        return fraction(self._end)
+
+    @classmethod
+    def from_json(cls, data: Mapping[str, object]) -> Scene:
+        """The scene that `to_json` has written; see docs/format.md.
+
+        A float counts as the decimal that Python writes for it, as in a file.
+
+        Raises:
+            InputError: one line that names the body, the key and the value.
+        """
+        from exactpt.scene.format import from_json
+
+        return from_json(data)
+
+    def to_json(self) -> dict[str, object]:
+        """The scene as data for ``json.dump``, exactly: what `save` writes.
+
+        Raises:
+            InputError: see `save`.
+        """
+        from exactpt.scene.format import to_json
+
+        return to_json(self)
+
     def body(self, name: str) -> Body:
         """The body with a name.
 
@@ -103,7 +136,7 @@ class Scene:
                 return body
         raise InputError(f"there is no body {shorten(name)}")
 
-    def at(self, t: Rational) -> dict[str, list[tuple[QQ, QQ]]]:
+    def at(self, t: Rational) -> dict[str, list[tuple[Fraction, Fraction]]]:
         """The exact vertex positions of every body at a rational time, by name."""
         return {body.name: body.at(t) for body in self.bodies}
 
@@ -147,25 +180,37 @@ class Scene:
         Raises:
             InputError: if the end is not after the start.
         """
-        last = min(rational(end), self.end)
-        if last <= self.start:
+        last = min(rational(end), self._end)
+        if last <= self._start:
             raise InputError(
-                f"the end t = {show(last)} is not after the start t = {show(self.start)}"
+                f"the end t = {show(last)} is not after the start t = {show(self._start)}"
             )
         other = Scene.__new__(Scene)
-        other.bodies, other.start, other.end = self.bodies, self.start, last
+        other.bodies, other._start, other._end = self.bodies, self._start, last
         return other
 
     def going_on(self, bodies: Iterable[Body], start: QQ) -> Scene:
         """The scene from a later start on, with bodies that are known to be valid then."""
         other = Scene.__new__(Scene)
-        other.bodies, other.start, other.end = tuple(bodies), start, self.end
+        other.bodies, other._start, other._end = tuple(bodies), start, self._end
         return other
 
     @property
     def vertex_count(self) -> int:
         """The number of vertices of all bodies."""
         return sum(body.size for body in self.bodies)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all bodies are the same, in order, and the time span is."""
+        if not isinstance(other, Scene):
+            return NotImplemented
+        return (self.bodies, self._start, self._end) == (other.bodies, other._start, other._end)
+
+    def __hash__(self) -> int:
+        return hash((self.bodies, self._start, self._end))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _valid_scene, (self.bodies, str(self._start), str(self._end))
 
     def _repr_svg_(self) -> str:
         """The bodies at the start, for notebooks."""
@@ -176,5 +221,12 @@ class Scene:
     def __repr__(self) -> str:
         return (
             f"<Scene: {len(self.bodies)} bodies, {self.vertex_count} vertices, "
-            f"t in [{self.start}, {self.end}]>"
+            f"t in [{self._start}, {self._end}]>"
         )
+
+
+def _valid_scene(bodies: tuple[Body, ...], start: str, end: str) -> Scene:
+    """A scene that has been one before."""
+    scene = Scene.__new__(Scene)
+    scene.bodies, scene._start, scene._end = bodies, rational(start), rational(end)
+    return scene

@@ -51,7 +51,7 @@ class LivingScene:
         self.changes = changes
         self._end = scene
         self._scene: Scene | None = scene
-        self._since = scene.start
+        self._since = scene._start
         self._bodies: list[Body] = []
         self._number: dict[str, int] = {}
         self._set_bodies(scene.bodies)
@@ -111,9 +111,9 @@ class LivingScene:
                 f"plans change at rational times only, not at t = {float(now)!r}: "
                 "run until a rational time first"
             )
-        if now.low >= self._end.end:
-            raise InputError(f"t = {show(now.low)} is the end of the time span")
-        return now.low
+        if now._low >= self._end._end:
+            raise InputError(f"t = {show(now._low)} is the end of the time span")
+        return now._low
 
     def set_motions(self, plans: Mapping[str, Motion | Body]) -> list[Event]:
         """See `Simulation.set_motions`; what changes at once."""
@@ -123,7 +123,7 @@ class LivingScene:
         for i, body in new.items():
             bodies[i] = body
         if isinstance(self.kinetic, GreedyTiling) and any(
-            Vertices.of([body], t, self._end.end).bodies[0].is_tiled for body in new.values()
+            Vertices.of([body], t, self._end._end).bodies[0].is_tiled for body in new.values()
         ):
             return self._restart(bodies, t, len(new))
         events = self.kinetic.change_plans(new, t)
@@ -136,7 +136,7 @@ class LivingScene:
         t = self.rational_now()
         if body.name in self._number:
             raise InputError(f"body {body.name!r}: the name is taken by another body")
-        alone = Scene([body], (t, self._end.end))  # its shape is checked here
+        alone = Scene([body], (t, self._end._end))  # its shape is checked here
         kinetic = self.kinetic
         if not isinstance(kinetic, PopulatedTiling) or not kinetic.takes(body, t):
             bodies = [*self._bodies, body]

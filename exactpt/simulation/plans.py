@@ -47,7 +47,7 @@ def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
             raise InputError(f"body {body.name!r}: {new!r} is no plan for {body!r}")
     else:
         new = moved(body, plan)
-    for i, (p, q) in enumerate(zip(body.at(t), new.at(t), strict=True)):
+    for i, (p, q) in enumerate(zip(body._at(t), new._at(t), strict=True)):
         if p != q:
             raise InputError(
                 f"body {body.name!r}: vertex {i} jumps at t = {show(t)} "
@@ -58,8 +58,8 @@ def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
 
 def moved(body: Body, motion: Motion) -> Body:
     """The shape of a body with another motion; it may be at another place."""
-    if body.keyframes:
-        return Body(body.name, motion=motion, closed=body.closed, keyframes=body.keyframes)
+    if body._keyframes:
+        return Body(body.name, motion=motion, closed=body.closed, keyframes=body._keyframes)
     return Body(body.name, body.vertices, motion, closed=body.closed)
 
 
@@ -99,8 +99,8 @@ def onward(
         return _onward(body.motion, now, v)
     pieces: list[tuple[QQ | None, SimpleMotion]] = []
     x, y = translation_at(body, now)
-    line = Polynomial([x(now) - v[0] * now, v[0]]), Polynomial([y(now) - v[1] * now, v[1]])
-    for end, motion in zip([*body.motion.until, None], body.motion.motions, strict=True):
+    line = Polynomial([x._at(now) - v[0] * now, v[0]]), Polynomial([y._at(now) - v[1] * now, v[1]])
+    for end, motion in zip([*body.motion._until, None], body.motion.motions, strict=True):
         if end is None or end > now:
             pieces.append((end, _translated(motion, *line)))
     return Pieces(pieces)
@@ -110,7 +110,7 @@ def translation_at(body: Body, t: QQ) -> tuple[Polynomial, Polynomial]:
     """The translation that is part of a body's motion just after a time."""
     motion = body.motion
     if isinstance(motion, Pieces):
-        ends = [*motion.until, None]
+        ends = [*motion._until, None]
         parts = zip(ends, motion.motions, strict=True)
         motion = next(m for end, m in parts if end is None or end > t)
     return _translation(motion)
@@ -119,7 +119,7 @@ def translation_at(body: Body, t: QQ) -> tuple[Polynomial, Polynomial]:
 def _onward(motion: SimpleMotion, t: QQ, v: tuple[QQ, QQ]) -> SimpleMotion:
     x, y = _translation(motion)
     return _translated(
-        motion, Polynomial([x(t) - v[0] * t, v[0]]), Polynomial([y(t) - v[1] * t, v[1]])
+        motion, Polynomial([x._at(t) - v[0] * t, v[0]]), Polynomial([y._at(t) - v[1] * t, v[1]])
     )
 
 
@@ -132,7 +132,7 @@ def _translation(motion: SimpleMotion) -> tuple[Polynomial, Polynomial]:
 def _translated(motion: SimpleMotion, x: Polynomial, y: Polynomial) -> SimpleMotion:
     """A motion with another translation."""
     if isinstance(motion, Rigid):
-        return Rigid(motion.half_turn, pivot=motion.pivot, x=x, y=y)
+        return Rigid(motion.half_turn, pivot=motion._pivot, x=x, y=y)
     if isinstance(motion, Affine):
         return Affine(motion.matrix, x=x, y=y)
     return Translation(x, y)

@@ -50,11 +50,11 @@ class Questions(ABC):
             now = kinetic.now.simplified()
             if not now.is_rational:
                 raise InputError(f"now, t = {float(now)!r}, is not rational: give a time")
-            t = now.low
+            t = now._low
         else:
             t = rational(at)
             _check_between(kinetic, t)
-        if self._space is None or self._space.at != t:
+        if self._space is None or self._space._at != t:
             from exactpt.query.space import FreeSpace
 
             self._space = FreeSpace(kinetic, t)

@@ -15,6 +15,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.integer_polynomial import derivative, evaluate
 from exactpt.kernel.numbers import QQ, Rational, nearest_float, rational
 from exactpt.motion.body import Body
+from exactpt.motion.motions import made
 from exactpt.simulation.plans import GRID, moved, onward, translation_at
 
 if TYPE_CHECKING:
@@ -29,12 +30,12 @@ ROUNDS: Final = 8
 
 def stop(simulation: Simulation, contact: Contact) -> None:
     """Let all bodies of a contact stay where they are, in the shape they have."""
-    t = simulation.now.low
+    t = simulation.now._low
     names = sorted({name for pair in contact.pairs for name in (pair.body, pair.other)})
     plans = {}
     for name in names:
         body = simulation.body(name)
-        plans[name] = Body(name, body.at(t), closed=body.closed)
+        plans[name] = Body(name, body._at(t), closed=body.closed)
     simulation.set_motions(plans)
 
 
@@ -74,7 +75,7 @@ class Bounce:
 
     def __call__(self, simulation: Simulation, contact: Contact) -> None:
         """Give the bodies of a contact velocities with which they part."""
-        t = simulation.now.low
+        t = simulation.now._low
         names = sorted({name for pair in contact.pairs for name in (pair.body, pair.other)})
         bodies = {name: simulation.body(name) for name in names}
         change = {name: [0.0, 0.0] for name in names}
@@ -89,6 +90,11 @@ class Bounce:
                 plans[name] = self._plan(bodies[name], change[name], t)
         simulation.set_motions(plans)
 
+    def __reduce__(self) -> tuple[object, ...]:
+        fastest = None if math.isinf(self._fastest) else self._fastest
+        options = {"slowest": self._slowest, "fastest": fastest, "grid": str(self._grid)}
+        return made, (Bounce, (tuple(sorted(self._fixed)),), options)
+
     def _push(
         self, pair: Pair, bodies: dict[str, Body], change: dict[str, list[float]], t: QQ
     ) -> bool:
@@ -101,7 +107,7 @@ class Bounce:
         if pair.edge is None:
             vx, vy = _velocity(bodies[pair.other], pair.other_vertex or 0, t)
         else:
-            place = bodies[pair.body].at(t)[pair.vertex]
+            place = bodies[pair.body]._at(t)[pair.vertex]
             vx, vy = _velocity_beside(bodies[pair.other], pair.edge, place, t)
         a, b = change[pair.body], change[pair.other]
         approach = nx * (vx - ux) + ny * (vy - uy)
@@ -126,7 +132,7 @@ class Bounce:
 
 def _velocity(body: Body, vertex: int, t: QQ) -> tuple[float, float]:
     """The velocity of a vertex."""
-    track = body.piece_after(t).tracks[vertex]
+    track = body._piece_after(t).tracks[vertex]
     w, dw = evaluate(track.w, t), evaluate(derivative(track.w), t)
     x, y = (
         nearest_float((evaluate(derivative(f), t) * w - evaluate(f, t) * dw) / (w * w))
@@ -137,7 +143,7 @@ def _velocity(body: Body, vertex: int, t: QQ) -> tuple[float, float]:
 
 def _velocity_beside(body: Body, edge: int, place: Point, t: QQ) -> tuple[float, float]:
     """The velocity of the point of an edge that is nearest to a place."""
-    points = body.at(t)
+    points = body._at(t)
     a, b = points[edge], points[(edge + 1) % len(points)]
     dx, dy = b[0] - a[0], b[1] - a[1]
     along = ((place[0] - a[0]) * dx + (place[1] - a[1]) * dy) / (dx * dx + dy * dy)
@@ -149,13 +155,13 @@ def _velocity_beside(body: Body, edge: int, place: Point, t: QQ) -> tuple[float,
 def _translation_speed(body: Body, t: QQ) -> tuple[float, float]:
     """The velocity that the motion's translation gives to every vertex."""
     x, y = translation_at(body, t)
-    return nearest_float(x.derivative()(t)), nearest_float(y.derivative()(t))
+    return nearest_float(x.derivative()._at(t)), nearest_float(y.derivative()._at(t))
 
 
 def _between_centers(a: Body, b: Body, t: QQ) -> tuple[float, float]:
     """The direction from the middle of the vertices of b to that of a."""
     (ax, ay), (bx, by) = (
-        [sum((p[k] for p in body.at(t)), QQ(0)) / body.size for k in (0, 1)] for body in (a, b)
+        [sum((p[k] for p in body._at(t)), QQ(0)) / body.size for k in (0, 1)] for body in (a, b)
     )
     dx, dy = ax - bx, ay - by
     size = max(abs(dx), abs(dy))

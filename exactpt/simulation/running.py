@@ -6,6 +6,7 @@ import time as clock
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
+from fractions import Fraction
 from typing import Self
 
 from exactpt.collision.contact import Contact, contact_of
@@ -13,8 +14,8 @@ from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.counters import Counts, counters
-from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
+from exactpt.kernel.counters import Counts
+from exactpt.kernel.numbers import QQ, Rational, fraction, power_of_two, rational, show
 from exactpt.kinetic.queue import EventTime
 from exactpt.motion.body import Body
 from exactpt.scene.scene import Scene
@@ -46,7 +47,7 @@ class Running(Questions):
         for what, bound in (("max_events", max_events), ("max_seconds", max_seconds)):
             if bound is not None and not bound >= 0:
                 raise InputError(f"{what}: not a number from 0 on: {bound!r}")
-        plan = plan_tiling(scene, tiling, scene.start)
+        plan = plan_tiling(scene, tiling, scene._start)
         self.contact: Contact | None = None
         self.contacts: int = 0
         self._given = scene, plan.name
@@ -54,9 +55,8 @@ class Running(Questions):
         self._asked_for = tiling, exact_only
         self._max_events = max_events
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
-        self._counted: Counts = counters.now()
         self._events = 0
-        self._proved: QQ = scene.start
+        self._proved: QQ = scene._start
         self._passed: EventTime | None = None
         self._met: tuple[AlgebraicNumber, dict[str, Body]] | None = None
         self._pending: deque[Event] = deque()
@@ -64,10 +64,10 @@ class Running(Questions):
         self._living: LivingScene | None = None
         touches, overlaps = initial_touches(scene)
         if overlaps:
-            self._end_with(contact_of(scene, AlgebraicNumber(scene.start), touches, overlaps))
+            self._end_with(contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps))
         else:
             try:
-                kinetic = plan.start(scene.start, exact_only=exact_only)
+                kinetic = plan.start(scene._start, exact_only=exact_only)
             except BudgetExceeded as spent:
                 spent.reached = scene.start
                 raise
@@ -87,7 +87,7 @@ class Running(Questions):
     def now(self) -> AlgebraicNumber:
         """The current time."""
         if self._living is None:
-            return AlgebraicNumber(self.scene.start)
+            return AlgebraicNumber(self.scene._start)
         return self._living.kinetic.now
 
     @property
@@ -102,8 +102,14 @@ class Running(Questions):
     def stats(self) -> dict[str, object]:
         """The figures of the run so far; see `exactpt.simulation.report`."""
         changes = 0 if self._living is None else self._living.changes
-        data = report(self.scene, self.kinetic, counters.now().since(self._counted))
+        data = report(self.scene, self.kinetic, self._counts())
         return data | {"contacts": self.contacts, "plans": changes}
+
+    def _counts(self) -> Counts:
+        """The decisions of the run so far."""
+        if self._living is None:
+            return Counts(0, 0, {})
+        return self._living.kinetic.vertices.counters.now()
 
     # Time
 
@@ -135,7 +141,7 @@ class Running(Questions):
             BudgetExceeded: if the bounds of the simulation are reached.
             InputError: if the margin is not positive, or ``until`` is before now.
         """
-        end = self.scene.end if until is None else min(rational(until), self.scene.end)
+        end = self.scene._end if until is None else min(rational(until), self.scene._end)
         grid = self._margin if margin is None else rational(margin)
         if grid <= 0:
             raise InputError(f"the margin before contacts is not positive: {grid}")
@@ -161,7 +167,7 @@ class Running(Questions):
         """
         while not self._pending and self.contact is None:
             self._check_time()
-            if not self._advance(self.scene.end, None, QQ(1)):
+            if not self._advance(self.scene._end, None, QQ(1)):
                 break
         self._count(len(self._pending))
         events = list(self._pending)
@@ -224,7 +230,7 @@ class Running(Questions):
         if living.changes == changes:
             self.contact = contact
             with suppress(ContactFound):
-                kinetic.advance(self.scene.end)
+                kinetic.advance(self.scene._end)
 
     def _plans_in(self, contact: Contact) -> dict[str, Body]:
         names = {name for pair in contact.pairs for name in (pair.body, pair.other)}
@@ -253,22 +259,22 @@ class Running(Questions):
         if self._deadline is not None and clock.monotonic() > self._deadline:
             raise BudgetExceeded("the time is used up", self.reached())
 
-    def reached(self) -> QQ:
+    def reached(self) -> Fraction:
         """A rational time at most now: up to it there is provably no contact."""
         now = self.now
         return now.low if now.is_rational else now.canonical_interval()[0]
 
-    def passed(self) -> QQ:
+    def passed(self) -> Fraction:
         """As `reached`, but at once, and right in the middle of an event too."""
         if self._living is None or self._passed is None:
-            return self._proved
+            return fraction(self._proved)
         frame = self._living.kinetic.vertices.frame
-        return max(self._proved, frame.exact_time(self._passed.low))
+        return fraction(max(self._proved, frame.exact_time(self._passed.low)))
 
     def _change(self, events: Iterable[Event]) -> None:
         """Take over what a change of plans or bodies at a rational time has caused."""
         self._pending.extend(events)
-        self._proved, self._passed = self.now.low, None  # a new tiling may have a new frame
+        self._proved, self._passed = self.now._low, None  # a new tiling may have a new frame
 
     def _alive(self) -> LivingScene:
         if self._living is None:
@@ -283,5 +289,5 @@ class Running(Questions):
 
 def _margin_of(scene: Scene) -> QQ:
     """About 2^-80 of the time span."""
-    span = scene.end - scene.start
+    span = scene._end - scene._start
     return power_of_two(span.numerator.bit_length() - span.denominator.bit_length() - 80)

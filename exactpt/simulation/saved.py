@@ -140,9 +140,9 @@ def _kept(data: Data, certifier: Certifier, vertices: Vertices, stats: Stats) ->
 def number_to_json(number: AlgebraicNumber) -> Data:
     """A number as it is, as far as it has been refined."""
     return {
-        "polynomial": [str(c) for c in number.polynomial],
-        "low": str(number.low),
-        "high": str(number.high),
+        "polynomial": [str(c) for c in number._polynomial],
+        "low": str(number._low),
+        "high": str(number._high),
     }
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from pathlib import Path
-from typing import final
+from time import monotonic
+from typing import Any, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.counters import Counts, counters
+from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import parse_rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
@@ -160,38 +162,23 @@ class Simulation(Running):
         Raises:
             InputError: if the file is none, or of another version.
         """
-        from exactpt.simulation.saved import (
-            contact_from_json,
-            event_from_json,
-            number_from_json,
-            tiling_from_json,
-        )
         from exactpt.simulation.store import reading, scene_from_json
 
         with reading(Path(path)) as data:
-            asked, exact_only = data["tiling"], data["exact_only"]
-            scene = scene_from_json(data["scene"])
-            counts, state = data["counts"], data["state"]
-            self = cls(Scene([], (scene.start, scene.end)), tiling=asked, exact_only=exact_only,
-                       max_events=max_events, max_seconds=max_seconds)  # fmt: skip
-            self._given = scene, data["name"]
-            self._margin = parse_rational(data["margin"])
-            self._living = state and LivingScene(
-                scene,
-                tiling_from_json(state, scene.bodies, exact_only=exact_only),
-                asked,
-                exact_only=exact_only,
-                changes=counts["changes"],
-            )
-            self._pending.extend(map(event_from_json, data["pending"]))
-            self.contact = data["contact"] and contact_from_json(data["contact"])
-            self.contacts = counts["contacts"]
-            if data["met"] is not None:
-                time, names = number_from_json(data["met"]["time"]), data["met"]["bodies"]
-                self._met = time, {name: self._alive().body(name) for name in names}
-            before = Counts(counts["exact"], counts["filtered"], counts["reasons"])
-            self._counted = counters.now().since(before)
-        return self
+            return _resumed(data, scene_from_json(data["scene"]), max_events, max_seconds)
+
+    def copy(self) -> Simulation:
+        """The simulation as it is now, in memory: what happens to one does not to the other.
+
+        The same events come in both. What is left of bounds on events and seconds is taken
+        along; so it is by `copy.copy`, `copy.deepcopy` and `pickle`, which work too.
+        """
+        return copy(self)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        events = None if self._max_events is None else max(0, self._max_events - self._events)
+        seconds = None if self._deadline is None else max(0.0, self._deadline - monotonic())
+        return _resumed, (self._data(None), self.scene, events, seconds)
 
     def _met_to_json(self) -> dict[str, object] | None:
         """The last contact that was met, if none of its bodies has another plan since."""
@@ -207,17 +194,21 @@ class Simulation(Running):
 
     def to_json(self) -> dict[str, object]:
         """What `save` writes."""
+        return self._data(scene_to_json(self.scene))
+
+    def _data(self, scene: object) -> dict[str, object]:
+        """The state of the run, with the scene in a form of its own."""
         from exactpt.simulation.saved import tiling_to_json
         from exactpt.simulation.store import VERSION
 
-        living, counts = self._living, counters.now().since(self._counted)
+        living, counts = self._living, self._counts()
         return {
             "exactpt-simulation": VERSION,
             "name": self.name,
             "tiling": self._asked_for[0],
             "exact_only": self._asked_for[1],
             "margin": str(self._margin),
-            "scene": scene_to_json(self.scene),
+            "scene": scene,
             "contact": None if self.contact is None else self.contact.to_json(),
             "met": self._met_to_json(),
             "pending": [event.to_json() for event in self._pending],
@@ -230,3 +221,39 @@ class Simulation(Running):
             },
             "state": None if living is None else tiling_to_json(living.kinetic),
         }
+
+
+def _resumed(
+    data: Mapping[str, Any], scene: Scene, max_events: int | None, max_seconds: float | None
+) -> Simulation:
+    """The simulation with the state that `Simulation.to_json` tells, of a scene."""
+    from exactpt.simulation.saved import (
+        contact_from_json,
+        event_from_json,
+        number_from_json,
+        tiling_from_json,
+    )
+
+    asked, exact_only = data["tiling"], data["exact_only"]
+    counts, state = data["counts"], data["state"]
+    self = Simulation(Scene([], (scene._start, scene._end)), tiling=asked, exact_only=exact_only,
+                      max_events=max_events, max_seconds=max_seconds)  # fmt: skip
+    self._given = scene, data["name"]
+    self._margin = parse_rational(data["margin"])
+    self._living = state and LivingScene(
+        scene,
+        tiling_from_json(state, scene.bodies, exact_only=exact_only),
+        asked,
+        exact_only=exact_only,
+        changes=counts["changes"],
+    )
+    self._pending.extend(map(event_from_json, data["pending"]))
+    self.contact = data["contact"] and contact_from_json(data["contact"])
+    self.contacts = counts["contacts"]
+    if self._living is not None:
+        if data["met"] is not None:
+            time, names = number_from_json(data["met"]["time"]), data["met"]["bodies"]
+            self._met = time, {name: self._living.body(name) for name in names}
+        before = Counts(counts["exact"], counts["filtered"], counts["reasons"])
+        self._living.kinetic.vertices.counters.set(before)
+    return self

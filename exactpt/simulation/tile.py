@@ -35,12 +35,12 @@ def tile_at(
         InputError: if the time is outside the span, or not before the first contact.
         BudgetExceeded: if the bounds are reached.
     """
-    if not scene.start <= at <= scene.end:
+    if not scene._start <= at <= scene._end:
         raise InputError(
             f"--at: t = {show(at)} is outside the time span "
-            f"from {show(scene.start)} to {show(scene.end)}"
+            f"from {show(scene._start)} to {show(scene._end)}"
         )
-    plan = plan_tiling(scene, plan_tiling(scene, tiling, scene.start).name, at)
+    plan = plan_tiling(scene, plan_tiling(scene, tiling, scene._start).name, at)
     simulation = Simulation(
         scene,
         tiling=tiling if by_running else "lazy",

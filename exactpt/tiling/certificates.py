@@ -14,7 +14,6 @@ import numpy as np
 
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.batch import Answers
-from exactpt.kernel.counters import counters
 from exactpt.kernel.integer_polynomial import IntPoly, sign_at, square_free
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
@@ -29,6 +28,7 @@ from exactpt.tiling.reasons import reason
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from exactpt.kernel.counters import Counters
     from exactpt.motion.vertices import Vertex, Vertices
 
 __all__ = ["X_ORDER", "Certifier"]
@@ -55,6 +55,7 @@ class Certifier:
         made: how many certificates have been computed.
         skipped: how many have not, since they cannot fail.
         zeros: how many of those made anew were found to vanish now, or for ever.
+        counters: of the run.
         errors: bounds on the coefficients of the images, see `Frame`.
         positions: of the vertices now, in doubles.
     """
@@ -68,6 +69,7 @@ class Certifier:
         self.made: int = 0
         self.skipped: int = 0
         self.zeros: int = 0
+        self.counters: Counters = vertices.counters
         self.errors: list[float] = vertices.frame.errors
         self.roots_now: list[tuple[int, int, int]] = []
         low, high = vertices.frame.time(start)
@@ -166,7 +168,7 @@ class Certifier:
         )
         if s == 0:
             return self._exact_orientation(va, vb, vc)
-        counters.filtered += 1
+        self.counters.filtered += 1
         if low > horizon:
             return s, None
         return s, EventTime(low, high, a, b, c)
@@ -188,7 +190,7 @@ class Certifier:
                 answers.append(self.orientation(a, b, c))
                 continue
             self.made += 1
-            counters.filtered += 1
+            self.counters.filtered += 1
             answers.append((s, EventTime(low, high, a, b, c) if low < INFINITY else None))
         return answers
 
@@ -240,7 +242,7 @@ class Certifier:
         until, now = self._until(a, b, c), self.exact_now
         s = now.sign_of(f) if f else 0
         why = reason(a, b, c, is_zero=s == 0, exact_only=self.exact_only)
-        counters.count_exact("certificate", why)
+        self.counters.count_exact("certificate", why)
         if f:
             if s == 0:
                 self.zeros += 1
@@ -308,7 +310,7 @@ class Certifier:
         )
         if s == 0:
             return self._exact_x_order(va, vb, touching=touching)
-        counters.filtered += 1
+        self.counters.filtered += 1
         if low > horizon:
             return s, None
         return s, EventTime(low, high, a, b, X_ORDER)
@@ -319,7 +321,7 @@ class Certifier:
         f, now = x_order(a, b), self.exact_now
         s = now.sign_of(f) if f else 0
         why = reason(a, b, is_zero=s == 0, exact_only=self.exact_only)
-        counters.count_exact("certificate", why)
+        self.counters.count_exact("certificate", why)
         roots = roots_after(f, now, self._until(a, b))
         root = next((r for r in roots if touching or r.crossing), None)
         time = (

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from exactpt.geometry.predicates import Point, side
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.counters import counters
+from exactpt.kernel.counters import Counters
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, sign
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
@@ -64,6 +64,7 @@ class Instant(Predicates):
         self.vertices = vertices
         self.time = time
         self.after = after
+        self._counters: Counters = vertices.counters
         self._number = AlgebraicNumber(time)
         self._exact_only: bool = exact_only
         self._exact: dict[int, Point] = {}
@@ -84,7 +85,7 @@ class Instant(Predicates):
         """The exact unperturbed position of a vertex."""
         found = self._exact.get(v)
         if found is None:
-            found = self._exact[v] = self.vertices.all[v].track.at(self.time)
+            found = self._exact[v] = self.vertices.all[v].track._at(self.time)
         return found
 
     def sign(self, a: int, b: int, c: int) -> int:
@@ -93,10 +94,10 @@ class Instant(Predicates):
         ax, ay = x[a], y[a]
         det = (x[b] - ax) * (y[c] - ay) - (y[b] - ay) * (x[c] - ax)
         if det > self._largest_bound:
-            counters.filtered += 1
+            self._counters.filtered += 1
             return 1
         if det < -self._largest_bound:
-            counters.filtered += 1
+            self._counters.filtered += 1
             return -1
         return self._sign_closely(a, b, c)
 
@@ -105,7 +106,7 @@ class Instant(Predicates):
             x, y, d = self._x, self._y, self._d
             s = cross_sign(x[b] - x[a], y[b] - y[a], d, x[c] - x[a], y[c] - y[a], d)
             if s:
-                counters.filtered += 1
+                self._counters.filtered += 1
                 return s
         return self._exact_sign(a, b, c)
 
@@ -128,7 +129,7 @@ class Instant(Predicates):
             certain[:] = 0
         signs: list[int] = certain.tolist()
         unsure = np.flatnonzero(certain == 0).tolist()
-        counters.filtered += len(signs) - len(unsure)
+        self._counters.filtered += len(signs) - len(unsure)
         for k in unsure:
             signs[k] = self._exact_sign(*triples[k])
         return signs
@@ -149,7 +150,7 @@ class Instant(Predicates):
 
     def _count(self, *vertices: Vertex, is_zero: bool) -> None:
         why = reason(*vertices, is_zero=is_zero, exact_only=self._exact_only)
-        counters.count_exact("sign", why)
+        self._counters.count_exact("sign", why)
 
     def _sign_of_copies(self, u: Vertex, v: Vertex, w: Vertex) -> int:
         """The sign of `copy_orientation` at the time itself."""
@@ -189,10 +190,10 @@ class Instant(Predicates):
         bound = self._d + K * abs(difference)
         if not self._exact_only:
             if difference > bound:
-                counters.filtered += 1
+                self._counters.filtered += 1
                 return True
             if difference < -bound:
-                counters.filtered += 1
+                self._counters.filtered += 1
                 return False
         (ax, _), (bx, _) = self.position(a), self.position(b)
         u, v = self.vertices.all[a], self.vertices.all[b]
@@ -259,7 +260,7 @@ class Instant(Predicates):
             x, y, off = self._x, self._y, self._d
             now = cross_sign(x[b] - x[a], y[b] - y[a], off, x[d] - x[c], y[d] - y[c], off)
             if now:
-                counters.filtered += 1
+                self._counters.filtered += 1
                 return now
         p, q, r, s = (self.position(i) for i in (a, b, c, d))
         now = sign((q[0] - p[0]) * (s[1] - r[1]) - (q[1] - p[1]) * (s[0] - r[0]))

@@ -182,7 +182,7 @@ class KineticTiling(RepairedTiling):
         moving = self.vertices.bodies[i]
         if moving.until is None:
             raise AuditError(f"body {i} has no next piece")
-        changes = moving.until in moving.body.breakpoints  # else only its offsets do
+        changes = moving.until in moving.body._breakpoints  # else only its offsets do
         self.vertices.enter_piece(i, moving.until)
         self._schedule_piece(i)
         if changes:
@@ -229,9 +229,9 @@ class KineticTiling(RepairedTiling):
         elif following is not None and following.compare_rational(later) < 0:
             later = rational_between(now, following)
         for k in range(MOST_TRIES):
-            width = (later - now.low) * power_of_two(-(1 << k))
+            width = (later - now._low) * power_of_two(-(1 << k))
             now.refine_to(width / 2)
-            if self._build_anew(rational_between(now, AlgebraicNumber(now.high + width / 2))):
+            if self._build_anew(rational_between(now, AlgebraicNumber(now._high + width / 2))):
                 break
         else:
             raise AuditError(f"no tiling holds just after t = {float(now)!r}")

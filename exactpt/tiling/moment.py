@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, final
 
-from exactpt.kernel.counters import counters
 from exactpt.tiling import coefficients
 from exactpt.tiling.certificates import X_ORDER
 from exactpt.tiling.exact import cross, orientation, x_order
@@ -36,7 +35,7 @@ class Moment(Predicates):
         if not certifier.exact_only:
             s = certifier.positions.sign(va, vb, vc)
             if s:
-                counters.filtered += 1
+                certifier.counters.filtered += 1
                 return s
         copies = va.track is vb.track or vb.track is vc.track or va.track is vc.track
         vanishes = certifier.vanishes_now(a, b, c)
@@ -52,7 +51,7 @@ class Moment(Predicates):
                 vanishes,
             )
             if s:
-                counters.filtered += 1
+                certifier.counters.filtered += 1
                 return s
         return self._exact(orientation(va, vb, vc), va, vb, vc)
 
@@ -63,7 +62,7 @@ class Moment(Predicates):
         if not certifier.exact_only:
             s = certifier.positions.order(va, vb, 0)
             if s:
-                counters.filtered += 1
+                certifier.counters.filtered += 1
                 return s > 0
         vanishes = certifier.vanishes_now(a, b, X_ORDER)
         copies = va.track is vb.track
@@ -78,7 +77,7 @@ class Moment(Predicates):
                 vanishes,
             )
             if s:
-                counters.filtered += 1
+                certifier.counters.filtered += 1
                 return s > 0
         return self._exact(x_order(va, vb), va, vb) > 0
 
@@ -90,7 +89,7 @@ class Moment(Predicates):
         if not certifier.exact_only:
             s = certifier.positions.turn(p, q, r, t)
             if s:
-                counters.filtered += 1
+                certifier.counters.filtered += 1
                 return s
         return self._exact(cross(p.track, q.track, r.track, t.track), p, q, r, t)
 
@@ -108,7 +107,8 @@ class Moment(Predicates):
     def _exact(self, f: IntPoly, *vertices: Vertex) -> int:
         now, exact_only = self._certifier.exact_now, self._certifier.exact_only
         s = now.sign_of(f) if f else 0
-        counters.count_exact("sign", reason(*vertices, is_zero=s == 0, exact_only=exact_only))
+        why = reason(*vertices, is_zero=s == 0, exact_only=exact_only)
+        self._certifier.counters.count_exact("sign", why)
         if s:
             return s
         return now.sign_before(f) if self._before else now.sign_after(f)

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from exactpt.geometry.boxes import Boxes, widen_unknown
-from exactpt.kernel.counters import counters
 from exactpt.kernel.integer_polynomial import add, multiply, subtract
 from exactpt.motion import incidence
 from exactpt.motion.incidence import difference
@@ -42,12 +41,13 @@ def coordinate_order(certifier: Certifier, a: Vertex, b: Vertex, axis: int) -> i
     if not certifier.exact_only:
         s = certifier.positions.order(a, b, axis)
         if s:
-            counters.filtered += 1
+            certifier.counters.filtered += 1
             return s
     p, q = a.track, b.track
     f = difference(p.y, p.w, q.y, q.w) if axis else difference(p.x, p.w, q.x, q.w)
     s = certifier.exact_now.sign_of(f)
-    counters.count_exact("place", reason(a, b, is_zero=s == 0, exact_only=certifier.exact_only))
+    why = reason(a, b, is_zero=s == 0, exact_only=certifier.exact_only)
+    certifier.counters.count_exact("place", why)
     return s
 
 
@@ -122,5 +122,5 @@ def lies_on(certifier: Certifier, v: Vertex, a: Vertex, b: Vertex) -> bool:
         return True
     is_on = incidence.lies_on(v.track, a.track, b.track, certifier.exact_now)
     why = reason(v, a, b, is_zero=is_on, exact_only=certifier.exact_only)
-    counters.count_exact("contact", why)
+    certifier.counters.count_exact("contact", why)
     return is_on

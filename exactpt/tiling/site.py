@@ -61,7 +61,7 @@ class _Search:
         self.mesh = mesh
         self.body = body
         self.t = t
-        self.points: Sequence[Point] = body.at(t)
+        self.points: Sequence[Point] = body._at(t)
         pairs = edges(body.size, closed=body.closed) or [(0, 0)]
         self.edges = [(self.points[u], self.points[v]) for u, v in pairs]
         self.low = min(p[0] for p in self.points), min(p[1] for p in self.points)
@@ -103,7 +103,7 @@ class _Search:
     def _at(self, v: int) -> Point:
         """Where a vertex is."""
         if v not in self.known:
-            self.known[v] = self.vertices.all[v].track.at(self.t)
+            self.known[v] = self.vertices.all[v].track._at(self.t)
         return self.known[v]
 
     def _ends(self, h: int) -> tuple[Point, Point]:

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, final
 
 from exactpt.geometry.predicates import side
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, fraction, parse_rational
 from exactpt.planar.halfedge import edge_key
 from exactpt.tiling.mesh import FREE, INSIDE
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from exactpt.motion.vertices import Vertices
     from exactpt.tiling.mesh import Mesh
 
-__all__ = ["Edge", "Face", "Node", "Snapshot", "snapshot"]
+__all__ = ["Edge", "Face", "Node", "Snapshot", "node_of", "snapshot", "snapshot_of"]
 
 
 @final
@@ -32,8 +33,29 @@ class Node:
 
     body: str
     vertex: int
-    x: QQ
-    y: QQ
+    _x: QQ
+    _y: QQ
+
+    @property
+    def x(self) -> Fraction:
+        """The exact coordinate."""
+        return fraction(self._x)
+
+    @property
+    def y(self) -> Fraction:
+        """The exact coordinate."""
+        return fraction(self._y)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return node_of, (self.body, self.vertex, str(self._x), str(self._y))
+
+    def __repr__(self) -> str:
+        return f"Node({self.body!r}, {self.vertex}, '{self._x}', '{self._y}')"
+
+
+def node_of(body: str, vertex: int, x: str, y: str) -> Node:
+    """The node that a pickle tells."""
+    return Node(body, vertex, parse_rational(x), parse_rational(y))
 
 
 @final
@@ -45,6 +67,9 @@ class Edge:
     v: int
     kind: str
     hull: bool
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Edge, (self.u, self.v, self.kind, self.hull)
 
 
 @final
@@ -66,6 +91,9 @@ class Face:
     body: str | None = None
     level: int | None = None
 
+    def __reduce__(self) -> tuple[object, ...]:
+        return Face, (self.nodes, self.corners, self.region, self.body, self.level)
+
 
 @final
 @dataclass(frozen=True, slots=True)
@@ -73,18 +101,25 @@ class Snapshot:
     """A tiling at a time.
 
     Attributes:
-        at: the time; the tiling is the one of that very time.
         tiling: its name.
         nodes: all vertices of the scene, in its order.
         edges: body edges and diagonals, in order of their nodes.
         faces: the pseudo-triangles.
     """
 
-    at: QQ
+    _at: QQ
     tiling: str
     nodes: tuple[Node, ...]
     edges: tuple[Edge, ...]
     faces: tuple[Face, ...]
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return snapshot_of, (str(self._at), self.tiling, self.nodes, self.edges, self.faces)
+
+    @property
+    def at(self) -> Fraction:
+        """The time; the tiling is the one of that very time."""
+        return fraction(self._at)
 
     @property
     def diagonals(self) -> tuple[Edge, ...]:
@@ -99,7 +134,7 @@ class Snapshot:
         """
         edges = []
         for face in self.faces:
-            tip = max(face.corners, key=lambda v: (self.nodes[v].x, -self.nodes[v].y))
+            tip = max(face.corners, key=lambda v: (self.nodes[v]._x, -self.nodes[v]._y))
             edges += [(min(tip, v), max(tip, v)) for v in face.nodes if v not in face.corners]
         return tuple(sorted(edges))
 
@@ -116,10 +151,10 @@ class Snapshot:
                 face |= {"body": f.body, "level": f.level}
             faces.append(face)
         data: dict[str, object] = {
-            "at": str(self.at),
+            "at": str(self._at),
             "tiling": self.tiling,
             "vertices": [
-                {"body": n.body, "vertex": n.vertex, "x": str(n.x), "y": str(n.y)}
+                {"body": n.body, "vertex": n.vertex, "x": str(n._x), "y": str(n._y)}
                 for n in self.nodes
             ],
             "edges": [{"u": e.u, "v": e.v, "kind": e.kind, "hull": e.hull} for e in self.edges],
@@ -128,6 +163,17 @@ class Snapshot:
         if self.tiling == "incremental":
             data["fan"] = [list(edge) for edge in self.fan]
         return data
+
+
+def snapshot_of(
+    at: str,
+    tiling: str,
+    nodes: tuple[Node, ...],
+    edges: tuple[Edge, ...],
+    faces: tuple[Face, ...],
+) -> Snapshot:
+    """The snapshot that a pickle tells."""
+    return Snapshot(parse_rational(at), tiling, nodes, edges, faces)
 
 
 def snapshot(vertices: Vertices, mesh: Mesh, name: str, at: QQ) -> Snapshot:
@@ -152,7 +198,7 @@ class _Contraction:
         for moving in vertices.bodies:
             body = moving.body
             tracks = {vertices.all[v].index: vertices.all[v].track for v in moving.ring}
-            self.nodes += [Node(body.name, i, *tracks[i].at(at)) for i in range(body.size)]
+            self.nodes += [Node(body.name, i, *tracks[i]._at(at)) for i in range(body.size)]
         self.node = vertices.nodes()
         self.cuts: dict[tuple[int, int], set[int]] = {}
 
@@ -190,12 +236,12 @@ class _Contraction:
 
     def _has_area(self, corners: Sequence[int]) -> bool:
         """Whether a face with these corners bounds an area."""
-        a, b, c = ((self.nodes[v].x, self.nodes[v].y) for v in corners)
+        a, b, c = ((self.nodes[v]._x, self.nodes[v]._y) for v in corners)
         return side(a, b, c) != 0
 
     def _cut_along(self, nodes: Sequence[int]) -> None:
         """Cut the edges of a face without area at its vertices that lie inside them."""
-        ordered = sorted(set(nodes), key=lambda v: (self.nodes[v].x, self.nodes[v].y))
+        ordered = sorted(set(nodes), key=lambda v: (self.nodes[v]._x, self.nodes[v]._y))
         rank = {v: i for i, v in enumerate(ordered)}
         for u, v in pairwise([*nodes, nodes[0]]) if len(ordered) > 2 else ():
             low, high = sorted((rank[u], rank[v]))
@@ -210,7 +256,7 @@ class _Contraction:
             return
         a = self.nodes[u]
         along = sorted(
-            inside, key=lambda w: abs(self.nodes[w].x - a.x) + abs(self.nodes[w].y - a.y)
+            inside, key=lambda w: abs(self.nodes[w]._x - a._x) + abs(self.nodes[w]._y - a._y)
         )
         for p, q in pairwise([u, *along, v]):
             yield from self._path(p, q)

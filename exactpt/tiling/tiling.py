@@ -37,8 +37,11 @@ class Tiling:
     def __init__(self, vertices: Vertices, certifier: Certifier, stats: Stats) -> None:
         self.vertices: Vertices = vertices
         self.certifier: Certifier = certifier
+        counters = vertices.counters
         self.queue: EventQueue = (
-            ExactQueue(certifier) if certifier.exact_only else EventQueue(certifier)
+            ExactQueue(certifier, counters)
+            if certifier.exact_only
+            else EventQueue(certifier, counters)
         )
         self.stats: Stats = stats
         self._events: list[TilingEvent] = []
@@ -79,6 +82,10 @@ class Tiling:
         self.certifier.made += other.certifier.made
         self.certifier.skipped += other.certifier.skipped
         self.certifier.zeros += other.certifier.zeros
+        self.vertices.counters.add(other.vertices.counters.now())
+
+    def __reduce__(self) -> tuple[object, ...]:
+        raise TypeError("the tiling of a run is copied and pickled with its simulation")
 
     @property
     def now(self) -> AlgebraicNumber:

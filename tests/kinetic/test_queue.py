@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ
 from exactpt.kinetic.queue import EventQueue, EventTime, ExactQueue
 
@@ -46,7 +47,7 @@ widths = st.sampled_from([0.0, 1e-12, 0.5])
 @pytest.mark.parametrize("kind", [EventQueue, ExactQueue])
 @given(events=st.lists(st.tuples(numbers, widths)))
 def test_events_come_in_the_order_of_time_then_of_slots(kind, events):
-    queue = kind(Numbers())
+    queue = kind(Numbers(), Counters())
     for slot, (index, width) in enumerate(events):
         queue.schedule(slot, time_of(index, width))
 
@@ -67,7 +68,7 @@ def test_events_come_in_the_order_of_time_then_of_slots(kind, events):
 
 def test_enclosures_that_do_not_overlap_decide_alone():
     numbers = Numbers()
-    queue = EventQueue(numbers)
+    queue = EventQueue(numbers, Counters())
     for slot, index in enumerate((5, 3, 7)):
         queue.schedule(slot, time_of(index))
 
@@ -78,7 +79,7 @@ def test_enclosures_that_do_not_overlap_decide_alone():
 
 def test_equal_times_are_one_batch_known_by_the_least_polynomial():
     """sqrt(2) is a root of t^2 - 2 and of t^6 - 8."""
-    queue = EventQueue(Numbers())
+    queue = EventQueue(Numbers(), Counters())
     queue.schedule(4, time_of(1))
     queue.schedule(2, time_of(0))
 
@@ -90,7 +91,7 @@ def test_equal_times_are_one_batch_known_by_the_least_polynomial():
 
 def test_a_time_of_one_function_equals_itself_unresolved():
     numbers = Numbers()
-    queue = EventQueue(numbers)
+    queue = EventQueue(numbers, Counters())
     queue.schedule(0, time_of(3))
     queue.schedule(1, time_of(3))
 
@@ -99,7 +100,7 @@ def test_a_time_of_one_function_equals_itself_unresolved():
 
 
 def test_many_replaced_events_are_dropped():
-    queue = EventQueue(Numbers())
+    queue = EventQueue(Numbers(), Counters())
     for i in range(5000):
         queue.schedule(i % 3, time_of(3 + i % 6))
 
@@ -113,7 +114,7 @@ class QueueMachine(RuleBasedStateMachine):
 
     def __init__(self):
         super().__init__()
-        self.queue = EventQueue(Numbers())
+        self.queue = EventQueue(Numbers(), Counters())
         self.model = {}
 
     @rule(slot=st.integers(0, 6), index=numbers, width=widths)
@@ -153,7 +154,7 @@ def test_bug_ends_of_motions_within_one_double_are_told_apart():
     """All ends of motions have one key; what they are is known exactly from the start."""
     thirds = [QQ(1, 3) + QQ(k, 10**30) for k in (2, 0, 1)]
     low, high = AlgebraicNumber(QQ(1, 3)).enclosure()
-    queue = EventQueue(Numbers())
+    queue = EventQueue(Numbers(), Counters())
     for slot, t in enumerate(thirds):
         queue.schedule(slot, EventTime(low, high, -1, -1, -1, AlgebraicNumber(t)))
 

@@ -31,7 +31,7 @@ bodies = st.one_of(
     st.fractions(0, 4, max_denominator=16),
 )
 def test_boxes_contain_the_vertices(bodies, begin, length):
-    tracks = [body.piece_after(QQ(0)).tracks[0] for body in bodies]
+    tracks = [body._piece_after(QQ(0)).tracks[0] for body in bodies]
     frame = frame_for([body.at(QQ(0))[0] for body in bodies], QQ(0), QQ(8))
     images = [frame.image(track) for track in tracks]
     first, last = as_rational(begin), as_rational(begin + length)
@@ -54,7 +54,7 @@ def test_boxes_contain_what_underflows(bits, numerator):
     for degree in range(1060 // bits - 1, 1074 // bits + 2):
         power = Body("a", [(0, 0)], Translation([0] * degree + [1]))
         frame = frame_for([(QQ(0), QQ(0))], QQ(0), QQ(1))
-        image = frame.image(power.piece_after(QQ(0)).tracks[0])
+        image = frame.image(power._piece_after(QQ(0)).tracks[0])
         low, high = frame.time(t)[0], frame.time(t * (1 + QQ(1, 1 << 50)))[1]
 
         x_low, x_high, *_ = SweptBoxes([image], frame.errors).during(low, high)[0].tolist()
@@ -64,8 +64,8 @@ def test_boxes_contain_what_underflows(bits, numerator):
 
 def test_boxes_are_tight():
     """Of a line: its ends; of a turn: what the bounds of numerator and denominator allow."""
-    line = Body("a", [(0, 0)], Translation([0, 1], [0, -2])).piece_after(QQ(0)).tracks[0]
-    turn = Body("a", [(1, 0)], Rigid([0, Fraction(1, 4)])).piece_after(QQ(0)).tracks[0]
+    line = Body("a", [(0, 0)], Translation([0, 1], [0, -2]))._piece_after(QQ(0)).tracks[0]
+    turn = Body("a", [(1, 0)], Rigid([0, Fraction(1, 4)]))._piece_after(QQ(0)).tracks[0]
     frame = frame_for([(QQ(0), QQ(0)), (QQ(2), QQ(2))], QQ(0), QQ(1))
     assert frame.point((QQ(1, 2), QQ(1, 2))) == (0.5, 0.5)
 
@@ -79,9 +79,9 @@ def test_boxes_are_tight():
 
 def test_what_cannot_be_bounded_has_the_whole_plane():
     """Coefficients beyond what images hold, and denominators that may vanish for all we know."""
-    huge = Body("a", [(0, 0)], Translation([0, QQ(2) ** 300])).piece_after(QQ(0)).tracks[0]
-    spin = Body("b", [(1, 0)], Rigid([0, 1])).piece_after(QQ(0)).tracks[0]
-    rest = Body("c", [(1, 1)]).piece_after(QQ(0)).tracks[0]
+    huge = Body("a", [(0, 0)], Translation([0, QQ(2) ** 300]))._piece_after(QQ(0)).tracks[0]
+    spin = Body("b", [(1, 0)], Rigid([0, 1]))._piece_after(QQ(0)).tracks[0]
+    rest = Body("c", [(1, 1)])._piece_after(QQ(0)).tracks[0]
     frame = frame_for([(QQ(0), QQ(0)), (QQ(1), QQ(1))], QQ(0), QQ(100))
     images = [frame.image(track) for track in (huge, spin, rest)]
 

@@ -12,9 +12,11 @@ from exactpt.collision.tilings import start_tiling
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
 from exactpt.query.space import FreeSpace
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
+from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.events import ContactFound
 
 
@@ -307,3 +309,12 @@ def test_what_is_refused():
         space.shorten([(6, 1), (8, 1), (14, 1)])
     with pytest.raises(InputError, match="no body 'c'"):
         space.neighbours("c")
+
+
+def test_bug_the_relative_hull_of_a_point_is_the_point():
+    """In the tiling of points, which has no copies of them, it was an internal error."""
+    points = [Body(f"p{i}", [(i, i * i)], Translation([0, -i], [0, 2])) for i in range(6)]
+    simulation = Simulation(Scene(points, (0, 3)))
+
+    assert simulation.name == "incremental"
+    assert [simulation.relative_hull(p.name) for p in points] == [[(p.name, 0)] for p in points]

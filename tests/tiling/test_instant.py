@@ -7,7 +7,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from moving import END, START, affine, linear, parabolic, place, sign, times, turning, vertices
 
-from exactpt.kernel.counters import counters
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
@@ -92,7 +91,6 @@ def test_clear_predicates_are_decided_by_floats():
     ]
     moving = Vertices.of(bodies, START, END)
     instant = Instant(moving, QQ(1, 3))
-    before = counters.exact
 
     instant.signs(list(permutations(range(6), 3)))
     instant.sorted_by_x(range(6))
@@ -103,4 +101,4 @@ def test_clear_predicates_are_decided_by_floats():
             instant.descent(a, b)
 
     # Vertices 0 and 2 have one x for ever; 0 turns 5 to itself twice, and once backwards.
-    assert counters.exact - before <= 8
+    assert moving.counters.exact <= 8

@@ -65,9 +65,9 @@ class Moving:
         xs: list[list[float]] = []
         ys: list[list[float]] = []
         for body in scene.bodies:
-            if any(scene.start < t < scene.end for t in body.breakpoints):
+            if any(scene._start < t < scene._end for t in body._breakpoints):
                 raise UnsuitableScene("motions in pieces")
-            tracks = body.piece_after(scene.start).tracks
+            tracks = body._piece_after(scene._start).tracks
             if any(len(track.w) > 1 for track in tracks):
                 raise UnsuitableScene("bodies that turn")
             rigid = all(t.frame is not None and t.frame == tracks[0].frame for t in tracks)
@@ -84,7 +84,7 @@ class Moving:
         self.body: Indices = np.repeat(
             np.arange(len(self.shapes), dtype=np.int32), [shape.size for shape in self.shapes]
         )
-        self.start, self.end = float(scene.start), float(scene.end)
+        self.start, self.end = float(scene._start), float(scene._end)
 
     @property
     def degree(self) -> int:
