@@ -55,8 +55,7 @@ ARGUMENTS = {
 ELSEWHERE = {
     "add", "remove", "set_motion", "set_motions", "run", "run_to_contact", "step",  # below
     "from_shapely", "to_shapely", "from_sympy", "to_sympy",  # numbers of other libraries
-    "load", "save", "restore", "root", "surd", "going_on",  # as these, or nothing
-    "copy", "from_json",
+    "load", "save", "restore", "root", "surd", "going_on", "copy", "from_json",  # as these
     "track", "kinetic",  # the engine's, see `exactpt.motion.track.Track`
 }  # fmt: skip
 """What is not called here, and why."""
