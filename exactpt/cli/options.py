@@ -15,10 +15,15 @@ from exactpt.kernel.numbers import QQ, parse_rational
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
 
+    _RationalType = click.ParamType[QQ]
+    _MomentType = click.ParamType["QQ | Literal['contact']"]
+else:  # before click 8.4 it has no parameter
+    _RationalType = _MomentType = click.ParamType
+
 __all__ = ["MOMENT", "RATIONAL", "SCENE", "SCENE_FILE", "TILING", "budget", "load", "output"]
 
 
-class _Rational(click.ParamType[QQ]):
+class _Rational(_RationalType):
     """A number of the scene format: 3, 1/3, 0.25, -3e-2."""
 
     name = "number"
@@ -33,7 +38,7 @@ class _Rational(click.ParamType[QQ]):
             self.fail(str(error), param, ctx)
 
 
-class _Moment(click.ParamType["QQ | Literal['contact']"]):
+class _Moment(_MomentType):
     """A number of the scene format, or the word "contact"."""
 
     name = "number|contact"
