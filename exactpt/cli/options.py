@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal
@@ -20,7 +22,17 @@ if TYPE_CHECKING:
 else:  # before click 8.4 it has no parameter
     _RationalType = _MomentType = click.ParamType
 
-__all__ = ["MOMENT", "RATIONAL", "SCENE", "SCENE_FILE", "TILING", "budget", "load", "output"]
+__all__ = [
+    "MOMENT",
+    "RATIONAL",
+    "SCENE",
+    "SCENE_FILE",
+    "TILING",
+    "budget",
+    "drop_standard_output",
+    "load",
+    "output",
+]
 
 
 class _Rational(_RationalType):
@@ -115,3 +127,8 @@ def load(path: Path, until: QQ | None = None) -> Scene:
         return scene.until(until)
     except InputError as error:
         raise InputError(f"--until: {error}") from None
+
+
+def drop_standard_output() -> None:
+    """After a broken pipe: what else is printed goes nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
