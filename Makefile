@@ -7,11 +7,12 @@ VENV := .venv
 BIN := $(VENV)/bin
 PACKAGES := g++ cmake libcgal-dev
 JOBS ?= 2
+DATE ?= $(shell date -u +%F)
 LOWEST := $(VENV)/lowest
 COMPILED_TESTS := $(addprefix tests/,kernel kinetic motion planar tiling collision simulation)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-lowest test-exact test-browser compiled plain test-compiled coverage lint quick pictures docs package check-cgal clean
+.PHONY: help demo test test-slow test-rotating test-lowest test-exact test-browser compiled plain test-compiled coverage lint quick pictures docs package check-cgal clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -23,7 +24,10 @@ test: $(VENV)/developing cgal_check/build/cgal_check lint ## set up (CGAL includ
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser"
 
 test-slow: $(VENV)/developing cgal_check/build/cgal_check ## the same claims on thousands of scenes: an hour
-	$(BIN)/python -m pytest -n $(JOBS) -m slow
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow
+
+test-rotating: $(VENV)/developing cgal_check/build/cgal_check ## the slow tests of a date, DATE=2026-11-22; all in a fortnight
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow --rotating $(DATE)
 
 quick: $(VENV)/developing ## the tests that take seconds
 	$(BIN)/python -m pytest
