@@ -7,10 +7,12 @@ VENV := .venv
 BIN := $(VENV)/bin
 PACKAGES := g++ cmake libcgal-dev
 JOBS ?= 2
+DATE ?= $(shell date -u +%F)
+LOWEST := $(VENV)/lowest
 COMPILED_TESTS := $(addprefix tests/,kernel kinetic motion planar tiling collision simulation)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-exact test-browser small-scope compiled plain test-compiled coverage lint quick pictures docs package check-cgal clean
+.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser compiled plain test-compiled coverage lint quick pictures docs package check-cgal clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -22,10 +24,16 @@ test: $(VENV)/developing cgal_check/build/cgal_check lint ## set up (CGAL includ
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser"
 
 test-slow: $(VENV)/developing cgal_check/build/cgal_check ## the same claims on thousands of scenes: an hour
-	$(BIN)/python -m pytest -n $(JOBS) -m slow
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow
+
+test-rotating: $(VENV)/developing cgal_check/build/cgal_check ## the slow tests of a date, DATE=2026-11-22; all in a fortnight
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow --rotating $(DATE)
 
 quick: $(VENV)/developing ## the tests that take seconds
 	$(BIN)/python -m pytest
+
+test-lowest: $(LOWEST)/installed ## the quick tests on the lowest versions that pyproject.toml allows
+	$(LOWEST)/bin/python -m pytest -n $(JOBS)
 
 test-exact: $(VENV)/developing ## the quick tests with the float filters switched off
 	$(BIN)/python -m pytest -n $(JOBS) --exact-only
@@ -35,7 +43,7 @@ test-browser: $(VENV)/developing ## the animation in a real browser (installs ch
 	$(BIN)/python -m pytest -m browser
 
 compiled: $(VENV)/developing ## compile the hot rooms of this checkout (setup.py)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77.0.3'
 	$(BIN)/python setup.py --quiet build_ext --inplace
 
 plain: ## remove what `make compiled` made
@@ -87,6 +95,13 @@ $(VENV)/installed: $(BIN)/python pyproject.toml
 $(VENV)/developing: $(BIN)/python pyproject.toml
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	@touch $@ $(VENV)/installed
+
+$(LOWEST)/installed: $(VENV)/developing .ci/lowest.py
+	rm -rf $(LOWEST)
+	$(PYTHON) -m venv $(LOWEST)
+	$(BIN)/python .ci/lowest.py >$(LOWEST)/constraints.txt
+	PIP_CONSTRAINT=$(LOWEST)/constraints.txt $(LOWEST)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[test,bench,docs]'
+	@touch $@
 
 clean: ## remove what was built (not .venv)
 	rm -rf build dist cgal_check/build *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -10,7 +10,7 @@ import click
 
 from exactpt.cgal import find_program
 from exactpt.errors import InputError
-from exactpt.scene.format import write_atomically
+from exactpt.files import write_atomically
 from exactpt.scene.generate import FAMILIES as BODIES
 from exactpt.scene.generate import POINTS
 from fuzz import battery, corpus, planted

@@ -11,7 +11,7 @@ import json
 from pathlib import Path
 from typing import Final
 
-from exactpt.scene.format import write_atomically
+from exactpt.files import write_atomically
 from fuzz.cases import Case, Failure
 
 __all__ = ["FOLDER", "files", "save"]

@@ -1,12 +1,14 @@
-"""Hypothesis profiles, a limit on refinement, a switch, and the CGAL witness as a fixture.
+"""Hypothesis profiles, a limit on refinement, two options, and the CGAL witness as a fixture.
 
 ``dev`` (random, short) is the default; HYPOTHESIS_PROFILE=ci is derandomized and longer.
 """
 
 import os
+from datetime import date
 
 import pytest
 from hypothesis import HealthCheck, settings
+from rotation import turn_of
 
 from exactpt.cgal import CgalCheck, find_program
 from exactpt.errors import InputError
@@ -34,9 +36,20 @@ def pytest_addoption(parser):
     parser.addoption(
         "--exact-only", action="store_true", help="switch the float filters off in every test"
     )
+    parser.addoption(
+        "--rotating",
+        metavar="DATE",
+        type=date.fromisoformat,
+        help="of the tests that -m selects only those whose turn it is on this date",
+    )
 
 
+@pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config, items):
+    if day := config.getoption("--rotating"):
+        turn = set(turn_of(items, day))
+        config.hook.pytest_deselected(items=[item for item in items if item not in turn])
+        items[:] = [item for item in items if item in turn]
     if filters.__file__.endswith(".py"):
         return
     if config.getoption("--exact-only"):

@@ -10,7 +10,7 @@ from typing import TypeAlias, final
 
 from exactpt.bench.peers import is_installed
 from exactpt.bench.plots import Series, draw_lines, draw_shares
-from exactpt.scene.format import write_atomically
+from exactpt.files import write_atomically
 
 __all__ = ["Cell", "Output", "Row"]
 

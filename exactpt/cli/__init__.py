@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 import tempfile
 import traceback
@@ -11,10 +10,11 @@ from pathlib import Path
 
 import click
 
+from exactpt.cli.alarm import endings
 from exactpt.cli.bench import bench
 from exactpt.cli.contacts import collide, simulate
 from exactpt.cli.files import convert, generate
-from exactpt.cli.options import SCENE_FILE
+from exactpt.cli.options import SCENE_FILE, drop_standard_output
 from exactpt.cli.pictures import demo, draw
 from exactpt.cli.tilings import check, tile
 from exactpt.errors import AuditError, BudgetExceeded, InputError
@@ -33,7 +33,7 @@ class _Commands(click.Group):
         try:
             return super().invoke(ctx)
         except BrokenPipeError:  # who reads the answer has seen enough
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            drop_standard_output()
             return OK
         except (InputError, BudgetExceeded, OSError):
             raise
@@ -94,7 +94,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit with its code."""
     given = None if arguments is None else list(arguments)
     try:
-        code = cli.main(given, prog_name="exactpt", standalone_mode=False)
+        with endings():
+            code = cli.main(given, prog_name="exactpt", standalone_mode=False)
     except click.exceptions.NoArgsIsHelpError as error:
         error.show()
         code = BAD_INPUT

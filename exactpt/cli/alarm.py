@@ -1,8 +1,9 @@
-"""The alarm: what takes longer than the budget allows is interrupted, wherever it is."""
+"""Signals: a budget that is used up, or a request to end, interrupts a run wherever it is."""
 
 from __future__ import annotations
 
 import signal
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
@@ -10,7 +11,7 @@ from typing import Final, NoReturn
 
 from exactpt.errors import BudgetExceeded
 
-__all__ = ["time_limit"]
+__all__ = ["endings", "time_limit"]
 
 GRACE: Final = 0.25
 """Seconds that are left to the library, which looks at the clock between events."""
@@ -51,3 +52,29 @@ def time_limit(seconds: float | None) -> Iterator[None]:
     finally:
         signal.setitimer(signal.ITIMER_REAL, left, interval)
         signal.signal(signal.SIGALRM, old)
+
+
+@contextmanager
+def endings() -> Iterator[None]:
+    """Have a request to end (SIGTERM, SIGHUP) raise `SystemExit`, so that temporary files go.
+
+    Only in the main thread, and only of signals that nobody else has taken or switched off.
+    """
+    names = [name for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    taken = [
+        number
+        for number in map(signal.Signals.__getitem__, names)
+        if threading.current_thread() is threading.main_thread()
+        and signal.getsignal(number) is signal.SIG_DFL
+    ]
+
+    def end(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001
+        raise SystemExit(128 + signum)
+
+    for number in taken:
+        signal.signal(number, end)
+    try:
+        yield
+    finally:
+        for number in taken:
+            signal.signal(number, signal.SIG_DFL)

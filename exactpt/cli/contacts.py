@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import json
-import sys
+from collections.abc import Callable
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load
+from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, drop_standard_output, load
 from exactpt.cli.progress import QUIET, progress
 from exactpt.cli.words import answer_in_words, event_in_words, stats_in_words
 from exactpt.errors import BudgetExceeded, InputError
@@ -19,6 +20,7 @@ from exactpt.kernel.numbers import QQ, rational
 if TYPE_CHECKING:
     from exactpt.collision.pairs import PairsSearch
     from exactpt.scene.scene import Scene
+    from exactpt.simulation.event import Event
     from exactpt.simulation.simulation import Simulation
 
 __all__ = ["collide", "simulate"]
@@ -134,37 +136,69 @@ def simulate(
       exactpt simulate scene.json --events events.jsonl --until 5
       exactpt simulate scene.json --verbose --max-events 20
     """
-    from exactpt.scene.format import write_atomically
-    from exactpt.simulation.simulation import Simulation
+    from exactpt.files import writing
 
-    given: Scene | None = None
-    simulation: Simulation | None = None
-    lines: list[str] = []
-    try:
-        with time_limit(max_seconds):
-            given = load(scene, until)
-            simulation = Simulation(
-                given, tiling=tiling, max_events=max_events, max_seconds=max_seconds
-            )
-            with progress(given, "simulating", quiet=quiet or verbose) as reached:
-                for event in simulation.run():
-                    if events is not None:
-                        lines.append(json.dumps(event.to_json()))
-                    if verbose:
-                        click.echo(event_in_words(event))
-                    if reached is not None:
-                        reached(event.time)
-            told = [*answer_in_words(given, simulation.contact), *stats_in_words(simulation.stats)]
-    except BudgetExceeded as spent:
-        _tell_how_far(spent, simulation)
-        raise
-    finally:
-        interrupted = isinstance(sys.exception(), KeyboardInterrupt)
-        if events is not None and simulation is not None and not interrupted:
-            write_atomically(events, "".join(f"{line}\n" for line in lines))
+    with writing(events) if events is not None else nullcontext() as log:
+
+        def tell(event: Event) -> None:
+            if log is not None:
+                log(f"{json.dumps(event.to_json())}\n")
+            if verbose:
+                _say(event_in_words(event), go_on=log is not None)
+
+        told = _run(
+            scene,
+            until,
+            tell,
+            quiet=quiet or verbose,
+            tiling=tiling,
+            max_events=max_events,
+            max_seconds=max_seconds,
+        )
     if not quiet:
         click.echo("\n".join(told))
     return 0
+
+
+def _say(line: str, *, go_on: bool) -> None:
+    """Print a line; without a reader go on all the same if there is a file to complete."""
+    try:
+        click.echo(line)
+    except BrokenPipeError:
+        if not go_on:
+            raise
+        drop_standard_output()
+
+
+def _run(
+    path: Path,
+    until: QQ | None,
+    tell: Callable[[Event], None],
+    *,
+    quiet: bool,
+    tiling: str,
+    max_events: int | None,
+    max_seconds: float | None,
+) -> list[str]:
+    """Simulate, and tell every event; what is to be said at the end."""
+    from exactpt.simulation.simulation import Simulation
+
+    simulation: Simulation | None = None
+    try:
+        with time_limit(max_seconds):
+            given = load(path, until)
+            simulation = Simulation(
+                given, tiling=tiling, max_events=max_events, max_seconds=max_seconds
+            )
+            with progress(given, "simulating", quiet=quiet) as reached:
+                for event in simulation.run():
+                    tell(event)
+                    if reached is not None:
+                        reached(event.time)
+            return [*answer_in_words(given, simulation.contact), *stats_in_words(simulation.stats)]
+    except BudgetExceeded as spent:
+        _tell_how_far(spent, simulation)
+        raise
 
 
 def _tell_how_far(spent: BudgetExceeded, search: Simulation | PairsSearch | None) -> None:

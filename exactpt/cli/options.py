@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal
@@ -15,10 +17,25 @@ from exactpt.kernel.numbers import QQ, parse_rational
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
 
-__all__ = ["MOMENT", "RATIONAL", "SCENE", "SCENE_FILE", "TILING", "budget", "load", "output"]
+    _RationalType = click.ParamType[QQ]
+    _MomentType = click.ParamType["QQ | Literal['contact']"]
+else:  # before click 8.4 it has no parameter
+    _RationalType = _MomentType = click.ParamType
+
+__all__ = [
+    "MOMENT",
+    "RATIONAL",
+    "SCENE",
+    "SCENE_FILE",
+    "TILING",
+    "budget",
+    "drop_standard_output",
+    "load",
+    "output",
+]
 
 
-class _Rational(click.ParamType[QQ]):
+class _Rational(_RationalType):
     """A number of the scene format: 3, 1/3, 0.25, -3e-2."""
 
     name = "number"
@@ -33,7 +50,7 @@ class _Rational(click.ParamType[QQ]):
             self.fail(str(error), param, ctx)
 
 
-class _Moment(click.ParamType["QQ | Literal['contact']"]):
+class _Moment(_MomentType):
     """A number of the scene format, or the word "contact"."""
 
     name = "number|contact"
@@ -110,3 +127,8 @@ def load(path: Path, until: QQ | None = None) -> Scene:
         return scene.until(until)
     except InputError as error:
         raise InputError(f"--until: {error}") from None
+
+
+def drop_standard_output() -> None:
+    """After a broken pipe: what else is printed goes nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

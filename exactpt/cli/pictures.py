@@ -85,9 +85,10 @@ def demo(output: Path) -> int:
     """
     from importlib.resources import files
 
+    from exactpt.files import write_atomically
     from exactpt.render.film import film_of
     from exactpt.render.page import page_of
-    from exactpt.scene.format import loads, write_atomically
+    from exactpt.scene.format import loads
 
     given = loads((files("exactpt") / "data" / "demo.json").read_text(encoding="utf-8"))
     film = film_of(given, tiling="auto")

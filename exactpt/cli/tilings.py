@@ -43,7 +43,7 @@ def tile(
       exactpt tile scene.json --at 5/2 -o tiling.json
       exactpt tile scene.json --at 5/2 --run
     """
-    from exactpt.scene.format import write_atomically
+    from exactpt.files import write_atomically
     from exactpt.simulation.tile import tile_at
 
     with time_limit(max_seconds):

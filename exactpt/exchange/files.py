@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 from exactpt.errors import InputError
 from exactpt.exchange import geojson, svg, wkt
 from exactpt.exchange.shapes import Holes, Shape, scene_of, shapes_at
+from exactpt.files import write_atomically
 from exactpt.kernel.numbers import rational
-from exactpt.scene.format import loads, save, write_atomically
+from exactpt.scene.format import loads, save
 from exactpt.scene.json_values import parse_json
 
 if TYPE_CHECKING:

@@ -80,6 +80,8 @@ _NUMBER: Final = re.compile(
 )  # possessive: digits are never given back, so a long refused text takes linear time
 _EXPONENT_LIMIT: Final = 100_000
 _EXACT: Final[type[QQ]] = type(QQ())
+_INEXACT: Final = ("bool", "mpfr")
+"""Names of types that are refused; numpy's booleans have an index before numpy 2.3."""
 
 
 def sign(value: QQ | ZZ) -> int:
@@ -182,7 +184,7 @@ def rational(value: Rational) -> QQ:
         if not math.isfinite(value):
             raise InputError(f"not a finite number: {value!r}")
         return QQ(*value.as_integer_ratio())
-    if isinstance(value, bool) or type(value).__name__ == "mpfr":
+    if type(value).__name__ in _INEXACT:
         raise InputError(f"not an exact number: {value!r}")
     try:
         if hasattr(value, "numerator") and hasattr(value, "denominator"):

@@ -115,7 +115,8 @@ class FreeSpace:
     def path(self, start: PointLike, goal: PointLike) -> Path:
         """The shortest of the paths that cross the fewest diagonals in the same order.
 
-        There is always a way between free points, around the convex hull if need be.
+        Another order of diagonals may have a shorter one. There is always a way between free
+        points, around the convex hull if need be.
 
         Raises:
             InputError: if one of the points is not free.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final, Literal
 
 from exactpt.errors import InputError
+from exactpt.files import write_atomically
 from exactpt.kernel.numbers import show
 from exactpt.render.film import film_of
 from exactpt.render.frame import frame_of
@@ -12,7 +13,6 @@ from exactpt.render.page import page_of
 from exactpt.render.png import png_of
 from exactpt.render.still import still
 from exactpt.render.svg import svg_of
-from exactpt.scene.format import write_atomically
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
-import os
-import stat
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Final
 
 from exactpt.errors import InputError
+from exactpt.files import write_atomically
 from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body, is_text
@@ -38,7 +35,7 @@ from exactpt.scene.json_values import (
 )
 from exactpt.scene.scene import Scene
 
-__all__ = ["from_json", "load", "loads", "save", "to_json", "write_atomically"]
+__all__ = ["from_json", "load", "loads", "save", "to_json"]
 
 VERSION: Final = 1
 
@@ -288,46 +285,3 @@ def _motion_to_json(motion: Motion) -> dict[str, object]:
 def save(scene: Scene, path: Path) -> None:
     """Write a scene file; it is complete or not there."""
     write_atomically(path, json.dumps(to_json(scene), indent=1) + "\n")
-
-
-def write_atomically(path: Path, content: str | bytes) -> None:
-    """Write a file by way of a temporary neighbour, so that no half of it is ever seen.
-
-    A link stays, what it leads to is replaced. A pipe or a device is written to as it is,
-    never replaced, and so is what a process has open (``/dev/stdout``).
-
-    Raises:
-        InputError: if the file cannot be written.
-    """
-    try:
-        data = content.encode() if isinstance(content, str) else content
-        special = any(path.absolute().is_relative_to(folder) for folder in ("/dev", "/proc"))
-        if path.exists() and (special or not path.is_file()):
-            path.write_bytes(data)
-        else:
-            _replace(path.resolve(), data)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written: {error.strerror}") from None
-
-
-def _replace(path: Path, data: bytes) -> None:
-    descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(data)
-        os.chmod(name, _mode(path))
-        os.replace(name, path)
-    except BaseException:
-        with contextlib.suppress(OSError):
-            os.unlink(name)
-        raise
-
-
-def _mode(path: Path) -> int:
-    """Who may read and write a file: as before, if there is one."""
-    try:
-        return stat.S_IMODE(path.stat().st_mode)
-    except FileNotFoundError:
-        umask = os.umask(0)
-        os.umask(umask)
-        return 0o666 & ~umask

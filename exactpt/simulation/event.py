@@ -18,8 +18,7 @@ class Event:
 
     Attributes:
         time: exactly when.
-        kind: "corner", "reflex", "hull", "diagonal", "x-order", "motion" or "contact". (The
-            format has the word "shadow" too; no tiling uses it.)
+        kind: "corner", "reflex", "hull", "diagonal", "x-order", "motion" or "contact".
         removed, added: edges of the tiling, as pairs of names "body:vertex".
     """
 

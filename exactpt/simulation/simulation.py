@@ -9,12 +9,12 @@ from time import monotonic
 from typing import Any, final
 
 from exactpt.errors import InputError
+from exactpt.files import write_atomically
 from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import parse_rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
 from exactpt.scene.format import to_json as scene_to_json
-from exactpt.scene.format import write_atomically
 from exactpt.scene.scene import Scene
 from exactpt.simulation.living import LivingScene
 from exactpt.simulation.running import Running

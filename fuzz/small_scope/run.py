@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import Final
 
 from exactpt.errors import InputError
-from exactpt.scene.format import to_json, write_atomically
+from exactpt.files import write_atomically
+from exactpt.scene.format import to_json
 from fuzz.cases import Failure, failure_of, shrunk
 from fuzz.small_scope.look import AUDITED, look
 from fuzz.small_scope.scope import planned, sizes

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from exactpt.cli import main
-from exactpt.scene.format import save, write_atomically
+from exactpt.files import write_atomically
+from exactpt.scene.format import save
 from exactpt.scene.generate import generate
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="pipes and links of a Unix")

@@ -184,6 +184,7 @@ def test_rational_takes_sympy_rationals():
         True,
         False,
         np.True_,
+        pytest.param(type("bool", (), {"__index__": lambda _: 1})(), id="numpy's before 2.3"),
         math.nan,
         math.inf,
         -math.inf,

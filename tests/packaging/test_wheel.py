@@ -11,7 +11,10 @@ from pathlib import Path
 
 import pytest
 
-pytestmark = pytest.mark.slow  # it downloads gmpy2, numpy and click, and compiles
+pytestmark = [
+    pytest.mark.slow,  # it downloads gmpy2, numpy and click, and compiles
+    pytest.mark.xdist_group("wheel"),  # built once
+]
 
 ROOT = Path(__file__).parents[2]
 

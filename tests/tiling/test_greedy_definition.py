@@ -47,7 +47,13 @@ def diagonals(scene, snapshot):
     return {tuple(sorted([nodes[e.u], nodes[e.v]])) for e in snapshot.diagonals}
 
 
-@pytest.fixture(scope="module", params=[10, pytest.param(300, marks=pytest.mark.slow)])
+@pytest.fixture(
+    scope="module",
+    params=[
+        10,
+        pytest.param(300, marks=[pytest.mark.slow, pytest.mark.xdist_group("greedy definition")]),
+    ],
+)
 def scenes(request):
     return list(generic_scenes(request.param))
 

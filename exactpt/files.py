@@ -1,0 +1,89 @@
+"""Files that are written: complete, or not there."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import secrets
+import stat
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+from exactpt.errors import InputError
+
+__all__ = ["write_atomically", "writing"]
+
+
+def write_atomically(path: Path, content: str | bytes) -> None:
+    """Write a file; see `writing`.
+
+    Raises:
+        InputError: if the file cannot be written.
+    """
+    with writing(path) as write:
+        write(content)
+
+
+@contextlib.contextmanager
+def writing(path: Path) -> Iterator[Callable[[str | bytes], None]]:
+    """Give a function that writes to a temporary neighbour, which becomes the file at the end.
+
+    After an exception inside, nothing is left, and an older file is as it was. A link stays,
+    what it leads to is replaced; the file keeps its permissions. A pipe or a device is written
+    to as it is, never replaced, and so is what a process has open (``/dev/stdout``).
+
+    Any number of threads may do this at once.
+
+    Raises:
+        InputError: if the file cannot be written.
+    """
+    with _refusing(path):
+        special = any(path.absolute().is_relative_to(folder) for folder in ("/dev", "/proc"))
+        direct = path.exists() and (special or not path.is_file())
+        target = path if direct else path.resolve()
+        mode = stat.S_IMODE(target.stat().st_mode) if target.exists() else None
+        file = path.open("wb") if direct else _open_beside(target, mode)
+
+    def write(content: str | bytes) -> None:
+        with _refusing(path):
+            file.write(content.encode() if isinstance(content, str) else content)
+
+    try:
+        yield write
+        with _refusing(path):
+            if direct:
+                file.close()
+            else:
+                _put_in_place(file, target, mode)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            file.close()
+        if not direct:
+            with contextlib.suppress(OSError):
+                os.unlink(file.name)
+        raise
+
+
+@contextlib.contextmanager
+def _refusing(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {error.strerror}") from None
+
+
+def _open_beside(target: Path, mode: int | None) -> BinaryIO:
+    """A new file in the same folder, for no more eyes than the one that it will replace."""
+    name = target.with_name(f".exactpt-{secrets.token_hex(8)}")
+    allowed = 0o666 if mode is None else mode & 0o666 | stat.S_IWUSR
+    return open(name, "xb", opener=lambda path, flags: os.open(path, flags, allowed))
+
+
+def _put_in_place(file: BinaryIO, target: Path, mode: int | None) -> None:
+    if mode is not None:
+        os.chmod(file.name, mode)
+    file.flush()
+    os.fsync(file.fileno())
+    file.close()
+    os.replace(file.name, target)
