@@ -9,7 +9,7 @@ PACKAGES := g++ cmake libcgal-dev
 JOBS ?= 2
 DATE ?= $(shell date -u +%F)
 LOWEST := $(VENV)/lowest
-COMPILED_TESTS := $(addprefix tests/,kernel kinetic motion planar tiling collision simulation)
+COMPILED_TESTS := $(addprefix tests/,kernel certificates motion planar pseudotriangulation tiling collision simulation)
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser compiled plain test-compiled coverage lint quick pictures docs package check-cgal clean

@@ -14,21 +14,22 @@ from glob import glob
 from setuptools import Extension, setup
 
 ROOMS = [
+    "exactpt/certificates/*.py",
     "exactpt/kernel/counters.py",
     "exactpt/kernel/filters.py",
     "exactpt/kernel/rounding.py",
     "exactpt/kernel/sextics.py",
     "exactpt/kernel/windows.py",
-    "exactpt/kinetic/queue.py",
     "exactpt/motion/image.py",
     "exactpt/motion/vertices.py",
     "exactpt/planar/halfedge.py",
+    "exactpt/pseudotriangulation/*.py",
     "exactpt/tiling/*.py",
     "exactpt/tiling/*/*.py",
 ]
 EXACT = {
-    "exactpt/tiling/closing.py",
-    "exactpt/tiling/exact.py",
+    "exactpt/pseudotriangulation/degenerate.py",
+    "exactpt/certificates/perturbation.py",
     "exactpt/tiling/greedy/slope.py",
 }
 

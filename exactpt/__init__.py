@@ -11,6 +11,8 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Final
 
+from exactpt.extensions import register
+
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact, Pair
     from exactpt.collision.detector import first_contact
@@ -102,6 +104,17 @@ _ROOMS: Final = {
 }
 
 _ROOM_OF: Final = {name: room for room, names in _ROOMS.items() for name in names}
+
+
+for _name, _place in {
+    "body from shapely": "exactpt.exchange.shapely_door:body_from",
+    "scene from shapely": "exactpt.exchange.shapely_door:scene_from",
+    "scene to shapely": "exactpt.exchange.shapely_door:geometries_of",
+    "picture of a scene": "exactpt.render.notebook:scene_svg",
+    "picture of a simulation": "exactpt.render.notebook:simulation_svg",
+    "table of a contact": "exactpt.render.notebook:contact_html",
+}.items():
+    register(_name, _place)
 
 
 def __getattr__(name: str) -> object:

@@ -20,9 +20,9 @@ from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
+from exactpt.pseudotriangulation.snapshot import snapshot
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
-from exactpt.tiling.snapshot import snapshot
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Report", "check_scene"]

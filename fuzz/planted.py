@@ -12,15 +12,15 @@ from dataclasses import dataclass
 from typing import Any, Final
 from unittest.mock import patch
 
+from exactpt.certificates import certifier, coefficients, incidences, perturbation
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.queue import EventQueue
 from exactpt.collision import detector
 from exactpt.errors import InputError
 from exactpt.kernel import filters
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import negate
-from exactpt.kinetic.queue import EventQueue
 from exactpt.scene.generate import FAMILIES, generate
-from exactpt.tiling import certificates, coefficients, contacts, exact
-from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.greedy.greedy import GreedyTiling
 from exactpt.tiling.kinetic import KineticTiling
 from fuzz.cases import Failure, failure_of
@@ -83,7 +83,7 @@ def _even_zeros_of_copies(right: Function) -> Function:
     def wrong(self: Certifier, a: Any, b: Any, c: Any) -> Any:
         if len({id(v.track) for v in (a, b, c)}) == 3:
             return right(self, a, b, c)
-        with _replaced(certificates, "roots_after", _even_roots):
+        with _replaced(certifier, "roots_after", _even_roots):
             return right(self, a, b, c)
 
     return wrong
@@ -187,19 +187,19 @@ PLANTED: Final[dict[str, Callable[[], Any]]] = {
     "sign of a certificate flipped": lambda: _replaced(coefficients, "_three", _flipped),
     "events dropped": lambda: _replaced(EventQueue, "schedule", _events_dropped),
     "equal times not equal": lambda: _replaced(EventQueue, "_compare", _order_of_ties),
-    "even roots ignored": lambda: _replaced(certificates, "roots_after", _even_roots),
+    "even roots ignored": lambda: _replaced(certifier, "roots_after", _even_roots),
     "even zeros of copies ignored": lambda: _replaced(
         Certifier, "_exact_orientation", _even_zeros_of_copies
     ),
     "contact proof skipped": lambda: _replaced(KineticTiling, "_may_touch", _always(False)),
     "straight chains not followed": lambda: _replaced(KineticTiling, "_is_flat", _always(False)),
-    "vertex on vertex ignored": lambda: _replaced(contacts, "coincide", _no_meetings),
+    "vertex on vertex ignored": lambda: _replaced(incidences, "coincide", _no_meetings),
     "the wrong diagonal gives way": lambda: _replaced(
         KineticTiling, "_repair_bend", _wrong_diagonal
     ),
     "pieces not certified anew": lambda: _replaced(KineticTiling, "_certify_body", _always([])),
     "rigid by mistake": lambda: _replaced(Certifier, "rigid", _rigid_if_one_velocity),
-    "order of ties swapped": lambda: _replaced(exact, "x_order_terms", _swapped),
+    "order of ties swapped": lambda: _replaced(perturbation, "x_order_terms", _swapped),
     "containment at the start missed": lambda: _replaced(
         detector, "initial_touches", _first_body_only
     ),

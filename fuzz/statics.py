@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
+from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import POINT_TILING, start_tiling
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
+from exactpt.pseudotriangulation.audit import audit_angles
+from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.scene.scene import Scene
-from exactpt.tiling.audit import audit_angles
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.greedy.greedy import GreedyTiling
 from exactpt.tiling.greedy.vertical import VerticalDecomposition
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import INSIDE, Mesh
 from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.tiling import Tiling
 
@@ -81,7 +81,7 @@ def audit_at(kinetic: Tiling, at: QQ) -> None:
     Raises:
         AuditError: if an angle is not as marked, or the tilings differ.
     """
-    instant = Instant(kinetic.vertices, at)
+    instant = PredicatesAt(kinetic.vertices, at)
     if kinetic.name == POINT_TILING:
         kinetic.mesh_after().audit()  # its points have no rings
     else:
@@ -106,7 +106,7 @@ def audit_now(kinetic: Tiling) -> None:
         AuditError: if they differ, or there is none.
     """
     now = kinetic.now.low
-    instant = Instant(kinetic.vertices, now, after=False)
+    instant = PredicatesAt(kinetic.vertices, now, after=False)
     kept, static = kinetic.mesh_now(now), type(kinetic).mesh_at(instant)
     if kinetic.name != POINT_TILING:
         audit_angles(kept, instant)

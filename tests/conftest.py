@@ -10,12 +10,12 @@ import pytest
 from hypothesis import HealthCheck, settings
 from rotation import turn_of
 
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certifier import Certifier
 from exactpt.cgal import CgalCheck, find_program
 from exactpt.errors import InputError
 from exactpt.kernel import filters
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.tiling.certificates import Certifier
-from exactpt.tiling.instant import Instant
 
 settings.register_profile(
     "dev", max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow]
@@ -73,7 +73,7 @@ def _switch(request):
         return exact
 
     with pytest.MonkeyPatch.context() as patch:
-        for kind in (Certifier, Instant):
+        for kind in (Certifier, PredicatesAt):
             patch.setattr(kind, "__init__", switched_off(kind.__init__))
         yield
 

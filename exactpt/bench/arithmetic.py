@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from random import Random
 from typing import Final, NamedTuple, TypeVar
 
-from exactpt.bench.arithmetics import ARITHMETICS, EXACT, Arithmetic, MovingPoint, Triple, hull
+from exactpt.bench.number_types import ARITHMETICS, EXACT, Arithmetic, MovingPoint, Triple, hull
 from exactpt.bench.output import Output, Row
 from exactpt.bench.timing import microseconds
 from exactpt.errors import AuditError

@@ -19,8 +19,9 @@ from exactpt.bench.output import Output, Row
 from exactpt.bench.plots import series_of
 from exactpt.bench.root_finders import END, EXACT, FILTER, FINDERS, Finder, exact_first
 from exactpt.bench.timing import microseconds
+from exactpt.certificates.certifier import Certifier
 from exactpt.errors import AuditError
-from exactpt.kernel import batch, filters
+from exactpt.kernel import filters, vectorized
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, ZZ
@@ -28,7 +29,6 @@ from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.vertices import Vertices
-from exactpt.tiling.certificates import Certifier
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 
@@ -161,7 +161,9 @@ def _order(finder: Finder, polys: Sequence[Any], truth: Sequence[bool]) -> float
 def _batch_row(rng: Random, degree: int, count: int) -> Row:
     """Microseconds a polynomial: the scalar filter, and the batch of so many."""
     ask: Callable[..., filters.Answer] = filters.linear if degree == 1 else filters.quadratic
-    ask_all: Callable[..., batch.Answers] = batch.linears if degree == 1 else batch.quadratics
+    ask_all: Callable[..., vectorized.Answers] = (
+        vectorized.linears if degree == 1 else vectorized.quadratics
+    )
     rows = []
     for _ in range(count):
         c = [rng.uniform(-1, 1) for _ in range(degree + 1)]

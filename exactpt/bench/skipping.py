@@ -21,6 +21,7 @@ from exactpt.bench.first_contact import FAMILIES
 from exactpt.bench.methods.own import fresh
 from exactpt.bench.output import Output, Row
 from exactpt.bench.timing import timed
+from exactpt.certificates import perturbation
 from exactpt.collision.tilings import tiling_for_contact
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -30,12 +31,16 @@ from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
-from exactpt.tiling import exact
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 
 CALLS: Final = {
-    "polynomials": (incidence.orientation, exact.copy_orientation, exact.x_order, exact.cross),
+    "polynomials": (
+        incidence.orientation,
+        perturbation.copy_orientation,
+        perturbation.x_order,
+        perturbation.cross,
+    ),
     "exact times": (IsolatedRoot.__init__, IsolatedRoot.root, IsolatedRoot.surd),
     "comparisons": (AlgebraicNumber.compare,),
 }

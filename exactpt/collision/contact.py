@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import final
 
+from exactpt.extensions import extension
 from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import (
@@ -98,9 +99,7 @@ class Contact:
 
     def _repr_html_(self) -> str:
         """When and what touches what, for notebooks."""
-        from exactpt.render.notebook import contact_html
-
-        return contact_html(self)
+        return str(extension("table of a contact")(self))
 
 
 def time_to_json(time: AlgebraicNumber) -> dict[str, object]:

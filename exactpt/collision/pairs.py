@@ -20,6 +20,10 @@ from typing import Final, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.coincidence import lies_on
+from exactpt.certificates.incidences import touches
+from exactpt.certificates.queue import EventTime
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
 from exactpt.errors import BudgetExceeded, InputError
@@ -28,13 +32,9 @@ from exactpt.geometry.polygon import edges
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, fraction
-from exactpt.kinetic.queue import EventTime
 from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.vertices import Vertices
 from exactpt.scene.scene import Scene
-from exactpt.tiling.certificates import Certifier
-from exactpt.tiling.contacts import touches
-from exactpt.tiling.placement import lies_on
 
 __all__ = ["PairsSearch"]
 

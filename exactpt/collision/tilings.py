@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
+from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import InputError
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
+from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.scene.scene import Scene
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.tiling import Tiling
 
 __all__ = [
@@ -52,7 +52,7 @@ class TilingPlan(NamedTuple):
 
     def mesh_at(self, time: QQ) -> Mesh:
         """The tiling at a time."""
-        return self.kind.mesh_at(Instant(self.vertices, time, after=False))
+        return self.kind.mesh_at(PredicatesAt(self.vertices, time, after=False))
 
 
 def check_tiling(name: str) -> None:
@@ -82,7 +82,7 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
         vertices = IncrementalTiling.vertices_of(scene.bodies, start, scene._end)
         return TilingPlan(POINT_TILING, IncrementalTiling, vertices, scene._end)
     vertices = Vertices.of(scene.bodies, start, scene._end)
-    convex = name in ("auto", "greedy") and Instant(vertices, start).all_stay_convex()
+    convex = name in ("auto", "greedy") and PredicatesAt(vertices, start).all_stay_convex()
     vertices.counters = Counters()  # the choice is no decision of the run
     if name == "auto":
         name = "greedy" if convex else "mixed"

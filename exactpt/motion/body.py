@@ -7,13 +7,14 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, final
 
 from exactpt.errors import InputError
+from exactpt.extensions import extension
 from exactpt.kernel.numbers import QQ, Rational, fraction, fractions, place, rational, shorten, show
 from exactpt.kernel.polynomial import Polynomial, polynomial
 from exactpt.motion.motions import REST, Coefficients, Motion, Pieces, Position, SimpleMotion, made
 from exactpt.motion.track import Track
 
 if TYPE_CHECKING:
-    from exactpt.exchange.shapely_door import BaseGeometry
+    from shapely.geometry.base import BaseGeometry
 
 __all__ = ["Body", "BodyPiece", "Keyframe", "VertexLike", "is_text"]
 
@@ -137,9 +138,8 @@ class Body:
         Raises:
             InputError: if the geometry is not one part, or cannot be a body.
         """
-        from exactpt.exchange.shapely_door import body_from
-
-        return body_from(geometry, name, motion, holes)
+        body: Body = extension("body from shapely")(geometry, name, motion, holes)
+        return body
 
     @property
     def size(self) -> int:

@@ -42,7 +42,7 @@ class Vertex:
         offset: the direction of its infinitesimal offset; None unless the body is thin.
         ahead, behind: the ids of its neighbours on the ring.
         x, y, error: where it was when last asked for, in the frame, and a bound on the errors
-            of both; ``seen`` says when that was (`exactpt.tiling.positions`).
+            of both; ``seen`` says when that was (`exactpt.certificates.positions`).
     """
 
     __slots__ = (

@@ -16,20 +16,20 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TypeAlias, final
 
+from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
+from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
+from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.query.answers import Hit, Path, Place, VertexName
 from exactpt.query.locate import cast, find, place_of
 from exactpt.query.relative import relative_hull, top_nodes
 from exactpt.query.subdivision import OUTSIDE, Subdivision
 from exactpt.query.surround import Around, surrounded
 from exactpt.query.ways import Ways
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import INSIDE, Mesh
 from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.mixed.static import mixed_mesh
-from exactpt.tiling.snapshot import Snapshot, snapshot
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["FreeSpace", "PointLike"]
@@ -197,7 +197,7 @@ class FreeSpace:
     def _mixed(self) -> tuple[LabelledMesh, list[int]]:
         if self._vertices.changes != self._changes:
             raise InputError("the bodies have other motions now: make the space anew")
-        mesh = mixed_mesh(Instant(self._vertices, self._at, after=False))
+        mesh = mixed_mesh(PredicatesAt(self._vertices, self._at, after=False))
         return mesh, top_nodes(mesh)
 
     def neighbours(self, body: str) -> list[str]:

@@ -1,8 +1,8 @@
 """The plane at one rational time, cut by the edges of bodies and by diagonals.
 
 What a query walks through: a planar map on the vertices of the scene, without copies of
-thin vertices and without faces that have no area (`exactpt.tiling.snapshot`), with exact
-coordinates. Its faces are the tiles of free space, the insides of the bodies, and what is
+thin vertices and without faces that have no area (`exactpt.pseudotriangulation.snapshot`), with
+exact coordinates. Its faces are the tiles of free space, the insides of the bodies, and what is
 outside the convex hull.
 """
 
@@ -17,7 +17,7 @@ from exactpt.geometry.polygon import signed_area2
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, sign
 from exactpt.planar.halfedge import PlanarMap
-from exactpt.tiling.snapshot import Snapshot
+from exactpt.pseudotriangulation.snapshot import Snapshot
 
 __all__ = ["OUTSIDE", "Subdivision", "cross"]
 

@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, power_of_two
+from exactpt.pseudotriangulation.snapshot import Edge, Face, Node, Snapshot
 from exactpt.query.sleeve import triangulated
-from exactpt.tiling.snapshot import Edge, Face, Node, Snapshot
 
 __all__ = ["Around", "surrounded"]
 

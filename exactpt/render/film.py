@@ -12,8 +12,8 @@ from exactpt.simulation.simulation import Simulation
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from exactpt.certificates.queue import EventTime
     from exactpt.collision.contact import Contact
-    from exactpt.kinetic.queue import EventTime
     from exactpt.scene.scene import Scene
     from exactpt.simulation.event import Event
 

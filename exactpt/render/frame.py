@@ -12,8 +12,8 @@ from exactpt.render.words import contact_in_words, time_in_words
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Pair
+    from exactpt.pseudotriangulation.snapshot import Face, Snapshot
     from exactpt.render.still import Still
-    from exactpt.tiling.snapshot import Face, Snapshot
 
 __all__ = ["Frame", "Line", "Mark", "Pixel", "Shape", "Tile", "frame_of", "tints"]
 

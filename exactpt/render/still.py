@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import show
+from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.render.fixed import near
 from exactpt.simulation.simulation import Simulation
-from exactpt.tiling.snapshot import Snapshot, snapshot
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact

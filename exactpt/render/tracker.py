@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Final, NamedTuple, final
 
+from exactpt.pseudotriangulation.mesh import F2, FREE, INSIDE, OUTER, SOLID, Tile
 from exactpt.render.palette import TINTS
-from exactpt.tiling.mesh import F2, FREE, INSIDE, OUTER, SOLID, Tile
 from exactpt.tiling.mixed.labels import Label, LabelledMesh
 
 if TYPE_CHECKING:

@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, final
 
 from exactpt.errors import InputError
+from exactpt.extensions import extension
 from exactpt.geometry.polygon import first_self_touch, signed_area2
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, rationals, shorten, show
 from exactpt.motion.body import Body
 
 if TYPE_CHECKING:
-    from exactpt.exchange.shapely_door import BaseGeometry
+    from shapely.geometry.base import BaseGeometry
 
 __all__ = ["Scene"]
 
@@ -158,9 +159,8 @@ class Scene:
         Raises:
             InputError: if a geometry cannot be a body (see `exactpt.read_shapes`).
         """
-        from exactpt.exchange.shapely_door import scene_from
-
-        return scene_from(geometries, time, holes)
+        scene: Scene = extension("scene from shapely")(geometries, time, holes)
+        return scene
 
     def to_shapely(self, t: Rational) -> dict[str, BaseGeometry]:
         """The bodies at a rational time as shapely geometries, by name.
@@ -170,9 +170,8 @@ class Scene:
         Raises:
             InputError: if the time is outside the time span.
         """
-        from exactpt.exchange.shapely_door import geometries_of
-
-        return geometries_of(self, rational(t))
+        geometries: dict[str, BaseGeometry] = extension("scene to shapely")(self, rational(t))
+        return geometries
 
     def until(self, end: Rational) -> Scene:
         """The scene up to an earlier end (a later one changes nothing).
@@ -214,9 +213,7 @@ class Scene:
 
     def _repr_svg_(self) -> str:
         """The bodies at the start, for notebooks."""
-        from exactpt.render.notebook import scene_svg
-
-        return scene_svg(self)
+        return str(extension("picture of a scene")(self))
 
     def __repr__(self) -> str:
         return (

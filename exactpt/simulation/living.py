@@ -13,13 +13,13 @@ from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
 from exactpt.motion.vertices import Vertices
+from exactpt.pseudotriangulation.conflict_zone import find_conflict_zone
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
 from exactpt.simulation.plans import planned
 from exactpt.tiling.events import TilingEvent
 from exactpt.tiling.greedy.greedy import GreedyTiling
 from exactpt.tiling.populated import PopulatedTiling
-from exactpt.tiling.site import find_site
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["LivingScene"]
@@ -144,7 +144,7 @@ class LivingScene:
                 names = bodies[i].name, bodies[j].name
                 raise InputError(f"body {names[1]!r} touches body {names[0]!r} at t = {show(t)}")
             return self._restart(bodies, t, 1)
-        site = find_site(kinetic.vertices, kinetic.mesh, body, t)
+        site = find_conflict_zone(kinetic.vertices, kinetic.mesh, body, t)
         events = kinetic.add_body(body, t, site)
         self._number[body.name] = len(self._bodies)
         self._bodies.append(body)

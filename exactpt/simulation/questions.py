@@ -10,9 +10,9 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, rational
 
 if TYPE_CHECKING:
+    from exactpt.pseudotriangulation.snapshot import Snapshot
     from exactpt.query.answers import Hit, Path, Place, VertexName
     from exactpt.query.space import FreeSpace, PointLike
-    from exactpt.tiling.snapshot import Snapshot
     from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Questions"]

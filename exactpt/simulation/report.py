@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from exactpt.certificates.certifier import X_ORDER
 from exactpt.kernel.counters import Counts
 from exactpt.scene.scene import Scene
-from exactpt.tiling.certificates import X_ORDER
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["report"]

@@ -9,6 +9,7 @@ from contextlib import suppress
 from fractions import Fraction
 from typing import Self
 
+from exactpt.certificates.queue import EventTime
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import plan_tiling
@@ -16,7 +17,6 @@ from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import QQ, Rational, fraction, power_of_two, rational, show
-from exactpt.kinetic.queue import EventTime
 from exactpt.motion.body import Body
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event

@@ -13,18 +13,19 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.queue import EventTime
 from exactpt.collision.contact import Contact, Pair
 from exactpt.collision.tilings import POINT_TILING, tiling_class
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, ZZ, parse_rational
-from exactpt.kinetic.queue import EventTime
 from exactpt.motion.body import Body
 from exactpt.motion.frame import Frame
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import PlanarMap
+from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.simulation.event import Event
-from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.events import Stats
 from exactpt.tiling.greedy.greedy import GreedyTiling
 from exactpt.tiling.greedy.vertical import VerticalDecomposition
@@ -32,7 +33,6 @@ from exactpt.tiling.incremental.chains import Chains
 from exactpt.tiling.incremental.incremental import IncrementalTiling
 from exactpt.tiling.incremental.structure import IncrementalStructure
 from exactpt.tiling.kinetic import KineticTiling
-from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.mixed.labels import Forest, LabelledMesh
 from exactpt.tiling.tiling import Tiling
 

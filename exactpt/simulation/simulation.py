@@ -9,6 +9,7 @@ from time import monotonic
 from typing import Any, final
 
 from exactpt.errors import InputError
+from exactpt.extensions import extension
 from exactpt.files import write_atomically
 from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import parse_rational
@@ -123,9 +124,7 @@ class Simulation(Running):
 
     def _repr_svg_(self) -> str:
         """The tiling at the current time, or the contact, for notebooks."""
-        from exactpt.render.notebook import simulation_svg
-
-        return simulation_svg(self)
+        return str(extension("picture of a simulation")(self))
 
     # A run that is interrupted
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, show
+from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
-from exactpt.tiling.snapshot import Snapshot, snapshot
 
 __all__ = ["tile_at"]
 

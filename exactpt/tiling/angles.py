@@ -9,18 +9,18 @@ from __future__ import annotations
 
 from typing import Final
 
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.one_sided import OneSided
+from exactpt.certificates.queue import EventTime
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
-from exactpt.kinetic.queue import EventTime
 from exactpt.motion.vertices import Vertex, Vertices
-from exactpt.tiling.audit import audit_angles
-from exactpt.tiling.batch import Batch
-from exactpt.tiling.certificates import Certifier
-from exactpt.tiling.closing import close_at
+from exactpt.pseudotriangulation.audit import audit_angles
+from exactpt.pseudotriangulation.degenerate import close_at
+from exactpt.pseudotriangulation.mesh import SOLID, Mesh
 from exactpt.tiling.events import Stats
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import SOLID, Mesh
-from exactpt.tiling.moment import Moment
+from exactpt.tiling.simultaneous import Batch
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["ANGLE", "CELL", "EXTREME", "KINDS", "MOTION", "SHRINK", "CertifiedTiling"]
@@ -69,7 +69,7 @@ class CertifiedTiling(Tiling):
         so that one by one they cannot, the one that is built at that time.
         """
         mesh = self.mesh.copy()
-        instant = Instant(self.vertices, time, after=False)
+        instant = PredicatesAt(self.vertices, time, after=False)
         try:
             self._close(mesh, instant)
         except AuditError:
@@ -77,7 +77,7 @@ class CertifiedTiling(Tiling):
             audit_angles(mesh, instant)
         return mesh
 
-    def _close(self, mesh: Mesh, instant: Instant) -> None:
+    def _close(self, mesh: Mesh, instant: PredicatesAt) -> None:
         """Make a tiling just after an instant the one at the instant.
 
         Raises:
@@ -132,7 +132,7 @@ class CertifiedTiling(Tiling):
         if self._careful and self.mesh.region[h] != SOLID:
             a, p, b = self._angle(h)
             if self.certifier.rigid(a, p, b):
-                after = Moment(self.certifier, before=False)
+                after = OneSided(self.certifier, before=False)
                 if (after.sign(a, p, b) > 0) != self.mesh.corner[h]:
                     self._due.add(h)
 
@@ -230,5 +230,5 @@ class CertifiedTiling(Tiling):
         return h in self._flat or (
             a != b
             and self.certifier.rigid(a, p, b)
-            and Moment(self.certifier, before=False).sign(a, p, b) == 0
+            and OneSided(self.certifier, before=False).sign(a, p, b) == 0
         )

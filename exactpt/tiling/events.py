@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple, final
 
-from exactpt.kinetic.queue import EventTime
+from exactpt.certificates.queue import EventTime
 from exactpt.motion.incidence import Touch
 
 __all__ = ["ContactFound", "Stats", "TilingEvent"]

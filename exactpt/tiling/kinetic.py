@@ -11,21 +11,21 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Final, Self
 
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.coincidence import nearer, strictly_between
+from exactpt.certificates.incidences import touches
+from exactpt.certificates.one_sided import OneSided
+from exactpt.certificates.queue import EventTime
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ, power_of_two
-from exactpt.kinetic.queue import EventTime
 from exactpt.motion.vertices import MovingBody, Vertices
 from exactpt.planar.halfedge import edge_key
+from exactpt.pseudotriangulation.inside import tile_inside
+from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.tiling.angles import ANGLE, KINDS, MOTION, SHRINK
-from exactpt.tiling.certificates import Certifier
-from exactpt.tiling.contacts import touches
 from exactpt.tiling.events import ContactFound, Stats, TilingEvent
-from exactpt.tiling.inside import tile_inside
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import Mesh
-from exactpt.tiling.moment import Moment
-from exactpt.tiling.placement import nearer, strictly_between
 from exactpt.tiling.repairs import RebuildNeeded, RepairedTiling
 
 if TYPE_CHECKING:
@@ -72,7 +72,9 @@ class KineticTiling(RepairedTiling):
 
     def _build(self, time: QQ) -> None:
         """Make the tiling that holds just after a rational time."""
-        self.mesh = self.mesh_at(Instant(self.vertices, time, exact_only=self.certifier.exact_only))
+        self.mesh = self.mesh_at(
+            PredicatesAt(self.vertices, time, exact_only=self.certifier.exact_only)
+        )
 
     def _schedule_piece(self, i: int) -> None:
         """Schedule when a body's current piece ends, and when the body loses its inside.
@@ -106,7 +108,7 @@ class KineticTiling(RepairedTiling):
             for i in sorted(plans):
                 if self.vertices.set_plan(i, plans[i], t, self.certifier.end):
                     first = self.mesh.ring_edge[self.vertices.bodies[i].ring[0]]
-                    tile_inside(self.mesh, first, Moment(self.certifier, before=False))
+                    tile_inside(self.mesh, first, OneSided(self.certifier, before=False))
                 self._schedule_piece(i)
                 self._record("motion", (), ())
             angles = [h for i in sorted(plans) for h in self._certify_body(i)]

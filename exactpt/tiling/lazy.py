@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import final
 
-from exactpt.tiling.build import build_mesh
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.pseudotriangulation.build import build_mesh
+from exactpt.pseudotriangulation.mesh import Mesh
+from exactpt.pseudotriangulation.plane_sweep import sweep_diagonals
+from exactpt.pseudotriangulation.pointed import make_pointed
 from exactpt.tiling.greedy.greedy import greedy_mesh
 from exactpt.tiling.greedy.vertical import VerticalDecomposition
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import Mesh
-from exactpt.tiling.plane_sweep import sweep_diagonals
-from exactpt.tiling.pointed import make_pointed
 from exactpt.tiling.populated import PopulatedTiling
 
 __all__ = ["LazyTiling"]
@@ -21,7 +21,7 @@ class LazyTiling(PopulatedTiling):
     """Starts greedy and repairs corners and bends alone."""
 
     @classmethod
-    def mesh_at(cls, instant: Instant) -> Mesh:
+    def mesh_at(cls, instant: PredicatesAt) -> Mesh:
         """A tiling of an instant: of convex bodies by rotation, else by a plane sweep."""
         if instant.all_stay_convex():
             return greedy_mesh(instant, VerticalDecomposition.at(instant))[0]

@@ -1,27 +1,27 @@
 """Bodies that come and go: the tiling changes in the faces that they touch.
 
 A body that comes is put into the faces that it meets; one that goes leaves a hole, the
-faces that it has touched. Either is a region that is tiled anew (`exactpt.tiling.region`).
-Only angles that are new are certified; what the canonical tilings need besides, flips and
-their certificates, spreads from there as after any other repair.
+faces that it has touched. Either is a region that is tiled anew
+(`exactpt.pseudotriangulation.region`). Only angles that are new are certified; what the canonical
+tilings need besides, flips and their certificates, spreads from there as after any other repair.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
+from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.planar.halfedge import NOTHING
+from exactpt.pseudotriangulation.conflict_zone import ConflictZone
+from exactpt.pseudotriangulation.inside import tile_inside
+from exactpt.pseudotriangulation.region import Region
 from exactpt.tiling.angles import KINDS, MOTION, SHRINK
 from exactpt.tiling.events import TilingEvent
-from exactpt.tiling.inside import tile_inside
 from exactpt.tiling.kinetic import KineticTiling
-from exactpt.tiling.moment import Moment
-from exactpt.tiling.region import Region
 from exactpt.tiling.repairs import RebuildNeeded
-from exactpt.tiling.site import Site
 
 __all__ = ["PopulatedTiling"]
 
@@ -33,7 +33,7 @@ class PopulatedTiling(KineticTiling):
         """Whether a body can be added at a time without building another tiling."""
         return True
 
-    def add_body(self, body: Body, t: QQ, site: Site) -> list[TilingEvent]:
+    def add_body(self, body: Body, t: QQ, site: ConflictZone) -> list[TilingEvent]:
         """Add a body as the last one; work for the faces that it meets.
 
         Args:
@@ -54,7 +54,7 @@ class PopulatedTiling(KineticTiling):
         if is_whole:
             if moving.is_tiled:
                 first = self.mesh.ring_edge[moving.ring[0]]
-                tile_inside(self.mesh, first, Moment(self.certifier, before=False))
+                tile_inside(self.mesh, first, OneSided(self.certifier, before=False))
                 self._recertify(self._ring_angles(moving.ring))
             self._enter_body(i)
         return self._resume(is_whole=is_whole)
@@ -103,7 +103,7 @@ class PopulatedTiling(KineticTiling):
         self.stats.most = max(self.stats.most, len(self.queue))
         return self._reported()
 
-    def _region_met(self, site: Site) -> Region:
+    def _region_met(self, site: ConflictZone) -> Region:
         """What is tiled anew when a body comes: the faces that it meets."""
         return Region(self.mesh, site.faces, site.crossed)
 
@@ -124,7 +124,7 @@ class PopulatedTiling(KineticTiling):
     def _retile(self, region: Region) -> bool:
         """Tile a region, and certify its new angles; whether that was possible."""
         try:
-            retiled = region.tile(Moment(self.certifier, before=False))
+            retiled = region.tile(OneSided(self.certifier, before=False))
         except AuditError:
             return False
         for h in (*region.gone, *retiled.handles):

@@ -13,13 +13,13 @@ to 2 pi on average.
 
 from __future__ import annotations
 
+from exactpt.certificates.coincidence import nearer, nearer_copy, strictly_between
+from exactpt.certificates.one_sided import OneSided
+from exactpt.certificates.perturbation import comes_first
 from exactpt.errors import AuditError
+from exactpt.pseudotriangulation.audit import audit_fan
+from exactpt.pseudotriangulation.mesh import OUTER
 from exactpt.tiling.angles import CertifiedTiling
-from exactpt.tiling.audit import audit_fan
-from exactpt.tiling.exact import comes_first
-from exactpt.tiling.mesh import OUTER
-from exactpt.tiling.moment import Moment
-from exactpt.tiling.placement import nearer, nearer_copy, strictly_between
 
 __all__ = ["RebuildNeeded", "RepairedTiling"]
 
@@ -77,7 +77,7 @@ class RepairedTiling(CertifiedTiling):
             RebuildNeeded: if it is no pseudo-triangulation.
         """
         m = self.mesh.map
-        after = Moment(self.certifier, before=False)
+        after = OneSided(self.certifier, before=False)
         try:
             self.mesh.audit_faces(touched)
             for v in sorted({m.origin[h] for h in touched if m.origin[h] >= 0}):

@@ -6,18 +6,18 @@ from abc import abstractmethod
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Self
 
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.queue import EventQueue, EventTime, ExactQueue
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
 from exactpt.kernel.numbers import QQ
-from exactpt.kinetic.queue import EventQueue, EventTime, ExactQueue
 from exactpt.motion.vertices import MovingBody, Vertices
-from exactpt.tiling.certificates import Certifier
 from exactpt.tiling.events import Stats, TilingEvent
 
 if TYPE_CHECKING:
+    from exactpt.certificates.at_time import PredicatesAt
     from exactpt.motion.body import Body
-    from exactpt.tiling.instant import Instant
-    from exactpt.tiling.mesh import Mesh
+    from exactpt.pseudotriangulation.mesh import Mesh
 
 __all__ = ["Tiling"]
 
@@ -67,7 +67,7 @@ class Tiling:
 
     @classmethod
     @abstractmethod
-    def mesh_at(cls, instant: Instant) -> Mesh:
+    def mesh_at(cls, instant: PredicatesAt) -> Mesh:
         """The tiling of an instant."""
 
     @abstractmethod

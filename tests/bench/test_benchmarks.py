@@ -17,9 +17,9 @@ from exactpt.bench import (
     stability,
     wrong_answers,
 )
-from exactpt.bench.arithmetics import ARITHMETICS
 from exactpt.bench.catalogue import BENCHMARKS
 from exactpt.bench.methods.method import Method
+from exactpt.bench.number_types import ARITHMETICS
 from exactpt.bench.planted import FAMILIES as PLANTED
 from exactpt.bench.planted import Planted
 from exactpt.cli import cli, main

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from attacks import answer, extreme, generic, hostile
 
-from exactpt.kernel import batch
+from exactpt.kernel import vectorized
 
 
 def answers(cases):
@@ -18,7 +18,7 @@ def answers(cases):
     times = [
         np.array([getattr(q, name) for q in cases]) for name in ("now_low", "now_high", "horizon")
     ]
-    ask = batch.linears if len(columns) == 4 else batch.quadratics
+    ask = vectorized.linears if len(columns) == 4 else vectorized.quadratics
     said = ask(*columns, *times, np.array([case.at_root for case in cases]))
     return [tuple(row) for row in zip(*(column.tolist() for column in said), strict=True)]
 
@@ -47,7 +47,7 @@ def test_one_now_for_all():
     c0, c1, c2 = np.array([[-4.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]).T
     none = np.zeros(3)
 
-    said = batch.quadratics(c0, c1, c2, none, none, none, 0.5, 0.5, 10.0, none > 0.0)
+    said = vectorized.quadratics(c0, c1, c2, none, none, none, 0.5, 0.5, 10.0, none > 0.0)
 
     assert said.signs.tolist() == [-1, 1, 1]
     assert said.lows[0] <= 2.0 <= said.highs[0] < 2.0 + 1e-12
@@ -58,7 +58,8 @@ def test_none_at_all():
     none = np.zeros(0)
 
     assert [
-        len(column) for column in batch.linears(none, none, none, none, 0.0, 0.0, 1.0, none > 0.0)
+        len(column)
+        for column in vectorized.linears(none, none, none, none, 0.0, 0.0, 1.0, none > 0.0)
     ] == [0] * 3
 
 
@@ -69,4 +70,4 @@ def test_nan_and_infinity_end_as_unsure(bad):
         c[i] = np.array([bad])
         none = np.zeros(1)
 
-        assert batch.quadratics(*c, none, none, none, 0.0, 0.0, 10.0, none > 0.0).signs[0] == 0
+        assert vectorized.quadratics(*c, none, none, none, 0.0, 0.0, 10.0, none > 0.0).signs[0] == 0

@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from exactpt.certificates.perturbation import copy_orientation, cross
 from exactpt.kernel.integer_polynomial import add, multiply, negate, subtract, trimmed
 from exactpt.kernel.numbers import ZZ
 from exactpt.kernel.packed import coefficient_bits, pack, unpack, width_for
@@ -11,7 +12,6 @@ from exactpt.motion.image import Image
 from exactpt.motion.incidence import orientation
 from exactpt.motion.track import Track
 from exactpt.motion.vertices import Vertex
-from exactpt.tiling.exact import copy_orientation, cross
 
 numbers = st.one_of(
     st.integers(-3, 3),

@@ -9,7 +9,9 @@ from itertools import accumulate
 import pytest
 from render_scenes import demo
 
+from exactpt.certificates.one_sided import OneSided
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
+from exactpt.pseudotriangulation.flip import shadow
 from exactpt.render.film import film_of
 from exactpt.render.fixed import near
 from exactpt.render.frame import frame_of
@@ -17,8 +19,6 @@ from exactpt.render.page import page_of
 from exactpt.render.still import still
 from exactpt.scene.generate import generate
 from exactpt.simulation.simulation import Simulation
-from exactpt.tiling.greedy.shadow import shadow
-from exactpt.tiling.moment import Moment
 
 pytestmark = pytest.mark.browser
 
@@ -166,7 +166,7 @@ def test_shadow_edges_are_those_of_the_engine(browser, tmp_path, at):
     for _ in simulation.run(at):
         pass
     kinetic = simulation.kinetic
-    after = Moment(kinetic.certifier, before=False)
+    after = OneSided(kinetic.certifier, before=False)
     first = list(accumulate((body.size for body in scene.bodies), initial=0))
     node = [first[v.body] + v.index for v in kinetic.vertices.all]
     mesh = kinetic.mesh

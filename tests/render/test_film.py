@@ -9,13 +9,13 @@ from render_scenes import apart, demo, overlapping, small
 
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
+from exactpt.pseudotriangulation.snapshot import snapshot
 from exactpt.render.data import data_of
 from exactpt.render.film import film_of
 from exactpt.render.fixed import BITS, fixed, near
 from exactpt.render.page import page_of
 from exactpt.scene.generate import generate
 from exactpt.simulation.simulation import Simulation
-from exactpt.tiling.snapshot import snapshot
 
 
 def alive(spans, step):

@@ -11,11 +11,11 @@ from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid, Translation
+from exactpt.pseudotriangulation.region import Region
 from exactpt.scene.families.shapes import convex_polygon
 from exactpt.scene.families.simple import star
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
-from exactpt.tiling.region import Region
 
 LOCAL = ["greedy", "lazy", "mixed"]
 

@@ -25,7 +25,7 @@ from exactpt import (
 )
 from exactpt.collision.pairs import PairsSearch
 from exactpt.errors import BudgetExceeded
-from exactpt.tiling.snapshot import Snapshot
+from exactpt.pseudotriangulation.snapshot import Snapshot
 
 PLAIN = {int, float, bool, str, bytes, type(None), Fraction}
 

@@ -317,10 +317,10 @@ def test_bug_a_pickle_tells_of_nothing_that_depends_on_the_build():
         "exactpt.motion.motions.made",
         "exactpt.scene.scene._valid_scene",
         "exactpt.simulation.simulation._resumed",
-        "exactpt.tiling.snapshot.Edge",
-        "exactpt.tiling.snapshot.Face",
-        "exactpt.tiling.snapshot.node_of",
-        "exactpt.tiling.snapshot.snapshot_of",
+        "exactpt.pseudotriangulation.snapshot.Edge",
+        "exactpt.pseudotriangulation.snapshot.Face",
+        "exactpt.pseudotriangulation.snapshot.node_of",
+        "exactpt.pseudotriangulation.snapshot.snapshot_of",
     }
 
 

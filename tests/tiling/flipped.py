@@ -1,8 +1,8 @@
 """Scattered bodies, and tilings of them that no construction makes."""
 
 from exactpt.motion.body import Body
+from exactpt.pseudotriangulation.flip import flip, shadow
 from exactpt.scene.families.shapes import convex_polygon
-from exactpt.tiling.greedy.shadow import flip, shadow
 
 
 def scattered(rng, count):

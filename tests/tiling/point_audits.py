@@ -2,13 +2,13 @@
 
 from fractions import Fraction
 
+from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.initial import initial_touches
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.incremental.incremental import IncrementalTiling
 from exactpt.tiling.incremental.static import sweep_at
 from exactpt.tiling.incremental.structure import LOWER, UPPER
-from exactpt.tiling.instant import Instant
 
 
 def points_at(scene, t):
@@ -68,7 +68,7 @@ def audit_links(structure):
 
 def audit_at(kinetic, at, scene=None):
     """Compare with the sweep at a time at which no event happens and nothing has since now."""
-    instant = Instant(kinetic.vertices, at)
+    instant = PredicatesAt(kinetic.vertices, at)
     audit_links(kinetic.structure)
     assert structure_of(sweep_at(instant)) == structure_of(kinetic.structure)
     kinetic.mesh_now(at).audit()

@@ -1,12 +1,13 @@
 """Every zero of a watched angle has an event, with a change of sign or without.
 
-The proof that no contact is missed (`exactpt.tiling.contacts`) stands on it.
+The proof that no contact is missed (`exactpt.certificates.incidences`) stands on it.
 """
 
 from itertools import pairwise
 
 import pytest
 
+from exactpt.certificates.perturbation import orientation
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import TILINGS, start_tiling
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -14,12 +15,11 @@ from exactpt.kernel.roots import common_roots, roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference
 from exactpt.motion.motions import Translation
+from exactpt.pseudotriangulation.mesh import SOLID
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
 from exactpt.tiling.angles import ANGLE, KINDS
 from exactpt.tiling.events import ContactFound
-from exactpt.tiling.exact import orientation
-from exactpt.tiling.mesh import SOLID
 from fuzz import corpus
 
 GRAZING = Scene(

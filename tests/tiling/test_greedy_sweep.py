@@ -5,17 +5,17 @@ from random import Random
 import pytest
 
 from exactpt.bench.shapes import crowd
+from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.tilings import start_tiling
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key
-from exactpt.tiling.build import build_mesh
+from exactpt.pseudotriangulation.build import build_mesh
+from exactpt.pseudotriangulation.flip import flip_until_greedy
 from exactpt.tiling.events import ContactFound
-from exactpt.tiling.greedy.shadow import flip_until_greedy
 from exactpt.tiling.greedy.sweep import greedy_diagonals
 from exactpt.tiling.greedy.vertical import VerticalDecomposition
-from exactpt.tiling.instant import Instant
 
 SHAPES = (
     [(0, 0), (2, 0), (0, 1)],
@@ -36,7 +36,7 @@ def scattered(rng, side):
 
 
 def swept(bodies):
-    instant = Instant(Vertices.of(bodies, QQ(0), QQ(1)), QQ(0))
+    instant = PredicatesAt(Vertices.of(bodies, QQ(0), QQ(1)), QQ(0))
     return instant, *greedy_diagonals(instant, VerticalDecomposition.at(instant))
 
 

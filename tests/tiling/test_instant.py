@@ -7,11 +7,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from moving import END, START, affine, linear, parabolic, place, sign, times, turning, vertices
 
+from exactpt.certificates.at_time import PredicatesAt
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.vertices import Vertices
-from exactpt.tiling.instant import Instant
 
 any_motion = st.one_of(linear, parabolic, turning, affine)
 far = st.sampled_from([0, 1, -(10**6), 2**53 + 1, 10**40])
@@ -33,7 +33,7 @@ scenes = st.one_of(close_points(), vertices(any_motion))
 
 
 def both(moving, t, after):
-    return [Instant(moving, t, after=after, exact_only=exact) for exact in (False, True)]
+    return [PredicatesAt(moving, t, after=after, exact_only=exact) for exact in (False, True)]
 
 
 @given(scenes, times, st.booleans())
@@ -90,7 +90,7 @@ def test_clear_predicates_are_decided_by_floats():
         Body("b", [(9, 1), (12, 2), (10, 5)], Translation([0, "1/3"])),
     ]
     moving = Vertices.of(bodies, START, END)
-    instant = Instant(moving, QQ(1, 3))
+    instant = PredicatesAt(moving, QQ(1, 3))
 
     instant.signs(list(permutations(range(6), 3)))
     instant.sorted_by_x(range(6))

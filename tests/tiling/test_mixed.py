@@ -5,6 +5,7 @@ from random import Random
 
 import pytest
 
+from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import start_tiling
 from exactpt.geometry.predicates import side
@@ -12,17 +13,16 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.vertices import Vertices
+from exactpt.pseudotriangulation.audit import audit_angles
+from exactpt.pseudotriangulation.build import build_mesh
+from exactpt.pseudotriangulation.flip import flip, shadow
+from exactpt.pseudotriangulation.mesh import FREE
+from exactpt.pseudotriangulation.plane_sweep import Sweep, body_edges
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
-from exactpt.tiling.audit import audit_angles
-from exactpt.tiling.build import build_mesh
-from exactpt.tiling.greedy.shadow import flip, shadow
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import FREE
 from exactpt.tiling.mixed.geodesics import Geodesics
 from exactpt.tiling.mixed.labels import Forest
 from exactpt.tiling.mixed.static import mixed_mesh
-from exactpt.tiling.plane_sweep import Sweep, body_edges
 
 COUNTS = [2, pytest.param(60, marks=pytest.mark.slow)]
 
@@ -31,7 +31,7 @@ def instants(family, count):
     for seed in range(count):
         scene = generate(family, seed)
         if not initial_touches(scene)[1]:
-            yield seed, Instant(Vertices.of(scene.bodies, scene.start, scene.end), scene.start)
+            yield seed, PredicatesAt(Vertices.of(scene.bodies, scene.start, scene.end), scene.start)
 
 
 @pytest.mark.parametrize("count", COUNTS)

@@ -19,17 +19,9 @@ from moving import (
     vertices,
 )
 
-from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ
-from exactpt.kinetic.queue import EventTime
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
-from exactpt.motion.vertices import Vertices
-from exactpt.tiling.certificates import BATCH, Certifier
-from exactpt.tiling.exact import orientation
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.moment import Moment
-from exactpt.tiling.placement import (
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certifier import BATCH, Certifier
+from exactpt.certificates.coincidence import (
     boxes_now,
     coincide,
     coordinate_order,
@@ -38,6 +30,14 @@ from exactpt.tiling.placement import (
     nearer_copy,
     strictly_between,
 )
+from exactpt.certificates.one_sided import OneSided
+from exactpt.certificates.perturbation import orientation
+from exactpt.certificates.queue import EventTime
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.motion.vertices import Vertices
 
 any_motion = st.one_of(linear, parabolic, turning, affine)
 TINY = QQ(1, 10**40)
@@ -85,7 +85,7 @@ def on_one_line(moving, t):
 @given(vertices(st.one_of(linear, turning)), times)
 def test_between_and_nearer_on_a_line(moving, t):
     certifier = certifier_at(moving, t)
-    instant = Instant(moving, t)
+    instant = PredicatesAt(moving, t)
     for a, p, b in on_one_line(moving, t):
         u, v, w = place(a, t), place(p, t), place(b, t)
         # (u - v) . (w - v): negative if v is between them
@@ -108,7 +108,7 @@ def test_between_and_nearer_on_a_line(moving, t):
 @given(vertices(st.one_of(linear, turning)), times)
 def test_the_nearer_copy_is_the_one_whose_offset_points_there(moving, t):
     certifier = certifier_at(moving, t)
-    instant = Instant(moving, t)
+    instant = PredicatesAt(moving, t)
     for p, a, b in permutations(moving.all[:7], 3):
         if a.track is not b.track:
             assert nearer_copy(certifier, p, a, b) == 0
@@ -133,7 +133,7 @@ def test_boxes_contain_what_is_there_now(moving, t):
 @given(vertices(st.one_of(linear, parabolic, affine)), times, st.booleans())
 def test_signs_just_before_and_just_after_now(moving, t, before):
     certifier = certifier_at(moving, t)
-    moment = Moment(certifier, before=before)
+    moment = OneSided(certifier, before=before)
     near = t - TINY if before else t + TINY
     for a, b, c in permutations(moving.all[:6], 3):
         if len({id(v.track) for v in (a, b, c)}) == 3:
@@ -149,7 +149,7 @@ def test_signs_just_before_and_just_after_now(moving, t, before):
 @given(vertices(any_motion), times, st.booleans())
 def test_signs_at_an_instant(moving, t, after):
     """At the time itself, or just after it; with the filter, without it, and exactly."""
-    instants = [Instant(moving, t, after=after, exact_only=exact) for exact in (False, True)]
+    instants = [PredicatesAt(moving, t, after=after, exact_only=exact) for exact in (False, True)]
     for a, b, c in permutations(moving.all[:6], 3):
         f = orientation(a, b, c)
         exactly = instants[0].first_sign((f,))
@@ -187,7 +187,7 @@ def test_left_and_right_are_told_apart_now(before, exact_only):
     places = [(0, 5), (0, 0), (1, 7)]  # of equal x, the upper one is on the left
     bodies = [Body(str(i), [p], Translation([], [0, i])) for i, p in enumerate(places)]
     moving = Vertices.of(bodies, START, END, plain=True)
-    moment = Moment(certifier_at(moving, START, exact_only=exact_only), before=before)
+    moment = OneSided(certifier_at(moving, START, exact_only=exact_only), before=before)
 
     for a, b in permutations(range(3), 2):
         assert moment.left_of(a, b) == (a < b)

@@ -7,6 +7,7 @@ from random import Random
 import pytest
 from point_audits import points_at, run_and_audit, structure_of, tangents_by_slope
 
+from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.detector import first_contact
 from exactpt.collision.tilings import plan_tiling, start_tiling
@@ -22,7 +23,6 @@ from exactpt.tiling.incremental.incremental import IncrementalTiling
 from exactpt.tiling.incremental.paths import SearchableTree
 from exactpt.tiling.incremental.static import sweep_at
 from exactpt.tiling.incremental.structure import UPPER
-from exactpt.tiling.instant import Instant
 
 GENERIC = ("linear_points", "ballistic_points", "piecewise_points")
 
@@ -34,7 +34,7 @@ def at_rest(points):
 def static(points):
     scene = at_rest(points)
     vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
-    return sweep_at(Instant(vertices, scene.start))
+    return sweep_at(PredicatesAt(vertices, scene.start))
 
 
 @pytest.mark.parametrize(
@@ -228,7 +228,7 @@ def test_counts():
         structure = static(points)
         scene = at_rest(points)
         vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
-        mesh = IncrementalTiling.mesh_at(Instant(vertices, scene.start))
+        mesh = IncrementalTiling.mesh_at(PredicatesAt(vertices, scene.start))
         mesh.audit()
         assert len(mesh.faces()) == n - 2
         assert len(mesh.diagonals()) == 2 * n - 3

@@ -6,16 +6,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.perturbation import cross
+from exactpt.certificates.queue import EventTime
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, ZZ
-from exactpt.kinetic.queue import EventTime
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference
 from exactpt.motion.incidence import orientation as orientation_of_tracks
 from exactpt.motion.motions import Affine, Rigid, Translation
 from exactpt.motion.vertices import Vertices
-from exactpt.tiling.certificates import Certifier
-from exactpt.tiling.exact import cross
 
 small = st.integers(-3, 3)
 fractions = st.builds(QQ, st.integers(-99, 99), st.just(7))

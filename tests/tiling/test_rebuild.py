@@ -2,16 +2,16 @@
 
 import pytest
 
+from exactpt.certificates.one_sided import OneSided
 from exactpt.collision.tilings import TILINGS
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.pseudotriangulation.audit import audit_angles
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
-from exactpt.tiling.audit import audit_angles
 from exactpt.tiling.kinetic import KineticTiling
-from exactpt.tiling.moment import Moment
 from exactpt.tiling.repairs import RebuildNeeded
 from fuzz.statics import run_and_audit
 
@@ -46,7 +46,7 @@ def test_a_rebuild_at_the_end_of_the_time_span(monkeypatch, tiling):
     run = run_and_audit(Scene(bodies, (0, 2)), tiling)
 
     assert run.kinetic.now.compare_rational(QQ(2)) == 0
-    after = Moment(run.kinetic.certifier, before=False)
+    after = OneSided(run.kinetic.certifier, before=False)
     audit_angles(run.kinetic.mesh, after)
 
 

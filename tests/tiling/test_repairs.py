@@ -4,6 +4,7 @@ from collections import Counter
 
 import pytest
 
+from exactpt.certificates.perturbation import comes_first
 from exactpt.collision.tilings import start_tiling
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -12,7 +13,6 @@ from exactpt.scene.families.shapes import box
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
-from exactpt.tiling.exact import comes_first
 from exactpt.tiling.repairs import RepairedTiling
 
 pytestmark = pytest.mark.plain

@@ -5,7 +5,7 @@ import pytest
 from exactpt.collision.tilings import start_tiling
 from exactpt.motion.body import Body
 from exactpt.scene.scene import Scene
-from exactpt.tiling.batch import Batch
+from exactpt.tiling.simultaneous import Batch
 
 
 @pytest.fixture

@@ -5,13 +5,13 @@ from random import Random
 import pytest
 from flipped import flipped_at_random, scattered
 
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.predicates import Predicates
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
+from exactpt.pseudotriangulation.flip import flip_until_greedy, shadow
 from exactpt.scene.generate import generate
 from exactpt.tiling.greedy.greedy import GreedyTiling
-from exactpt.tiling.greedy.shadow import flip_until_greedy, shadow
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.predicates import Predicates
 
 FAMILIES = ("mixed_shapes", "small_grid", "row", "mirrored", "concentric", "polygons_in_step")
 
@@ -19,10 +19,10 @@ FAMILIES = ("mixed_shapes", "small_grid", "row", "mirrored", "concentric", "poly
 def instants(count):
     """Of scattered polygons, and of the families at their start, points and segments included."""
     for seed in range(count):
-        yield Instant(Vertices.of(scattered(Random(seed), 12), QQ(0), QQ(1)), QQ(0))
+        yield PredicatesAt(Vertices.of(scattered(Random(seed), 12), QQ(0), QQ(1)), QQ(0))
         for family in FAMILIES:
             scene = generate(family, seed)
-            yield Instant(Vertices.of(scene.bodies, scene.start, scene.end), scene.start)
+            yield PredicatesAt(Vertices.of(scene.bodies, scene.start, scene.end), scene.start)
 
 
 def diagonals(mesh):
@@ -65,7 +65,7 @@ class Nonsense(Predicates):
 @pytest.mark.parametrize("seed", range(40))
 def test_the_walk_to_a_shadow_ends_whatever_the_signs(seed):
     """Where a mesh is no pseudo-triangulation just after now, its ends may go to and fro."""
-    instant = Instant(Vertices.of(scattered(Random(seed), 6), QQ(0), QQ(1)), QQ(0))
+    instant = PredicatesAt(Vertices.of(scattered(Random(seed), 6), QQ(0), QQ(1)), QQ(0))
     mesh = GreedyTiling.mesh_at(instant)
     for h in mesh.diagonals():
         if not mesh.is_hull(h):

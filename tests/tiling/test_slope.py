@@ -4,12 +4,12 @@ from itertools import combinations, product
 
 import pytest
 
+from exactpt.certificates.at_time import PredicatesAt
 from exactpt.kernel.numbers import QQ, sign
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid, Translation
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.greedy.slope import Slope, slope_terms
-from exactpt.tiling.instant import Instant
 
 KAPPA = QQ(1, 10**6)
 
@@ -41,7 +41,7 @@ def test_the_order_of_parallel_bitangents(direction, motion):
     places = [(k * u + x, k * v + y) for k in (-2, 0, 1, 3) for x, y in ((0, 0), (5, 4))]
     bodies = [Body(str(i), [place], motion) for i, place in enumerate(places)]
     vertices = Vertices.of(bodies, QQ(0), QQ(1), plain=True)
-    instant = Instant(vertices, QQ(0), after=False)
+    instant = PredicatesAt(vertices, QQ(0), after=False)
     upright = u == 0
     signs = ((1, 1), (1, -1), (-1, 1), (-1, -1))
     ends = [(a, b) for a, b in combinations(range(8), 2) if (b - a) % 2 == 0]

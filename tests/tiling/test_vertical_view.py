@@ -5,11 +5,11 @@ from random import Random
 import pytest
 from flipped import flipped_at_random, scattered
 
+from exactpt.certificates.at_time import PredicatesAt
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.greedy.vertical import lower_chain
 from exactpt.tiling.greedy.vertical_view import seen_from
-from exactpt.tiling.instant import Instant
 from exactpt.tiling.lazy import LazyTiling
 
 
@@ -37,7 +37,7 @@ def test_a_vertical_that_meets_a_tile_twice_ends_at_the_nearest_edge(seed):
     """Such a walk never ended once: it chose an edge behind the one that it had crossed."""
     rng = Random(seed)
     vertices = Vertices.of(scattered(rng, 24), QQ(0), QQ(1))
-    instant = Instant(vertices, QQ(0))
+    instant = PredicatesAt(vertices, QQ(0))
     mesh = LazyTiling.mesh_at(instant)
     flipped_at_random(mesh, instant, rng, 100)
     xs = [instant.position(v.id)[0] for v in vertices.all]

@@ -1,6 +1,6 @@
 // Shadow edges: an edge between two tiles, taken away, leaves a quadrangle of four concave
 // chains; its shadow is the one other diagonal there, an edge of the shortest path between
-// the corners that face each other across it. The steps of `exactpt.tiling.greedy.shadow`,
+// the corners that face each other across it. The steps of `exactpt.pseudotriangulation.flip`,
 // in doubles: to be looked at, nothing is decided by it.
 
 /** The ends of the shadow of an edge at the place of the pen; null if it has none. */

@@ -8,22 +8,24 @@ from __future__ import annotations
 
 from typing import final
 
+from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.incidence import difference
 from exactpt.tiling.greedy.slope import Slope, slope_terms
-from exactpt.tiling.instant import Instant
 
 __all__ = ["Bitangent", "tangent_pair"]
 
 
-def tangent_pair(instant: Instant, a: int, b: int, side_a: int, side_b: int) -> tuple[int, int]:
+def tangent_pair(
+    instant: PredicatesAt, a: int, b: int, side_a: int, side_b: int
+) -> tuple[int, int]:
     """The vertices at which the bitangent from the body of a to that of b touches.
 
     Each end moves along its ring while a neighbour is on the wrong side of the line. A
     vertex whose two neighbours are on the right side is the tangent point as seen from
     the other end, since the ring is convex. Of vertices that stay on the line the
-    nearest one is taken: it sticks out (`exactpt.tiling.exact`).
+    nearest one is taken: it sticks out (`exactpt.certificates.perturbation`).
 
     Args:
         instant: the predicates.
@@ -90,7 +92,7 @@ class Bitangent:
 
     def __init__(
         self,
-        instant: Instant,
+        instant: PredicatesAt,
         ends: tuple[int, int],
         sides: tuple[int, int],
         cell: int,

@@ -12,8 +12,8 @@ from collections.abc import Callable
 from functools import cmp_to_key
 from itertools import pairwise
 
+from exactpt.certificates.predicates import Predicates
 from exactpt.tiling.greedy.vertical import NO_ARC, NO_CELL, VerticalDecomposition
-from exactpt.tiling.predicates import Predicates
 
 __all__ = ["add_body", "cell_along", "remove_body", "rename_body", "rename_cell"]
 

@@ -13,12 +13,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Final, NamedTuple
 
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
+from exactpt.pseudotriangulation.flip import flip, flip_until_greedy, shadow, tangency
+from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.tiling.angles import KINDS
-from exactpt.tiling.greedy.shadow import flip, flip_until_greedy, shadow, tangency
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import Mesh
-from exactpt.tiling.moment import Moment
 from exactpt.tiling.populated import PopulatedTiling
 from exactpt.tiling.repairs import RebuildNeeded
 
@@ -49,12 +49,12 @@ class _Shadow(NamedTuple):
 class FlippingTiling(PopulatedTiling):
     """A tiling that is greedy wherever its diagonals may be flipped."""
 
-    def _close(self, mesh: Mesh, instant: Instant) -> None:
+    def _close(self, mesh: Mesh, instant: PredicatesAt) -> None:
         self._free_flat_vertices(mesh, instant)
         super()._close(mesh, instant)
         flip_until_greedy(mesh, instant, mesh.flippable())
 
-    def _free_flat_vertices(self, mesh: Mesh, instant: Instant) -> None:
+    def _free_flat_vertices(self, mesh: Mesh, instant: PredicatesAt) -> None:
         """Flip the diagonals away from vertices that are flat at the instant, reflex after it.
 
         In the quadrangle around a diagonal from such a vertex that one is a corner, strictly
@@ -64,7 +64,7 @@ class FlippingTiling(PopulatedTiling):
         deforming = [v for body in self.vertices.bodies if body.deforms for v in body.ring]
         if not deforming:
             return
-        after = Instant(self.vertices, instant.time)
+        after = PredicatesAt(self.vertices, instant.time)
         for v in deforming:
             ahead, behind = self.vertices.all[v].ahead, self.vertices.all[v].behind
             if instant.sign(ahead, v, behind) <= 0 < after.sign(ahead, v, behind):
@@ -79,7 +79,7 @@ class FlippingTiling(PopulatedTiling):
         self._shadows: dict[int, _Shadow] = {}
 
     def _recall(self) -> None:
-        after = Moment(self.certifier, before=False)
+        after = OneSided(self.certifier, before=False)
         for h in self.mesh.flippable():
             visits = shadow(self.mesh, h, after)
             if visits is not None:  # at a contact, after which nothing comes
@@ -89,7 +89,7 @@ class FlippingTiling(PopulatedTiling):
         self._clear_notes()
         super()._certify_everything()
         self._stale.clear()
-        self._restore_greedy(Moment(self.certifier, before=False), self.mesh.flippable())
+        self._restore_greedy(OneSided(self.certifier, before=False), self.mesh.flippable())
 
     def _recertify(self, slots: list[int]) -> None:
         super()._recertify(slots)
@@ -108,9 +108,9 @@ class FlippingTiling(PopulatedTiling):
 
     def _settle(self) -> None:
         super()._settle()
-        self._restore_greedy(Moment(self.certifier, before=False))
+        self._restore_greedy(OneSided(self.certifier, before=False))
 
-    def _restore_greedy(self, after: Moment, diagonals: Iterable[int] = ()) -> None:
+    def _restore_greedy(self, after: OneSided, diagonals: Iterable[int] = ()) -> None:
         """Flip what is no longer greedy, and certify the shadows of all that may have changed.
 
         That is every diagonal of a tile that has changed, and those whose own certificates
@@ -169,7 +169,7 @@ class FlippingTiling(PopulatedTiling):
         super()._cancel_edge(h)
         self._cancel_shadow(min(h, h ^ 1))
 
-    def _certify_shadow(self, h: int, visits: tuple[int, int], after: Moment) -> None:
+    def _certify_shadow(self, h: int, visits: tuple[int, int], after: OneSided) -> None:
         """Certify that a diagonal has smaller theta than its shadow, and what the shadow is.
 
         Certificates that are the same as before are pending still.
@@ -190,7 +190,7 @@ class FlippingTiling(PopulatedTiling):
         crossing = m.origin[visits[0]], m.origin[visits[1]]
         return _Shadow(self.mesh.ends(h), visits, corners, crossing, tangency(self.mesh, h, visits))
 
-    def _certify_spin(self, slot: int, u: int, v: int, after: Moment) -> None:
+    def _certify_spin(self, slot: int, u: int, v: int, after: OneSided) -> None:
         a, b = (u, v) if after.left_of(u, v) else (v, u)
         time = None
         if not self.certifier.keeps_x_order(a, b):

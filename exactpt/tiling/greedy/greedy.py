@@ -9,29 +9,29 @@ from __future__ import annotations
 
 from typing import final
 
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.coincidence import coordinate_order
+from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key
+from exactpt.pseudotriangulation.build import build_mesh
+from exactpt.pseudotriangulation.flip import crosses, facing_visit, flip, flip_until_greedy, shadow
+from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.tiling.angles import CELL, EXTREME, KINDS
-from exactpt.tiling.build import build_mesh
 from exactpt.tiling.greedy import cells
-from exactpt.tiling.greedy.shadow import crosses, facing_visit, flip, flip_until_greedy, shadow
 from exactpt.tiling.greedy.sweep import greedy_diagonals
 from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition, is_above, lower_chain
 from exactpt.tiling.greedy.vertical_view import seen_from
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import Mesh
-from exactpt.tiling.moment import Moment
-from exactpt.tiling.placement import coordinate_order
 from exactpt.tiling.populated import PopulatedTiling
 from exactpt.tiling.repairs import RebuildNeeded
 
 __all__ = ["GreedyTiling", "greedy_mesh"]
 
 
-def greedy_mesh(instant: Instant, cells: VerticalDecomposition) -> tuple[Mesh, int]:
+def greedy_mesh(instant: PredicatesAt, cells: VerticalDecomposition) -> tuple[Mesh, int]:
     """The greedy tiling, and how many flips were needed after the sweep.
 
     None, unless the sweep met two bitangents on one line; then these are checked. Uses up the
@@ -56,17 +56,17 @@ class GreedyTiling(PopulatedTiling):
     cells: VerticalDecomposition
 
     def _build(self, time: QQ) -> None:
-        instant = Instant(self.vertices, time, exact_only=self.certifier.exact_only)
+        instant = PredicatesAt(self.vertices, time, exact_only=self.certifier.exact_only)
         self.cells = VerticalDecomposition.at(instant)
         self.mesh, flips = greedy_mesh(instant, self.cells.copy())
         self.stats.flips += flips
 
-    def _close(self, mesh: Mesh, instant: Instant) -> None:
+    def _close(self, mesh: Mesh, instant: PredicatesAt) -> None:
         super()._close(mesh, instant)
         flip_until_greedy(mesh, instant, mesh.diagonals())
 
     @classmethod
-    def mesh_at(cls, instant: Instant) -> Mesh:
+    def mesh_at(cls, instant: PredicatesAt) -> Mesh:
         """The greedy tiling of an instant."""
         return greedy_mesh(instant, VerticalDecomposition.at(instant))[0]
 
@@ -101,7 +101,7 @@ class GreedyTiling(PopulatedTiling):
             self.certifier.skipped += 1
             self.queue.cancel(slot)
             # What is kept may be wrong only in the midst of simultaneous events.
-            return not self._careful or Moment(self.certifier, before=False).left_of(a, b)
+            return not self._careful or OneSided(self.certifier, before=False).left_of(a, b)
         s, time = self.certifier.x_order(a, b)
         if s < 0 or time is None:
             self.queue.cancel(slot)
@@ -139,10 +139,10 @@ class GreedyTiling(PopulatedTiling):
     def takes(self, body: Body, t: QQ) -> bool:
         """Whether a body can be added at a time: if it is convex from then on."""
         alone = Vertices.of([body], t, self.certifier.end)
-        return Instant(alone, t).all_stay_convex()
+        return PredicatesAt(alone, t).all_stay_convex()
 
     def _enter_body(self, i: int) -> None:
-        after = Moment(self.certifier, before=False)
+        after = OneSided(self.certifier, before=False)
         chain = lower_chain(after, self.vertices.bodies[i].ring)
         changed = cells.add_body(
             self.cells,
@@ -155,7 +155,7 @@ class GreedyTiling(PopulatedTiling):
         for cell in changed:
             self._certify_cell(cell)
 
-    def _cell_around(self, v: int, after: Moment) -> int:
+    def _cell_around(self, v: int, after: OneSided) -> int:
         """The cell that a vertex which bounds none is in: over what it sees below, or under."""
         for up in (False, True):
             h = seen_from(self.mesh, after, v, up=up)
@@ -167,7 +167,7 @@ class GreedyTiling(PopulatedTiling):
 
     def _leave_body(self, i: int) -> None:
         last = len(self.vertices.bodies) - 1
-        changed, spare = cells.remove_body(self.cells, Moment(self.certifier, before=False), i)
+        changed, spare = cells.remove_body(self.cells, OneSided(self.certifier, before=False), i)
         for k in range(4):
             self._move_slot(KINDS * (4 * last + k) + EXTREME, KINDS * (4 * i + k) + EXTREME)
         cells.rename_body(self.cells, last, i)
@@ -184,8 +184,8 @@ class GreedyTiling(PopulatedTiling):
                 self._certify_cell(slot // KINDS)
             else:
                 self._certify_extreme(slot // KINDS)
-        # In the plane turned by rho (`exactpt.tiling.exact`, step 1) x is x - rho y. Two
-        # vertices l and r that exchange their order now, l the left one before, do so
+        # In the plane turned by rho (`exactpt.certificates.perturbation`, step 1) x is x - rho y.
+        # Two vertices l and r that exchange their order now, l the left one before, do so
         # when x(r) - x(l) has fallen to rho (y(r) - y(l)): before now, and so before the
         # angles that fail now, if r is the upper one; after them if l is.
         self._repair_rising()
@@ -196,7 +196,7 @@ class GreedyTiling(PopulatedTiling):
         return bool(self._due_extremes or self._due_cells)
 
     def _repair_more(self) -> None:
-        after = Moment(self.certifier, before=False)
+        after = OneSided(self.certifier, before=False)
         if self._due_extremes:
             self._move_extreme(min(self._due_extremes))
         else:
@@ -204,7 +204,7 @@ class GreedyTiling(PopulatedTiling):
 
     def _repair_rising(self) -> None:
         """Exchange the pairs that do so just before now."""
-        before = Moment(self.certifier, before=True)
+        before = OneSided(self.certifier, before=True)
         rising = True
         while rising:
             rising = False
@@ -246,7 +246,7 @@ class GreedyTiling(PopulatedTiling):
         for cell in sorted(self.cells.cells_of(arc)):
             self._certify_cell(cell)
 
-    def _pass_vertical(self, cell: int, moment: Moment) -> None:
+    def _pass_vertical(self, cell: int, moment: OneSided) -> None:
         """The two arcs of a cell exchange their order: their bitangent is vertical now."""
         self._due_cells.discard(cell)
         u, v = self._cell_pair(cell)
@@ -265,7 +265,7 @@ class GreedyTiling(PopulatedTiling):
         super()._check_batch(touched)
         m = self.mesh.map
         nearby = [g for h in touched if m.origin[h] >= 0 for g in (*m.face(h), h)]
-        after = Moment(self.certifier, before=False)
+        after = OneSided(self.certifier, before=False)
         try:
             flips = flip_until_greedy(self.mesh, after, nearby)
         except AuditError:
@@ -281,7 +281,7 @@ class GreedyTiling(PopulatedTiling):
         m = self.mesh.map
         return next((h for h in m.fan(self.mesh.ring_edge[u]) if m.target(h) == v), None)
 
-    def _leave(self, u: int, v: int, moment: Moment) -> None:
+    def _leave(self, u: int, v: int, moment: OneSided) -> None:
         """A diagonal has become the one of largest theta: its shadow takes its place."""
         h = self._edge(u, v)
         if h is None:
@@ -292,7 +292,7 @@ class GreedyTiling(PopulatedTiling):
                 raise RebuildNeeded
             self._flip(h, visits, moment)
 
-    def _enter(self, u: int, v: int, moment: Moment) -> None:
+    def _enter(self, u: int, v: int, moment: OneSided) -> None:
         """A bitangent has become the one of smallest theta: it replaces its diagonal."""
         if self._edge(u, v) is not None:
             return  # on the convex hull
@@ -316,7 +316,7 @@ class GreedyTiling(PopulatedTiling):
                 return
         raise RebuildNeeded
 
-    def _flip(self, h: int, visits: tuple[int, int], moment: Moment) -> None:
+    def _flip(self, h: int, visits: tuple[int, int], moment: OneSided) -> None:
         old = self.mesh.ends(h)
         new = (self.mesh.map.origin[visits[0]], self.mesh.map.origin[visits[1]])
         changed = flip(self.mesh, h, visits, moment)

@@ -12,16 +12,16 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Final, final
 
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
+from exactpt.pseudotriangulation.build import build_mesh
+from exactpt.pseudotriangulation.flip import flip_until_greedy
+from exactpt.pseudotriangulation.mesh import Mesh
+from exactpt.pseudotriangulation.plane_sweep import sweep_diagonals
+from exactpt.pseudotriangulation.pointed import make_pointed, point_vertex
 from exactpt.tiling.angles import KINDS
-from exactpt.tiling.build import build_mesh
 from exactpt.tiling.greedy.flipping import FlippingTiling
-from exactpt.tiling.greedy.shadow import flip_until_greedy
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import Mesh
-from exactpt.tiling.moment import Moment
-from exactpt.tiling.plane_sweep import sweep_diagonals
-from exactpt.tiling.pointed import make_pointed, point_vertex
 from exactpt.tiling.repairs import RebuildNeeded
 
 __all__ = ["ShadowedTiling"]
@@ -36,7 +36,7 @@ class ShadowedTiling(FlippingTiling):
     name = "greedy"
 
     @classmethod
-    def mesh_at(cls, instant: Instant) -> Mesh:
+    def mesh_at(cls, instant: PredicatesAt) -> Mesh:
         """The greedy tiling of an instant: swept, reduced, and flipped until it is."""
         mesh = build_mesh(instant, sweep_diagonals(instant))
         make_pointed(mesh, instant)
@@ -65,7 +65,7 @@ class ShadowedTiling(FlippingTiling):
         self._turned.add(self.mesh.map.origin[h])
         super()._repair_convex_vertex(h, kind)
 
-    def _restore_greedy(self, after: Moment, diagonals: Iterable[int] = ()) -> None:
+    def _restore_greedy(self, after: OneSided, diagonals: Iterable[int] = ()) -> None:
         if self._turned:
             self._point_turned(after)
         super()._restore_greedy(after, diagonals)
@@ -89,7 +89,7 @@ class ShadowedTiling(FlippingTiling):
             if s > 0 and time is not None:
                 self.queue.schedule(slot, time)
 
-    def _point_turned(self, after: Moment) -> None:
+    def _point_turned(self, after: OneSided) -> None:
         """Free vertices that have become convex of their diagonals in mid-air."""
         for v in sorted(self._turned):
             first = self.mesh.ring_edge[v]

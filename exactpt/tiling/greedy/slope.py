@@ -1,7 +1,8 @@
 """The order of bitangents of equal direction: by the perturbation, so that it is total.
 
 Two bitangents that are parallel at an instant are compared just after it; if they stay
-parallel for ever, by what the perturbation of `exactpt.tiling.exact` does to their slopes.
+parallel for ever, by what the perturbation of `exactpt.certificates.perturbation` does to their
+slopes.
 """
 
 from __future__ import annotations

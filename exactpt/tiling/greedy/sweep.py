@@ -14,19 +14,19 @@ from __future__ import annotations
 import heapq
 from typing import final
 
+from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.planar.halfedge import edge_key
+from exactpt.pseudotriangulation.mesh import Diagonal
 from exactpt.tiling.greedy.bitangent import Bitangent, tangent_pair
 from exactpt.tiling.greedy.vertical import NO_ARC, NO_CELL, VerticalDecomposition
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import Diagonal
 
 __all__ = ["greedy_diagonals"]
 
 
 def greedy_diagonals(
-    instant: Instant, decomposition: VerticalDecomposition
+    instant: PredicatesAt, decomposition: VerticalDecomposition
 ) -> tuple[list[Diagonal], set[tuple[int, int]]]:
     """The 3k - 3 bitangents of the pseudo-triangulation, from left to right.
 
@@ -53,7 +53,7 @@ def greedy_diagonals(
 
 @final
 class _Sweep:
-    def __init__(self, instant: Instant, cells: VerticalDecomposition) -> None:
+    def __init__(self, instant: PredicatesAt, cells: VerticalDecomposition) -> None:
         self.instant = instant
         self.cells = cells
         self.dead: list[bool] = [False] * len(cells.left)

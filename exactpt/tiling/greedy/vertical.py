@@ -17,8 +17,8 @@ from __future__ import annotations
 
 from typing import Final, final
 
-from exactpt.tiling.instant import Instant, sorted_by_x
-from exactpt.tiling.predicates import Predicates
+from exactpt.certificates.at_time import PredicatesAt, sorted_by_x
+from exactpt.certificates.predicates import Predicates
 
 __all__ = ["NO_ARC", "NO_CELL", "VerticalDecomposition", "is_above", "lower_chain"]
 
@@ -116,7 +116,7 @@ class VerticalDecomposition:
         return a, b
 
     @classmethod
-    def at(cls, instant: Instant) -> VerticalDecomposition:
+    def at(cls, instant: PredicatesAt) -> VerticalDecomposition:
         """The decomposition just after an instant: a sweep from left to right.
 
         O(k log k) comparisons of positions, each O(log n).

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from exactpt.tiling.mesh import SOLID, Mesh
-from exactpt.tiling.predicates import Predicates
+from exactpt.certificates.predicates import Predicates
+from exactpt.pseudotriangulation.mesh import SOLID, Mesh
 
 __all__ = ["seen_from"]
 

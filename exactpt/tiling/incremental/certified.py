@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from typing import Final, final
 
-from exactpt.kinetic.queue import EventQueue
-from exactpt.tiling.certificates import Certifier
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.one_sided import OneSided
+from exactpt.certificates.queue import EventQueue
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
-from exactpt.tiling.moment import Moment
 
 __all__ = ["KINDS", "MOTION", "ORDER", "CertifiedStructure"]
 
@@ -39,7 +39,7 @@ class CertifiedStructure:
         self.now = structure
         self._certifier = certifier
         self._queue = queue
-        self.after = Moment(certifier, before=False)
+        self.after = OneSided(certifier, before=False)
         self.due: tuple[set[int], set[int], set[int]] = (set(), set(), set())
 
     def certify_everything(self) -> None:

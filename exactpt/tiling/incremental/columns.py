@@ -17,9 +17,9 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
+from exactpt.certificates.predicates import Predicates
 from exactpt.tiling.incremental.structure import IncrementalStructure
 from exactpt.tiling.incremental.tree import NONE, TangentTree
-from exactpt.tiling.predicates import Predicates
 
 __all__ = ["resweep"]
 

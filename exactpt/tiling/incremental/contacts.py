@@ -12,10 +12,10 @@ from collections.abc import Iterable
 from functools import cmp_to_key
 from itertools import groupby
 
+from exactpt.certificates.certifier import X_ORDER, Certifier
+from exactpt.certificates.coincidence import coordinate_order
 from exactpt.motion.incidence import Touch, difference
-from exactpt.tiling.certificates import X_ORDER, Certifier
 from exactpt.tiling.incremental.structure import IncrementalStructure
-from exactpt.tiling.placement import coordinate_order
 
 __all__ = ["coinciding", "column_around"]
 

@@ -9,12 +9,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import final
 
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.queue import EventTime
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
-from exactpt.kinetic.queue import EventTime
 from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
-from exactpt.tiling.certificates import Certifier
+from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.tiling.events import ContactFound, Stats, TilingEvent
 from exactpt.tiling.incremental.certified import KINDS, MOTION, ORDER
 from exactpt.tiling.incremental.chains import PATIENCE, ChainKind, Chains
@@ -22,8 +24,6 @@ from exactpt.tiling.incremental.contacts import coinciding
 from exactpt.tiling.incremental.mesh import mesh_of
 from exactpt.tiling.incremental.repairs import RepairedStructure
 from exactpt.tiling.incremental.static import holds_at, sweep_at
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import Mesh
 
 __all__ = ["IncrementalTiling"]
 
@@ -55,7 +55,7 @@ class IncrementalTiling(RepairedStructure):
             chains: see `Chains`.
             fan: count the changes of the fan triangulation too, in ``stats.fan``.
         """
-        structure = sweep_at(Instant(vertices, start, exact_only=exact_only))
+        structure = sweep_at(PredicatesAt(vertices, start, exact_only=exact_only))
         certifier = Certifier(vertices, start, end, exact_only=exact_only)
         kept = Chains(chains, PATIENCE * len(vertices.all))
         self = cls(vertices, certifier, Stats(), structure, kept, fan=fan)
@@ -83,7 +83,7 @@ class IncrementalTiling(RepairedStructure):
         return Vertices.of(bodies, start, end, plain=True)
 
     @classmethod
-    def mesh_at(cls, instant: Instant) -> Mesh:
+    def mesh_at(cls, instant: PredicatesAt) -> Mesh:
         """The incremental tiling of an instant."""
         return mesh_of(sweep_at(instant))
 
@@ -102,7 +102,7 @@ class IncrementalTiling(RepairedStructure):
         Raises:
             AuditError: if a certificate is violated at that time.
         """
-        instant = Instant(self.vertices, time, after=False)
+        instant = PredicatesAt(self.vertices, time, after=False)
         structure = self.structure
         return mesh_of(structure if holds_at(structure, instant) else sweep_at(instant))
 

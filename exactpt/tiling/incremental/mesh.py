@@ -10,9 +10,9 @@ from __future__ import annotations
 from itertools import pairwise
 
 from exactpt.planar.halfedge import NOTHING
+from exactpt.pseudotriangulation.mesh import OUTER, Mesh
 from exactpt.tiling.incremental.fan import path
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
-from exactpt.tiling.mesh import OUTER, Mesh
 
 __all__ = ["mesh_of"]
 

@@ -17,10 +17,11 @@ from __future__ import annotations
 
 from functools import cmp_to_key
 
+from exactpt.certificates.certifier import Certifier
 from exactpt.errors import AuditError
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key
-from exactpt.tiling.certificates import Certifier
+from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.tiling.events import Stats
 from exactpt.tiling.incremental.certified import ORDER, CertifiedStructure
 from exactpt.tiling.incremental.chains import Chains
@@ -28,7 +29,6 @@ from exactpt.tiling.incremental.columns import resweep
 from exactpt.tiling.incremental.contacts import column_around
 from exactpt.tiling.incremental.fan import changes_of_exchange, fan_edges
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
-from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["RepairedStructure"]

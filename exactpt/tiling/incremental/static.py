@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+from exactpt.certificates.at_time import PredicatesAt, sorted_by_x
 from exactpt.errors import AuditError
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
-from exactpt.tiling.instant import Instant, sorted_by_x
 
 __all__ = ["holds_at", "sweep_at"]
 
 
-def sweep_at(instant: Instant) -> IncrementalStructure:
+def sweep_at(instant: PredicatesAt) -> IncrementalStructure:
     """The incremental pseudo-triangulation of an instant: O(n log n)."""
     order = sorted_by_x(instant, range(len(instant.vertices.all)))
     return IncrementalStructure.sweep(order, instant)
 
 
-def holds_at(structure: IncrementalStructure, instant: Instant) -> bool:
+def holds_at(structure: IncrementalStructure, instant: PredicatesAt) -> bool:
     """Whether a structure that holds just before or just after an instant holds then.
 
     Args:

@@ -3,8 +3,8 @@
 Paper, sections 3.1 and 3.2. Of a point p, u(p) and d(p) are the left ends of its upper and
 lower tangent to the hull of the points left of p: its parents in the *upper* and in the
 *lower* tree. Of several points on one tangent the nearest is taken: that is the rule for
-collinear points of `exactpt.tiling.exact`, by which the middle one of three hits the edge
-between the others. Below, "a, b, c bend away" means a left turn in the upper tree and a
+collinear points of `exactpt.certificates.perturbation`, by which the middle one of three hits the
+edge between the others. Below, "a, b, c bend away" means a left turn in the upper tree and a
 right turn in the lower; three points that are collinear for ever never do.
 
 **Certificates.** One for every pair of neighbours in x-order, and one for every edge of
@@ -41,9 +41,9 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple, final
 
+from exactpt.certificates.predicates import Predicates
 from exactpt.tiling.incremental.paths import SearchableTree
 from exactpt.tiling.incremental.tree import NONE, TangentTree
-from exactpt.tiling.predicates import Predicates
 
 __all__ = ["LOWER", "UPPER", "Exchanged", "IncrementalStructure"]
 

@@ -14,7 +14,7 @@ from collections.abc import Iterable
 from itertools import pairwise
 from typing import NamedTuple
 
-from exactpt.tiling.mesh import FREE
+from exactpt.pseudotriangulation.mesh import FREE
 from exactpt.tiling.mixed.labels import BodyTree, LabelledMesh
 from exactpt.tiling.mixed.tree import ROOT, TOP
 

@@ -20,9 +20,9 @@ from collections.abc import Callable, Sequence, Set
 from itertools import pairwise
 from typing import Final, NamedTuple, final
 
+from exactpt.certificates.predicates import Predicates
 from exactpt.planar.halfedge import without_steps_back
-from exactpt.tiling.mesh import Mesh
-from exactpt.tiling.predicates import Predicates
+from exactpt.pseudotriangulation.mesh import Mesh
 
 __all__ = ["Geodesics", "Part", "joined"]
 

@@ -29,7 +29,7 @@ from typing import Final, NamedTuple, TypeAlias, final
 from exactpt.errors import AuditError
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import NOTHING
-from exactpt.tiling.mesh import F2, FREE, INSIDE, Mesh, Tile
+from exactpt.pseudotriangulation.mesh import F2, FREE, INSIDE, Mesh, Tile
 from exactpt.tiling.mixed.tree import ROOT, TOP, GeodesicTree, tree_of_size
 
 __all__ = ["NO_LABEL", "BodyTree", "Forest", "Label", "LabelledMesh"]

@@ -12,14 +12,14 @@ from __future__ import annotations
 
 from typing import cast, final
 
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.pseudotriangulation.conflict_zone import ConflictZone
+from exactpt.pseudotriangulation.mesh import Mesh
+from exactpt.pseudotriangulation.region import Region
 from exactpt.tiling.greedy.flipping import FlippingTiling
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import Mesh
 from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.mixed.region import region_left, region_met
 from exactpt.tiling.mixed.static import mixed_mesh
-from exactpt.tiling.region import Region
-from exactpt.tiling.site import Site
 
 __all__ = ["MixedTiling"]
 
@@ -34,7 +34,7 @@ class MixedTiling(FlippingTiling):
     def _labelled(self) -> LabelledMesh:
         return cast(LabelledMesh, self.mesh)
 
-    def _region_met(self, site: Site) -> Region:
+    def _region_met(self, site: ConflictZone) -> Region:
         return region_met(self._labelled, site.faces)
 
     def _region_left(self, i: int) -> Region:
@@ -44,6 +44,6 @@ class MixedTiling(FlippingTiling):
         self._labelled.forest.remove(i)
 
     @classmethod
-    def mesh_at(cls, instant: Instant) -> Mesh:
+    def mesh_at(cls, instant: PredicatesAt) -> Mesh:
         """The mixed tiling of an instant."""
         return mixed_mesh(instant)

@@ -25,15 +25,15 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, final
 
+from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
-from exactpt.tiling.mesh import FREE, OUTER, SOLID
+from exactpt.pseudotriangulation.mesh import FREE, OUTER, SOLID
+from exactpt.pseudotriangulation.plane_sweep import Sweep
+from exactpt.pseudotriangulation.region import Region, Retiled
 from exactpt.tiling.mixed.changing import Chains, chains_of, nodes_left, nodes_met
 from exactpt.tiling.mixed.geodesics import Geodesics, joined
 from exactpt.tiling.mixed.labels import BodyTree, LabelledMesh
 from exactpt.tiling.mixed.tree import TOP
-from exactpt.tiling.plane_sweep import Sweep
-from exactpt.tiling.predicates import Predicates
-from exactpt.tiling.region import Region, Retiled
 
 if TYPE_CHECKING:
     from exactpt.motion.vertices import MovingBody, Vertices

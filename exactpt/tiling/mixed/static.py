@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterable
 from itertools import pairwise
 
-from exactpt.tiling.build import build_mesh
-from exactpt.tiling.greedy.shadow import flip_until_greedy
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import FREE, INSIDE, SOLID, Diagonal
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.pseudotriangulation.build import build_mesh
+from exactpt.pseudotriangulation.flip import flip_until_greedy
+from exactpt.pseudotriangulation.mesh import FREE, INSIDE, SOLID, Diagonal
+from exactpt.pseudotriangulation.plane_sweep import Sweep, SweptEdge, body_edges
+from exactpt.pseudotriangulation.pointed import make_pointed
 from exactpt.tiling.mixed.geodesics import Geodesics
 from exactpt.tiling.mixed.labels import NO_LABEL, Forest, Label, LabelledMesh
 from exactpt.tiling.mixed.tree import TOP
-from exactpt.tiling.plane_sweep import Sweep, SweptEdge, body_edges
-from exactpt.tiling.pointed import make_pointed
 
 __all__ = ["mixed_mesh"]
 
 
-def mixed_mesh(instant: Instant) -> LabelledMesh:
+def mixed_mesh(instant: PredicatesAt) -> LabelledMesh:
     """The mixed tiling of an instant."""
     vertices = instant.vertices
     forest = Forest(vertices)
@@ -40,7 +40,7 @@ def mixed_mesh(instant: Instant) -> LabelledMesh:
     return mesh
 
 
-def _geodesic_labels(instant: Instant, forest: Forest) -> dict[tuple[int, int], Label]:
+def _geodesic_labels(instant: PredicatesAt, forest: Forest) -> dict[tuple[int, int], Label]:
     """The labels by the ends of the half-edges."""
     triangulation = build_mesh(instant, Sweep(instant, body_edges(instant), triangulate=True).run())
     triangles = {h for h in triangulation.map.half_edges() if triangulation.region[h] == FREE}
@@ -57,7 +57,7 @@ def _geodesic_labels(instant: Instant, forest: Forest) -> dict[tuple[int, int], 
 
 
 def _f2_edges(
-    instant: Instant, forest: Forest, labels: dict[tuple[int, int], Label]
+    instant: PredicatesAt, forest: Forest, labels: dict[tuple[int, int], Label]
 ) -> Iterable[SweptEdge]:
     """All labelled edges, from left to right; only what is F2 above them is to be tiled."""
     done = set()

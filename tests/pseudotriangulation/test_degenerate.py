@@ -2,22 +2,22 @@
 
 import pytest
 
+from exactpt.certificates.perturbation import comes_first
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.pseudotriangulation import degenerate
 from exactpt.scene.generate import generate
 from exactpt.simulation.simulation import Simulation
-from exactpt.tiling import closing
-from exactpt.tiling.exact import comes_first
 
 pytestmark = pytest.mark.plain
 
 
 def test_of_copies_of_one_triple_the_first_to_close_does(monkeypatch):
     """First the triple of the least half-edge; of its copies none that closes after another."""
-    choose, moved = closing._first, []
+    choose, moved = degenerate._first, []
 
     def checked(mesh, due, instant):
         def vertices(h):
-            return tuple(instant.vertices.all[v] for v in closing._angle(mesh, h))
+            return tuple(instant.vertices.all[v] for v in degenerate._angle(mesh, h))
 
         def scene_triple(h):
             return {(v.body, v.index) for v in vertices(h)}
@@ -30,7 +30,7 @@ def test_of_copies_of_one_triple_the_first_to_close_does(monkeypatch):
         moved.append(chosen != min(due))
         return chosen
 
-    monkeypatch.setattr(closing, "_first", checked)
+    monkeypatch.setattr(degenerate, "_first", checked)
     simulation = Simulation(generate("small_grid", 8), tiling="greedy")
     for event in simulation.run():
         if event.kind != "contact" and simulation.now.is_rational:

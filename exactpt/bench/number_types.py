@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias, final
 
 import gmpy2
 
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.queue import EventQueue, ExactQueue
 from exactpt.kernel.numbers import QQ, nearest_float
-from exactpt.kinetic.queue import EventQueue, ExactQueue
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.vertices import Vertices
-from exactpt.tiling.certificates import Certifier
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager

@@ -1,8 +1,8 @@
 """A region of a mesh that is tiled anew: a few faces without the edges between them.
 
 The rest of the mesh stays as it is, handles included. Within the region a plane sweep
-(`exactpt.tiling.plane_sweep`) finds new diagonals, and the result is made pointed again;
-that may take out, or flip, diagonals of the tiles next to the region too.
+(`exactpt.pseudotriangulation.plane_sweep`) finds new diagonals, and the result is made pointed
+again; that may take out, or flip, diagonals of the tiles next to the region too.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from functools import cmp_to_key
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
+from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
 from exactpt.planar.halfedge import NOTHING
-from exactpt.tiling.build import fan_order
-from exactpt.tiling.mesh import FREE, OUTER, SOLID, Mesh
-from exactpt.tiling.plane_sweep import Sweep, SweptEdge
-from exactpt.tiling.pointed import make_pointed
-from exactpt.tiling.predicates import Predicates
+from exactpt.pseudotriangulation.build import fan_order
+from exactpt.pseudotriangulation.mesh import FREE, OUTER, SOLID, Mesh
+from exactpt.pseudotriangulation.plane_sweep import Sweep, SweptEdge
+from exactpt.pseudotriangulation.pointed import make_pointed
 
 if TYPE_CHECKING:
     from exactpt.motion.vertices import MovingBody, Vertices

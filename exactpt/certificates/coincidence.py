@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from exactpt.certificates.reasons import reason
 from exactpt.geometry.boxes import Boxes, widen_unknown
 from exactpt.kernel.integer_polynomial import add, multiply, subtract
 from exactpt.motion import incidence
 from exactpt.motion.incidence import difference
-from exactpt.tiling.reasons import reason
 
 if TYPE_CHECKING:
+    from exactpt.certificates.certifier import Certifier
     from exactpt.motion.vertices import Vertex
-    from exactpt.tiling.certificates import Certifier
 
 __all__ = [
     "boxes_now",

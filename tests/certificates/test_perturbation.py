@@ -7,12 +7,12 @@ from itertools import permutations, product
 
 import pytest
 
+from exactpt.certificates.perturbation import comes_first
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid, Translation
 from exactpt.motion.vertices import Vertices
-from exactpt.tiling.exact import comes_first
 
 SMALL = QQ(1, 10**9)
 

@@ -7,10 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
+from exactpt.certificates.queue import EventQueue, EventTime, ExactQueue
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ
-from exactpt.kinetic.queue import EventQueue, EventTime, ExactQueue
 
 # The square root of 2 by two polynomials, the double next to it, thirds, nearly a third.
 NUMBERS = [

@@ -1,7 +1,7 @@
 """Certificates: the sign of an orientation or x-order just after now, and when it may fail.
 
 A small door: the tilings ask here and never learn which path answered. Floats with
-proven bounds are asked first (`exactpt.tiling.coefficients`); what they leave open is
+proven bounds are asked first (`exactpt.certificates.coefficients`); what they leave open is
 decided exactly.
 """
 
@@ -12,18 +12,18 @@ from typing import TYPE_CHECKING, Final, final
 
 import numpy as np
 
+from exactpt.certificates import coefficients
+from exactpt.certificates.perturbation import orientation, x_order
+from exactpt.certificates.positions import Positions
+from exactpt.certificates.queue import EventTime
+from exactpt.certificates.reasons import reason
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.batch import Answers
 from exactpt.kernel.integer_polynomial import IntPoly, sign_at, square_free
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
-from exactpt.kinetic.queue import EventTime
+from exactpt.kernel.vectorized import Answers
 from exactpt.motion.incidence import difference
 from exactpt.motion.incidence import orientation as base_orientation
-from exactpt.tiling import coefficients
-from exactpt.tiling.exact import orientation, x_order
-from exactpt.tiling.positions import Positions
-from exactpt.tiling.reasons import reason
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -149,7 +149,7 @@ class Certifier:
 
         The sign is 0 if the orientation is zero for ever; then the time is the first at
         which two of the vertices coincide. A zero without change of sign counts, of copies
-        too: it may be a touch (`exactpt.tiling.contacts`).
+        too: it may be a touch (`exactpt.certificates.incidences`).
         """
         self.made += 1
         va, vb, vc = self.all[a], self.all[b], self.all[c]
@@ -291,8 +291,8 @@ class Certifier:
 
         With ``touching``, a time at which the two are level without passing counts too.
         Without, such a time is none: the tiling is the same just before and just after it
-        (`exactpt.tiling.exact`), and contacts are found by angles alone
-        (`exactpt.tiling.contacts`).
+        (`exactpt.certificates.perturbation`), and contacts are found by angles alone
+        (`exactpt.certificates.incidences`).
         """
         self.made += 1
         va, vb = self.all[a], self.all[b]

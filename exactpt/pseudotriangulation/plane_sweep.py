@@ -9,7 +9,7 @@ pseudo-triangulation (paper, section 3.1); a vertex on the edge of a gap needs o
 and where two edges meet, the chain between them is closed off.
 
 The result is a pseudo-triangulation, though not one with the fewest faces
-(`exactpt.tiling.pointed`). O(n log n), and the length of the chains that are passed.
+(`exactpt.pseudotriangulation.pointed`). O(n log n), and the length of the chains that are passed.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from collections.abc import Iterable
 from functools import cmp_to_key
 from typing import final
 
-from exactpt.tiling.instant import Instant, sorted_by_x
-from exactpt.tiling.mesh import FREE, INSIDE, SOLID, Diagonal
-from exactpt.tiling.predicates import Predicates
+from exactpt.certificates.at_time import PredicatesAt, sorted_by_x
+from exactpt.certificates.predicates import Predicates
+from exactpt.pseudotriangulation.mesh import FREE, INSIDE, SOLID, Diagonal
 
 __all__ = ["Sweep", "SweptEdge", "body_edges", "sweep_diagonals"]
 
@@ -38,7 +38,7 @@ class SweptEdge:
         self.chain: list[int] = []
 
 
-def sweep_diagonals(instant: Instant) -> list[Diagonal]:
+def sweep_diagonals(instant: PredicatesAt) -> list[Diagonal]:
     """The diagonals of a pseudo-triangulation of the free space, hull edges included.
 
     The insides of bodies that deform are tiled as well, those of rigid bodies not.
@@ -46,7 +46,7 @@ def sweep_diagonals(instant: Instant) -> list[Diagonal]:
     return Sweep(instant, body_edges(instant)).run()
 
 
-def body_edges(instant: Instant) -> list[SweptEdge]:
+def body_edges(instant: PredicatesAt) -> list[SweptEdge]:
     """The edges of all bodies. A body is on the left of its ring: above an edge leading right."""
     vertices = instant.vertices
     edges = []

@@ -13,9 +13,9 @@ from collections import deque
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
+from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
-from exactpt.tiling.mesh import FREE, Mesh
-from exactpt.tiling.predicates import Predicates
+from exactpt.pseudotriangulation.mesh import FREE, Mesh
 
 __all__ = [
     "Flip",

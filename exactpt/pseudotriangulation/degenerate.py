@@ -3,23 +3,23 @@
 A kinetic tiling is the one just after the current time. Where certificates vanish at that
 time, some of its edges run through vertices, and some of its faces have no area, just
 then. `close_at` gives the tiling of that very moment: what is collinear then is treated
-like what is collinear for ever (`exactpt.tiling.exact`), so that the middle vertex of
+like what is collinear for ever (`exactpt.certificates.perturbation`), so that the middle vertex of
 three sticks out.
 """
 
 from __future__ import annotations
 
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.perturbation import comes_first
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.vertices import Vertex
-from exactpt.tiling.exact import comes_first
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import FREE, INSIDE, Mesh
+from exactpt.pseudotriangulation.mesh import FREE, INSIDE, Mesh
 
 __all__ = ["close_at"]
 
 
-def close_at(mesh: Mesh, instant: Instant) -> bool:
+def close_at(mesh: Mesh, instant: PredicatesAt) -> bool:
     """Collapse, in place, every corner that is zero or straight at an instant.
 
     Args:
@@ -54,13 +54,13 @@ def _angle(mesh: Mesh, h: int) -> tuple[int, int, int]:
     return m.origin[m.previous[h]], m.origin[h], m.origin[h ^ 1]
 
 
-def _has_closed(mesh: Mesh, h: int, instant: Instant) -> bool:
+def _has_closed(mesh: Mesh, h: int, instant: PredicatesAt) -> bool:
     a, p, b = _angle(mesh, h)
     may_close = mesh.region[h] in (FREE, INSIDE) and mesh.corner[h] and a != b
     return may_close and instant.sign(a, p, b) <= 0
 
 
-def _first(mesh: Mesh, due: set[int], instant: Instant) -> int:
+def _first(mesh: Mesh, due: set[int], instant: PredicatesAt) -> int:
     """The least of the closed corners, but of copies of one triple the first to close."""
     all_vertices = instant.vertices.all
     number = AlgebraicNumber(instant.time)
@@ -78,7 +78,7 @@ def _first(mesh: Mesh, due: set[int], instant: Instant) -> int:
     return first
 
 
-def _collapse(mesh: Mesh, h: int, instant: Instant) -> list[int]:
+def _collapse(mesh: Mesh, h: int, instant: PredicatesAt) -> list[int]:
     """Collapse one corner; the half-edges whose angles may have changed."""
     m = mesh.map
     a, p, b = _angle(mesh, h)

@@ -17,17 +17,17 @@ from typing import TYPE_CHECKING, NamedTuple, final
 from exactpt.errors import AuditError, InputError
 from exactpt.geometry.polygon import contains, edges, segments_meet
 from exactpt.geometry.predicates import Point, side
-from exactpt.tiling.mesh import INSIDE, OUTER, SOLID, Mesh
+from exactpt.pseudotriangulation.mesh import INSIDE, OUTER, SOLID, Mesh
 
 if TYPE_CHECKING:
     from exactpt.kernel.numbers import QQ
     from exactpt.motion.body import Body
     from exactpt.motion.vertices import Vertices
 
-__all__ = ["Site", "find_site"]
+__all__ = ["ConflictZone", "find_conflict_zone"]
 
 
-class Site(NamedTuple):
+class ConflictZone(NamedTuple):
     """Where a body lies.
 
     Attributes:
@@ -39,7 +39,7 @@ class Site(NamedTuple):
     crossed: list[int]
 
 
-def find_site(vertices: Vertices, mesh: Mesh, body: Body, t: QQ) -> Site:
+def find_conflict_zone(vertices: Vertices, mesh: Mesh, body: Body, t: QQ) -> ConflictZone:
     """Find the faces that a body which is not there yet meets.
 
     Args:
@@ -68,10 +68,10 @@ class _Search:
         self.high = max(p[0] for p in self.points), max(p[1] for p in self.points)
         self.known: dict[int, Point] = {}
 
-    def site(self) -> Site:
+    def site(self) -> ConflictZone:
         """The site of the body."""
         if not self.vertices.bodies:
-            return Site([], [])
+            return ConflictZone([], [])
         first = self._face_around(self.points[0])
         faces, crossed, touched = [first[0]], dict[int, None](), set[int]()
         if self.mesh.region[first[0]] in (SOLID, INSIDE):
@@ -98,7 +98,7 @@ class _Search:
         if touched:
             name = self.vertices.bodies[min(touched)].body.name
             raise InputError(f"body {self.body.name!r} touches body {name!r} at t = {self.t}")
-        return Site(faces, list(crossed))
+        return ConflictZone(faces, list(crossed))
 
     def _at(self, v: int) -> Point:
         """Where a vertex is."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
-from exactpt.tiling.mesh import INSIDE, Mesh
-from exactpt.tiling.predicates import Predicates
+from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 
 __all__ = ["tile_inside"]
 

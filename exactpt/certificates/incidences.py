@@ -26,8 +26,8 @@ copies has an orientation that vanishes at t, or is zero for ever.
 *Each has an event.* An orientation that vanishes at t has an event at t, whether it changes
 its sign or only touches 0, at the end of a piece of motion too (`Certifier.orientation`);
 and if it is zero for ever, there is one when two of its vertices coincide. A corner that is
-zero for ever is never left standing (`exactpt.tiling.exact`), so q has an event, and the
-angles beside it that are straight for ever are found by following the chain. Hence testing
+zero for ever is never left standing (`exactpt.certificates.perturbation`), so q has an event, and
+the angles beside it that are straight for ever are found by following the chain. Hence testing
 the vertices of all angles with an event at t, extended along straight angles, finds every
 contact. (Where more than two features meet at z, consecutive ones do so as above, and all
 pairs of what is found are tested.)
@@ -45,13 +45,13 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 import numpy as np
 
+from exactpt.certificates.coincidence import boxes_now, coincide, lies_on
 from exactpt.geometry.boxes import Boxes, overlapping_pairs
 from exactpt.motion.incidence import Touch
-from exactpt.tiling.placement import boxes_now, coincide, lies_on
 
 if TYPE_CHECKING:
+    from exactpt.certificates.certifier import Certifier
     from exactpt.motion.vertices import Vertex, Vertices
-    from exactpt.tiling.certificates import Certifier
 
 __all__ = ["touches"]
 

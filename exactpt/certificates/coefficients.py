@@ -14,10 +14,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.certificates import cubics
 from exactpt.kernel import filters
-from exactpt.kernel.batch import Answers, quadratics
+from exactpt.kernel.vectorized import Answers, quadratics
 from exactpt.motion.image import Image
-from exactpt.tiling import cubics
 
 __all__ = ["linear_orientations", "linear_parts", "orientation", "x_difference"]
 

@@ -2,12 +2,12 @@
 
 import pytest
 
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.incidences import FEW, touches
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch
 from exactpt.motion.vertices import Vertices
-from exactpt.tiling.certificates import Certifier
-from exactpt.tiling.contacts import FEW, touches
 
 SQUARE = Body("square", [(0, 0), (2, 0), (2, 2), (0, 2)])
 ON_EDGE = Touch(1, 0, 0, 1, -1)

@@ -7,17 +7,18 @@ from typing import Final, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.certificates.coefficients import linear_parts
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.motion.image import Image
 from exactpt.motion.vertices import Vertex, Vertices
-from exactpt.tiling.coefficients import linear_parts
 
 __all__ = ["K", "Positions", "cross_sign", "positions_at"]
 
 Floats: TypeAlias = NDArray[np.float64]
 
 K: Final = 8.0 * U
-"""Bounds the rounding of a 2 x 2 determinant of differences; see `exactpt.tiling.coefficients`."""
+"""Bounds the rounding of a 2 x 2 determinant of differences; see
+`exactpt.certificates.coefficients`."""
 
 
 @np.errstate(all="ignore")

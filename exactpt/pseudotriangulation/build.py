@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from functools import cmp_to_key
 
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
-from exactpt.tiling.instant import Instant
-from exactpt.tiling.mesh import INSIDE, OUTER, SOLID, Diagonal, Mesh
-from exactpt.tiling.predicates import Predicates
+from exactpt.pseudotriangulation.mesh import INSIDE, OUTER, SOLID, Diagonal, Mesh
 
 __all__ = ["build_mesh", "fan_order"]
 
 
-def build_mesh(instant: Instant, diagonals: Iterable[Diagonal], mesh: Mesh | None = None) -> Mesh:
+def build_mesh(
+    instant: PredicatesAt, diagonals: Iterable[Diagonal], mesh: Mesh | None = None
+) -> Mesh:
     """The mesh of all body edges and these diagonals, with its marks.
 
     Args:
@@ -61,7 +63,7 @@ def build_mesh(instant: Instant, diagonals: Iterable[Diagonal], mesh: Mesh | Non
 
 
 def _sorted_fan(
-    instant: Instant, mesh: Mesh, v: int, reference: int, edges: list[int]
+    instant: PredicatesAt, mesh: Mesh, v: int, reference: int, edges: list[int]
 ) -> list[int]:
     """Half-edges out of v in counter-clockwise order from a reference direction."""
     if len(edges) < 2:
@@ -90,7 +92,7 @@ def fan_order(
     return order
 
 
-def _mark_angles(instant: Instant, mesh: Mesh) -> None:
+def _mark_angles(instant: PredicatesAt, mesh: Mesh) -> None:
     m = mesh.map
     angles: list[int] = []
     triples: list[tuple[int, int, int]] = []
@@ -110,7 +112,7 @@ def _mark_angles(instant: Instant, mesh: Mesh) -> None:
             _mark_face(instant, mesh, h, seen)
 
 
-def _mark_face(instant: Instant, mesh: Mesh, first: int, seen: list[bool]) -> None:
+def _mark_face(instant: PredicatesAt, mesh: Mesh, first: int, seen: list[bool]) -> None:
     """Mark what lies outside; every other face has three corners."""
     m = mesh.map
     corners = 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import final
 
-from exactpt.tiling.mesh import Mesh
+from exactpt.pseudotriangulation.mesh import Mesh
 
 __all__ = ["Batch"]
 
@@ -14,8 +14,8 @@ class Batch:
     """What has been repaired at the current time.
 
     Repairs that change different tiles cannot tell whether they happen at one time or one
-    after the other, as in the perturbed scene (`exactpt.tiling.exact`): each is right by
-    itself, and nothing has to be checked. A later repair of a tile that an earlier one has
+    after the other, as in the perturbed scene (`exactpt.certificates.perturbation`): each is right
+    by itself, and nothing has to be checked. A later repair of a tile that an earlier one has
     changed leaves marks of both on one face, or on one half-edge, or removes one with a
     mark of the other.
 

@@ -37,7 +37,7 @@ certificate, and g + eps h + ... the one of the perturbed vertices.
 Hence a zero without a change of sign may be left out where only the tiling just before and
 just after counts (x-orders). It may not where contacts are sought: the angles of a tiling
 are watched for *every* zero, those of copies included, and a contact itself is decided on
-the unperturbed vertices (`exactpt.tiling.contacts`, `exactpt.motion.incidence`).
+the unperturbed vertices (`exactpt.certificates.incidences`, `exactpt.motion.incidence`).
 """
 
 from __future__ import annotations

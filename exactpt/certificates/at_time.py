@@ -17,6 +17,10 @@ from typing import Final, final
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.certificates.perturbation import copies_first, cross, orientation, x_order_terms
+from exactpt.certificates.positions import K, cross_sign, positions_at
+from exactpt.certificates.predicates import Predicates
+from exactpt.certificates.reasons import reason
 from exactpt.geometry.predicates import Point, side
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
@@ -24,12 +28,8 @@ from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, sign
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.motion.vertices import Vertex, Vertices
-from exactpt.tiling.exact import copies_first, cross, orientation, x_order_terms
-from exactpt.tiling.positions import K, cross_sign, positions_at
-from exactpt.tiling.predicates import Predicates
-from exactpt.tiling.reasons import reason
 
-__all__ = ["Instant", "sorted_by_x"]
+__all__ = ["PredicatesAt", "sorted_by_x"]
 
 STEPS: Final = 2.0**30
 """How finely slopes are told apart at first."""
@@ -37,7 +37,7 @@ STEPS: Final = 2.0**30
 
 def sorted_by_x(predicates: Predicates, ids: Iterable[int]) -> list[int]:
     """Different vertices from left to right."""
-    if isinstance(predicates, Instant):
+    if isinstance(predicates, PredicatesAt):
         return predicates.sorted_by_x(ids)
     return _sorted_exactly(predicates, ids)
 
@@ -50,7 +50,7 @@ def _sorted_exactly(predicates: Predicates, ids: Iterable[int]) -> list[int]:
 
 
 @final
-class Instant(Predicates):
+class PredicatesAt(Predicates):
     """Positions and predicates at a rational time.
 
     Attributes:
@@ -228,7 +228,7 @@ class Instant(Predicates):
 
         In units of 1 / `STEPS`. Rounding down is monotone, so where it is the same for both
         ends of an enclosure it is that of the slope. The quotient is off as in
-        `exactpt.tiling.positions`. A line that is vertical at the time is steeper than any
+        `exactpt.certificates.positions`. A line that is vertical at the time is steeper than any
         other: downwards, or upwards.
         """
         dx, dy = self._x[b] - self._x[a], self._y[b] - self._y[a]

@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING, final
 from exactpt.geometry.predicates import side
 from exactpt.kernel.numbers import QQ, fraction, parse_rational
 from exactpt.planar.halfedge import edge_key
-from exactpt.tiling.mesh import FREE, INSIDE
+from exactpt.pseudotriangulation.mesh import FREE, INSIDE
 
 if TYPE_CHECKING:
     from exactpt.motion.vertices import Vertices
-    from exactpt.tiling.mesh import Mesh
+    from exactpt.pseudotriangulation.mesh import Mesh
 
 __all__ = ["Edge", "Face", "Node", "Snapshot", "node_of", "snapshot", "snapshot_of"]
 

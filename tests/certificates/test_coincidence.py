@@ -2,12 +2,8 @@
 
 import pytest
 
-from exactpt.kernel.numbers import QQ
-from exactpt.motion.body import Body
-from exactpt.motion.motions import Rigid, Translation
-from exactpt.motion.vertices import Vertices
-from exactpt.tiling.certificates import Certifier
-from exactpt.tiling.placement import (
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.coincidence import (
     coincide,
     coordinate_order,
     lies_on,
@@ -15,6 +11,10 @@ from exactpt.tiling.placement import (
     nearer_copy,
     strictly_between,
 )
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Rigid, Translation
+from exactpt.motion.vertices import Vertices
 
 DIRECTIONS = [(1, 0), (0, 1), (1, 2), (-1, 0), (0, -1), (-2, 1)]
 HAIR = QQ(1, 10**30)

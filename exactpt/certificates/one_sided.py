@@ -4,23 +4,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, final
 
-from exactpt.tiling import coefficients
-from exactpt.tiling.certificates import X_ORDER
-from exactpt.tiling.exact import cross, orientation, x_order
-from exactpt.tiling.placement import nearer, nearer_copy
-from exactpt.tiling.predicates import Predicates
-from exactpt.tiling.reasons import reason
+from exactpt.certificates import coefficients
+from exactpt.certificates.certifier import X_ORDER
+from exactpt.certificates.coincidence import nearer, nearer_copy
+from exactpt.certificates.perturbation import cross, orientation, x_order
+from exactpt.certificates.predicates import Predicates
+from exactpt.certificates.reasons import reason
 
 if TYPE_CHECKING:
+    from exactpt.certificates.certifier import Certifier
     from exactpt.kernel.integer_polynomial import IntPoly
     from exactpt.motion.vertices import Vertex
-    from exactpt.tiling.certificates import Certifier
 
-__all__ = ["Moment"]
+__all__ = ["OneSided"]
 
 
 @final
-class Moment(Predicates):
+class OneSided(Predicates):
     """Signs just after now, or just before it; they differ only for what vanishes now."""
 
     def __init__(self, certifier: Certifier, *, before: bool) -> None:

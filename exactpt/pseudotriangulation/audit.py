@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
-from exactpt.tiling.mesh import SOLID, Mesh
-from exactpt.tiling.predicates import Predicates
+from exactpt.pseudotriangulation.mesh import SOLID, Mesh
 
 __all__ = ["audit_angles", "audit_fan"]
 

@@ -1,4 +1,4 @@
-"""As `exactpt.tiling.coefficients`, for motions of degree 2 and 3.
+"""As `exactpt.certificates.coefficients`, for motions of degree 2 and 3.
 
 Every number has a variable of its own; a motion of degree 2 is a cubic one with zeros.
 

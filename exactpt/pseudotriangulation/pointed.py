@@ -19,10 +19,10 @@ from collections import deque
 from collections.abc import Iterable
 from typing import NamedTuple
 
+from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
-from exactpt.tiling.greedy.shadow import flip, shadow
-from exactpt.tiling.mesh import OUTER, Mesh
-from exactpt.tiling.predicates import Predicates
+from exactpt.pseudotriangulation.flip import flip, shadow
+from exactpt.pseudotriangulation.mesh import OUTER, Mesh
 
 __all__ = ["Change", "make_pointed", "point_vertex"]
 

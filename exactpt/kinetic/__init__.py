@@ -1,1 +1,0 @@
-"""Time: event times, and the queue that orders them. Knows no geometry."""
