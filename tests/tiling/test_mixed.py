@@ -51,7 +51,7 @@ def test_labels_are_paths_and_each_node_has_one_face(family, count):
         inner = [node for node in nodes if node >= 0]
         assert len(inner) == len(set(inner))
         assert not mesh.forest.leaves & set(inner)
-        assert nodes.count(-1) == 2 * len(instant.vertices.bodies) - 2
+        assert nodes.count(-1) == max(0, 2 * len(instant.vertices.bodies) - 2)
 
 
 def shuffled(instant, rng):
