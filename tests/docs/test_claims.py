@@ -10,7 +10,6 @@ from random import Random
 import pytest
 
 from exactpt import Body, Rigid, Scene, Simulation, Translation
-from exactpt.kernel.counters import counters
 from exactpt.scene.generate import generate
 
 FORMAT = (Path(__file__).parents[2] / "docs" / "format.md").read_text(encoding="utf-8")
@@ -61,11 +60,11 @@ def turning(pivot, speeds):
 
 
 def exact_share(scene, tiling):
-    exact, filtered = counters.exact, counters.filtered
-    for _ in Simulation(scene, tiling=tiling).run():
+    simulation = Simulation(scene, tiling=tiling)
+    for _ in simulation.run():
         pass
-    exact, filtered = counters.exact - exact, counters.filtered - filtered
-    return exact / (exact + filtered)
+    stats = simulation.stats
+    return stats["exact"] / (stats["exact"] + stats["filtered"])
 
 
 @pytest.mark.parametrize("degree", [1, 2, 3])

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-STEPS = ["test", "test-compiled", "test-lowest", "test-rotating"]
+STEPS = ["test", "test-compiled", "test-lowest", "test-rotating", "small-scope"]
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="a script for sh")
 
