@@ -112,7 +112,13 @@ class Certifier:
         return number
 
     def rigid(self, a: int, b: int, c: int) -> bool:
-        """Whether three vertices keep their orientation for ever."""
+        """Whether three vertices keep their orientation for ever, so that no zero is lost.
+
+        Three that share a motion keep their distances, and the copies of one vertex their
+        offsets, unless these turn apart from the motion. The copies of a point or a segment
+        alone turn with it: their orientation is 0 only where the segment shrinks to a point,
+        which has an event of its own (`KineticTiling._schedule_piece`).
+        """
         va, vb, vc = self.all[a], self.all[b], self.all[c]
         motion = va.image.motion
         if motion >= 0 and motion == vb.image.motion and motion == vc.image.motion:
@@ -263,7 +269,11 @@ class Certifier:
         return self._event_time(root.time, (a, b, c), crossing=root.crossing)
 
     def first_coincidence(self, *ids: int) -> EventTime | None:
-        """The first time at which two of some vertices, always on one line, coincide."""
+        """The first time at which two of some vertices, always on one line, coincide.
+
+        Two that share a motion keep their distance; it is not 0, or the scene would begin
+        with a contact.
+        """
         first: AlgebraicNumber | None = None
         vertices = list({id(self.all[v].track): self.all[v] for v in ids}.values())
         until = self._until(*vertices)
