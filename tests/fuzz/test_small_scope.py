@@ -439,3 +439,13 @@ def test_the_command_is_one_of_the_fuzzer():
 
     assert done.returncode == 0
     assert "of a round" in done.stdout
+
+
+@pytest.mark.plain
+def test_even_zeros_of_copies_are_needed():
+    """The fault that the scope was made for: scene 627 is the first that shows it."""
+    with PLANTED["even zeros of copies ignored"]():
+        answers = look(planned(627)).answers
+
+    assert [answer.method for answer in answers if answer.fault] == ["lazy"]
+    assert not any(answer.fault for answer in look(planned(627)).answers)
