@@ -1,0 +1,132 @@
+"""What changes from one map to the next, and which angles are taken anew."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable, Iterable, Sequence
+from itertools import count, pairwise
+from typing import TYPE_CHECKING, TypeAlias, final
+
+from exactpt.errors import AuditError
+from exactpt.kernel.numbers import enclosing_floats
+
+if TYPE_CHECKING:
+    from exactpt.kernel.algebraic import AlgebraicNumber
+    from exactpt.proof.nodes import Nodes
+
+__all__ = ["Angle", "Angles", "HalfEdge", "followers", "items"]
+
+HalfEdge: TypeAlias = tuple[int, int]
+Angle: TypeAlias = tuple[int, int, int]
+Entry: TypeAlias = "tuple[float, int, HalfEdge, AlgebraicNumber]"
+
+
+def followers(faces: Iterable[Sequence[int]]) -> dict[HalfEdge, HalfEdge]:
+    """Of each half-edge of some faces, the one that follows.
+
+    Raises:
+        AuditError: if one is there twice.
+    """
+    after: dict[HalfEdge, HalfEdge] = {}
+    for cycle in faces:
+        if len(cycle) > 1:
+            path = list(pairwise([*cycle, cycle[0], cycle[1]]))
+            for d, e in pairwise(path):
+                if d in after:
+                    raise AuditError(f"the half-edge {d} has a face twice")
+                after[d] = e
+    return after
+
+
+def items(
+    old: dict[HalfEdge, HalfEdge],
+    new: dict[HalfEdge, HalfEdge],
+    is_body_edge: Callable[[int, int], bool],
+) -> list[str]:
+    """The edges that go and come between two maps; both, where one has changed its place."""
+    gone = old.keys() - new.keys()
+    come = new.keys() - old.keys()
+    fans = {d[1] for d in gone | come} | {d[1] for d, e in new.items() if old.get(d, e) != e}
+    into_old, into_new = ({v: u for u, v in after if v in fans} for after in (old, new))
+    for v in fans & into_old.keys() & into_new.keys():
+        before, after = _fan(v, into_old[v], old), _fan(v, into_new[v], new)
+        stay = set(before) & set(after)
+        if not _same_cycle([u for u in before if u in stay], [u for u in after if u in stay]):
+            moved = {d for u in stay if not is_body_edge(u, v) for d in ((u, v), (v, u))}
+            gone, come = gone | moved, come | moved
+    removed = [f"- {u} {v}" for u, v in sorted(gone) if u < v]
+    added = [f"+ {u} {v} {new[u, v][1]} {new[v, u][1]}" for u, v in sorted(come) if u < v]
+    return removed + added
+
+
+def _fan(v: int, first: int, after: dict[HalfEdge, HalfEdge]) -> list[int]:
+    """The vertices to which v has an edge, clockwise."""
+    fan = [first]
+    while (u := after[fan[-1], v][1]) != first:
+        fan.append(u)
+    return fan
+
+
+def _same_cycle(a: list[int], b: list[int]) -> bool:
+    if not a:
+        return True
+    i = b.index(a[0])
+    return a == b[i:] + b[:i]
+
+
+@final
+class Angles:
+    """The angles of a map, with the times at which they vanish though their edges stay."""
+
+    def __init__(self, nodes: Nodes) -> None:
+        self._nodes = nodes
+        self._life: dict[HalfEdge, tuple[int, int]] = {}
+        self._due: list[Entry] = []
+        self._made = count()
+
+    def begin(self, angles: Iterable[Angle], now: AlgebraicNumber) -> None:
+        """Let angles (before, here, after) begin."""
+        for u, v, w in angles:
+            number = next(self._made)
+            self._life[v, w] = u, number
+            time = self._nodes.fails((u, v, w), now)
+            if time is not None:
+                key = enclosing_floats(time.low)[0]
+                heapq.heappush(self._due, (key, number, (v, w), time))
+
+    def end(self, half_edges: Iterable[HalfEdge]) -> None:
+        """Let the angles of half-edges end."""
+        for d in half_edges:
+            self._life.pop(d, None)
+
+    def next_time(self) -> AlgebraicNumber | None:
+        """The first time at which a living angle vanishes."""
+        while self._due and not self._is_alive(self._due[0]):
+            heapq.heappop(self._due)
+        if not self._due:
+            return None
+        highest = enclosing_floats(self._due[0][3].high)[1]
+        return min(entry[3] for entry in self._first_ones(highest))
+
+    def due(self, time: AlgebraicNumber) -> list[Angle]:
+        """The living angles that vanish at a time, before which none does; they are forgotten."""
+        found = []
+        for entry in self._first_ones(enclosing_floats(time.high)[1]):
+            if entry[3].compare(time) == 0:
+                self._due.remove(entry)
+                found.append((self._life[entry[2]][0], *entry[2]))
+        heapq.heapify(self._due)
+        return found
+
+    def _is_alive(self, entry: Entry) -> bool:
+        return self._life.get(entry[2], (0, -1))[1] == entry[1]
+
+    def _first_ones(self, highest: float) -> list[Entry]:
+        """The living angles that may vanish up to a time."""
+        found = []
+        while self._due and self._due[0][0] <= highest:
+            found.append(heapq.heappop(self._due))
+        found = [entry for entry in found if self._is_alive(entry)]
+        for entry in found:
+            heapq.heappush(self._due, entry)
+        return found
