@@ -25,19 +25,20 @@ import re
 import sys
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import cmp_to_key, lru_cache
 from itertools import pairwise, takewhile
-from math import ceil, comb, floor, gcd, lcm
-from typing import TypeVar
+from math import comb, floor, gcd, inf, lcm
+from typing import Any, TypeVar
 
+N = TypeVar("N", int, Fraction)  # of polynomials: rationals while a scene is read, then integers
 Poly = tuple[int, ...]
-Point = tuple[int, int, int]
+Rationals = tuple[Fraction, ...]
+Point = tuple[Fraction, Fraction]
 Track = tuple[Poly, Poly, Poly]
 Dart = tuple[int, int]
-Items = tuple[list[Dart], list[tuple[int, ...]], list[Dart]]
-N = TypeVar("N", int, Fraction)
-RPoly = tuple[Fraction, ...]
-FACES = ("face", "inside", "outer")
+Json = Any
 
 
 class NoProofError(Exception):
@@ -56,7 +57,6 @@ def require(condition: object, why: str) -> None:
 
 # ---------------------------------------------------------------------------------------
 # Polynomials in t: tuples of numbers, constant term first, no zero at the end; () is 0.
-# (Rationals while a scene is read, integers from then on.)
 
 
 def trimmed(f: Sequence[N]) -> tuple[N, ...]:
@@ -118,16 +118,9 @@ def sign_at(f: Poly, q: Fraction) -> int:
     return sign(value_at(f, q.numerator, q.denominator, len(f) - 1)) if f else 0
 
 
-def derivative(f: Poly) -> Poly:
-    """The derivative."""
-    return tuple([i * c for i, c in enumerate(f)][1:])
-
-
 def primitive(f: Poly) -> Poly:
     """F divided by what its coefficients have in common, with a positive leading one."""
-    if not f:
-        return f
-    content = gcd(*f) * sign(f[-1])
+    content = gcd(*f) * sign(f[-1]) if f else 1
     return tuple([c // content for c in f])
 
 
@@ -152,9 +145,8 @@ def common_divisor(f: Poly, g: Poly) -> Poly:
 
 def square_free(f: Poly) -> Poly:
     """The polynomial with the same roots, all of them simple."""
-    if len(f) < 3:
-        return primitive(f)
-    return primitive(divided(f, common_divisor(f, derivative(f)))[0])
+    derivative = tuple([i * c for i, c in enumerate(f)][1:])
+    return primitive(divided(f, common_divisor(f, derivative))[0]) if len(f) > 2 else primitive(f)
 
 
 def on_unit(f: Poly, low: Fraction, high: Fraction) -> tuple[list[int], int]:
@@ -185,40 +177,26 @@ def variations(f: Poly, low: Fraction, high: Fraction) -> int:
     return sum(a != b for a, b in pairwise(signs))
 
 
-def bounds(f: Poly, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
-    """An interval that contains f on [low, high]: the range of the Bernstein coefficients."""
-    if not f:
-        return Fraction(0), Fraction(0)
-    g, power = on_unit(f, low, high)
-    n = len(g) - 1
-    b = [
-        sum(Fraction(comb(j, i) * g[i], comb(n, i) * power) for i in range(j + 1))
-        for j in range(n + 1)
-    ]
-    return Fraction(min(b)), Fraction(max(b))
-
-
 def roots_in(f: Poly, low: Fraction, high: Fraction) -> Iterator[Time]:
     """The roots in [low, high] of a polynomial that has none but simple ones, in order."""
     if sign_at(f, low) == 0:
         yield Time(low)
-    if low == high:
-        return
-    yield from _roots_inside(f, low, high)
-    if sign_at(f, high) == 0:
-        yield Time(high)
+    if low < high:
+        yield from roots_inside(f, low, high)
+        if sign_at(f, high) == 0:
+            yield Time(high)
 
 
-def _roots_inside(f: Poly, low: Fraction, high: Fraction) -> Iterator[Time]:
-    count = variations(f, low, high)
+def roots_inside(f: Poly, low: Fraction, high: Fraction) -> Iterator[Time]:
+    """Those in (low, high): halve, until each is alone."""
+    count, middle = variations(f, low, high), (low + high) / 2
     if count == 1 and sign_at(f, low) and sign_at(f, high):
         yield Time(low, high, f)
     elif count:
-        middle = (low + high) / 2
-        yield from _roots_inside(f, low, middle)
+        yield from roots_inside(f, low, middle)
         if sign_at(f, middle) == 0:
             yield Time(middle)
-        yield from _roots_inside(f, middle, high)
+        yield from roots_inside(f, middle, high)
 
 
 # ---------------------------------------------------------------------------------------
@@ -232,14 +210,7 @@ class Time:
     """
 
     def __init__(self, low: Fraction, high: Fraction | None = None, f: Poly = ()) -> None:
-        self.low = low
-        self.high = low if high is None else high
-        self.f = f
-
-    @property
-    def is_rational(self) -> bool:
-        """Whether it is known to be."""
-        return self.low == self.high
+        self.low, self.high, self.f = low, low if high is None else high, f
 
     def refine(self) -> None:
         """Halve the interval."""
@@ -250,20 +221,17 @@ class Time:
         if self.high < q or self.low > q or self.low == self.high:
             return sign(self.low - q)
         s = sign_at(self.f, q)
-        if s == 0:
-            self.low = self.high = q
-        elif s == sign_at(self.f, self.low):
+        order = 0 if s == 0 else 1 if s == sign_at(self.f, self.low) else -1
+        if order >= 0:
             self.low = q
-            return 1
-        else:
+        if order <= 0:
             self.high = q
-            return -1
-        return 0
+        return order
 
     def compare(self, other: Time) -> int:
         """-1, 0 or 1 as the time is before, at or after the other."""
         differ = False
-        while not (self.is_rational or other.is_rational):
+        while self.low < self.high and other.low < other.high:
             low, high = max(self.low, other.low), min(self.high, other.high)
             if low >= high:
                 return sign(self.low - other.low)
@@ -277,14 +245,13 @@ class Time:
                 differ = True
             self.refine()
             other.refine()
-        if other.is_rational:
-            return self.compare_rational(other.low)
-        return -other.compare_rational(self.low)
+        rational = other.low == other.high
+        return self.compare_rational(other.low) if rational else -other.compare_rational(self.low)
 
     def sign_of(self, f: Poly) -> int:
         """The sign of f at this time."""
         differ = False
-        while not self.is_rational and f:
+        while self.low < self.high and f:
             s = sign_at(f, self.low)
             if s and s == sign_at(f, self.high) and variations(f, self.low, self.high) == 0:
                 return s
@@ -297,7 +264,7 @@ class Time:
         return sign_at(f, self.low)
 
     def __str__(self) -> str:
-        if self.is_rational:
+        if self.low == self.high:
             return str(self.low)
         return f"{float(self.low):.12g} (between {self.low} and {self.high})"
 
@@ -317,7 +284,7 @@ def zeros(f: Poly, start: Time, end: Time) -> tuple[bool, bool]:
     """Whether f vanishes strictly between two times; whether at the second one."""
     low, high = start.low, end.high
     if variations(f, low, high) == 0:
-        return False, end.is_rational and sign_at(f, high) == 0
+        return False, end.low == high and sign_at(f, high) == 0
     for root in roots_in(square_free(f), low, high):
         if root.compare(start) > 0:
             order = root.compare(end)
@@ -326,98 +293,112 @@ def zeros(f: Poly, start: Time, end: Time) -> tuple[bool, bool]:
 
 
 # ---------------------------------------------------------------------------------------
-# Points and tracks in homogeneous coordinates (x, y, w), w > 0: integers at a rational time,
-# integer polynomials for all times of a piece of motion. One formula serves both.
+# Tracks: a vertex is at (x / w, y / w), with polynomials x, y and w, the latter positive.
 
 
-def orientation(a: Point, b: Point, c: Point) -> int:
-    """Positive if a, b, c turn left; 0 if they are on one line."""
-    return (
-        a[0] * (b[1] * c[2] - c[1] * b[2])
-        + b[0] * (c[1] * a[2] - a[1] * c[2])
-        + c[0] * (a[1] * b[2] - b[1] * a[2])
-    )
-
-
-def vector(a: Point, b: Point) -> tuple[int, int]:
+def vector_of(a: Track, b: Track) -> tuple[Poly, Poly]:
     """A positive multiple of b - a."""
-    return b[0] * a[2] - a[0] * b[2], b[1] * a[2] - a[1] * b[2]
+    return sub(mul(b[0], a[2]), mul(a[0], b[2])), sub(mul(b[1], a[2]), mul(a[1], b[2]))
 
 
-def dot(a: Point, v: Point, b: Point) -> int:
-    """A positive multiple of (a - v) . (b - v)."""
-    (px, py), (qx, qy) = vector(v, a), vector(v, b)
-    return px * qx + py * qy
-
-
+@lru_cache(100_000)
 def orientation_of(a: Track, b: Track, c: Track) -> Poly:
-    """As `orientation`, of tracks."""
+    """Positive where a, b, c turn left, 0 where they are on one line: the determinant."""
     f = mul(a[0], sub(mul(b[1], c[2]), mul(c[1], b[2])))
     g = mul(b[0], sub(mul(c[1], a[2]), mul(a[1], c[2])))
     h = mul(c[0], sub(mul(a[1], b[2]), mul(b[1], a[2])))
     return add(add(f, g), h)
 
 
-def vector_of(a: Track, b: Track) -> tuple[Poly, Poly]:
-    """As `vector`, of tracks."""
-    return sub(mul(b[0], a[2]), mul(a[0], b[2])), sub(mul(b[1], a[2]), mul(a[1], b[2]))
-
-
 def dot_of(a: Track, v: Track, b: Track) -> Poly:
-    """As `dot`, of tracks."""
+    """A positive multiple of (a - v) . (b - v)."""
     (px, py), (qx, qy) = vector_of(v, a), vector_of(v, b)
     return add(mul(px, qx), mul(py, qy))
 
 
-def angle_half(d: tuple[int, int]) -> int:
-    """0 for directions in [0, pi), 1 for those in [pi, 2 pi)."""
-    return 0 if d[1] > 0 or (d[1] == 0 and d[0] > 0) else 1
+def is_on(time: Time, v: Track, a: Track, b: Track) -> bool:
+    """Whether v is in the closed segment ab at a time."""
+    return time.sign_of(orientation_of(v, a, b)) == 0 and time.sign_of(dot_of(a, v, b)) <= 0
 
 
-def comes_before(d: tuple[int, int], e: tuple[int, int]) -> bool:
-    """Whether d has a smaller angle than e, both in [0, 2 pi)."""
-    if angle_half(d) != angle_half(e):
-        return angle_half(d) < angle_half(e)
-    return d[0] * e[1] - d[1] * e[0] > 0
+def meet(time: Time, a: Track, b: Track, c: Track, d: Track) -> bool:
+    """Whether the closed segments ab and cd have a point in common at a time."""
+    triples = ((a, b, c), (a, b, d), (c, d, a), (c, d, b))
+    p, q, r, s = (time.sign_of(orientation_of(*t)) for t in triples)
+    ends = is_on(time, c, a, b) or is_on(time, d, a, b)
+    return (p * q < 0 and r * s < 0) or ends or is_on(time, a, c, d) or is_on(time, b, c, d)
+
+
+def is_simple(ring: Sequence[Track], places: Sequence[Point], time: Time) -> bool:
+    """Whether the edges of a polygon meet where they are joined, and nowhere else."""
+    n = len(ring)
+    spans = [sorted((places[i - 1][0], places[i][0])) for i in range(n)]  # edge i ends at vertex i
+    order = sorted(range(n), key=lambda i: spans[i])
+    for k, i in enumerate(order):
+        for j in takewhile(lambda j: spans[j][0] <= spans[i][1], order[k + 1 :]):
+            if (i - j) % n in (1, n - 1):
+                e = i if (j - i) % n == 1 else j  # the next edge begins where edge e ends
+                a, v, b = ring[e - 1], ring[e], ring[(e + 1) % n]
+                straight = time.sign_of(orientation_of(a, v, b)) == 0
+                if straight and time.sign_of(dot_of(a, v, b)) >= 0:
+                    return False
+            elif meet(time, ring[i - 1], ring[i], ring[j - 1], ring[j]):
+                return False
+    return True
+
+
+def is_inside(q: Point, p: Sequence[Point]) -> bool:
+    """Whether a point is inside a polygon: a ray to the right leaves it an odd number of times."""
+    inside = False
+    for a, b in pairwise([*p, p[0]]):
+        if (a[1] > q[1]) != (b[1] > q[1]):
+            inside ^= a[0] + (q[1] - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > q[0]
+    return inside
+
+
+def comes_before(d: Point, e: Point) -> bool:
+    """Whether the direction d has a smaller angle than e, both in [0, 2 pi)."""
+    p, q = (v[1] < 0 or (v[1] == 0 and v[0] < 0) for v in (d, e))  # the angle is at least pi
+    return p < q or (p == q and d[0] * e[1] - d[1] * e[0] > 0)
 
 
 # ---------------------------------------------------------------------------------------
 # The scene (docs/format.md). What is not understood is refused.
 
-NUMBER = re.compile(r"[+-]?(\d+(/\d+)?|(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,6})?)", re.ASCII)
-Shape = list[tuple[RPoly, RPoly]]
+NUMBER = re.compile(r"[+-]?(\d+(/0*[1-9]\d*)?|(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,6})?)", re.ASCII)
+Shape = list[tuple[Rationals, Rationals]]
 
 
-def number(data: object) -> Fraction:
+def need(condition: object, what: str, data: Json = "") -> None:
+    """Refuse the scene unless the condition holds."""
+    if not condition:
+        raise NoProofError(f"the scene: {what} {data!r:.60}")
+
+
+def number(data: Json) -> Fraction:
     """The rational that a text, or a number of JSON, denotes."""
-    if not isinstance(data, str) or not NUMBER.fullmatch(data):
-        raise NoProofError(f"the scene has no number where one is needed: {data!r}")
-    try:
-        return Fraction(data)
-    except ZeroDivisionError:
-        raise NoProofError(f"the scene has a denominator 0: {data}") from None
+    need(isinstance(data, str) and NUMBER.fullmatch(data), "not a number:", data)
+    return Fraction(data)
 
 
-def keys(data: object, *allowed: str) -> dict[str, object]:
+def keys(data: Json, *allowed: str) -> dict[str, Json]:
     """A JSON object with these keys at most."""
-    if not isinstance(data, dict) or not set(data) <= set(allowed):
-        raise NoProofError(f"the scene: not an object with keys {', '.join(allowed)}: {data!r:.99}")
-    return data
+    need(isinstance(data, dict) and set(data) <= set(allowed), f"not of the keys {allowed}:", data)
+    return dict(data)
 
 
-def entries(data: object, length: int | None = None) -> list[object]:
+def entries(data: Json, length: int | None = None) -> list[Json]:
     """A JSON list."""
-    if not isinstance(data, list) or (length is not None and len(data) != length):
-        raise NoProofError(f"the scene: not a list as needed: {data!r:.99}")
-    return data
+    need(isinstance(data, list) and length in (None, len(data)), "not a list as needed:", data)
+    return list(data)
 
 
-def polynomial(data: object = ()) -> RPoly:
-    """The polynomial that a list of numbers is; none stands for 0."""
-    return trimmed([number(c) for c in entries(data)] if data != () else [])  # type: ignore[no-any-return]
+def polynomial(data: Json) -> Rationals:
+    """The polynomial that a list of numbers is."""
+    return trimmed([number(c) for c in entries(data)])
 
 
-def pair(data: object) -> tuple[Fraction, Fraction]:
+def pair(data: Json) -> Point:
     """Two numbers."""
     x, y = entries(data, 2)
     return number(x), number(y)
@@ -427,101 +408,100 @@ class Body:
     """A body: the tracks of its vertices, in each piece of its motion.
 
     Attributes:
-        breaks: the times at which the formulas change; piece k ends at breaks[k].
-        first: the number of its first vertex in the scene.
-        size: how many vertices it has.
+        breaks: the times at which formulas change; piece k ends at breaks[k], the last never.
+        first: the number of its first vertex in the scene; size: how many it has.
         closed: whether it is a polygon with its inside.
     """
 
-    def __init__(self, data: object, first: int) -> None:
+    def __init__(self, data: Json, first: int) -> None:
         body = keys(data, "name", "vertices", "motion", "closed", "keyframes")
-        if ("vertices" in body) == ("keyframes" in body) or not isinstance(body.get("name"), str):
-            raise NoProofError(f"the scene: a body needs a name, and vertices or keyframes: {data}")
-        self.name, self.first = str(body["name"]), first
-        self.shapes: list[tuple[Fraction | None, Shape]] = list(_shapes(body))
-        self.motions = list(_motions(body.get("motion", {})))
+        need(("vertices" in body) != ("keyframes" in body), "vertices or keyframes:", data)
+        self.name, self.first, closed = body.get("name"), first, body.get("closed", True)
+        need(isinstance(self.name, str) and isinstance(closed, bool), "name or closed:", data)
+        self.shapes: list[tuple[Fraction | float, Shape]] = (
+            keyframes(body["keyframes"])
+            if "keyframes" in body
+            else [(inf, [resting(v) for v in entries(body["vertices"])])]
+        )
+        self.motions = motions(body.get("motion", {}))
         self.size = len(self.shapes[0][1])
-        if body.get("closed", True) not in (True, False) or not self.size:
-            raise NoProofError(f"the scene: body {self.name!r}: closed, or without vertices")
-        self.closed = bool(body.get("closed", True)) and self.size > 2
-        ends = {until for until, _ in [*self.shapes, *self.motions] if until is not None}
-        self.breaks = sorted(ends)
-        self._tracks: dict[tuple[int, int], Track] = {}
+        need(self.size, "no vertices:", self.name)
+        self.closed = closed and self.size > 2
+        ends = {t for t, _ in self.shapes} | {t for t, _ in self.motions}
+        self.breaks = sorted(t for t in ends if isinstance(t, Fraction))
+        self.tracks: dict[tuple[int, int], Track] = {}
 
     def track(self, i: int, piece: int) -> Track:
         """The track of vertex i in a piece."""
-        if (i, piece) not in self._tracks:
-            last = self.breaks[piece] if piece < len(self.breaks) else None
-            shape = _piece_up_to(self.shapes, last)
-            self._tracks[i, piece] = moved(_piece_up_to(self.motions, last), shape[i])  # type: ignore[index,arg-type]
-        return self._tracks[i, piece]
+        if (i, piece) not in self.tracks:
+            t = self.breaks[piece - 1] if piece else -inf
+            shape = next(shape for end, shape in self.shapes if end > t)
+            motion = next(motion for end, motion in self.motions if end > t)
+            self.tracks[i, piece] = moved(motion, *shape[i])
+        return self.tracks[i, piece]
+
+    def vertices(self) -> range:
+        """The numbers of its vertices in the scene."""
+        return range(self.first, self.first + self.size)
 
     def edges(self) -> list[Dart]:
         """The edges, as numbers of vertices in the scene."""
-        path = list(range(self.first, self.first + self.size))
+        path = self.vertices()
         return [*pairwise(path), *([(path[-1], path[0])] if self.closed else [])]
 
 
-def _shapes(body: dict[str, object]) -> Iterator[tuple[Fraction | None, Shape]]:
-    if "vertices" in body:
-        yield None, [_rest(v) for v in entries(body["vertices"])]
-        return
-    frames = [keys(f, "t", "vertices") for f in entries(body["keyframes"])]
-    times = [number(f.get("t")) for f in frames]
-    shapes = [[pair(v) for v in entries(f.get("vertices"))] for f in frames]
-    increasing = all(s < t for s, t in pairwise(times))
-    if not frames or not increasing or len(set(map(len, shapes))) > 1:
-        raise NoProofError("the scene: keyframes at increasing times, of one number of vertices")
-    yield times[0], [((x,), (y,)) for x, y in shapes[0]]
-    for k in range(len(frames) - 1):
-        s, span = times[k], times[k + 1] - times[k]
-        lines: Shape = []
-        for p, q in zip(shapes[k], shapes[k + 1], strict=True):
-            slopes = [(b - a) / span for a, b in zip(p, q, strict=True)]
-            x, y = ((a - m * s, m) for a, m in zip(p, slopes, strict=True))
-            lines.append((trimmed(x), trimmed(y)))
-        yield times[k + 1], lines
-    yield None, [((x,), (y,)) for x, y in shapes[-1]]
-
-
-def _rest(data: object) -> tuple[RPoly, RPoly]:
+def resting(data: Json) -> tuple[Rationals, Rationals]:
+    """A vertex in the frame of its body: two numbers, or an object with polynomials x and y."""
     if isinstance(data, dict):
         vertex = keys(data, "x", "y")
-        return polynomial(vertex.get("x", ())), polynomial(vertex.get("y", ()))
+        return polynomial(vertex.get("x", [])), polynomial(vertex.get("y", []))
     x, y = pair(data)
     return trimmed((x,)), trimmed((y,))
 
 
-def _motions(data: object) -> Iterator[tuple[Fraction | None, dict[str, object]]]:
-    if not isinstance(data, dict) or "pieces" not in data:
-        yield None, keys(data, "x", "y", "rigid", "affine")
-        return
-    pieces = [keys(p, "until", "motion") for p in entries(keys(data, "pieces")["pieces"])]
-    ends = [number(p["until"]) for p in pieces[:-1] if "until" in p]
-    increasing = all(s < t for s, t in pairwise(ends))
-    if len(ends) != len(pieces) - 1 or "until" in pieces[-1] or not increasing:
-        raise NoProofError('the scene: "until" belongs to all pieces but the last, and increases')
-    for end, piece in zip([*ends, None], pieces, strict=True):
-        yield end, keys(piece.get("motion"), "x", "y", "rigid", "affine")
+def keyframes(data: Json) -> list[tuple[Fraction | float, Shape]]:
+    """Linear between keyframes, at rest before the first and after the last: (until, shape)."""
+    frames = [keys(f, "t", "vertices") for f in entries(data)]
+    path = [(number(f.get("t")), list(map(pair, entries(f.get("vertices"))))) for f in frames]
+    need(path and len({len(shape) for _, shape in path}) == 1, "keyframes:", data)
+    need(all(s < t for (s, _), (t, _) in pairwise(path)), "keyframes not in order:", data)
+
+    def lines(s: Fraction, p: list[Point], t: Fraction, q: list[Point]) -> Shape:
+        slopes = [[(d - c) / (t - s) for c, d in zip(a, b, strict=True)] for a, b in zip(p, q)]  # noqa: B905
+        return [
+            (trimmed((a[0] - m[0] * s, m[0])), trimmed((a[1] - m[1] * s, m[1])))
+            for a, m in zip(p, slopes, strict=True)
+        ]
+
+    (first, p), (last, q) = path[0], path[-1]
+    before: list[tuple[Fraction | float, Shape]] = [(first, lines(first - 1, p, first, p))]
+    inner = [(t, lines(s, a, t, b)) for (s, a), (t, b) in pairwise(path)]
+    return [*before, *inner, (inf, lines(last, q, last + 1, q))]
 
 
-def _piece_up_to(pieces: Sequence[tuple[Fraction | None, object]], last: Fraction | None) -> object:
-    """Of pieces (until, what): the one that holds just before a time; None: at the end."""
-    return next(p for end, p in pieces if end is None or (last is not None and end >= last))
+def motions(data: Json) -> list[tuple[Fraction | float, dict[str, Json]]]:
+    """The motions of a body, one after the other: (until, motion)."""
+    pieces = [{"motion": data}]
+    if isinstance(data, dict) and "pieces" in data:
+        pieces = [keys(p, "until", "motion") for p in entries(keys(data, "pieces")["pieces"])]
+    known = [*("until" in p for p in pieces[:-1]), pieces and "until" not in pieces[-1]]
+    need(all(known), '"until" belongs to all pieces but the last:', data)
+    ends = [*(number(p["until"]) for p in pieces[:-1]), inf]
+    need(all(s < t for s, t in pairwise(ends)), "pieces not in order:", data)
+    found = [keys(p.get("motion"), "x", "y", "rigid", "affine") for p in pieces]
+    return list(zip(ends, found, strict=True))
 
 
-def moved(motion: dict[str, object], vertex: tuple[RPoly, RPoly]) -> Track:
-    """The track of a vertex, carried by a motion of the scene file."""
-    one: RPoly = (Fraction(1),)
+def moved(motion: dict[str, Json], x: Rationals, y: Rationals) -> Track:
+    """The track of a vertex that a motion carries."""
+    one: Rationals = (Fraction(1),)
     w, data = one, motion
-    x, y = vertex
     if "rigid" in motion:
         # A turn by the angle a with tan(a / 2) = h: (1 - h^2, 2 h) / (1 + h^2) is (cos, sin).
         data = keys(keys(motion, "rigid")["rigid"], "half_turn", "pivot", "x", "y")
-        h = polynomial(data.get("half_turn"))
-        px, py = pair(data["pivot"]) if "pivot" in data else (Fraction(0), Fraction(0))
+        h, (px, py) = polynomial(data.get("half_turn")), pair(data.get("pivot", ["0", "0"]))
         w, cosine, sine = add(one, mul(h, h)), sub(one, mul(h, h)), add(h, h)
-        dx, dy = sub(x, (px,)), sub(y, (py,))
+        dx, dy = sub(x, trimmed((px,))), sub(y, trimmed((py,)))
         x = add(sub(mul(cosine, dx), mul(sine, dy)), scale(w, px))
         y = add(add(mul(sine, dx), mul(cosine, dy)), scale(w, py))
     elif "affine" in motion:
@@ -529,25 +509,20 @@ def moved(motion: dict[str, object], vertex: tuple[RPoly, RPoly]) -> Track:
         rows = [entries(row, 2) for row in entries(data.get("matrix"), 2)]
         (a, b), (c, d) = ([polynomial(p) for p in row] for row in rows)
         x, y = add(mul(a, x), mul(b, y)), add(mul(c, x), mul(d, y))
-    x = add(x, mul(w, polynomial(data.get("x", ()))))
-    y = add(y, mul(w, polynomial(data.get("y", ()))))
+    x = add(x, mul(w, polynomial(data.get("x", []))))
+    y = add(y, mul(w, polynomial(data.get("y", []))))
     m = lcm(*(c.denominator for f in (x, y, w) for c in f))
-    of_x, of_y, of_w = (tuple([int(c * m) for c in f]) for f in (x, y, w))
-    m = gcd(*of_x, *of_y, *of_w)
-    return (
-        tuple([c // m for c in of_x]),
-        tuple([c // m for c in of_y]),
-        tuple([c // m for c in of_w]),
-    )
+    f, g, h_ = ([int(c * m) for c in f] for f in (x, y, w))
+    m = gcd(*f, *g, *h_)
+    return tuple([c // m for c in f]), tuple([c // m for c in g]), tuple([c // m for c in h_])
 
 
 class Scene:
     """All bodies; their vertices are numbered through."""
 
     def __init__(self, text: str) -> None:
-        def unique(pairs: list[tuple[str, object]]) -> dict[str, object]:
-            if len({k for k, _ in pairs}) < len(pairs):
-                raise NoProofError("the scene: a key is there twice")
+        def unique(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
+            need(len({k for k, _ in pairs}) == len(pairs), "a key is there twice:", pairs)
             return dict(pairs)
 
         try:
@@ -555,17 +530,15 @@ class Scene:
         except (ValueError, RecursionError) as error:
             raise NoProofError(f"the scene is not JSON: {error}") from None
         top = keys(data, "exactpt", "time", "bodies")
-        if top.get("exactpt") != "1":
-            raise NoProofError("the scene is not of format 1")
+        need(top.get("exactpt") == "1", "not of format 1:", top.get("exactpt"))
         self.start, self.end = pair(top.get("time"))
+        need(self.start < self.end, "an empty time span:", top["time"])
         self.bodies: list[Body] = []
         self.body_of: list[int] = []
         for i, entry in enumerate(entries(top.get("bodies"))):
             self.bodies.append(Body(entry, len(self.body_of)))
             self.body_of += [i] * self.bodies[-1].size
-        if self.start >= self.end or len({b.name for b in self.bodies}) < len(self.bodies):
-            raise NoProofError("the scene: an empty time span, or a name that is there twice")
-        self._at: tuple[Fraction, dict[int, Point]] = self.start, {}
+        self.known: tuple[Fraction, dict[int, Point]] = self.start, {}
 
     def of(self, v: int) -> Body:
         """The body of a vertex."""
@@ -582,27 +555,17 @@ class Scene:
 
     def at(self, v: int, t: Fraction) -> Point:
         """Where a vertex is at a rational time."""
-        if self._at[0] != t:
-            self._at = t, {}
-        known = self._at[1]
-        if v not in known:
-            x, y, w = self.track(v, t)
-            n, d, degree = t.numerator, t.denominator, max(len(x), len(y), len(w)) - 1
-            known[v] = tuple(value_at(f, n, d, degree) for f in (x, y, w))  # type: ignore[assignment]
-        return known[v]
-
-    def place(self, v: int, t: Fraction) -> tuple[Fraction, Fraction]:
-        """Where a vertex is at a rational time, as two coordinates."""
-        x, y, w = self.at(v, t)
-        return Fraction(x, w), Fraction(y, w)
+        if self.known[0] != t:
+            self.known = t, {}
+        if v not in self.known[1]:
+            x, y, w = (sum((c * t**i for i, c in enumerate(f)), t * 0) for f in self.track(v, t))
+            self.known[1][v] = x / w, y / w
+        return self.known[1][v]
 
     def breaks(self, vertices: Iterable[int], start: Time, end: Time) -> list[Fraction]:
-        """The breakpoints of some vertices strictly between two times."""
-        found = {q for i in {self.body_of[v] for v in vertices} for q in self.bodies[i].breaks}
-        if not found:
-            return []
-        inside = (q for q in found if start.compare_rational(q) < 0 < end.compare_rational(q))
-        return sorted(inside)
+        """The breakpoints of some vertices strictly between two times, in order."""
+        found = {q for v in vertices for q in self.of(v).breaks}
+        return sorted(q for q in found if start.compare_rational(q) < 0 < end.compare_rational(q))
 
     def pieces(
         self, vertices: Sequence[int], start: Time, end: Time
@@ -613,39 +576,34 @@ class Scene:
             # No breakpoint is after a.low and before a: `breaks` has compared them.
             yield a, b, [self.track(v, a.low) for v in vertices]
 
-    def tracks_at(self, vertices: Sequence[int], time: Time) -> list[Track]:
+    def tracks_at(self, vertices: Iterable[int], time: Time) -> dict[int, Track]:
         """Tracks of some vertices that hold at a time."""
-        while any(time.low < q < time.high for v in vertices for q in self.of(v).breaks):
-            time.refine()
-        return [self.track(v, time.low) for v in vertices]
+        for q in {q for v in vertices for q in self.of(v).breaks}:
+            time.compare_rational(q)  # so that no breakpoint is inside the interval of the time
+        return {v: self.track(v, time.low) for v in vertices}
 
     def is_rigid(self, body: Body, end: Fraction) -> bool:
         """Whether lengths, dot and cross products of successive edges are constant.
 
         Then the shape is, up to a motion of the plane: it never changes, nor is it mirrored.
         """
-        n = body.size
-        pieces = [self.start, *(q for q in body.breaks if self.start < q < end)]
-        return all(self._keeps_shape(body, k % n, t) for t in pieces for k in range(n))
+        n, path = body.size, [*body.vertices()]
+        triples = [(path[k - 1], path[k], path[(k + 1) % n]) for k in range(n)]
+        if not body.closed:
+            triples = triples[1:-1] if n > 2 else [(v, path[0], v) for v in path[1:]]
+        times = [self.start, *(q for q in body.breaks if self.start < q < end)]
+        return all(self.keeps_shape(*t, time) for time in times for t in triples)
 
-    def _keeps_shape(self, body: Body, k: int, t: Fraction) -> bool:
-        vertices = [body.first + (k + i) % body.size for i in range(3)]
-        if not body.closed and k + 2 >= body.size:
-            vertices = vertices[: max(0, body.size - k)]
-        if len(vertices) < 2:
-            return True
-        tracks = [self.track(v, t) for v in vertices]
-        a, v, b = tracks[0], tracks[1], tracks[-1]
-        w = mul(mul(a[2], b[2]), mul(v[2], v[2]))
-        square = mul(a[2], v[2])
-        forms = [(dot_of(a, v, a), mul(square, square))]
-        if len(tracks) == 3:
-            # `orientation` has the denominator w(a) w(v) w(b).
-            forms += [(dot_of(a, v, b), w), (orientation_of(a, v, b), mul(mul(a[2], v[2]), b[2]))]
-        for f, g in forms:
-            n, d = t.numerator, t.denominator
-            degree = max(len(f), len(g), 1) - 1
-            if sub(scale(f, value_at(g, n, d, degree)), scale(g, value_at(f, n, d, degree))):
+    def keeps_shape(self, i: int, j: int, k: int, t: Fraction) -> bool:
+        """Whether two edges, ij and jk, keep their lengths and their angle from a time on."""
+        a, v, b = (self.track(u, t) for u in (i, j, k))
+        of_a, of_b, of_v = (mul(w[2], v[2]) for w in (a, b, v))
+        forms = [(dot_of(a, v, a), mul(of_a, of_a)), (dot_of(b, v, b), mul(of_b, of_b))]
+        forms += [(dot_of(a, v, b), mul(of_a, of_b)), (orientation_of(a, v, b), mul(of_a, b[2]))]
+        for f, g in forms:  # the quotient f / g
+            d = t.denominator ** max(len(f), len(g))
+            at = (int(d * sum((c * t**i for i, c in enumerate(h)), t * 0)) for h in (g, f))
+            if sub(scale(f, next(at)), scale(g, next(at))):
                 return False
         return True
 
@@ -669,31 +627,29 @@ class PlanarMap:
         self.out: list[set[int]] = [set() for _ in range(vertices)]
         self.faces: dict[int, list[Dart]] = {}
         self.face_of: dict[Dart, int] = {}
-        self._faces_made = 0
+        self.made = 0
 
     def add_face(self, face: list[Dart]) -> int:
         """Add a face; its number."""
-        self._faces_made += 1
-        self.faces[self._faces_made] = face
-        for d in face:
-            self.face_of[d] = self._faces_made
-        return self._faces_made
+        self.made += 1
+        self.faces[self.made] = face
+        self.face_of.update(dict.fromkeys(face, self.made))
+        return self.made
 
     def begin(self, cycles: Iterable[list[int]]) -> None:
         """Make the map of these faces; all of step 2 but for bodies."""
         for cycle in cycles:
+            require(len(cycle) > 1 or len(self.out) == 1, f"a face of one vertex, {cycle}")
             face = list(pairwise([*cycle, cycle[0]])) if len(cycle) > 1 else []
             for d, e in pairwise([*face, *face[:1]]):
-                require(d not in self.after, f"the half-edge {d} is in two faces, or twice in one")
-                require(d[0] != d[1], f"an edge from {d[0]} to itself")
+                require(d not in self.after and d[0] != d[1], f"the half-edge {d} is there twice")
                 self.after[d], self.before[e] = e, d
                 self.out[d[0]].add(d[1])
             self.add_face(face)
         for u, v in self.after:
             require((v, u) in self.after, f"the edge {u} {v} has a face on one side alone")
         for v, around in enumerate(self.out):
-            require(not around or len(self.clockwise(v)) == len(around), f"two fans at vertex {v}")
-        self.check_euler()
+            require(len(self.clockwise(v)) == len(around), f"vertex {v} has more than one fan")
         reached, todo = {0}, [0]
         while todo:
             new = self.out[todo.pop()] - reached
@@ -717,71 +673,59 @@ class PlanarMap:
 
     def change(
         self, removed: list[Dart], added: list[tuple[int, ...]]
-    ) -> tuple[set[Dart], list[Dart]]:
+    ) -> tuple[set[Dart], set[Dart]]:
         """Change the map, all but its faces.
 
         Returns:
-            The half-edges that have gone, and those with another one before or after them;
-            and of the latter, those with another one before.
+            The half-edges that have gone, or have another one before or after them; and those
+            that have another one before them, so that their angles are new.
         """
         fans = {v: self.clockwise(v) for d in [*removed, *(i[:2] for i in added)] for v in d}
-        touched: set[Dart] = set()
+        touched, changed = set[Dart](), set[Dart]()
         for u, v in removed:
             require((u, v) in self.after, f"there is no edge {u} {v} that could go")
-            for d in ((u, v), (v, u)):
-                fans[d[0]].remove(d[1])
-                self.out[d[0]].remove(d[1])
-                del self.after[d], self.before[d]
-                touched.add(d)
-        waiting: dict[int, list[Dart]] = {}
+            for a, b in ((u, v), (v, u)):
+                fans[a].remove(b)
+                self.out[a].remove(b)
+                del self.after[a, b], self.before[a, b]
+                touched.add((a, b))
+        places: list[tuple[int, int, int]] = []  # at a vertex, the new one stands before another
         for u, v, w, x in added:
             require(u != v and v not in self.out[u], f"the edge {u} {v} is there, or no edge")
             self.out[u].add(v)
             self.out[v].add(u)
-            waiting.setdefault(v, []).append((u, w))
-            waiting.setdefault(u, []).append((v, x))
-        for v, new in waiting.items():
-            self._insert(fans[v], new)
-        changed: list[Dart] = []
+            places += [(v, u, w), (u, v, x)]
+        while places:
+            ready = [(v, u, w) for v, u, w in places if w in fans[v]]
+            ready = ready or [p for p in places if not fans[p[0]]][:1]
+            require(ready, f"the places {places} of new edges are not there")
+            for v, u, w in ready:
+                fans[v].insert(fans[v].index(w) if w in fans[v] else 0, u)
+                places.remove((v, u, w))
         for v, fan in fans.items():
             for u, w in pairwise([*fan, *fan[:1]]):
                 if self.after.get((u, v)) != (v, w) or self.before.get((v, w)) != (u, v):
                     self.after[u, v], self.before[v, w] = (v, w), (u, v)
                     touched |= {(u, v), (v, w)}
-                    changed.append((v, w))
+                    changed.add((v, w))
         for u, v, w, x in added:
             placed = self.after[u, v] == (v, w) and self.after[v, u] == (u, x)
-            require(placed, f"the edge {u} {v} cannot stand where its item says")
+            require(placed, f"the edge {u} {v} does not stand where its item says")
         for u, v in removed:
-            require(self._joined(u, v), f"without the edge {u} {v} the map is not connected")
+            require(self.joined(u, v), f"without the edge {u} {v} the map is not connected")
         return touched, changed
 
-    @staticmethod
-    def _insert(fan: list[int], new: list[Dart]) -> None:
-        """Put each new one directly before the one that it names, which may be new itself."""
-        if not fan:
-            fan.append(new.pop()[0])
-        while new:
-            ready = [(u, w) for u, w in new if w in fan]
-            require(ready, f"new edges to {[u for u, _ in new]} name no place around their vertex")
-            for u, w in ready:
-                fan.insert(fan.index(w), u)
-                new.remove((u, w))
-
-    def _joined(self, u: int, v: int) -> bool:
+    def joined(self, u: int, v: int) -> bool:
         """Whether a path joins two vertices; searched for from both ends in turn."""
-        seen, fronts = [{u}, {v}], [[u], [v]]
-        while fronts[0] and fronts[1]:
-            if not seen[0].isdisjoint(seen[1]):
-                return True
-            for known, front in zip(seen, fronts, strict=True):
-                new = {y for x in front for y in self.out[x]} - known
-                known.update(new)
-                front[:] = new
+        seen, fronts = ({u}, {v}), [{u}, {v}]
+        while all(fronts) and seen[0].isdisjoint(seen[1]):
+            for i in (0, 1):
+                fronts[i] = {y for x in fronts[i] for y in self.out[x]} - seen[i]
+                seen[i].update(fronts[i])
         return not seen[0].isdisjoint(seen[1])
 
     def make_faces(self, touched: set[Dart]) -> list[int]:
-        """Make the faces around half-edges that have changed anew."""
+        """Make the faces around half-edges that have changed anew; the new ones."""
         old = {self.face_of[d] for d in touched if d in self.face_of}
         pool = {d for f in old for d in self.faces.pop(f)} | touched
         for d in pool - self.after.keys():
@@ -789,12 +733,10 @@ class PlanarMap:
         pool &= self.after.keys()
         made = []
         while pool:
-            first = d = min(pool)
-            face: list[Dart] = []
-            while not face or d != first:
+            face = [min(pool)]
+            while (d := self.after[face[-1]]) != face[0]:
                 face.append(d)
-                d = self.after[d]
-            pool -= set(face)
+            pool.difference_update(face)
             made.append(self.add_face(face))
         return made
 
@@ -805,39 +747,40 @@ class PlanarMap:
 CONVEX, REFLEX, FLAT, FULL = "convex", "reflex", "flat", "full"
 
 
+@dataclass
 class Life:
     """The life of the angle of a half-edge v -> w, with u -> v before it.
 
-    Attributes:
-        u: where the half-edge before it starts.
-        since: when the life has begun; line: by which line.
-        kind: one of four, from the sample on.
+    It has begun at a time, by a line; its kind is known from the sample on.
     """
 
-    def __init__(self, u: int, since: Time, line: int) -> None:
-        self.u, self.since, self.line, self.kind = u, since, line, ""
+    u: int
+    since: Time
+    line: int
+    kind: str = ""
+
+
+def form(kind: str, a: Track, p: Track, b: Track) -> Poly:
+    """What vanishes with an angle of a kind."""
+    return dot_of(a, p, b) if kind in (FLAT, FULL) else orientation_of(a, p, b)
 
 
 class Checker:
-    """Goes through a proof, interval by interval."""
+    """Goes through a proof, interval by interval. ``line`` is the one that is looked at."""
 
     def __init__(self, scene: Scene) -> None:
-        self.scene, self.end = scene, scene.end
-        self.line = 0
+        self.scene, self.end, self.line = scene, scene.end, 0
         self.now = Time(scene.start)
         self.map = PlanarMap(len(scene.body_of))
         self.body_darts = {d for b in scene.bodies for u, v in b.edges() for d in ((u, v), (v, u))}
-        self.ahead: dict[int, int] = {}
-        self.behind: dict[int, int] = {}
+        self.rings: list[list[int]] = []  # of rigid closed bodies
+        self.ahead: dict[int, int] = {}  # on the ring of a closed body, counter-clockwise
         self.rigid: list[bool] = []
         self.solid: set[Dart] = set()
         self.life: dict[Dart, Life] = {}
         self.new_angles: set[Dart] = set()
         self.new_faces: set[int] = set()
         self.outer: set[int] = set()
-        size = max(abs(x) for v in range(len(scene.body_of)) for x in scene.place(v, scene.start))
-        bits = size.numerator.bit_length() - size.denominator.bit_length()
-        self.grid = Fraction(2) ** (40 - bits)
 
     # The lines, and step 7: times increase.
 
@@ -848,30 +791,29 @@ class Checker:
         start, self.end = rational(words[1]), rational(words[2])
         within = start == self.scene.start < self.end <= self.scene.end
         require(within, "the time span is not one of the scene")
-        self.read_bodies()
-        cycles: list[list[int]] = []
-        for self.line, words in takewhile(lambda r: r[1][0] in FACES, rows[1:]):
-            cycles.append([integer(w) for w in words[1:]])
-            require(cycles[-1], "a face without vertices")
-            self.check_numbers(cycles[-1])
-        if not cycles:
-            return self.check_start_alone(rows[1:])
-        self.begin(cycles)
-        for number, words in rows[1 + len(cycles) :]:
+        for body in self.scene.bodies:
+            self.read_body(body)
+        faces = list(takewhile(lambda row: row[1][0] in ("face", "inside", "outer"), rows[1:]))
+        rows = rows[1 + len(faces) :]
+        for self.line, words in faces:
+            require(len(words) > 1, "a face without vertices")
+            self.check_vertices(*map(integer, words[1:]))
+        if faces:
+            self.begin([[integer(w) for w in words[1:]] for _, words in faces])
+        for number, words in rows:
             made, self.line = self.line, number
             final = words[0] != "event"
-            require(final == (number == rows[-1][0]), f"{words[0]} is not where it belongs")
+            require(final == (words is rows[-1][1]), f"{words[0]} is not where it belongs")
             time, rest = (Time(self.end), []) if words == ["none"] else self.read_time(words[1:])
-            require(self.now.compare(time) < 0, "times do not increase")
-            self.line = made
-            self.look_at(between(self.now, time))
-            if self.now.compare_rational(start) == 0:
-                self.check_start()
-            self.line = number
+            require(time.compare_rational(self.end) <= 0, "a time after the time span")
+            if faces or time.compare(self.now) != 0:
+                require(self.now.compare(time) < 0, "times do not increase")
+                self.line = made
+                self.look_at(between(self.now, time))
+                self.line = number
             if not final:
                 self.event(time, read_items(rest))
                 continue
-            require(time.compare_rational(self.end) <= 0, "the contact is after the time span")
             self.end_lives(set(self.life), time, at_end=words == ["none"])
             if words == ["none"]:
                 return f"accepted: no contact from t = {start} to t = {self.end}"
@@ -880,134 +822,114 @@ class Checker:
             return f"accepted: no contact before T = {time}; contact of {what} at T"
         raise Rejected("the last line is missing")
 
-    def check_start_alone(self, rows: list[tuple[int, list[str]]]) -> str:
-        """Check a contact at the start, which needs no map."""
-        self.line, words = rows[0]
-        require(words[0] == "contact" and len(rows) == 1, "neither faces nor a contact")
-        time, rest = self.read_time(words[1:])
-        require(time.compare_rational(self.scene.start) == 0, "without faces, T is the start")
-        what = self.check_contact(rest, time)
-        return f"accepted: no contact before T = {time}, the start; contact of {what} at T"
-
     def read_time(self, words: list[str]) -> tuple[Time, list[str]]:
         """The time at the beginning of these words, and what is left of them."""
-        require(len(words) >= 2, "a time is missing")
+        require(len(words) > 1, "a time is missing")
         low, high = rational(words[0]), rational(words[1])
         named = words[2:3] == ["@"]
-        first = last = 3 if named else 2
-        while last < len(words) and re.fullmatch(r"-?\d+", words[last], re.ASCII):
-            last += 1
-        numbers = [integer(w) for w in words[first:last]]
+        numbers = [*takewhile(INTEGER.fullmatch, words[2 + named :])]
+        rest = words[2 + named + len(numbers) :]
         if low == high:
-            return Time(low), words[last:]
+            return Time(low), rest
         require(low < high, f"no interval: from {low} to {high}")
-        f = self.polynomial_of(numbers, low, high) if named else trimmed(numbers)
-        require(f, "no time is named by what is 0 always")
+        name = [integer(w) for w in numbers]
+        f = self.named(name, low, high) if named else trimmed(name)
+        require(f, "no time is named by what is always 0")
         roots = list(roots_in(square_free(f), low, high))
         require(len(roots) == 1, f"{len(roots)} roots between {low} and {high}, not one")
-        while not roots[0].is_rational and (roots[0].high - roots[0].low) * 2**20 > self.end:
-            roots[0].refine()
-        return roots[0], words[last:]
+        while (roots[0].high - roots[0].low) * 2**20 > self.end - self.scene.start:
+            roots[0].refine()  # for speed alone
+        return roots[0], rest
 
-    def polynomial_of(self, v: list[int], low: Fraction, high: Fraction) -> Poly:
-        """What vanishes at a time that is named by vertices."""
-        scene = self.scene
-        self.check_numbers(v)
-        require(len(v) in (2, 3), "a time is named by two vertices, or three")
-        breaks = scene.breaks(v, Time(low), Time(high))
-        require(not breaks, f"a breakpoint, {breaks[:1]}, is between {low} and {high}")
-        tracks = [scene.track(u, low) for u in v]
-        return orientation_of(*tracks) if len(v) == 3 else vector_of(*tracks)[0]
+    def named(self, name: list[int], low: Fraction, high: Fraction) -> Poly:
+        """The polynomial that is named by vertices."""
+        self.check_vertices(*name)
+        breaks = self.scene.breaks(name, Time(low), Time(high))
+        require(not breaks, f"a breakpoint is between {low} and {high}")
+        require(len(name) in (2, 3), "a time is named by two vertices, or three")
+        tracks = [self.scene.track(v, low) for v in name]
+        return orientation_of(*tracks) if len(name) == 3 else vector_of(*tracks)[0]
+
+    def check_vertices(self, *vertices: int) -> None:
+        """See that these are numbers of vertices."""
+        n = len(self.scene.body_of)
+        require(all(0 <= v < n for v in vertices), f"vertices are 0 to {n - 1}: {vertices}")
 
     # Step 1: the scene.
 
-    def read_bodies(self) -> None:
-        """Look at each body by itself."""
-        self.rigid = [self.scene.is_rigid(body, self.end) for body in self.scene.bodies]
-        for body, rigid in zip(self.scene.bodies, self.rigid, strict=True):
-            self.read_body(body, rigid=rigid)
-
-    def read_body(self, body: Body, *, rigid: bool) -> None:
+    def read_body(self, body: Body) -> None:
         """Look at a body by itself."""
-        start, every = self.scene.start, range(body.first, body.first + body.size)
-        for q in (q for q in body.breaks if start < q <= self.end):
-            k = body.breaks.index(q)
-            for i in range(body.size):
-                # The track of the piece before, minus that of the piece after.
-                difference = vector_of(body.track(i, k), body.track(i, k + 1))
-                if any(sign_at(f, q) for f in difference):
-                    raise NoProofError(f"the scene: {body.name} vertex {i} jumps at t = {q}")
-        points = [self.scene.at(v, start) for v in every]
+        start, vertices = Time(self.scene.start), [*body.vertices()]
+        for k, q in enumerate(body.breaks):
+            for i in range(body.size if start.low < q <= self.end else 0):
+                jump = vector_of(body.track(i, k), body.track(i, k + 1))
+                need(not any(sign_at(f, q) for f in jump), f"vertex {i} jumps:", body.name)
+        self.rigid.append(self.scene.is_rigid(body, self.end))
         if not body.closed:
             return
-        places = [self.scene.place(v, start) for v in every]
+        places = [self.scene.at(v, start.low) for v in vertices]
         area = sum(p[0] * q[1] - p[1] * q[0] for p, q in pairwise([*places, places[0]]))
-        require(area, f"body {body.name} has no area at the start")
-        ring = body.edges() if area > 0 else [(v, u) for u, v in body.edges()]
-        self.ahead.update(ring)
-        self.behind.update((v, u) for u, v in ring)
-        if rigid:
-            self.solid.update(ring)
-            require(is_simple(points), f"body {body.name} is not simple at the start")
+        need(area, "no area at the start:", body.name)
+        ring = vertices if area > 0 else vertices[::-1]
+        edges = [*pairwise([*ring, ring[0]])]
+        self.ahead.update(edges)
+        if self.rigid[-1]:
+            tracks = [self.scene.track(v, start.low) for v in vertices]
+            need(is_simple(tracks, places, start), "not simple at the start:", body.name)
+            self.rings.append(ring)
+            self.solid.update(edges)
 
     # Step 2: the map, and its changes.
 
     def begin(self, cycles: list[list[int]]) -> None:
         """Take the faces at the start."""
-        solid = []
-        for body, rigid in zip(self.scene.bodies, self.rigid, strict=True):
-            if body.closed and rigid:
-                ring = [body.first]
-                while len(ring) < body.size:
-                    ring.append(self.ahead[ring[-1]])
-                solid.append(ring)
-        self.map.begin([*cycles, *solid])
+        self.map.begin([*cycles, *self.rings])
+        self.map.check_euler()
         for u, v in self.body_darts:
             require((u, v) in self.map.after, f"the body edge {u} {v} is missing")
-        for v in self.ahead:
-            self.check_inside(v)
+        self.check_insides(self.ahead)
         self.new_faces = set(self.map.faces)
-        self.begin_lives(self.map.after)
+        self.begin_lives(set(self.map.after))
 
-    def check_inside(self, v: int) -> None:
-        """See that edges from v into the inside of its body lead to that body."""
-        order = self.map.clockwise(v)
-        i, n = order.index(self.behind[v]), len(order)
-        while order[i % n] != self.ahead[v]:
-            other = order[i % n]
-            same = self.scene.body_of[other] == self.scene.body_of[v]
-            require(same, f"the edge {v} {other} runs inside a body to another one")
-            i += 1
+    def check_insides(self, vertices: Iterable[int]) -> None:
+        """See that edges from vertices into the inside of their body lead to that body."""
+        for v in vertices:
+            # Clockwise from the edge behind v, up to the one ahead, is the inside.
+            order = self.map.clockwise(v)
+            i = next(i for i, u in enumerate(order) if self.ahead.get(u) == v)
+            order = order[i:] + order[:i]
+            for u in order[: order.index(self.ahead[v])]:
+                same = self.scene.body_of[u] == self.scene.body_of[v]
+                require(same, f"the edge {v} {u} runs inside a body to another one")
 
-    def begin_lives(self, darts: Iterable[Dart]) -> None:
+    def begin_lives(self, darts: set[Dart]) -> None:
         """Let the lives of angles begin now."""
-        for d in darts:
-            if d not in self.solid:
-                self.life[d] = Life(self.map.before[d][0], self.now, self.line)
-                self.new_angles.add(d)
+        for d in darts - self.solid:
+            self.life[d] = Life(self.map.before[d][0], self.now, self.line)
+            self.new_angles.add(d)
 
     def event(self, time: Time, items: Items) -> None:
         """Let all that happens at one time happen."""
         removed, added, renewed = items
+        self.check_vertices(*(v for item in [*removed, *added] for v in item))
         for u, v in [*removed, *(i[:2] for i in added)]:
             require((u, v) not in self.body_darts, f"the body edge {u} {v} cannot go or come")
         for d in renewed:
-            require(d in self.life, f"there is no angle {d[0]} {d[1]} to be taken anew")
+            require(d in self.life, f"there is no angle of {d} to be taken anew")
         touched, changed = self.map.change(removed, added)
         for d in touched & self.solid:
-            require(self.map.after[d] in self.solid, f"an edge inside a rigid body, at {d[0]}")
-        # Angles that end, with the faces of the map before: steps 3 and 6.
-        gone = touched - self.map.after.keys()
-        self.end_lives({*gone, *changed, *renewed} & self.life.keys(), time, at_end=True)
+            require(self.map.after[d] in self.solid, f"an edge inside a rigid body, at {d}")
+        # Angles that end, in the faces of the map before: steps 3 and 6.
+        ended = (touched - self.map.after.keys()) | changed | set(renewed)
+        self.end_lives(ended & self.life.keys(), time, at_end=True)
         self.now = time
-        self.new_faces.update(self.map.make_faces(touched))
-        renewed = [d for d in renewed if d in self.map.after]
-        self.new_faces.update(self.map.face_of[d] for d in renewed)
+        begun = set(renewed) & self.map.after.keys()
+        made = self.map.make_faces(touched)
+        self.new_faces = {*made, *(self.map.face_of[d] for d in begun)}
         self.outer.intersection_update(self.map.faces)
         self.map.check_euler()
-        for v in {d[0] for d in changed if d[0] in self.ahead}:
-            self.check_inside(v)
-        self.begin_lives([*changed, *renewed])
+        self.check_insides({v for v, _ in changed} & self.ahead.keys())
+        self.begin_lives(changed | begun)
 
     # Steps 3, 4, 5: the interval after now.
 
@@ -1018,55 +940,50 @@ class Checker:
         for f in self.new_faces:
             self.check_face(f, sample)
         require(len(self.outer) == 1, f"{len(self.outer)} faces without a convex angle, not one")
-        for v in {d[0] for d in self.new_angles}:
-            self.check_star(v, sample)
+        for v in {v for v, _ in self.new_angles}:
+            # The next edge counter-clockwise passes the direction 0 once in all.
+            d = [self.direction(v, u, sample) for u in reversed(self.map.clockwise(v))]
+            passes = sum(not comes_before(d[i - 1], e) for i, e in enumerate(d))
+            require(passes == 1, f"the edges of vertex {v} go around it {passes} times")
+        if self.now.compare_rational(self.scene.start) == 0:
+            self.check_start()
         self.new_angles.clear()
-        self.new_faces.clear()
 
     def kind_of(self, u: int, v: int, w: int, sample: Fraction) -> str:
         """Which kind an angle has at the sample."""
-        a, p, b = (self.scene.at(x, sample) for x in (u, v, w))
-        if u == w:
-            require(dot(a, p, b) > 0, f"the edge {u} {v} has no length at t = {sample}")
-            return FULL
-        turn = orientation(a, p, b)
-        if turn:
-            return CONVEX if turn > 0 else REFLEX
-        require(dot(a, p, b) < 0, f"the angle {u} {v} {w} is 0 at t = {sample}")
-        return FLAT
+        tracks = [self.scene.track(x, sample) for x in (u, v, w)]
+        turn = sign_at(orientation_of(*tracks), sample)
+        along = sign_at(dot_of(*tracks), sample) if turn == 0 else 0
+        straight = along > 0 if u == w else along < 0
+        require(turn or straight, f"the angle {u} {v} {w} is 0 at t = {sample}")
+        return CONVEX if turn > 0 else REFLEX if turn < 0 else FULL if u == w else FLAT
 
     def check_face(self, f: int, sample: Fraction) -> None:
         """Step 4."""
         self.outer.discard(f)
         face = self.map.faces[f]
-        if face and face[0] in self.solid:
-            return
-        kinds = [self.life[d].kind for d in face]
+        kinds = [self.life[d].kind for d in face if d not in self.solid]
         convex = kinds.count(CONVEX)
-        shown = " ".join(str(d[0]) for d in face)
-        if convex == 0:
+        shown = " ".join(str(u) for u, _ in face)
+        if convex == 0 and not self.solid.issuperset(face[:1] or [(0, 0)]):
             self.outer.add(f)
+        if convex == 0:
             return
         require(convex >= 3, f"the face {shown} has {convex} convex angles")
         require(FULL not in kinds, f"the face {shown} has a dead end")
         if convex > 3:
             require(REFLEX not in kinds, f"the face {shown} has {convex} convex angles, not three")
-            d = [self.direction(u, v, sample) for u, v in face]
             # The edges turn left, or not at all: count how often they pass the direction 0.
+            d = [self.direction(u, v, sample) for u, v in face]
             turns = sum(comes_before(e, d[i - 1]) for i, e in enumerate(d))
             require(turns == 1, f"the face {shown} turns {turns} times")
 
-    def check_star(self, v: int, sample: Fraction) -> None:
-        """Step 5: the next direction counter-clockwise passes the direction 0 once in all."""
-        d = [self.direction(v, u, sample) for u in reversed(self.map.clockwise(v))]
-        passes = sum(not comes_before(d[i - 1], e) for i, e in enumerate(d))
-        require(passes == 1, f"the edges of vertex {v} go around it {passes} times")
-
-    def direction(self, u: int, v: int, t: Fraction) -> tuple[int, int]:
+    def direction(self, u: int, v: int, t: Fraction) -> Point:
         """The direction from u to v at a rational time."""
-        return vector(self.scene.at(u, t), self.scene.at(v, t))
+        p, q = self.scene.at(u, t), self.scene.at(v, t)
+        return q[0] - p[0], q[1] - p[1]
 
-    def end_lives(self, darts: Iterable[Dart], time: Time, *, at_end: bool) -> None:
+    def end_lives(self, darts: set[Dart], time: Time, *, at_end: bool) -> None:
         """Step 3 for lives that end at a time; and with ``at_end`` step 6 for that time."""
         vanishing = {self.map.face_of[d] for d in sorted(darts) if self.end_life(d, time)}
         if at_end:
@@ -1081,205 +998,126 @@ class Checker:
             return False
         shown = f"the {life.kind} angle {life.u} {d[0]} {d[1]} of line {life.line}"
         vanishes = False
-        for start, end, (a, p, b) in self.scene.pieces(angle, life.since, time):
-            f = () if life.kind == FULL else orientation_of(a, p, b)
+        for start, end, tracks in self.scene.pieces(angle, life.since, time):
             if life.kind in (FLAT, FULL):
-                require(not f, f"{shown} is not straight throughout its life")
-                f = dot_of(a, p, b)
+                straight = not orientation_of(*tracks)
+                require(straight, f"{shown} is not straight throughout its life")
+            f = form(life.kind, *tracks)
             require(f, f"{shown} vanishes throughout a piece of its life")
             inside, vanishes = zeros(f, start, end)
-            vanish_within = inside or (vanishes and end is not time)
-            require(not vanish_within, f"{shown} vanishes during its life")
+            within = inside or (vanishes and end is not time)
+            require(not within, f"{shown} vanishes during its life")
         return vanishes
 
-    # Step 6: a touch at a time between intervals.
+    # Step 6: a contact at a time between intervals.
 
     def check_start(self) -> None:
         """Step 6 at the start."""
-        found = set()
+        start, found = self.scene.start, set()
         for (v, w), life in self.life.items():
-            a, p, b = (self.scene.at(x, self.scene.start) for x in (life.u, v, w))
-            straight = life.kind in (FLAT, FULL)
-            if (dot(a, p, b) if straight else orientation(a, p, b)) == 0:
+            tracks = [self.scene.track(x, start) for x in (life.u, v, w)]
+            if sign_at(form(life.kind, *tracks), start) == 0:
                 found.add(self.map.face_of[v, w])
         self.check_clusters(found, self.now)
 
     def check_clusters(self, faces: set[int], time: Time) -> None:
         """See that there is no contact in the clusters of these faces."""
-        left = set(faces)
-        while left:
-            todo = [left.pop()]
-            cluster: set[Dart] = set()
+        while faces:
+            todo = [faces.pop()]
+            cluster = set[Dart]()
             while todo:
-                face = self.map.faces[todo.pop()]
-                cluster.update(face)
-                across = {self.map.face_of.get((v, u)) for u, v in set(face) - self.body_darts}
-                todo += across & left  # type: ignore[arg-type]
-                left -= across  # type: ignore[arg-type]
+                face = set(self.map.faces[todo.pop()])
+                cluster |= face
+                across = {self.map.face_of[v, u] for u, v in face - self.body_darts} & faces
+                todo += across
+                faces -= across
             self.check_apart(cluster, time)
 
     def check_apart(self, cluster: set[Dart], time: Time) -> None:
-        """See that no vertex of a cluster is on another one, or on a body edge."""
-        edges = sorted({(min(d), max(d)) for d in cluster & self.body_darts})
-        vertices = sorted({v for d in cluster for v in d})
-        for _ in range(30):
-            time.refine()
-        tracks = dict(zip(vertices, self.scene.tracks_at(vertices, time), strict=True))
-        boxes = {v: self.box(track, time) for v, track in tracks.items()}
-        vertices.sort(key=lambda v: boxes[v][0])
-        for i, v in enumerate(vertices):
-            for u in vertices[i + 1 :]:
-                if boxes[u][0] > boxes[v][1]:
-                    break
-                if boxes[u][2] <= boxes[v][3] and boxes[v][2] <= boxes[u][3]:
-                    same = is_on(time, tracks[v], tracks[u], tracks[u])
-                    require(not same, f"vertices {v} and {u} coincide at t = {time}")
-        for u, w in edges:
-            (a, b, c, d), (e, f, g, h) = boxes[u], boxes[w]
-            a, b, c, d = min(a, e), max(b, f), min(c, g), max(d, h)
-            for v in vertices:
-                left, right, bottom, top = boxes[v]
-                if left > b:
-                    break
-                if right >= a and bottom <= d and top >= c and v not in (u, w):
-                    touching = is_on(time, tracks[v], tracks[u], tracks[w])
-                    require(not touching, f"vertex {v} is on the edge {u} {w} at t = {time}")
+        """See that no vertex of a cluster is on another one, or on a body edge.
 
-    def box(self, track: Track, time: Time) -> tuple[int, int, int, int]:
-        """Integers that enclose x and y, times the grid, at a time."""
-        while (of_w := bounds(track[2], time.low, time.high))[0] <= 0:
-            time.refine()
-        box: list[int] = []
-        for f in track[:2]:
-            low, high = bounds(f, time.low, time.high)
-            box.append(floor(low / of_w[low > 0] * self.grid))
-            box.append(ceil(high / of_w[high < 0] * self.grid))
-        return box[0], box[1], box[2], box[3]
+        Vertices are put in order: by abscissas at that time, where these are equal by
+        ordinates. Then those that coincide are neighbours; and on an edge are those that
+        come between its ends and are on its line.
+        """
+        tracks = self.scene.tracks_at({v for v, _ in cluster}, time)
+
+        def order(u: int, v: int) -> int:
+            x, y = vector_of(tracks[v], tracks[u])
+            return time.sign_of(x) or time.sign_of(y)
+
+        path = sorted(tracks, key=cmp_to_key(order))
+        rank = {v: i for i, v in enumerate(path)}
+        for u, v in pairwise(path):
+            require(order(u, v), f"vertices {u} and {v} coincide at t = {time}")
+        for u, w in cluster & self.body_darts:
+            for v in path[rank[u] + 1 : rank[w]]:
+                turn = time.sign_of(orientation_of(tracks[u], tracks[v], tracks[w]))
+                require(turn, f"vertex {v} is on the edge {u} {w} at t = {time}")
 
     # Step 8: the contact.
 
     def check_contact(self, words: list[str], time: Time) -> str:
         """See that the contact is there at a time; what it is, in words."""
-        kind = tuple(w for w in words if not w.isdigit())
-        v = [integer(w) for w in words if w.isdigit()]
-        start = self.scene.start
-        at_start = time.compare_rational(start) == 0
-        if kind == ("vertex", "inside") and len(v) == 2 and at_start:
-            require(v[1] < len(self.scene.bodies), f"there is no body {v[1]}")
-            body = self.scene.bodies[v[1]]
-            self.check_numbers(v[:1])
-            corners = [
-                self.scene.place(u, start) for u in range(body.first, body.first + body.size)
-            ]
-            inside = body.closed and is_inside(self.scene.place(v[0], start), corners)
-            other = self.scene.of(v[0]) is not body
-            require(inside and other, f"vertex {v[0]} is not inside body {v[1]}")
-            return f"{self.scene.name(v[0])} inside {body.name}"
-        self.check_numbers(v)
-        if kind == ("vertex", "vertex") and len(v) == 2:
-            a, b = self.scene.tracks_at(v, time)
-            require(v[0] != v[1] and is_on(time, a, b, b), f"vertices {v} are apart at T")
-            return f"{self.scene.name(v[0])} with {self.scene.name(v[1])}"
-        if kind == ("vertex", "edge") and len(v) == 3:
-            self.check_edge(v[1], v[2])
-            tracks = self.scene.tracks_at(v, time)
-            touching = v[0] not in v[1:] and is_on(time, *tracks)
-            require(touching, f"vertex {v[0]} is not on the edge {v[1]} {v[2]} at T")
-            return f"{self.scene.name(v[0])} with the edge from {self.scene.name(v[1])}"
-        known = kind == ("edge", "edge") and len(v) == 4 and at_start
-        require(known, f"a contact of an unknown kind: {' '.join(words)}")
-        self.check_edge(v[0], v[1])
-        self.check_edge(v[2], v[3])
-        meeting = meet(*(self.scene.at(u, start) for u in v))
-        apart = self.scene.of(v[0]) is self.scene.of(v[2]) or not meeting
-        require(not apart, f"edges {v[:2]} and {v[2:]} of different bodies do not meet")
-        return f"edges from {self.scene.name(v[0])} and {self.scene.name(v[2])}"
-
-    def check_numbers(self, vertices: Iterable[int]) -> None:
-        """See that vertices are there."""
-        n = len(self.scene.body_of)
-        require(all(0 <= v < n for v in vertices), f"there are vertices 0 to {n - 1}")
-
-    def check_edge(self, u: int, v: int) -> None:
-        """See that it is a body edge."""
-        require((u, v) in self.body_darts, f"{u} {v} is no body edge")
-
-
-def is_on(time: Time, v: Track, a: Track, b: Track) -> bool:
-    """Whether v is in the closed segment ab at a time."""
-    return time.sign_of(orientation_of(v, a, b)) == 0 and time.sign_of(dot_of(a, v, b)) <= 0
-
-
-def meet(a: Point, b: Point, c: Point, d: Point) -> bool:
-    """Whether the closed segments ab and cd have a point in common."""
-    s = [sign(orientation(*t)) for t in ((a, b, c), (a, b, d), (c, d, a), (c, d, b))]
-    if s[0] * s[1] < 0 and s[2] * s[3] < 0:
-        return True
-    ends = ((a, c, b), (a, d, b), (c, a, d), (c, b, d))
-    return any(o == 0 and dot(*e) <= 0 for o, e in zip(s, ends, strict=True))
-
-
-def is_simple(p: list[Point]) -> bool:
-    """Whether the edges of a polygon meet where they are joined, and nowhere else."""
-    n = len(p)
-    ends = [sorted(Fraction(q[0], q[2]) for q in (p[i - 1], p[i])) for i in range(n)]
-    order = sorted(range(n), key=lambda i: ends[i])
-    for k, i in enumerate(order):
-        for j in order[k + 1 :]:
-            if ends[j][0] > ends[i][1]:
-                break
-            if (j - i) % n == 1 or (i - j) % n == 1:
-                e = i if (j - i) % n == 1 else j  # edge e ends at vertex e, where the next begins
-                a, v, b = p[e - 1], p[e], p[(e + 1) % n]
-                if orientation(a, v, b) == 0 and dot(a, v, b) >= 0:
-                    return False
-            elif meet(p[i - 1], p[i], p[j - 1], p[j]):
-                return False
-    return True
-
-
-def is_inside(q: tuple[Fraction, Fraction], p: list[tuple[Fraction, Fraction]]) -> bool:
-    """Whether a point is inside a polygon: a ray to the right leaves it an odd number of times."""
-    inside = False
-    for a, b in pairwise([*p, p[0]]):
-        if (a[1] > q[1]) != (b[1] > q[1]):
-            inside ^= a[0] + (q[1] - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > q[0]
-    return inside
+        scene, v = self.scene, [integer(w) for w in words if INTEGER.fullmatch(w)]
+        kind = " ".join(w for w in words if not INTEGER.fullmatch(w))
+        if kind == "vertex inside" and len(v) == 2:
+            require(v[1] in range(len(scene.bodies)), f"there is no body {v[1]}")
+            v[1:] = scene.bodies[v[1]].vertices()
+        self.check_vertices(*v)
+        at = scene.tracks_at(v, time)
+        p = [at[u] for u in v]
+        body, other = scene.of(v[0]), scene.of(v[-1])
+        alone = time.compare_rational(scene.start) == 0 and body is not other
+        edges = self.body_darts.issuperset([(v[-2], v[-1]), *[(v[0], v[1])][: len(v) - 3]])
+        if kind == "vertex vertex" and len(v) == 2:
+            there, what = v[0] != v[1] and is_on(time, p[0], p[1], p[1]), scene.name(v[1])
+        elif kind == "vertex edge" and len(v) == 3:
+            there = edges and v[0] not in v[1:] and is_on(time, *p)
+            what = f"the edge from {scene.name(v[1])}"
+        elif kind == "edge edge" and len(v) == 4:
+            there, what = alone and edges and meet(time, *p), f"the edge from {scene.name(v[2])}"
+        else:
+            require(kind == "vertex inside", f"a contact of an unknown kind: {kind}")
+            places = [scene.at(u, scene.start) for u in v]
+            there = alone and other.closed and is_inside(places[0], places[1:])
+            what = f"the inside of {other.name}"
+        require(there, f"there is no such contact at t = {time}: {' '.join(words)}")
+        return f"{scene.name(v[0])} with {what}"
 
 
 # ---------------------------------------------------------------------------------------
 # The file.
 
+Items = tuple[list[Dart], list[tuple[int, ...]], list[Dart]]
+INTEGER = re.compile(r"-?\d+", re.ASCII)
+RATIONAL = re.compile(r"-?\d+(/0*[1-9]\d*)?", re.ASCII)
+
 
 def integer(word: str) -> int:
     """The number that a word is."""
-    require(re.fullmatch(r"-?\d+", word, re.ASCII), f"not an integer: {word}")
+    require(INTEGER.fullmatch(word), f"not an integer: {word}")
     return int(word)
 
 
 def rational(word: str) -> Fraction:
     """The rational that a word is."""
-    require(re.fullmatch(r"-?\d+(/0*[1-9]\d*)?", word, re.ASCII), f"not a rational: {word}")
+    require(RATIONAL.fullmatch(word), f"not a rational: {word}")
     return Fraction(word)
 
 
 def read_items(words: list[str]) -> Items:
     """What goes, comes, and is taken anew."""
-    removed: list[Dart] = []
-    added: list[tuple[int, ...]] = []
-    renewed: list[Dart] = []
+    found: dict[str, list[tuple[int, ...]]] = {"-": [], "+": [], "=": []}
     i = 0
     while i < len(words):
-        sort, size = words[i], 4 if words[i] == "+" else 2
-        require(sort in ("-", "+", "="), f"an item of an unknown kind: {sort}")
-        require(i + size < len(words), f"an item that is not complete: {' '.join(words[i:])}")
-        n = [integer(w) for w in words[i + 1 : i + 1 + size]]
+        require(words[i] in found, f"an item of an unknown kind: {words[i]}")
+        item = tuple(integer(w) for w in takewhile(INTEGER.fullmatch, words[i + 1 :]))
+        size = 4 if words[i] == "+" else 2
+        require(len(item) == size, f"an item of {len(item)} numbers, not {size}")
+        found[words[i]].append(item)
         i += 1 + size
-        if sort == "+":
-            added.append(tuple(n))
-        else:
-            (removed if sort == "-" else renewed).append((n[0], n[1]))
-    return removed, added, renewed
+    return [(u, v) for u, v in found["-"]], found["+"], [(u, v) for u, v in found["="]]
 
 
 def check(scene_file: bytes, proof_file: bytes) -> str:
@@ -1295,10 +1133,11 @@ def check(scene_file: bytes, proof_file: bytes) -> str:
         raise NoProofError("a file is not UTF-8") from None
     rows = [(i, line.split()) for i, line in enumerate(lines, 1)]
     rows = [(i, words) for i, words in rows if words and not words[0].startswith("#")]
-    if not rows or rows[0][1] != ["exactpt-proof", "1"]:
+    digest = hashlib.sha256(scene_file).hexdigest()
+    if [words for _, words in rows[:1]] != [["exactpt-proof", "1"]]:
         raise NoProofError("the first line is not: exactpt-proof 1")
-    if len(rows) < 4 or rows[1][1] != ["scene", "sha256", hashlib.sha256(scene_file).hexdigest()]:
-        raise NoProofError("the proof is of another scene: the hash of the file is not the same")
+    if len(rows) < 4 or rows[1][1] != ["scene", "sha256", digest]:
+        raise NoProofError("the proof is of another scene: the hash of its file is another one")
     checker = Checker(Scene(text))
     try:
         return checker.check_rows(rows[2:])
@@ -1308,20 +1147,19 @@ def check(scene_file: bytes, proof_file: bytes) -> str:
 
 def main(arguments: list[str]) -> int:
     """Check a file; the exit code."""
-    if len(arguments) != 2:
-        sys.stderr.write("usage: python -m exactpt.proof_check SCENE PROOF\n")
-        return 2
     sys.set_int_max_str_digits(0)
     try:
+        if len(arguments) != 2:
+            raise NoProofError("usage: python -m exactpt.proof_check SCENE PROOF")
         with open(arguments[0], "rb") as scene, open(arguments[1], "rb") as proof:
-            answer, code = check(scene.read(), proof.read()), 0
+            sys.stdout.write(check(scene.read(), proof.read()) + "\n")
     except Rejected as verdict:
-        answer, code = str(verdict), 1
+        sys.stdout.write(f"{verdict}\n")
+        return 1
     except (NoProofError, OSError) as error:
         sys.stderr.write(f"{error}\n")
         return 2
-    sys.stdout.write(f"{answer}\n")
-    return code
+    return 0
 
 
 if __name__ == "__main__":

@@ -80,11 +80,9 @@ class Nodes:
         return difference(p.x, p.w, q.x, q.w)
 
     def breaks(self, vertices: tuple[int, ...]) -> list[QQ]:
-        """The breakpoints of some vertices strictly within the time span, in order."""
-        scene = self.scene
+        """The breakpoints of some vertices, in order."""
         bodies = {self.body_of[v] for v in vertices}
-        every = {b for i in bodies for b in scene.bodies[i].breakpoints}
-        return sorted(b for b in every if scene.start < b < scene.end)
+        return sorted({b for i in bodies for b in self.scene.bodies[i].breakpoints})
 
     def fails(self, angle: tuple[int, int, int], now: AlgebraicNumber) -> AlgebraicNumber | None:
         """When an angle that begins now vanishes, or is straight no longer; None: never.
@@ -95,14 +93,15 @@ class Nodes:
         i = self.body_of[p]
         if a == b or (self.rigid[i] and self.body_of[a] == i == self.body_of[b]):
             return None
-        breaks = self.breaks(angle)
+        scene = self.scene
+        breaks = [b for b in self.breaks(angle) if scene.start < b < scene.end]
         k = bisect_right(breaks, now.low)
         while k < len(breaks) and now.compare_rational(breaks[k]) >= 0:
             k += 1
-        begin = breaks[k - 1] if k else self.scene.start
+        begin = breaks[k - 1] if k else scene.start
         time = now
         straight: bool | None = None
-        for end in [*breaks[k:], self.scene.end]:
+        for end in [*breaks[k:], scene.end]:
             f = self.orientation(a, p, b, begin)
             if straight is None:
                 straight = not f
