@@ -28,15 +28,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cmp_to_key, lru_cache
-from itertools import pairwise, takewhile
-from math import comb, floor, gcd, inf, lcm
-from typing import Any, TypeVar
+from itertools import pairwise, takewhile, zip_longest
+from math import floor, gcd, inf, lcm
+from typing import Any
 
-N = TypeVar("N", int, Fraction)  # of polynomials: rationals while a scene is read, then integers
-Poly = tuple[int, ...]
-Rationals = tuple[Fraction, ...]
 Point = tuple[Fraction, Fraction]
-Track = tuple[Poly, Poly, Poly]
 Dart = tuple[int, int]
 Json = Any
 
@@ -56,151 +52,116 @@ def require(condition: object, why: str) -> None:
 
 
 # ---------------------------------------------------------------------------------------
-# Polynomials in t: tuples of numbers, constant term first, no zero at the end; () is 0.
+# Polynomials, and their real roots.
 
 
-def trimmed(f: Sequence[N]) -> tuple[N, ...]:
-    """Without zeros at the end."""
-    n = len(f)
-    while n and not f[n - 1]:
-        n -= 1
-    return tuple(f[:n])
+class Poly(tuple[Any, ...]):
+    """A polynomial in t: coefficients, constant term first, none for 0.
 
-
-def add(f: tuple[N, ...], g: tuple[N, ...]) -> tuple[N, ...]:
-    """The sum."""
-    if len(f) < len(g):
-        f, g = g, f
-    return trimmed([a + b for a, b in zip(f, g, strict=False)] + list(f[len(g) :]))
-
-
-def scale(f: tuple[N, ...], c: N) -> tuple[N, ...]:
-    """The product with a number."""
-    return tuple([c * a for a in f]) if c else ()
-
-
-def sub(f: tuple[N, ...], g: tuple[N, ...]) -> tuple[N, ...]:
-    """The difference."""
-    return add(f, tuple([-c for c in g]))
-
-
-def mul(f: tuple[N, ...], g: tuple[N, ...]) -> tuple[N, ...]:
-    """The product."""
-    if not f or not g:
-        return ()
-    if len(f) == 1:
-        return scale(g, f[0])
-    if len(g) == 1:
-        return scale(f, g[0])
-    product = [0 * f[0]] * (len(f) + len(g) - 1)
-    for i, a in enumerate(f):
-        for j, b in enumerate(g):
-            product[i + j] += a * b
-    return trimmed(product)
-
-
-def sign(x: int | Fraction) -> int:
-    """-1, 0 or 1."""
-    return (x > 0) - (x < 0)
-
-
-def value_at(f: Poly, n: int, d: int, degree: int) -> int:
-    """d^degree f(n / d), for a degree at least that of f."""
-    total, power = 0, 1
-    for c in reversed(f):
-        total = total * n + c * power
-        power *= d
-    return total * int(d ** (degree - len(f) + 1))
-
-
-def sign_at(f: Poly, q: Fraction) -> int:
-    """The sign of f(q)."""
-    return sign(value_at(f, q.numerator, q.denominator, len(f) - 1)) if f else 0
-
-
-def primitive(f: Poly) -> Poly:
-    """F divided by what its coefficients have in common, with a positive leading one."""
-    content = gcd(*f) * sign(f[-1]) if f else 1
-    return tuple([c // content for c in f])
-
-
-def divided(f: Poly, g: Poly) -> tuple[Poly, Poly]:
-    """(q, r) with c f = q g + r for a number c that is not 0, and deg r < deg g."""
-    rest, quotient = list(f), [0] * max(0, len(f) - len(g) + 1)
-    for i in range(len(f) - len(g), -1, -1):
-        top = rest.pop()
-        rest, quotient = [g[-1] * c for c in rest], [g[-1] * c for c in quotient]
-        quotient[i] = top
-        for j, c in enumerate(g[:-1]):
-            rest[i + j] -= top * c
-    return trimmed(quotient), trimmed(rest)
-
-
-def common_divisor(f: Poly, g: Poly) -> Poly:
-    """The greatest common divisor, by Euclid."""
-    while g:
-        f, g = g, primitive(divided(f, g)[1])
-    return primitive(f)
-
-
-def square_free(f: Poly) -> Poly:
-    """The polynomial with the same roots, all of them simple."""
-    derivative = tuple([i * c for i, c in enumerate(f)][1:])
-    return primitive(divided(f, common_divisor(f, derivative))[0]) if len(f) > 2 else primitive(f)
-
-
-def on_unit(f: Poly, low: Fraction, high: Fraction) -> tuple[list[int], int]:
-    """g with g(s) = d^n f(low + (high - low) s), n the degree of f; and d^n."""
-    d = lcm(low.denominator, high.denominator)
-    start, width = int(low * d), int((high - low) * d)
-    g, power = [f[-1]], 1
-    for c in reversed(f[:-1]):
-        power *= d
-        g = [start * a + width * b for a, b in zip([*g, 0], [0, *g], strict=True)]
-        g[0] += c * power
-    return g, power
-
-
-def variations(f: Poly, low: Fraction, high: Fraction) -> int:
-    """At least the number of roots of f strictly between low and high; it if 0 or 1.
-
-    Descartes' rule of signs for (1 + x)^n f((high + low x) / (1 + x)), x > 0. (These
-    coefficients are those of f in the Bernstein basis, times binomials.)
+    Rational ones while a scene is read, integers from then on.
     """
-    g, _ = on_unit(f, low, high)
-    g.reverse()
-    n = len(g)
-    for i in range(n - 1):
-        for j in range(n - 2, i - 1, -1):
-            g[j] += g[j + 1]
-    signs = [c > 0 for c in g if c]
-    return sum(a != b for a, b in pairwise(signs))
 
+    __slots__ = ()
 
-def roots_in(f: Poly, low: Fraction, high: Fraction) -> Iterator[Time]:
-    """The roots in [low, high] of a polynomial that has none but simple ones, in order."""
-    if sign_at(f, low) == 0:
-        yield Time(low)
-    if low < high:
-        yield from roots_inside(f, low, high)
-        if sign_at(f, high) == 0:
-            yield Time(high)
+    def __new__(cls, coefficients: Iterable[Any] = ()) -> Poly:
+        f = list(coefficients)
+        while f and not f[-1]:
+            f.pop()
+        return super().__new__(cls, f)
 
+    def __add__(self, g: Poly) -> Poly:  # type: ignore[override]
+        return Poly([a + b for a, b in zip_longest(self, g, fillvalue=0)])
 
-def roots_inside(f: Poly, low: Fraction, high: Fraction) -> Iterator[Time]:
-    """Those in (low, high): halve, until each is alone."""
-    count, middle = variations(f, low, high), (low + high) / 2
-    if count == 1 and sign_at(f, low) and sign_at(f, high):
-        yield Time(low, high, f)
-    elif count:
-        yield from roots_inside(f, low, middle)
-        if sign_at(f, middle) == 0:
-            yield Time(middle)
-        yield from roots_inside(f, middle, high)
+    def __sub__(self, g: Poly) -> Poly:
+        return Poly([a - b for a, b in zip_longest(self, g, fillvalue=0)])
 
+    def __mul__(self, g: Poly) -> Poly:  # type: ignore[override]
+        if len(self) == 1:
+            return Poly([self[0] * b for b in g])
+        product = [0] * (len(self) + len(g) - 1) if self and g else []
+        for i, a in enumerate(self):
+            for j, b in enumerate(g):
+                product[i + j] += a * b
+        return Poly(product)
 
-# ---------------------------------------------------------------------------------------
-# Times: rationals, or roots of polynomials.
+    def at(self, t: Fraction) -> Fraction:
+        """The value at a time."""
+        return sum((c * t**i for i, c in enumerate(self)), Fraction(0))
+
+    def sign_at(self, t: Fraction) -> int:
+        """The sign of the value, in integers: of d^degree f(n / d)."""
+        n, d, power, total = t.numerator, t.denominator, 1, 0
+        for c in reversed(self):
+            total = total * n + c * power
+            power *= d
+        return (total > 0) - (total < 0)
+
+    def primitive(self) -> Poly:
+        """Divided by what the coefficients have in common, with a positive leading one."""
+        content = gcd(*self) * (-1 if self[-1] < 0 else 1) if self else 1
+        return Poly([c // content for c in self])
+
+    def divided(self, g: Poly) -> tuple[Poly, Poly]:
+        """(q, r) with c f = q g + r for a number c that is not 0, and r of lower degree than g."""
+        rest, quotient = list(self), [0] * max(0, len(self) - len(g) + 1)
+        for i in range(len(self) - len(g), -1, -1):
+            top = rest.pop()
+            rest, quotient = [g[-1] * c for c in rest], [g[-1] * c for c in quotient]
+            quotient[i] = top
+            for j, c in enumerate(g[:-1]):
+                rest[i + j] -= top * c
+        return Poly(quotient), Poly(rest)
+
+    def common_divisor(self, g: Poly) -> Poly:
+        """The greatest common divisor, by Euclid."""
+        f = self
+        while g:
+            f, g = g, f.divided(g)[1].primitive()
+        return f.primitive()
+
+    def square_free(self) -> Poly:
+        """The polynomial with the same roots, all of them simple."""
+        derivative = Poly([i * c for i, c in enumerate(self)][1:])
+        return self.divided(self.common_divisor(derivative))[0].primitive()
+
+    def variations(self, low: Fraction, high: Fraction) -> int:
+        """At least the number of roots strictly between low and high; it, if 0 or 1.
+
+        Descartes' rule of signs for (1 + x)^n f((high + low x) / (1 + x)), x > 0. (These
+        coefficients are those of f in the Bernstein basis, times binomials.)
+        """
+        d = lcm(low.denominator, high.denominator)
+        start, width, power = int(low * d), int((high - low) * d), 1
+        g: list[int] = []  # of s: d^n f(low + (high - low) s)
+        for c in reversed(self):
+            g = [start * a + width * b for a, b in zip([*g, 0], [0, *g], strict=True)]
+            g[0] += c * power
+            power *= d
+        g = g[len(self) - 1 :: -1]
+        for i in range(len(g) - 1):
+            for j in range(len(g) - 2, i - 1, -1):
+                g[j] += g[j + 1]
+        return sum(a != b for a, b in pairwise(c > 0 for c in g if c))
+
+    def roots(self, low: Fraction, high: Fraction) -> Iterator[Time]:
+        """The roots in [low, high], in order; all roots must be simple."""
+        if self.sign_at(low) == 0:
+            yield Time(low)
+        if low < high:
+            yield from self.roots_inside(low, high)
+            if self.sign_at(high) == 0:
+                yield Time(high)
+
+    def roots_inside(self, low: Fraction, high: Fraction) -> Iterator[Time]:
+        """Those in (low, high): halve, until each is alone."""
+        count, middle = self.variations(low, high), (low + high) / 2
+        if count == 1 and self.sign_at(low) and self.sign_at(high):
+            yield Time(low, high, self)
+        elif count:
+            yield from self.roots_inside(low, middle)
+            if self.sign_at(middle) == 0:
+                yield Time(middle)
+            yield from self.roots_inside(middle, high)
 
 
 class Time:
@@ -209,7 +170,7 @@ class Time:
     f has simple roots alone; so its signs at low and high differ.
     """
 
-    def __init__(self, low: Fraction, high: Fraction | None = None, f: Poly = ()) -> None:
+    def __init__(self, low: Fraction, high: Fraction | None = None, f: Poly = Poly()) -> None:  # noqa: B008
         self.low, self.high, self.f = low, low if high is None else high, f
 
     def refine(self) -> None:
@@ -219,9 +180,9 @@ class Time:
     def compare_rational(self, q: Fraction) -> int:
         """-1, 0 or 1 as the time is before, at or after q."""
         if self.high < q or self.low > q or self.low == self.high:
-            return sign(self.low - q)
-        s = sign_at(self.f, q)
-        order = 0 if s == 0 else 1 if s == sign_at(self.f, self.low) else -1
+            return (self.low > q) - (self.low < q)
+        s = self.f.sign_at(q)
+        order = 0 if s == 0 else 1 if s == self.f.sign_at(self.low) else -1
         if order >= 0:
             self.low = q
         if order <= 0:
@@ -230,43 +191,35 @@ class Time:
 
     def compare(self, other: Time) -> int:
         """-1, 0 or 1 as the time is before, at or after the other."""
-        differ = False
-        while self.low < self.high and other.low < other.high:
-            low, high = max(self.low, other.low), min(self.high, other.high)
-            if low >= high:
-                return sign(self.low - other.low)
-            if not differ:
-                # f and g have one root each in their intervals; the greatest common
-                # divisor has a root between low and high if and only if it is the same.
-                # It is not 0 at low or high, for one of f and g is not.
-                common = self.f if self.f == other.f else common_divisor(self.f, other.f)
-                if sign_at(common, low) * sign_at(common, high) < 0:
-                    return 0
-                differ = True
-            self.refine()
-            other.refine()
-        rational = other.low == other.high
-        return self.compare_rational(other.low) if rational else -other.compare_rational(self.low)
+        if other.low == other.high:
+            return self.compare_rational(other.low)
+        if self.compare_rational(other.low) <= 0:
+            return -1
+        if self.compare_rational(other.high) >= 0:
+            return 1
+        s = self.sign_of(other.f)  # which has but one root there
+        return 0 if s == 0 else -1 if s == other.f.sign_at(other.low) else 1
 
-    def sign_of(self, f: Poly) -> int:
-        """The sign of f at this time."""
+    def sign_of(self, g: Poly) -> int:
+        """The sign of g at this time."""
         differ = False
-        while self.low < self.high and f:
-            s = sign_at(f, self.low)
-            if s and s == sign_at(f, self.high) and variations(f, self.low, self.high) == 0:
+        while self.low < self.high and g:
+            s = g.sign_at(self.low)
+            if s and s == g.sign_at(self.high) and g.variations(self.low, self.high) == 0:
                 return s
             if not differ:
-                common = common_divisor(self.f, f)
-                if sign_at(common, self.low) * sign_at(common, self.high) < 0:
+                # g vanishes if and only if its common divisor with f has a root here: then
+                # a simple one, the only one, and none at the ends, where f has none.
+                common = self.f.common_divisor(g)
+                if common.sign_at(self.low) * common.sign_at(self.high) < 0:
                     return 0
                 differ = True
             self.refine()
-        return sign_at(f, self.low)
+        return g.sign_at(self.low)
 
     def __str__(self) -> str:
-        if self.low == self.high:
-            return str(self.low)
-        return f"{float(self.low):.12g} (between {self.low} and {self.high})"
+        near = f"{float(self.low):.12g} (between {self.low} and {self.high})"
+        return str(self.low) if self.low == self.high else near
 
 
 def between(a: Time, b: Time) -> Fraction:
@@ -283,9 +236,9 @@ def between(a: Time, b: Time) -> Fraction:
 def zeros(f: Poly, start: Time, end: Time) -> tuple[bool, bool]:
     """Whether f vanishes strictly between two times; whether at the second one."""
     low, high = start.low, end.high
-    if variations(f, low, high) == 0:
-        return False, end.low == high and sign_at(f, high) == 0
-    for root in roots_in(square_free(f), low, high):
+    if f.variations(low, high) == 0:
+        return False, end.low == high and f.sign_at(high) == 0
+    for root in f.square_free().roots(low, high):
         if root.compare(start) > 0:
             order = root.compare(end)
             return order < 0, order == 0
@@ -295,25 +248,25 @@ def zeros(f: Poly, start: Time, end: Time) -> tuple[bool, bool]:
 # ---------------------------------------------------------------------------------------
 # Tracks: a vertex is at (x / w, y / w), with polynomials x, y and w, the latter positive.
 
+Track = tuple[Poly, Poly, Poly]
+
 
 def vector_of(a: Track, b: Track) -> tuple[Poly, Poly]:
     """A positive multiple of b - a."""
-    return sub(mul(b[0], a[2]), mul(a[0], b[2])), sub(mul(b[1], a[2]), mul(a[1], b[2]))
+    return b[0] * a[2] - a[0] * b[2], b[1] * a[2] - a[1] * b[2]
 
 
 @lru_cache(100_000)
 def orientation_of(a: Track, b: Track, c: Track) -> Poly:
     """Positive where a, b, c turn left, 0 where they are on one line: the determinant."""
-    f = mul(a[0], sub(mul(b[1], c[2]), mul(c[1], b[2])))
-    g = mul(b[0], sub(mul(c[1], a[2]), mul(a[1], c[2])))
-    h = mul(c[0], sub(mul(a[1], b[2]), mul(b[1], a[2])))
-    return add(add(f, g), h)
+    f = a[0] * (b[1] * c[2] - c[1] * b[2]) + b[0] * (c[1] * a[2] - a[1] * c[2])
+    return f + c[0] * (a[1] * b[2] - b[1] * a[2])
 
 
 def dot_of(a: Track, v: Track, b: Track) -> Poly:
     """A positive multiple of (a - v) . (b - v)."""
     (px, py), (qx, qy) = vector_of(v, a), vector_of(v, b)
-    return add(mul(px, qx), mul(py, qy))
+    return px * qx + py * qy
 
 
 def is_on(time: Time, v: Track, a: Track, b: Track) -> bool:
@@ -329,18 +282,19 @@ def meet(time: Time, a: Track, b: Track, c: Track, d: Track) -> bool:
     return (p * q < 0 and r * s < 0) or ends or is_on(time, a, c, d) or is_on(time, b, c, d)
 
 
-def is_simple(ring: Sequence[Track], places: Sequence[Point], time: Time) -> bool:
+def is_simple(time: Time, ring: Sequence[Track]) -> bool:
     """Whether the edges of a polygon meet where they are joined, and nowhere else."""
     n = len(ring)
-    spans = [sorted((places[i - 1][0], places[i][0])) for i in range(n)]  # edge i ends at vertex i
-    order = sorted(range(n), key=lambda i: spans[i])
-    for k, i in enumerate(order):
-        for j in takewhile(lambda j: spans[j][0] <= spans[i][1], order[k + 1 :]):
-            if (i - j) % n in (1, n - 1):
-                e = i if (j - i) % n == 1 else j  # the next edge begins where edge e ends
+    x = [f.at(time.low) / w.at(time.low) for f, _, w in ring]
+    spans = sorted((min(x[i - 1], x[i]), max(x[i - 1], x[i]), i) for i in range(n))
+    for k, (_, right, i) in enumerate(spans):
+        for left, _, j in spans[k + 1 :]:
+            if left > right:
+                break
+            if (i - j) % n in (1, n - 1):  # one of them ends at vertex e, where the other begins
+                e = i if (j - i) % n == 1 else j
                 a, v, b = ring[e - 1], ring[e], ring[(e + 1) % n]
-                straight = time.sign_of(orientation_of(a, v, b)) == 0
-                if straight and time.sign_of(dot_of(a, v, b)) >= 0:
+                if not time.sign_of(orientation_of(a, v, b)) and time.sign_of(dot_of(a, v, b)) >= 0:
                     return False
             elif meet(time, ring[i - 1], ring[i], ring[j - 1], ring[j]):
                 return False
@@ -366,7 +320,8 @@ def comes_before(d: Point, e: Point) -> bool:
 # The scene (docs/format.md). What is not understood is refused.
 
 NUMBER = re.compile(r"[+-]?(\d+(/0*[1-9]\d*)?|(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,6})?)", re.ASCII)
-Shape = list[tuple[Rationals, Rationals]]
+Until = Fraction | float  # the only float is infinity
+Shape = list[tuple[Poly, Poly]]
 
 
 def need(condition: object, what: str, data: Json = "") -> None:
@@ -393,15 +348,9 @@ def entries(data: Json, length: int | None = None) -> list[Json]:
     return list(data)
 
 
-def polynomial(data: Json) -> Rationals:
+def polynomial(data: Json) -> Poly:
     """The polynomial that a list of numbers is."""
-    return trimmed([number(c) for c in entries(data)])
-
-
-def pair(data: Json) -> Point:
-    """Two numbers."""
-    x, y = entries(data, 2)
-    return number(x), number(y)
+    return Poly([number(c) for c in entries(data)])
 
 
 class Body:
@@ -409,24 +358,20 @@ class Body:
 
     Attributes:
         breaks: the times at which formulas change; piece k ends at breaks[k], the last never.
-        first: the number of its first vertex in the scene; size: how many it has.
+        vertices: the numbers of its vertices in the scene, from ``first`` on.
         closed: whether it is a polygon with its inside.
     """
 
     def __init__(self, data: Json, first: int) -> None:
         body = keys(data, "name", "vertices", "motion", "closed", "keyframes")
         need(("vertices" in body) != ("keyframes" in body), "vertices or keyframes:", data)
-        self.name, self.first, closed = body.get("name"), first, body.get("closed", True)
+        self.name, closed = body.get("name"), body.get("closed", True)
         need(isinstance(self.name, str) and isinstance(closed, bool), "name or closed:", data)
-        self.shapes: list[tuple[Fraction | float, Shape]] = (
-            keyframes(body["keyframes"])
-            if "keyframes" in body
-            else [(inf, [resting(v) for v in entries(body["vertices"])])]
-        )
+        self.shapes = keyframes(body["keyframes"]) if "keyframes" in body else resting(body)
         self.motions = motions(body.get("motion", {}))
-        self.size = len(self.shapes[0][1])
+        self.first, self.size = first, len(self.shapes[0][1])
         need(self.size, "no vertices:", self.name)
-        self.closed = closed and self.size > 2
+        self.vertices, self.closed = range(first, first + self.size), closed and self.size > 2
         ends = {t for t, _ in self.shapes} | {t for t, _ in self.motions}
         self.breaks = sorted(t for t in ends if isinstance(t, Fraction))
         self.tracks: dict[tuple[int, int], Track] = {}
@@ -440,81 +385,78 @@ class Body:
             self.tracks[i, piece] = moved(motion, *shape[i])
         return self.tracks[i, piece]
 
-    def vertices(self) -> range:
-        """The numbers of its vertices in the scene."""
-        return range(self.first, self.first + self.size)
-
     def edges(self) -> list[Dart]:
         """The edges, as numbers of vertices in the scene."""
-        path = self.vertices()
-        return [*pairwise(path), *([(path[-1], path[0])] if self.closed else [])]
+        closing = [(self.vertices[-1], self.first)] if self.closed else []
+        return [*pairwise(self.vertices), *closing]
 
 
-def resting(data: Json) -> tuple[Rationals, Rationals]:
-    """A vertex in the frame of its body: two numbers, or an object with polynomials x and y."""
-    if isinstance(data, dict):
-        vertex = keys(data, "x", "y")
-        return polynomial(vertex.get("x", [])), polynomial(vertex.get("y", []))
-    x, y = pair(data)
-    return trimmed((x,)), trimmed((y,))
+def resting(body: dict[str, Json]) -> list[tuple[Until, Shape]]:
+    """One shape for ever: a vertex is two numbers, or an object with polynomials x and y."""
+    shape: Shape = []
+    for data in entries(body["vertices"]):
+        given = keys(data, "x", "y") if isinstance(data, dict) else None
+        x, y = (
+            ([c] for c in entries(data, 2)) if given is None else (given.get(k, []) for k in "xy")
+        )
+        shape.append((polynomial(x), polynomial(y)))
+    return [(inf, shape)]
 
 
-def keyframes(data: Json) -> list[tuple[Fraction | float, Shape]]:
+def keyframes(data: Json) -> list[tuple[Until, Shape]]:
     """Linear between keyframes, at rest before the first and after the last: (until, shape)."""
-    frames = [keys(f, "t", "vertices") for f in entries(data)]
-    path = [(number(f.get("t")), list(map(pair, entries(f.get("vertices"))))) for f in frames]
-    need(path and len({len(shape) for _, shape in path}) == 1, "keyframes:", data)
+    path: list[tuple[Fraction, list[list[Fraction]]]] = []
+    for frame in (keys(f, "t", "vertices") for f in entries(data)):
+        points = [[number(c) for c in entries(p, 2)] for p in entries(frame.get("vertices"))]
+        path.append((number(frame.get("t")), points))
+    need(len({len(points) for _, points in path}) == 1, "keyframes:", data)
     need(all(s < t for (s, _), (t, _) in pairwise(path)), "keyframes not in order:", data)
-
-    def lines(s: Fraction, p: list[Point], t: Fraction, q: list[Point]) -> Shape:
-        slopes = [[(d - c) / (t - s) for c, d in zip(a, b, strict=True)] for a, b in zip(p, q)]  # noqa: B905
-        return [
-            (trimmed((a[0] - m[0] * s, m[0])), trimmed((a[1] - m[1] * s, m[1])))
-            for a, m in zip(p, slopes, strict=True)
-        ]
-
-    (first, p), (last, q) = path[0], path[-1]
-    before: list[tuple[Fraction | float, Shape]] = [(first, lines(first - 1, p, first, p))]
-    inner = [(t, lines(s, a, t, b)) for (s, a), (t, b) in pairwise(path)]
-    return [*before, *inner, (inf, lines(last, q, last + 1, q))]
+    path = [(path[0][0] - 1, path[0][1]), *path, (path[-1][0] + 1, path[-1][1])]
+    found: list[tuple[Until, Shape]] = []
+    for (s, p), (t, q) in pairwise(path):
+        shape: Shape = []
+        for a, b in zip(p, q, strict=True):
+            m, n = ((d - c) / (t - s) for c, d in zip(a, b, strict=True))
+            shape.append((Poly([a[0] - m * s, m]), Poly([a[1] - n * s, n])))
+        found.append((t, shape))
+    return [*found[:-1], (inf, found[-1][1])]
 
 
-def motions(data: Json) -> list[tuple[Fraction | float, dict[str, Json]]]:
+def motions(data: Json) -> list[tuple[Until, dict[str, Json]]]:
     """The motions of a body, one after the other: (until, motion)."""
     pieces = [{"motion": data}]
     if isinstance(data, dict) and "pieces" in data:
         pieces = [keys(p, "until", "motion") for p in entries(keys(data, "pieces")["pieces"])]
-    known = [*("until" in p for p in pieces[:-1]), pieces and "until" not in pieces[-1]]
-    need(all(known), '"until" belongs to all pieces but the last:', data)
-    ends = [*(number(p["until"]) for p in pieces[:-1]), inf]
+    whole = pieces and "until" not in pieces[-1] and all("until" in p for p in pieces[:-1])
+    need(whole, '"until" belongs to all pieces but the last:', data)
+    ends: list[Until] = [*(number(p["until"]) for p in pieces[:-1]), inf]
     need(all(s < t for s, t in pairwise(ends)), "pieces not in order:", data)
     found = [keys(p.get("motion"), "x", "y", "rigid", "affine") for p in pieces]
     return list(zip(ends, found, strict=True))
 
 
-def moved(motion: dict[str, Json], x: Rationals, y: Rationals) -> Track:
+def moved(motion: dict[str, Json], x: Poly, y: Poly) -> Track:
     """The track of a vertex that a motion carries."""
-    one: Rationals = (Fraction(1),)
-    w, data = one, motion
+    w = one = Poly([Fraction(1)])
+    data = motion
     if "rigid" in motion:
         # A turn by the angle a with tan(a / 2) = h: (1 - h^2, 2 h) / (1 + h^2) is (cos, sin).
         data = keys(keys(motion, "rigid")["rigid"], "half_turn", "pivot", "x", "y")
-        h, (px, py) = polynomial(data.get("half_turn")), pair(data.get("pivot", ["0", "0"]))
-        w, cosine, sine = add(one, mul(h, h)), sub(one, mul(h, h)), add(h, h)
-        dx, dy = sub(x, trimmed((px,))), sub(y, trimmed((py,)))
-        x = add(sub(mul(cosine, dx), mul(sine, dy)), scale(w, px))
-        y = add(add(mul(sine, dx), mul(cosine, dy)), scale(w, py))
+        h = polynomial(data.get("half_turn"))
+        px, py = (polynomial([c]) for c in entries(data.get("pivot", ["0", "0"]), 2))
+        w, cosine, sine = one + h * h, one - h * h, h + h
+        x, y = x - px, y - py
+        x, y = cosine * x - sine * y + w * px, sine * x + cosine * y + w * py
     elif "affine" in motion:
         data = keys(keys(motion, "affine")["affine"], "matrix", "x", "y")
         rows = [entries(row, 2) for row in entries(data.get("matrix"), 2)]
         (a, b), (c, d) = ([polynomial(p) for p in row] for row in rows)
-        x, y = add(mul(a, x), mul(b, y)), add(mul(c, x), mul(d, y))
-    x = add(x, mul(w, polynomial(data.get("x", []))))
-    y = add(y, mul(w, polynomial(data.get("y", []))))
+        x, y = a * x + b * y, c * x + d * y
+    x, y = x + w * polynomial(data.get("x", [])), y + w * polynomial(data.get("y", []))
     m = lcm(*(c.denominator for f in (x, y, w) for c in f))
-    f, g, h_ = ([int(c * m) for c in f] for f in (x, y, w))
-    m = gcd(*f, *g, *h_)
-    return tuple([c // m for c in f]), tuple([c // m for c in g]), tuple([c // m for c in h_])
+    f, g, e = ([int(c * m) for c in f] for f in (x, y, w))
+    m = gcd(*f, *g, *e)
+    return Poly([c // m for c in f]), Poly([c // m for c in g]), Poly([c // m for c in e])
 
 
 class Scene:
@@ -531,7 +473,7 @@ class Scene:
             raise NoProofError(f"the scene is not JSON: {error}") from None
         top = keys(data, "exactpt", "time", "bodies")
         need(top.get("exactpt") == "1", "not of format 1:", top.get("exactpt"))
-        self.start, self.end = pair(top.get("time"))
+        self.start, self.end = (number(t) for t in entries(top.get("time"), 2))
         need(self.start < self.end, "an empty time span:", top["time"])
         self.bodies: list[Body] = []
         self.body_of: list[int] = []
@@ -558,7 +500,7 @@ class Scene:
         if self.known[0] != t:
             self.known = t, {}
         if v not in self.known[1]:
-            x, y, w = (sum((c * t**i for i, c in enumerate(f)), t * 0) for f in self.track(v, t))
+            x, y, w = (f.at(t) for f in self.track(v, t))
             self.known[1][v] = x / w, y / w
         return self.known[1][v]
 
@@ -587,24 +529,17 @@ class Scene:
 
         Then the shape is, up to a motion of the plane: it never changes, nor is it mirrored.
         """
-        n, path = body.size, [*body.vertices()]
+        n, path = body.size, body.vertices
         triples = [(path[k - 1], path[k], path[(k + 1) % n]) for k in range(n)]
         if not body.closed:
             triples = triples[1:-1] if n > 2 else [(v, path[0], v) for v in path[1:]]
-        times = [self.start, *(q for q in body.breaks if self.start < q < end)]
-        return all(self.keeps_shape(*t, time) for time in times for t in triples)
-
-    def keeps_shape(self, i: int, j: int, k: int, t: Fraction) -> bool:
-        """Whether two edges, ij and jk, keep their lengths and their angle from a time on."""
-        a, v, b = (self.track(u, t) for u in (i, j, k))
-        of_a, of_b, of_v = (mul(w[2], v[2]) for w in (a, b, v))
-        forms = [(dot_of(a, v, a), mul(of_a, of_a)), (dot_of(b, v, b), mul(of_b, of_b))]
-        forms += [(dot_of(a, v, b), mul(of_a, of_b)), (orientation_of(a, v, b), mul(of_a, b[2]))]
-        for f, g in forms:  # the quotient f / g
-            d = t.denominator ** max(len(f), len(g))
-            at = (int(d * sum((c * t**i for i, c in enumerate(h)), t * 0)) for h in (g, f))
-            if sub(scale(f, next(at)), scale(g, next(at))):
-                return False
+        for t in [self.start, *(q for q in body.breaks if self.start < q < end)]:
+            for a, v, b in ([self.track(u, t) for u in triple] for triple in triples):
+                of_a, of_b = a[2] * v[2], b[2] * v[2]  # the denominators of a - v and b - v
+                forms = [(dot_of(a, v, a), of_a * of_a), (dot_of(b, v, b), of_b * of_b)]
+                forms += [(dot_of(a, v, b), of_a * of_b), (orientation_of(a, v, b), of_a * b[2])]
+                if any(f * Poly([g.at(t)]) != g * Poly([f.at(t)]) for f, g in forms):
+                    return False
         return True
 
 
@@ -833,9 +768,9 @@ class Checker:
             return Time(low), rest
         require(low < high, f"no interval: from {low} to {high}")
         name = [integer(w) for w in numbers]
-        f = self.named(name, low, high) if named else trimmed(name)
+        f = self.named(name, low, high) if named else Poly(name)
         require(f, "no time is named by what is always 0")
-        roots = list(roots_in(square_free(f), low, high))
+        roots = list(f.square_free().roots(low, high))
         require(len(roots) == 1, f"{len(roots)} roots between {low} and {high}, not one")
         while (roots[0].high - roots[0].low) * 2**20 > self.end - self.scene.start:
             roots[0].refine()  # for speed alone
@@ -859,11 +794,11 @@ class Checker:
 
     def read_body(self, body: Body) -> None:
         """Look at a body by itself."""
-        start, vertices = Time(self.scene.start), [*body.vertices()]
+        start, vertices = Time(self.scene.start), [*body.vertices]
         for k, q in enumerate(body.breaks):
             for i in range(body.size if start.low < q <= self.end else 0):
                 jump = vector_of(body.track(i, k), body.track(i, k + 1))
-                need(not any(sign_at(f, q) for f in jump), f"vertex {i} jumps:", body.name)
+                need(not any(f.sign_at(q) for f in jump), f"vertex {i} jumps:", body.name)
         self.rigid.append(self.scene.is_rigid(body, self.end))
         if not body.closed:
             return
@@ -875,7 +810,7 @@ class Checker:
         self.ahead.update(edges)
         if self.rigid[-1]:
             tracks = [self.scene.track(v, start.low) for v in vertices]
-            need(is_simple(tracks, places, start), "not simple at the start:", body.name)
+            need(is_simple(start, tracks), "not simple at the start:", body.name)
             self.rings.append(ring)
             self.solid.update(edges)
 
@@ -952,8 +887,8 @@ class Checker:
     def kind_of(self, u: int, v: int, w: int, sample: Fraction) -> str:
         """Which kind an angle has at the sample."""
         tracks = [self.scene.track(x, sample) for x in (u, v, w)]
-        turn = sign_at(orientation_of(*tracks), sample)
-        along = sign_at(dot_of(*tracks), sample) if turn == 0 else 0
+        turn = orientation_of(*tracks).sign_at(sample)
+        along = dot_of(*tracks).sign_at(sample) if turn == 0 else 0
         straight = along > 0 if u == w else along < 0
         require(turn or straight, f"the angle {u} {v} {w} is 0 at t = {sample}")
         return CONVEX if turn > 0 else REFLEX if turn < 0 else FULL if u == w else FLAT
@@ -1016,7 +951,7 @@ class Checker:
         start, found = self.scene.start, set()
         for (v, w), life in self.life.items():
             tracks = [self.scene.track(x, start) for x in (life.u, v, w)]
-            if sign_at(form(life.kind, *tracks), start) == 0:
+            if form(life.kind, *tracks).sign_at(start) == 0:
                 found.add(self.map.face_of[v, w])
         self.check_clusters(found, self.now)
 
@@ -1063,7 +998,7 @@ class Checker:
         kind = " ".join(w for w in words if not INTEGER.fullmatch(w))
         if kind == "vertex inside" and len(v) == 2:
             require(v[1] in range(len(scene.bodies)), f"there is no body {v[1]}")
-            v[1:] = scene.bodies[v[1]].vertices()
+            v[1:] = scene.bodies[v[1]].vertices
         self.check_vertices(*v)
         at = scene.tracks_at(v, time)
         p = [at[u] for u in v]
