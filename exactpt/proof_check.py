@@ -137,31 +137,25 @@ class Poly(tuple[Any, ...]):
             g = [start * a + width * b for a, b in zip([*g, 0], [0, *g], strict=True)]
             g[0] += c * power
             power *= d
-        g = g[len(self) - 1 :: -1]
+        g.reverse()
         for i in range(len(g) - 1):
             for j in range(len(g) - 2, i - 1, -1):
                 g[j] += g[j + 1]
         return sum(a != b for a, b in pairwise(c > 0 for c in g if c))
 
     def roots(self, low: Fraction, high: Fraction) -> Iterator[Time]:
-        """The roots in [low, high], in order; all roots must be simple."""
-        if self.sign_at(low) == 0:
-            yield Time(low)
-        if low < high:
-            yield from self.roots_inside(low, high)
-            if self.sign_at(high) == 0:
-                yield Time(high)
-
-    def roots_inside(self, low: Fraction, high: Fraction) -> Iterator[Time]:
-        """Those in (low, high): halve, until each is alone."""
-        count, middle = self.variations(low, high), (low + high) / 2
-        if count == 1 and self.sign_at(low) and self.sign_at(high):
-            yield Time(low, high, self)
-        elif count:
-            yield from self.roots_inside(low, middle)
-            if self.sign_at(middle) == 0:
-                yield Time(middle)
-            yield from self.roots_inside(middle, high)
+        """The roots in [low, high], low < high; all roots must be simple."""
+        yield from (Time(q) for q in (low, high) if self.sign_at(q) == 0)
+        todo = [(low, high)]
+        while todo:  # halve intervals, until each root is alone in one
+            a, b = todo.pop()
+            count, middle = self.variations(a, b), (a + b) / 2
+            if count == 1 and self.sign_at(a) and self.sign_at(b):
+                yield Time(a, b, self)
+            elif count:
+                todo += [(a, middle), (middle, b)]
+                if self.sign_at(middle) == 0:
+                    yield Time(middle)
 
 
 class Time:
@@ -238,11 +232,9 @@ def zeros(f: Poly, start: Time, end: Time) -> tuple[bool, bool]:
     low, high = start.low, end.high
     if f.variations(low, high) == 0:
         return False, end.low == high and f.sign_at(high) == 0
-    for root in f.square_free().roots(low, high):
-        if root.compare(start) > 0:
-            order = root.compare(end)
-            return order < 0, order == 0
-    return False, False
+    roots = list(f.square_free().roots(low, high))
+    after = [root.compare(end) for root in roots if root.compare(start) > 0]
+    return -1 in after, 0 in after
 
 
 # ---------------------------------------------------------------------------------------
@@ -299,15 +291,6 @@ def is_simple(time: Time, ring: Sequence[Track]) -> bool:
             elif meet(time, ring[i - 1], ring[i], ring[j - 1], ring[j]):
                 return False
     return True
-
-
-def is_inside(q: Point, p: Sequence[Point]) -> bool:
-    """Whether a point is inside a polygon: a ray to the right leaves it an odd number of times."""
-    inside = False
-    for a, b in pairwise([*p, p[0]]):
-        if (a[1] > q[1]) != (b[1] > q[1]):
-            inside ^= a[0] + (q[1] - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > q[0]
-    return inside
 
 
 def comes_before(d: Point, e: Point) -> bool:
@@ -486,10 +469,6 @@ class Scene:
         """The body of a vertex."""
         return self.bodies[self.body_of[v]]
 
-    def name(self, v: int) -> str:
-        """The name of a vertex."""
-        return f"{self.of(v).name} vertex {v - self.of(v).first}"
-
     def track(self, v: int, after: Fraction) -> Track:
         """The track of a vertex just after a rational time."""
         body = self.of(v)
@@ -504,19 +483,15 @@ class Scene:
             self.known[1][v] = x / w, y / w
         return self.known[1][v]
 
-    def breaks(self, vertices: Iterable[int], start: Time, end: Time) -> list[Fraction]:
-        """The breakpoints of some vertices strictly between two times, in order."""
-        found = {q for v in vertices for q in self.of(v).breaks}
-        return sorted(q for q in found if start.compare_rational(q) < 0 < end.compare_rational(q))
-
     def pieces(
         self, vertices: Sequence[int], start: Time, end: Time
-    ) -> Iterator[tuple[Time, Time, list[Track]]]:
+    ) -> list[tuple[Time, Time, list[Track]]]:
         """The time between start and end, cut at breakpoints: from, to, and the tracks then."""
-        breaks = [Time(q) for q in self.breaks(vertices, start, end)]
-        for a, b in pairwise([start, *breaks, end]):
-            # No breakpoint is after a.low and before a: `breaks` has compared them.
-            yield a, b, [self.track(v, a.low) for v in vertices]
+        found = {q for v in vertices for q in self.of(v).breaks}
+        inside = [q for q in found if start.compare_rational(q) < 0 < end.compare_rational(q)]
+        times = [start, *map(Time, sorted(inside)), end]
+        # Comparing has seen to it that no breakpoint is after a.low and before a.
+        return [(a, b, [self.track(v, a.low) for v in vertices]) for a, b in pairwise(times)]
 
     def tracks_at(self, vertices: Iterable[int], time: Time) -> dict[int, Track]:
         """Tracks of some vertices that hold at a time."""
@@ -564,23 +539,14 @@ class PlanarMap:
         self.face_of: dict[Dart, int] = {}
         self.made = 0
 
-    def add_face(self, face: list[Dart]) -> int:
-        """Add a face; its number."""
-        self.made += 1
-        self.faces[self.made] = face
-        self.face_of.update(dict.fromkeys(face, self.made))
-        return self.made
-
     def begin(self, cycles: Iterable[list[int]]) -> None:
         """Make the map of these faces; all of step 2 but for bodies."""
         for cycle in cycles:
-            require(len(cycle) > 1 or len(self.out) == 1, f"a face of one vertex, {cycle}")
             face = list(pairwise([*cycle, cycle[0]])) if len(cycle) > 1 else []
             for d, e in pairwise([*face, *face[:1]]):
                 require(d not in self.after and d[0] != d[1], f"the half-edge {d} is there twice")
                 self.after[d], self.before[e] = e, d
                 self.out[d[0]].add(d[1])
-            self.add_face(face)
         for u, v in self.after:
             require((v, u) in self.after, f"the edge {u} {v} has a face on one side alone")
         for v, around in enumerate(self.out):
@@ -591,11 +557,9 @@ class PlanarMap:
             reached |= new
             todo += new
         require(len(reached) == len(self.out), "the map is not connected")
-
-    def check_euler(self) -> None:
-        """V - E + F = 2."""
-        v, e, f = len(self.out), len(self.after) // 2, len(self.faces)
-        require(v - e + f == 2, f"{v} vertices, {e} edges, {f} faces: V - E + F is not 2")
+        if len(self.out) == 1:
+            self.faces[0] = []  # the face around a single vertex
+        self.make_faces(set(self.after))
 
     def clockwise(self, v: int) -> list[int]:
         """The vertices to which v has an edge, in order, clockwise."""
@@ -606,17 +570,14 @@ class PlanarMap:
             u = self.after[u, v][1]
         return order
 
-    def change(
-        self, removed: list[Dart], added: list[tuple[int, ...]]
-    ) -> tuple[set[Dart], set[Dart]]:
+    def change(self, removed: list[Dart], added: list[tuple[int, ...]]) -> set[Dart]:
         """Change the map, all but its faces.
 
         Returns:
-            The half-edges that have gone, or have another one before or after them; and those
-            that have another one before them, so that their angles are new.
+            The half-edges that have gone, or have another one before or after them.
         """
         fans = {v: self.clockwise(v) for d in [*removed, *(i[:2] for i in added)] for v in d}
-        touched, changed = set[Dart](), set[Dart]()
+        touched = set[Dart]()
         for u, v in removed:
             require((u, v) in self.after, f"there is no edge {u} {v} that could go")
             for a, b in ((u, v), (v, u)):
@@ -642,13 +603,12 @@ class PlanarMap:
                 if self.after.get((u, v)) != (v, w) or self.before.get((v, w)) != (u, v):
                     self.after[u, v], self.before[v, w] = (v, w), (u, v)
                     touched |= {(u, v), (v, w)}
-                    changed.add((v, w))
         for u, v, w, x in added:
             placed = self.after[u, v] == (v, w) and self.after[v, u] == (u, x)
             require(placed, f"the edge {u} {v} does not stand where its item says")
         for u, v in removed:
             require(self.joined(u, v), f"without the edge {u} {v} the map is not connected")
-        return touched, changed
+        return touched
 
     def joined(self, u: int, v: int) -> bool:
         """Whether a path joins two vertices; searched for from both ends in turn."""
@@ -659,21 +619,25 @@ class PlanarMap:
                 seen[i].update(fronts[i])
         return not seen[0].isdisjoint(seen[1])
 
-    def make_faces(self, touched: set[Dart]) -> list[int]:
+    def make_faces(self, touched: set[Dart]) -> set[int]:
         """Make the faces around half-edges that have changed anew; the new ones."""
         old = {self.face_of[d] for d in touched if d in self.face_of}
         pool = {d for f in old for d in self.faces.pop(f)} | touched
         for d in pool - self.after.keys():
             self.face_of.pop(d, None)
         pool &= self.after.keys()
-        made = []
+        first = self.made
         while pool:
             face = [min(pool)]
             while (d := self.after[face[-1]]) != face[0]:
                 face.append(d)
             pool.difference_update(face)
-            made.append(self.add_face(face))
-        return made
+            self.made += 1
+            self.faces[self.made] = face
+            self.face_of.update(dict.fromkeys(face, self.made))
+        v, e, f = len(self.out), len(self.after) // 2, len(self.faces)
+        require(v - e + f == 2, f"{v} vertices, {e} edges, {f} faces: V - E + F is not 2")
+        return set(range(first + 1, self.made + 1))
 
 
 # ---------------------------------------------------------------------------------------
@@ -694,10 +658,9 @@ class Life:
     line: int
     kind: str = ""
 
-
-def form(kind: str, a: Track, p: Track, b: Track) -> Poly:
-    """What vanishes with an angle of a kind."""
-    return dot_of(a, p, b) if kind in (FLAT, FULL) else orientation_of(a, p, b)
+    def form(self, a: Track, p: Track, b: Track) -> Poly:
+        """What vanishes with the angle."""
+        return dot_of(a, p, b) if self.kind in (FLAT, FULL) else orientation_of(a, p, b)
 
 
 class Checker:
@@ -729,25 +692,28 @@ class Checker:
         for body in self.scene.bodies:
             self.read_body(body)
         faces = list(takewhile(lambda row: row[1][0] in ("face", "inside", "outer"), rows[1:]))
-        rows = rows[1 + len(faces) :]
+        cycles: list[list[int]] = []
         for self.line, words in faces:
-            require(len(words) > 1, "a face without vertices")
-            self.check_vertices(*map(integer, words[1:]))
+            cycles.append(self.vertices(words[1:]))
+            require(cycles[-1], "a face without vertices")
         if faces:
-            self.begin([[integer(w) for w in words[1:]] for _, words in faces])
-        for number, words in rows:
+            self.begin(cycles)
+        for number, words in rows[1 + len(faces) :]:
             made, self.line = self.line, number
             final = words[0] != "event"
             require(final == (words is rows[-1][1]), f"{words[0]} is not where it belongs")
             time, rest = (Time(self.end), []) if words == ["none"] else self.read_time(words[1:])
             require(time.compare_rational(self.end) <= 0, "a time after the time span")
-            if faces or time.compare(self.now) != 0:
+            if faces:
                 require(self.now.compare(time) < 0, "times do not increase")
                 self.line = made
                 self.look_at(between(self.now, time))
                 self.line = number
+            else:
+                at_start = words[0] == "contact" and time.compare(self.now) == 0
+                require(at_start or not self.scene.bodies, "there is no map")
             if not final:
-                self.event(time, read_items(rest))
+                self.event(time, self.read_items(rest))
                 continue
             self.end_lives(set(self.life), time, at_end=words == ["none"])
             if words == ["none"]:
@@ -767,8 +733,15 @@ class Checker:
         if low == high:
             return Time(low), rest
         require(low < high, f"no interval: from {low} to {high}")
-        name = [integer(w) for w in numbers]
-        f = self.named(name, low, high) if named else Poly(name)
+        if named:
+            tracks = self.scene.tracks_at(v := self.vertices(numbers), Time(low))
+            require(len(v) in (2, 3), "a time is named by two vertices, or three")
+            breaks = {q for u in v for q in self.scene.of(u).breaks if low < q < high}
+            require(not breaks, f"a breakpoint is between {low} and {high}")
+            p = [tracks[u] for u in v]
+        f = Poly(map(int, numbers))
+        if named:
+            f = orientation_of(*p) if len(p) == 3 else vector_of(*p)[0]
         require(f, "no time is named by what is always 0")
         roots = list(f.square_free().roots(low, high))
         require(len(roots) == 1, f"{len(roots)} roots between {low} and {high}, not one")
@@ -776,19 +749,22 @@ class Checker:
             roots[0].refine()  # for speed alone
         return roots[0], rest
 
-    def named(self, name: list[int], low: Fraction, high: Fraction) -> Poly:
-        """The polynomial that is named by vertices."""
-        self.check_vertices(*name)
-        breaks = self.scene.breaks(name, Time(low), Time(high))
-        require(not breaks, f"a breakpoint is between {low} and {high}")
-        require(len(name) in (2, 3), "a time is named by two vertices, or three")
-        tracks = [self.scene.track(v, low) for v in name]
-        return orientation_of(*tracks) if len(name) == 3 else vector_of(*tracks)[0]
-
-    def check_vertices(self, *vertices: int) -> None:
-        """See that these are numbers of vertices."""
+    def vertices(self, words: Iterable[str]) -> list[int]:
+        """The vertices that these words are."""
         n = len(self.scene.body_of)
-        require(all(0 <= v < n for v in vertices), f"vertices are 0 to {n - 1}: {vertices}")
+        for w in words:
+            require(INTEGER.fullmatch(w) and 0 <= int(w) < n, f"not a vertex, 0 to {n - 1}: {w}")
+        return [int(w) for w in words]
+
+    def read_items(self, words: list[str]) -> dict[str, list[list[int]]]:
+        """What goes, comes, and is taken anew."""
+        found: dict[str, list[list[int]]] = {"-": [], "+": [], "=": []}
+        while words:
+            sort, size = words[0], 5 if words[0] == "+" else 3
+            require(sort in found and len(words) >= size, f"no item: {' '.join(words[:size])}")
+            found[sort].append(self.vertices(words[1:size]))
+            words = words[size:]
+        return found
 
     # Step 1: the scene.
 
@@ -819,7 +795,6 @@ class Checker:
     def begin(self, cycles: list[list[int]]) -> None:
         """Take the faces at the start."""
         self.map.begin([*cycles, *self.rings])
-        self.map.check_euler()
         for u, v in self.body_darts:
             require((u, v) in self.map.after, f"the body edge {u} {v} is missing")
         self.check_insides(self.ahead)
@@ -843,28 +818,30 @@ class Checker:
             self.life[d] = Life(self.map.before[d][0], self.now, self.line)
             self.new_angles.add(d)
 
-    def event(self, time: Time, items: Items) -> None:
+    def event(self, time: Time, items: dict[str, list[list[int]]]) -> None:
         """Let all that happens at one time happen."""
-        removed, added, renewed = items
-        self.check_vertices(*(v for item in [*removed, *added] for v in item))
-        for u, v in [*removed, *(i[:2] for i in added)]:
+        removed, renewed = ([(u, v) for u, v in items[sort]] for sort in "-=")
+        added = [(u, v, w, x) for u, v, w, x in items["+"]]
+        for u, v in [*removed, *((u, v) for u, v, _, _ in added)]:
             require((u, v) not in self.body_darts, f"the body edge {u} {v} cannot go or come")
         for d in renewed:
             require(d in self.life, f"there is no angle of {d} to be taken anew")
-        touched, changed = self.map.change(removed, added)
+        touched, after, before = self.map.change(removed, added), self.map.after, self.map.before
         for d in touched & self.solid:
-            require(self.map.after[d] in self.solid, f"an edge inside a rigid body, at {d}")
+            require(after[d] in self.solid, f"an edge inside a rigid body, at {d}")
         # Angles that end, in the faces of the map before: steps 3 and 6.
-        ended = (touched - self.map.after.keys()) | changed | set(renewed)
-        self.end_lives(ended & self.life.keys(), time, at_end=True)
+        ended = {
+            d
+            for d, life in ((d, self.life.get(d)) for d in touched)
+            if life and (d not in before or before[d][0] != life.u)
+        } | set(renewed)
+        self.end_lives(ended, time, at_end=True)
         self.now = time
-        begun = set(renewed) & self.map.after.keys()
-        made = self.map.make_faces(touched)
-        self.new_faces = {*made, *(self.map.face_of[d] for d in begun)}
+        begun = ((touched | set(renewed)) & after.keys()) - self.life.keys()
+        self.new_faces = self.map.make_faces(touched) | {self.map.face_of[d] for d in begun}
         self.outer.intersection_update(self.map.faces)
-        self.map.check_euler()
-        self.check_insides({v for v, _ in changed} & self.ahead.keys())
-        self.begin_lives(changed | begun)
+        self.check_insides({v for v, _ in begun} & self.ahead.keys())
+        self.begin_lives(begun)
 
     # Steps 3, 4, 5: the interval after now.
 
@@ -880,9 +857,14 @@ class Checker:
             d = [self.direction(v, u, sample) for u in reversed(self.map.clockwise(v))]
             passes = sum(not comes_before(d[i - 1], e) for i, e in enumerate(d))
             require(passes == 1, f"the edges of vertex {v} go around it {passes} times")
-        if self.now.compare_rational(self.scene.start) == 0:
-            self.check_start()
         self.new_angles.clear()
+        if self.now.compare_rational(start := self.scene.start) == 0:
+            vanishing = set()
+            for (v, w), life in self.life.items():
+                tracks = [self.scene.track(x, start) for x in (life.u, v, w)]
+                if life.form(*tracks).sign_at(start) == 0:
+                    vanishing.add(self.map.face_of[v, w])
+            self.check_clusters(vanishing, self.now)
 
     def kind_of(self, u: int, v: int, w: int, sample: Fraction) -> str:
         """Which kind an angle has at the sample."""
@@ -897,12 +879,13 @@ class Checker:
         """Step 4."""
         self.outer.discard(f)
         face = self.map.faces[f]
-        kinds = [self.life[d].kind for d in face if d not in self.solid]
+        if face and face[0] in self.solid:
+            return
+        kinds = [self.life[d].kind for d in face]
         convex = kinds.count(CONVEX)
         shown = " ".join(str(u) for u, _ in face)
-        if convex == 0 and not self.solid.issuperset(face[:1] or [(0, 0)]):
-            self.outer.add(f)
         if convex == 0:
+            self.outer.add(f)
             return
         require(convex >= 3, f"the face {shown} has {convex} convex angles")
         require(FULL not in kinds, f"the face {shown} has a dead end")
@@ -937,7 +920,7 @@ class Checker:
             if life.kind in (FLAT, FULL):
                 straight = not orientation_of(*tracks)
                 require(straight, f"{shown} is not straight throughout its life")
-            f = form(life.kind, *tracks)
+            f = life.form(*tracks)
             require(f, f"{shown} vanishes throughout a piece of its life")
             inside, vanishes = zeros(f, start, end)
             within = inside or (vanishes and end is not time)
@@ -945,15 +928,6 @@ class Checker:
         return vanishes
 
     # Step 6: a contact at a time between intervals.
-
-    def check_start(self) -> None:
-        """Step 6 at the start."""
-        start, found = self.scene.start, set()
-        for (v, w), life in self.life.items():
-            tracks = [self.scene.track(x, start) for x in (life.u, v, w)]
-            if form(life.kind, *tracks).sign_at(start) == 0:
-                found.add(self.map.face_of[v, w])
-        self.check_clusters(found, self.now)
 
     def check_clusters(self, faces: set[int], time: Time) -> None:
         """See that there is no contact in the clusters of these faces."""
@@ -994,65 +968,47 @@ class Checker:
 
     def check_contact(self, words: list[str], time: Time) -> str:
         """See that the contact is there at a time; what it is, in words."""
-        scene, v = self.scene, [integer(w) for w in words if INTEGER.fullmatch(w)]
+        scene, start = self.scene, self.scene.start
         kind = " ".join(w for w in words if not INTEGER.fullmatch(w))
-        if kind == "vertex inside" and len(v) == 2:
-            require(v[1] in range(len(scene.bodies)), f"there is no body {v[1]}")
-            v[1:] = scene.bodies[v[1]].vertices
-        self.check_vertices(*v)
-        at = scene.tracks_at(v, time)
-        p = [at[u] for u in v]
-        body, other = scene.of(v[0]), scene.of(v[-1])
-        alone = time.compare_rational(scene.start) == 0 and body is not other
-        edges = self.body_darts.issuperset([(v[-2], v[-1]), *[(v[0], v[1])][: len(v) - 3]])
-        if kind == "vertex vertex" and len(v) == 2:
-            there, what = v[0] != v[1] and is_on(time, p[0], p[1], p[1]), scene.name(v[1])
-        elif kind == "vertex edge" and len(v) == 3:
-            there = edges and v[0] not in v[1:] and is_on(time, *p)
-            what = f"the edge from {scene.name(v[1])}"
-        elif kind == "edge edge" and len(v) == 4:
-            there, what = alone and edges and meet(time, *p), f"the edge from {scene.name(v[2])}"
-        else:
-            require(kind == "vertex inside", f"a contact of an unknown kind: {kind}")
-            places = [scene.at(u, scene.start) for u in v]
-            there = alone and other.closed and is_inside(places[0], places[1:])
-            what = f"the inside of {other.name}"
+        numbers = [w for w in words if INTEGER.fullmatch(w)]
+        require(KINDS.get(kind) == len(numbers), f"a contact of an unknown kind: {' '.join(words)}")
+        if kind == "vertex inside":
+            require(numbers[1] in map(str, range(len(scene.bodies))), f"no body {numbers[1]}")
+            numbers[1:] = map(str, scene.bodies[int(numbers[1])].vertices)
+        v = self.vertices(numbers)
+        tracks, body, other = scene.tracks_at(v, time), scene.of(v[0]), scene.of(v[-1])
+        p = [tracks[u] for u in v]
+        edges = {(v[-2], v[-1]), (v[0], v[1])} if kind == "edge edge" else {(v[-2], v[-1])}
+        at_start = time.compare_rational(start) == 0 and body is not other
+        if kind == "vertex vertex":
+            there = v[0] != v[1] and is_on(time, p[0], p[1], p[1])
+        elif kind == "vertex edge":
+            there = edges <= self.body_darts and v[0] not in v[1:] and is_on(time, *p)
+        elif kind == "edge edge":
+            there = at_start and edges <= self.body_darts and meet(time, *p)
+        else:  # a ray to the right leaves the polygon an odd number of times
+            (x, y), *ring = (scene.at(u, start) for u in v)
+            there = False
+            for a, b in pairwise([*ring, ring[0]]):
+                if (a[1] > y) != (b[1] > y):
+                    there ^= a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > x
+            there = there and at_start and other.closed
         require(there, f"there is no such contact at t = {time}: {' '.join(words)}")
-        return f"{scene.name(v[0])} with {what}"
+        one, two = (f"{scene.of(u).name} vertex {u - scene.of(u).first}" for u in (v[0], v[-1]))
+        return f"{one} with {f'the inside of {other.name}' if kind == 'vertex inside' else two}"
 
 
 # ---------------------------------------------------------------------------------------
 # The file.
 
-Items = tuple[list[Dart], list[tuple[int, ...]], list[Dart]]
+KINDS = {"vertex vertex": 2, "vertex edge": 3, "vertex inside": 2, "edge edge": 4}
 INTEGER = re.compile(r"-?\d+", re.ASCII)
-RATIONAL = re.compile(r"-?\d+(/0*[1-9]\d*)?", re.ASCII)
-
-
-def integer(word: str) -> int:
-    """The number that a word is."""
-    require(INTEGER.fullmatch(word), f"not an integer: {word}")
-    return int(word)
 
 
 def rational(word: str) -> Fraction:
     """The rational that a word is."""
-    require(RATIONAL.fullmatch(word), f"not a rational: {word}")
+    require(re.fullmatch(r"-?\d+(/0*[1-9]\d*)?", word, re.ASCII), f"not a rational: {word}")
     return Fraction(word)
-
-
-def read_items(words: list[str]) -> Items:
-    """What goes, comes, and is taken anew."""
-    found: dict[str, list[tuple[int, ...]]] = {"-": [], "+": [], "=": []}
-    i = 0
-    while i < len(words):
-        require(words[i] in found, f"an item of an unknown kind: {words[i]}")
-        item = tuple(integer(w) for w in takewhile(INTEGER.fullmatch, words[i + 1 :]))
-        size = 4 if words[i] == "+" else 2
-        require(len(item) == size, f"an item of {len(item)} numbers, not {size}")
-        found[words[i]].append(item)
-        i += 1 + size
-    return [(u, v) for u, v in found["-"]], found["+"], [(u, v) for u, v in found["="]]
 
 
 def check(scene_file: bytes, proof_file: bytes) -> str:
