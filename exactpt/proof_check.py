@@ -960,7 +960,8 @@ class Checker:
         for u, v in pairwise(path):
             require(order(u, v), f"vertices {u} and {v} coincide at t = {time}")
         for u, w in cluster & self.body_darts:
-            for v in path[rank[u] + 1 : rank[w]]:
+            first, last = sorted((rank[u], rank[w]))
+            for v in path[first + 1 : last]:
                 turn = time.sign_of(orientation_of(tracks[u], tracks[v], tracks[w]))
                 require(turn, f"vertex {v} is on the edge {u} {w} at t = {time}")
 

@@ -82,9 +82,9 @@ class Proof:
         run = Run(self._scene, self._nodes, self._tiling, exact_only=self._exact_only)
         moments = run.moments()
         first = next(moments)
+        self._after = self._followers(first)
         for label, cycle in first.faces:
             yield f"{label} {' '.join(map(str, cycle))}"
-        self._after = self._followers(first)
         self._angles.begin(self._changed({}), first.time)
         for moment in moments:
             yield from self._event(moment)
