@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.proof.nodes import Nodes
 
-__all__ = ["Angle", "Angles", "HalfEdge", "followers", "items"]
+__all__ = ["Angle", "Angles", "HalfEdge", "change", "followers"]
 
 HalfEdge: TypeAlias = tuple[int, int]
 Angle: TypeAlias = tuple[int, int, int]
@@ -29,33 +29,44 @@ def followers(faces: Iterable[Sequence[int]]) -> dict[HalfEdge, HalfEdge]:
     """
     after: dict[HalfEdge, HalfEdge] = {}
     for cycle in faces:
-        if len(cycle) > 1:
-            path = list(pairwise([*cycle, cycle[0], cycle[1]]))
-            for d, e in pairwise(path):
-                if d in after:
-                    raise AuditError(f"the half-edge {d} has a face twice")
-                after[d] = e
+        path = pairwise([*cycle, cycle[0], cycle[1]]) if len(cycle) > 1 else ()
+        for d, e in pairwise(path):
+            if d in after:
+                raise AuditError(f"the half-edge {d} has a face twice")
+            after[d] = e
     return after
 
 
-def items(
+def change(
+    after: dict[HalfEdge, HalfEdge],
     old: dict[HalfEdge, HalfEdge],
     new: dict[HalfEdge, HalfEdge],
     is_body_edge: Callable[[int, int], bool],
 ) -> list[str]:
-    """The edges that go and come between two maps; both, where one has changed its place."""
-    gone = old.keys() - new.keys()
-    come = new.keys() - old.keys()
-    fans = {d[1] for d in gone | come} | {d[1] for d, e in new.items() if old.get(d, e) != e}
-    into_old, into_new = ({v: u for u, v in after if v in fans} for after in (old, new))
-    for v in fans & into_old.keys() & into_new.keys():
-        before, after = _fan(v, into_old[v], old), _fan(v, into_new[v], new)
-        stay = set(before) & set(after)
-        if not _same_cycle([u for u in before if u in stay], [u for u in after if u in stay]):
-            moved = {d for u in stay if not is_body_edge(u, v) for d in ((u, v), (v, u))}
+    """Change a map; the items of the edges that go and come, both for one that moves.
+
+    Args:
+        after: the map, changed here.
+        old: the links of the faces that go.
+        new: those of the faces that come.
+        is_body_edge: whether an edge has to stay.
+    """
+    gone, come = old.keys() - new.keys(), new.keys() - old.keys()
+    changed = {d[1] for d in gone | come} | {d[1] for d, e in new.items() if old.get(d, e) != e}
+    into = {v: u for u, v in old if v in changed}
+    before = {v: _fan(v, u, after) for v, u in into.items()}
+    for d in old:
+        del after[d]
+    after.update(new)
+    into = {v: u for u, v in new if v in before}
+    for v, u in into.items():
+        fan = _fan(v, u, after)
+        stay = {w for w in before[v] if w in fan}
+        if not _same_cycle([w for w in before[v] if w in stay], [w for w in fan if w in stay]):
+            moved = {d for w in stay if not is_body_edge(w, v) for d in ((w, v), (v, w))}
             gone, come = gone | moved, come | moved
     removed = [f"- {u} {v}" for u, v in sorted(gone) if u < v]
-    added = [f"+ {u} {v} {new[u, v][1]} {new[v, u][1]}" for u, v in sorted(come) if u < v]
+    added = [f"+ {u} {v} {after[u, v][1]} {after[v, u][1]}" for u, v in sorted(come) if u < v]
     return removed + added
 
 

@@ -13,7 +13,14 @@ from typing import NamedTuple
 from exactpt.kernel.numbers import QQ
 from exactpt.planar.halfedge import edge_key
 
-__all__ = ["Face", "contract"]
+__all__ = ["Cycle", "Face", "contract"]
+
+
+class Cycle(NamedTuple):
+    """A face that has an area, or the outer one: the vertices around it, from the least on."""
+
+    label: str
+    nodes: tuple[int, ...]
 
 
 class Face(NamedTuple):
@@ -34,7 +41,7 @@ def contract(
     faces: Sequence[Face],
     is_flat: Callable[[int, int, int], bool],
     places: Callable[[], Sequence[tuple[QQ, QQ]]],
-) -> list[tuple[str, tuple[int, ...]]]:
+) -> set[Cycle]:
     """The faces that have an area, and the outer one.
 
     Args:
@@ -53,12 +60,18 @@ def contract(
                 _cut(nodes, at, cuts)
         else:
             whole.append((face.label, nodes or face.around[:1]))
-    if not cuts:
-        return [(label, tuple(nodes)) for label, nodes in whole]
-    return [
-        (label, tuple(w for u, v in pairwise([*nodes, nodes[0]]) for w in _path(u, v, cuts, at)))
-        for label, nodes in whole
-    ]
+    found = set()
+    for label, nodes in whole:
+        edges = pairwise([*nodes, nodes[0]]) if cuts else ()
+        cut = [w for u, v in edges for w in _path(u, v, cuts, at)]
+        found.add(Cycle(label, _from_least(cut or nodes)))
+    return found
+
+
+def _from_least(nodes: list[int]) -> tuple[int, ...]:
+    least = min(nodes)
+    starts = [i for i, v in enumerate(nodes) if v == least]
+    return min(tuple(nodes[i:] + nodes[:i]) for i in starts)
 
 
 def _cut(

@@ -11,7 +11,7 @@ from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
 from exactpt.geometry.polygon import contains, edges, segments_meet
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.proof.changes import Angle, Angles, HalfEdge, followers, items
+from exactpt.proof.changes import Angle, Angles, HalfEdge, change, followers
 from exactpt.proof.engine import Moment, Run
 from exactpt.proof.nodes import Nodes
 from exactpt.proof.times import time_in_words
@@ -56,7 +56,6 @@ class Proof:
         self._exact_only = exact_only
         self._file = scene_bytes(scene) if scene_file is None else scene_file
         self._nodes = Nodes(scene)
-        self._solid = self._nodes.solid_faces()
         self._angles = Angles(self._nodes)
         self._after: dict[HalfEdge, HalfEdge] = {}
         self.contact: Contact | None = None
@@ -82,10 +81,12 @@ class Proof:
         run = Run(self._scene, self._nodes, self._tiling, exact_only=self._exact_only)
         moments = run.moments()
         first = next(moments)
-        self._after = self._followers(first)
-        for label, cycle in first.faces:
+        faces = sorted(first.come)
+        links = followers(face.nodes for face in faces)
+        self._after = links | followers(self._nodes.solid_faces())
+        for label, cycle in faces:
             yield f"{label} {' '.join(map(str, cycle))}"
-        self._angles.begin(self._changed({}), first.time)
+        self._angles.begin(_angles(links, {}), first.time)
         for moment in moments:
             yield from self._event(moment)
         end = AlgebraicNumber(self._scene.end) if not run.touches else run.now
@@ -102,25 +103,18 @@ class Proof:
         """The line of an event, if it has items; before it those of angles that vanish alone."""
         yield from self._renewals(moment.time)
         renewed = self._angles.due(moment.time)
-        old, self._after = self._after, self._followers(moment)
-        words = items(old, self._after, self._is_body_edge)
-        begun = self._changed(old)
+        old, new = (followers(f.nodes for f in faces) for faces in (moment.gone, moment.come))
+        words = change(self._after, old, new, self._is_body_edge)
+        begun = _angles(new, old)
         changed = {(v, w) for _, v, w in begun}
         renewed = [
             angle for angle in renewed if angle[1:] in self._after and angle[1:] not in changed
         ]
         words += [f"= {v} {w}" for _, v, w in renewed]
-        self._angles.end(d for d in old if d not in self._after)
+        self._angles.end(old.keys() - new.keys())
         self._angles.begin([*begun, *renewed], moment.time)
         if words:
             yield f"event {time_in_words(moment.time, moment.names, self._nodes)} {' '.join(words)}"
-
-    def _followers(self, moment: Moment) -> dict[HalfEdge, HalfEdge]:
-        return followers([*(cycle for _, cycle in moment.faces), *self._solid])
-
-    def _changed(self, old: dict[HalfEdge, HalfEdge]) -> list[Angle]:
-        """The angles that are not in an older map."""
-        return [(u, v, w) for (u, v), (_, w) in self._after.items() if old.get((u, v)) != (v, w)]
 
     def _renewals(self, until: AlgebraicNumber) -> Iterator[str]:
         """The lines of angles that vanish before a time, at which nothing else happens."""
@@ -166,3 +160,8 @@ class Proof:
         if bodies[0].closed and bodies[0].size > 2 and contains(p, q[0]):
             return f"vertex {self._nodes.first[j]} inside {i}"
         return f"vertex {self._nodes.first[i]} inside {j}"
+
+
+def _angles(links: dict[HalfEdge, HalfEdge], old: dict[HalfEdge, HalfEdge]) -> list[Angle]:
+    """The angles of some links that older ones do not have."""
+    return [(u, v, w) for (u, v), (_, w) in links.items() if old.get((u, v)) != (v, w)]

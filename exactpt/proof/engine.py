@@ -7,16 +7,17 @@ is infinitesimal or without area for ever has been contracted.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple, final
+from itertools import zip_longest
+from typing import TYPE_CHECKING, Final, NamedTuple, final
 
 from exactpt.collision.tilings import start_tiling, tiling_for_contact
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.incidence import orientation
 from exactpt.planar.halfedge import NOTHING
-from exactpt.proof.contraction import Face, contract
+from exactpt.proof.contraction import Cycle, Face, contract
 from exactpt.tiling.events import ContactFound
-from exactpt.tiling.mesh import FREE, INSIDE, OUTER, SOLID
+from exactpt.tiling.mesh import FREE, INSIDE, OUTER, SOLID, Mesh
 
 if TYPE_CHECKING:
     from exactpt.motion.incidence import Touch
@@ -25,20 +26,24 @@ if TYPE_CHECKING:
 
 __all__ = ["Moment", "Run"]
 
+CHUNK: Final = 256
+"""So many links of half-edges are compared at once."""
+
 
 class Moment(NamedTuple):
-    """The tiling just after a time.
+    """How the tiling changes at a time.
 
     Attributes:
         time: when.
         names: vertices of which the orientation (three) or the difference of abscissas (two)
             may vanish at that time.
-        faces: all but the solid ones: the label and the vertices around it.
+        gone, come: faces, all but the solid ones.
     """
 
     time: AlgebraicNumber
     names: list[tuple[int, ...]]
-    faces: list[tuple[str, tuple[int, ...]]]
+    gone: set[Cycle]
+    come: set[Cycle]
 
 
 @final
@@ -60,6 +65,16 @@ class Run:
         self.touches: list[Touch] = []
         self._changes = -1
         self._flat: dict[tuple[int, ...], bool] = {}
+        self._forget()
+        self._shown: set[Cycle] = set()
+
+    def _forget(self) -> None:
+        """Forget the faces of the mesh, so that all are new."""
+        self._following: list[int] = []
+        self._origin: list[int] = []
+        self._faces: dict[int, tuple[list[int], Face | None]] = {}
+        self._face_of: dict[int, int] = {}
+        self._cutting: set[int] = set()
 
     def moments(self) -> Iterator[Moment]:
         """The tiling at the start, and after each event before the contact."""
@@ -86,32 +101,58 @@ class Run:
 
     def _moment(self) -> Moment:
         kinetic = self._kinetic
-        mesh = kinetic.mesh_after()
-        m, node = mesh.map, self._node
-        rigid, body_of = self._nodes.rigid, self._nodes.body_of
-        faces = []
-        seen = [v == NOTHING for v in m.origin]
-        for h in range(len(seen)):
-            if seen[h]:
-                continue
-            cycle = m.face(h)
-            for g in cycle:
-                seen[g] = True
-            region = mesh.region[h]
-            around = [node[m.origin[g]] for g in cycle]
-            if region in (SOLID, INSIDE) and (
-                rigid[body_of[around[0]]] or self._is_thin(around[0])
-            ):
-                continue
-            corners = [node[m.origin[g]] for g in cycle if mesh.corner[g]]
-            label = {FREE: "face", OUTER: "outer"}.get(region, "inside")
-            faces.append(Face(label, around, [] if region in (SOLID, OUTER) else corners))
-        if not faces:
-            faces.append(Face("outer", [0], []))  # of a single point
         if kinetic.vertices.changes != self._changes:
             self._changes = kinetic.vertices.changes
             self._flat.clear()
-        return Moment(self.now, self.names(), contract(faces, self._is_flat, self._later))
+            self._forget()
+        all_new, were_cut = not self._faces, bool(self._cutting)
+        gone, come = self._update(kinetic.mesh_after())
+        if all_new or were_cut or self._cutting:
+            now = contract([f for _, f in self._faces.values() if f], self._is_flat, self._later)
+            # Of a single point there is no half-edge.
+            now = now or {Cycle("outer", (0,))}
+            before = self._shown
+        else:
+            now, before = (contract(faces, self._is_flat, self._later) for faces in (come, gone))
+        self._shown = (self._shown - before) | now
+        return Moment(self.now, self.names(), before - now, now - before)
+
+    def _update(self, mesh: Mesh) -> tuple[list[Face], list[Face]]:
+        """Find the faces of the mesh that have gone, and come."""
+        m = mesh.map
+        changed = {*_differing(self._following, m.following), *_differing(self._origin, m.origin)}
+        self._following, self._origin = m.following[:], m.origin[:]
+        keys = {self._face_of[h] for h in changed if h in self._face_of}
+        old = [self._faces.pop(key) for key in sorted(keys)]
+        self._cutting -= keys
+        pool = changed.union(*(cycle for cycle, _ in old))
+        for h in pool:
+            self._face_of.pop(h, None)
+        come = []
+        for h in sorted(pool):
+            if m.origin[h] == NOTHING or h in self._face_of:
+                continue
+            cycle = m.face(h)
+            self._face_of.update(dict.fromkeys(cycle, h))
+            face = self._face(mesh, cycle)
+            self._faces[h] = cycle, face
+            if face is not None:
+                come.append(face)
+                if len(set(face.around)) > 2 and face.corners and self._is_flat(*face.corners):
+                    self._cutting.add(h)
+        return [face for _, face in old if face is not None], come
+
+    def _face(self, mesh: Mesh, cycle: list[int]) -> Face | None:
+        """A face in vertices of the scene; None for the inside of a rigid or a thin body."""
+        around = [self._node[mesh.map.origin[h]] for h in cycle]
+        region, i = mesh.region[cycle[0]], self._nodes.body_of[around[0]]
+        body = self._scene.bodies[i]
+        is_thin = body.size < 3 or not body.closed
+        if region in (SOLID, INSIDE) and (self._nodes.rigid[i] or is_thin):
+            return None
+        corners = [v for v, h in zip(around, cycle, strict=True) if mesh.corner[h]]
+        label = {FREE: "face", OUTER: "outer"}.get(region, "inside")
+        return Face(label, around, [] if region in (SOLID, OUTER) else corners)
 
     def _is_flat(self, *corners: int) -> bool:
         """Whether three vertices are on one line in the present pieces of their motions."""
@@ -121,10 +162,6 @@ class Run:
             self._flat[corners] = not orientation(*tracks)
         return self._flat[corners]
 
-    def _is_thin(self, v: int) -> bool:
-        body = self._scene.bodies[self._nodes.body_of[v]]
-        return body.size < 3 or not body.closed
-
     def _later(self) -> list[tuple[QQ, QQ]]:
         """The places of all vertices at a rational time before the next event."""
         now, following = self.now, self._kinetic.next_number()
@@ -133,3 +170,13 @@ class Run:
             following = end
         t = rational_between(now, following)
         return [self._nodes.track(v, t).at(t) for v in range(len(self._nodes.body_of))]
+
+
+def _differing(old: list[int], new: list[int]) -> Iterator[int]:
+    """Where two lists differ; the second one may be longer."""
+    for i in range(0, max(len(old), len(new)), CHUNK):
+        a, b = old[i : i + CHUNK], new[i : i + CHUNK]
+        if a != b:
+            for k, (x, y) in enumerate(zip_longest(a, b)):
+                if x != y:
+                    yield i + k
