@@ -86,10 +86,14 @@ class Poly(tuple[Any, ...]):
 
     def at(self, t: Fraction) -> Fraction:
         """The value at a time."""
-        return sum((c * t**i for i, c in enumerate(self)), Fraction(0))
+        n, d, power, total = t.numerator, t.denominator, 1, 0
+        for c in reversed(self):
+            total = total * n + c * power
+            power *= d
+        return Fraction(total * d, power)
 
     def sign_at(self, t: Fraction) -> int:
-        """The sign of the value, in integers: of d^degree f(n / d)."""
+        """The sign of the value."""
         n, d, power, total = t.numerator, t.denominator, 1, 0
         for c in reversed(self):
             total = total * n + c * power
@@ -570,13 +574,13 @@ class PlanarMap:
             u = self.after[u, v][1]
         return order
 
-    def change(self, removed: list[Dart], added: list[tuple[int, ...]]) -> set[Dart]:
+    def change(self, removed: list[Dart], added: list[list[int]]) -> set[Dart]:
         """Change the map, all but its faces.
 
         Returns:
             The half-edges that have gone, or have another one before or after them.
         """
-        fans = {v: self.clockwise(v) for d in [*removed, *(i[:2] for i in added)] for v in d}
+        fans = {v: self.clockwise(v) for d in [*removed, *added] for v in d[:2]}
         touched = set[Dart]()
         for u, v in removed:
             require((u, v) in self.after, f"there is no edge {u} {v} that could go")
@@ -623,9 +627,9 @@ class PlanarMap:
         """Make the faces around half-edges that have changed anew; the new ones."""
         old = {self.face_of[d] for d in touched if d in self.face_of}
         pool = {d for f in old for d in self.faces.pop(f)} | touched
-        for d in pool - self.after.keys():
+        for d in pool:
             self.face_of.pop(d, None)
-        pool &= self.after.keys()
+        pool = {d for d in pool if d in self.after}
         first = self.made
         while pool:
             face = [min(pool)]
@@ -733,14 +737,13 @@ class Checker:
         if low == high:
             return Time(low), rest
         require(low < high, f"no interval: from {low} to {high}")
-        if named:
-            tracks = self.scene.tracks_at(v := self.vertices(numbers), Time(low))
-            require(len(v) in (2, 3), "a time is named by two vertices, or three")
-            breaks = {q for u in v for q in self.scene.of(u).breaks if low < q < high}
-            require(not breaks, f"a breakpoint is between {low} and {high}")
-            p = [tracks[u] for u in v]
         f = Poly(map(int, numbers))
         if named:
+            v = self.vertices(numbers)
+            breaks = {q for u in v for q in self.scene.of(u).breaks if low < q < high}
+            require(not breaks, f"a breakpoint is between {low} and {high}")
+            require(len(v) in (2, 3), "a time is named by two vertices, or three")
+            p = [self.scene.track(u, low) for u in v]
             f = orientation_of(*p) if len(p) == 3 else vector_of(*p)[0]
         require(f, "no time is named by what is always 0")
         roots = list(f.square_free().roots(low, high))
@@ -821,12 +824,15 @@ class Checker:
     def event(self, time: Time, items: dict[str, list[list[int]]]) -> None:
         """Let all that happens at one time happen."""
         removed, renewed = ([(u, v) for u, v in items[sort]] for sort in "-=")
-        added = [(u, v, w, x) for u, v, w, x in items["+"]]
-        for u, v in [*removed, *((u, v) for u, v, _, _ in added)]:
+        for u, v, *_ in [*items["-"], *items["+"]]:
             require((u, v) not in self.body_darts, f"the body edge {u} {v} cannot go or come")
         for d in renewed:
             require(d in self.life, f"there is no angle of {d} to be taken anew")
-        touched, after, before = self.map.change(removed, added), self.map.after, self.map.before
+        touched, after, before = (
+            self.map.change(removed, items["+"]),
+            self.map.after,
+            self.map.before,
+        )
         for d in touched & self.solid:
             require(after[d] in self.solid, f"an edge inside a rigid body, at {d}")
         # Angles that end, in the faces of the map before: steps 3 and 6.
@@ -837,10 +843,10 @@ class Checker:
         } | set(renewed)
         self.end_lives(ended, time, at_end=True)
         self.now = time
-        begun = ((touched | set(renewed)) & after.keys()) - self.life.keys()
+        begun = {d for d in [*touched, *renewed] if d in after and d not in self.life}
         self.new_faces = self.map.make_faces(touched) | {self.map.face_of[d] for d in begun}
-        self.outer.intersection_update(self.map.faces)
-        self.check_insides({v for v, _ in begun} & self.ahead.keys())
+        self.outer = {f for f in self.outer if f in self.map.faces}
+        self.check_insides({v for v, _ in begun if v in self.ahead})
         self.begin_lives(begun)
 
     # Steps 3, 4, 5: the interval after now.
