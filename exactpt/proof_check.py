@@ -63,7 +63,7 @@ class Poly(tuple[Any, ...]):
 
     __slots__ = ()
 
-    def __new__(cls, coefficients: Iterable[Any] = ()) -> Poly:
+    def __new__(cls, coefficients: Iterable[Any] = ()) -> Poly:  # noqa: D102
         f = list(coefficients)
         while f and not f[-1]:
             f.pop()
@@ -84,21 +84,18 @@ class Poly(tuple[Any, ...]):
                 product[i + j] += a * b
         return Poly(product)
 
-    def at(self, t: Fraction) -> Fraction:
-        """The value at a time."""
+    def scaled(self, t: Fraction) -> tuple[int, int]:
+        """The value at a time n / d times d^k, k the number of coefficients; and d^k."""
         n, d, power, total = t.numerator, t.denominator, 1, 0
         for c in reversed(self):
             total = total * n + c * power
             power *= d
-        return Fraction(total * d, power)
+        return total * d, power
 
     def sign_at(self, t: Fraction) -> int:
-        """The sign of the value."""
-        n, d, power, total = t.numerator, t.denominator, 1, 0
-        for c in reversed(self):
-            total = total * n + c * power
-            power *= d
-        return (total > 0) - (total < 0)
+        """The sign of the value at a time."""
+        value, _ = self.scaled(t)
+        return (value > 0) - (value < 0)
 
     def primitive(self) -> Poly:
         """Divided by what the coefficients have in common, with a positive leading one."""
@@ -281,7 +278,7 @@ def meet(time: Time, a: Track, b: Track, c: Track, d: Track) -> bool:
 def is_simple(time: Time, ring: Sequence[Track]) -> bool:
     """Whether the edges of a polygon meet where they are joined, and nowhere else."""
     n = len(ring)
-    x = [f.at(time.low) / w.at(time.low) for f, _, w in ring]
+    x = [Fraction(*f.scaled(time.low)) / Fraction(*w.scaled(time.low)) for f, _, w in ring]
     spans = sorted((min(x[i - 1], x[i]), max(x[i - 1], x[i]), i) for i in range(n))
     for k, (_, right, i) in enumerate(spans):
         for left, _, j in spans[k + 1 :]:
@@ -361,6 +358,7 @@ class Body:
         self.vertices, self.closed = range(first, first + self.size), closed and self.size > 2
         ends = {t for t, _ in self.shapes} | {t for t, _ in self.motions}
         self.breaks = sorted(t for t in ends if isinstance(t, Fraction))
+        self.edges = [*pairwise(self.vertices), *[(self.vertices[-1], first)][: self.closed]]
         self.tracks: dict[tuple[int, int], Track] = {}
 
     def track(self, i: int, piece: int) -> Track:
@@ -371,11 +369,6 @@ class Body:
             motion = next(motion for end, motion in self.motions if end > t)
             self.tracks[i, piece] = moved(motion, *shape[i])
         return self.tracks[i, piece]
-
-    def edges(self) -> list[Dart]:
-        """The edges, as numbers of vertices in the scene."""
-        closing = [(self.vertices[-1], self.first)] if self.closed else []
-        return [*pairwise(self.vertices), *closing]
 
 
 def resting(body: dict[str, Json]) -> list[tuple[Until, Shape]]:
@@ -483,7 +476,7 @@ class Scene:
         if self.known[0] != t:
             self.known = t, {}
         if v not in self.known[1]:
-            x, y, w = (f.at(t) for f in self.track(v, t))
+            x, y, w = (Fraction(*f.scaled(t)) for f in self.track(v, t))
             self.known[1][v] = x / w, y / w
         return self.known[1][v]
 
@@ -517,7 +510,11 @@ class Scene:
                 of_a, of_b = a[2] * v[2], b[2] * v[2]  # the denominators of a - v and b - v
                 forms = [(dot_of(a, v, a), of_a * of_a), (dot_of(b, v, b), of_b * of_b)]
                 forms += [(dot_of(a, v, b), of_a * of_b), (orientation_of(a, v, b), of_a * b[2])]
-                if any(f * Poly([g.at(t)]) != g * Poly([f.at(t)]) for f, g in forms):
+                values = [(Fraction(*f.scaled(t)), Fraction(*g.scaled(t))) for f, g in forms]
+                if any(
+                    f * Poly([d]) != g * Poly([n])
+                    for (f, g), (n, d) in zip(forms, values, strict=True)
+                ):
                     return False
         return True
 
@@ -674,7 +671,7 @@ class Checker:
         self.scene, self.end, self.line = scene, scene.end, 0
         self.now = Time(scene.start)
         self.map = PlanarMap(len(scene.body_of))
-        self.body_darts = {d for b in scene.bodies for u, v in b.edges() for d in ((u, v), (v, u))}
+        self.body_darts = {d for b in scene.bodies for u, v in b.edges for d in ((u, v), (v, u))}
         self.rings: list[list[int]] = []  # of rigid closed bodies
         self.ahead: dict[int, int] = {}  # on the ring of a closed body, counter-clockwise
         self.rigid: list[bool] = []
@@ -698,8 +695,8 @@ class Checker:
         faces = list(takewhile(lambda row: row[1][0] in ("face", "inside", "outer"), rows[1:]))
         cycles: list[list[int]] = []
         for self.line, words in faces:
+            require(len(words) > 1, "a face without vertices")
             cycles.append(self.vertices(words[1:]))
-            require(cycles[-1], "a face without vertices")
         if faces:
             self.begin(cycles)
         for number, words in rows[1 + len(faces) :]:
@@ -719,8 +716,9 @@ class Checker:
             if not final:
                 self.event(time, self.read_items(rest))
                 continue
-            self.end_lives(set(self.life), time, at_end=words == ["none"])
+            vanishing = self.end_lives(self.life, time)
             if words == ["none"]:
+                self.check_clusters(vanishing, time)
                 return f"accepted: no contact from t = {start} to t = {self.end}"
             require(words[0] == "contact", f"a line of an unknown kind: {words[0]}")
             what = self.check_contact(rest, time)
@@ -841,7 +839,7 @@ class Checker:
             for d, life in ((d, self.life.get(d)) for d in touched)
             if life and (d not in before or before[d][0] != life.u)
         } | set(renewed)
-        self.end_lives(ended, time, at_end=True)
+        self.check_clusters(self.end_lives(ended, time), time)
         self.now = time
         begun = {d for d in [*touched, *renewed] if d in after and d not in self.life}
         self.new_faces = self.map.make_faces(touched) | {self.map.face_of[d] for d in begun}
@@ -854,7 +852,14 @@ class Checker:
     def look_at(self, sample: Fraction) -> None:
         """See what is new at a rational time inside the interval that begins now."""
         for v, w in self.new_angles:
-            self.life[v, w].kind = self.kind_of(self.life[v, w].u, v, w, sample)
+            u = self.life[v, w].u
+            tracks = [self.scene.track(x, sample) for x in (u, v, w)]
+            turn = orientation_of(*tracks).sign_at(sample)
+            along = dot_of(*tracks).sign_at(sample) if turn == 0 else 0
+            straight = along > 0 if u == w else along < 0
+            require(turn or straight, f"the angle {u} {v} {w} is 0 at t = {sample}")
+            kind = CONVEX if turn > 0 else REFLEX if turn < 0 else FULL if u == w else FLAT
+            self.life[v, w].kind = kind
         for f in self.new_faces:
             self.check_face(f, sample)
         require(len(self.outer) == 1, f"{len(self.outer)} faces without a convex angle, not one")
@@ -871,15 +876,6 @@ class Checker:
                 if life.form(*tracks).sign_at(start) == 0:
                     vanishing.add(self.map.face_of[v, w])
             self.check_clusters(vanishing, self.now)
-
-    def kind_of(self, u: int, v: int, w: int, sample: Fraction) -> str:
-        """Which kind an angle has at the sample."""
-        tracks = [self.scene.track(x, sample) for x in (u, v, w)]
-        turn = orientation_of(*tracks).sign_at(sample)
-        along = dot_of(*tracks).sign_at(sample) if turn == 0 else 0
-        straight = along > 0 if u == w else along < 0
-        require(turn or straight, f"the angle {u} {v} {w} is 0 at t = {sample}")
-        return CONVEX if turn > 0 else REFLEX if turn < 0 else FULL if u == w else FLAT
 
     def check_face(self, f: int, sample: Fraction) -> None:
         """Step 4."""
@@ -907,11 +903,9 @@ class Checker:
         p, q = self.scene.at(u, t), self.scene.at(v, t)
         return q[0] - p[0], q[1] - p[1]
 
-    def end_lives(self, darts: set[Dart], time: Time, *, at_end: bool) -> None:
-        """Step 3 for lives that end at a time; and with ``at_end`` step 6 for that time."""
-        vanishing = {self.map.face_of[d] for d in sorted(darts) if self.end_life(d, time)}
-        if at_end:
-            self.check_clusters(vanishing, time)
+    def end_lives(self, darts: Iterable[Dart], time: Time) -> set[int]:
+        """Step 3 for lives that end at a time; the faces with an angle that vanishes then."""
+        return {self.map.face_of[d] for d in sorted(darts) if self.end_life(d, time)}
 
     def end_life(self, d: Dart, time: Time) -> bool:
         """Check the life of an angle that ends at a time; whether the angle vanishes then."""

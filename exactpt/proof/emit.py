@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, final
 
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
+from exactpt.collision.tilings import check_tiling, tiling_for_contact
 from exactpt.geometry.polygon import contains, edges, segments_meet
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.proof.changes import Angle, Angles, HalfEdge, change, followers
@@ -18,8 +19,10 @@ from exactpt.proof.times import time_in_words
 from exactpt.scene.format import to_json
 
 if TYPE_CHECKING:
+    from exactpt.kernel.numbers import QQ
     from exactpt.motion.incidence import Touch
     from exactpt.scene.scene import Scene
+    from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Proof", "scene_bytes"]
 
@@ -38,8 +41,10 @@ class Proof:
         tiling: which tiling to keep, as for `exactpt.first_contact`.
         scene_file: the bytes of the scene's file; by default those that `Scene.save` writes.
         exact_only: decide everything by exact arithmetic.
+        max_events: no more events of the tiling than these.
 
     Attributes:
+        tiling: the name of the tiling.
         contact: the first contact, or None; known when all lines have been made.
     """
 
@@ -50,15 +55,27 @@ class Proof:
         tiling: str = "auto",
         scene_file: bytes | None = None,
         exact_only: bool = False,
+        max_events: int | None = None,
     ) -> None:
         self._scene = scene
-        self._tiling = tiling
-        self._exact_only = exact_only
+        check_tiling(tiling)
+        self.tiling: str = tiling_for_contact(scene, tiling)
+        self._options = exact_only, max_events
+        self._running: Run | None = None
         self._file = scene_bytes(scene) if scene_file is None else scene_file
         self._nodes = Nodes(scene)
         self._angles = Angles(self._nodes)
         self._after: dict[HalfEdge, HalfEdge] = {}
         self.contact: Contact | None = None
+
+    @property
+    def kinetic(self) -> Tiling | None:
+        """The tiling that is kept; None before the run, or if there is none."""
+        return None if self._running is None else self._running.kinetic
+
+    def reached(self) -> QQ:
+        """A rational time up to which there is provably no contact."""
+        return self._scene.start if self._running is None else self._running.reached()
 
     def lines(self) -> Iterator[str]:
         """The lines, without their ends."""
@@ -78,7 +95,9 @@ class Proof:
             yield "none"
 
     def _run(self) -> Iterator[str]:
-        run = Run(self._scene, self._nodes, self._tiling, exact_only=self._exact_only)
+        exact_only, most = self._options
+        run = Run(self._scene, self._nodes, self.tiling, exact_only=exact_only, max_events=most)
+        self._running = run
         moments = run.moments()
         first = next(moments)
         faces = sorted(first.come)

@@ -10,7 +10,8 @@ from collections.abc import Iterator
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Final, NamedTuple, final
 
-from exactpt.collision.tilings import start_tiling, tiling_for_contact
+from exactpt.collision.tilings import start_tiling
+from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.incidence import orientation
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from exactpt.motion.incidence import Touch
     from exactpt.proof.nodes import Nodes
     from exactpt.scene.scene import Scene
+    from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Moment", "Run"]
 
@@ -51,17 +53,23 @@ class Run:
     """A tiling of a scene on its way to the first contact.
 
     Attributes:
-        name: of the tiling.
+        kinetic: the tiling.
         touches: what touches at the end of the run; empty if nothing does.
     """
 
     def __init__(
-        self, scene: Scene, nodes: Nodes, tiling: str, *, exact_only: bool = False
+        self,
+        scene: Scene,
+        nodes: Nodes,
+        tiling: str,
+        *,
+        exact_only: bool = False,
+        max_events: int | None = None,
     ) -> None:
         self._scene, self._nodes = scene, nodes
-        self.name = tiling_for_contact(scene, tiling)
-        self._kinetic = start_tiling(scene, self.name, scene.start, exact_only=exact_only)
-        self._node = self._kinetic.vertices.nodes()
+        self.kinetic: Tiling = start_tiling(scene, tiling, scene.start, exact_only=exact_only)
+        self._most = max_events
+        self._node = self.kinetic.vertices.nodes()
         self.touches: list[Touch] = []
         self._changes = -1
         self._flat: dict[tuple[int, ...], bool] = {}
@@ -78,10 +86,14 @@ class Run:
 
     def moments(self) -> Iterator[Moment]:
         """The tiling at the start, and after each event before the contact."""
-        kinetic, end = self._kinetic, self._scene.end
+        kinetic, end = self.kinetic, self._scene.end
         yield self._moment()
+        count = 0
         try:
-            while kinetic.advance(end) is not None:
+            while (events := kinetic.advance(end)) is not None:
+                count += len(events)
+                if self._most is not None and count > self._most:
+                    raise BudgetExceeded("the number of events is used up", self.reached())
                 if kinetic.now.compare_rational(end) < 0:
                     yield self._moment()
         except ContactFound as found:
@@ -90,17 +102,21 @@ class Run:
     @property
     def now(self) -> AlgebraicNumber:
         """The time of the last event, or of the contact."""
-        return self._kinetic.now
+        return self.kinetic.now
+
+    def reached(self) -> QQ:
+        """A rational time at most now."""
+        return self.now.low if self.now.is_rational else self.now.canonical_interval()[0]
 
     def names(self) -> list[tuple[int, ...]]:
         """What may vanish now, as in `Moment`."""
-        certifier, node = self._kinetic.certifier, self._node
+        certifier, node = self.kinetic.certifier, self._node
         cause = certifier.now
         triples = [(cause.a, cause.b, cause.c), *certifier.roots_now]
         return [tuple([node[v] for v in t if v >= 0]) for t in triples if t[0] >= 0]
 
     def _moment(self) -> Moment:
-        kinetic = self._kinetic
+        kinetic = self.kinetic
         if kinetic.vertices.changes != self._changes:
             self._changes = kinetic.vertices.changes
             self._flat.clear()
@@ -157,14 +173,14 @@ class Run:
     def _is_flat(self, *corners: int) -> bool:
         """Whether three vertices are on one line in the present pieces of their motions."""
         if corners not in self._flat:
-            nodes, bodies = self._nodes, self._kinetic.vertices.bodies
+            nodes, bodies = self._nodes, self.kinetic.vertices.bodies
             tracks = [nodes.track(v, bodies[nodes.body_of[v]].since) for v in corners]
             self._flat[corners] = not orientation(*tracks)
         return self._flat[corners]
 
     def _later(self) -> list[tuple[QQ, QQ]]:
         """The places of all vertices at a rational time before the next event."""
-        now, following = self.now, self._kinetic.next_number()
+        now, following = self.now, self.kinetic.next_number()
         end = AlgebraicNumber(self._scene.end)
         if following is None or following.compare(end) > 0:
             following = end

@@ -1,0 +1,125 @@
+"""Proofs as files: written as a tiling runs, complete or not there."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, final
+
+from exactpt.errors import InputError
+from exactpt.kernel.counters import counters
+from exactpt.proof.emit import Proof, scene_bytes
+from exactpt.scene.format import write_atomically
+from exactpt.simulation.report import report
+
+if TYPE_CHECKING:
+    from exactpt.collision.contact import Contact
+    from exactpt.kernel.numbers import QQ
+    from exactpt.scene.scene import Scene
+
+__all__ = ["ProvedSearch", "write_proof"]
+
+
+@final
+class ProvedSearch:
+    """A search for the first contact by a tiling that writes its proof.
+
+    Args:
+        scene: what moves.
+        path: of the proof.
+        tiling: which tiling to keep.
+        scene_file: the bytes of the scene's file. Without, the scene is written beside the
+            proof, with ``.scene.json`` after its name.
+        exact_only: decide everything by exact arithmetic.
+        max_events: no more events of the tiling than these.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        path: Path,
+        *,
+        tiling: str = "auto",
+        scene_file: bytes | None = None,
+        exact_only: bool = False,
+        max_events: int | None = None,
+    ) -> None:
+        self._scene, self._path, self._beside = scene, path, scene_file is None
+        self._file = scene_bytes(scene) if scene_file is None else scene_file
+        self._counted = counters.now()
+        self._proof = Proof(
+            scene,
+            tiling=tiling,
+            scene_file=self._file,
+            exact_only=exact_only,
+            max_events=max_events,
+        )
+
+    @property
+    def name(self) -> str:
+        """The name of the tiling."""
+        return self._proof.tiling
+
+    @property
+    def stats(self) -> dict[str, object]:
+        """The figures of the run; see `exactpt.simulation.report`."""
+        return report(self._scene, self._proof.kinetic, counters.now().since(self._counted))
+
+    def run_to_contact(self) -> Contact | None:
+        """The first contact, or None; the proof has been written then.
+
+        Raises:
+            BudgetExceeded: if there are too many events.
+            InputError: if a file cannot be written.
+        """
+        if self._beside:
+            write_atomically(self._path.with_name(f"{self._path.name}.scene.json"), self._file)
+        _stream(self._path, self._proof.lines())
+        return self._proof.contact
+
+    def passed(self) -> QQ:
+        """A rational time up to which there is provably no contact."""
+        return self._proof.reached()
+
+
+def write_proof(
+    scene: Scene,
+    path: str | Path,
+    *,
+    tiling: str = "auto",
+    scene_file: bytes | None = None,
+    exact_only: bool = False,
+) -> Contact | None:
+    """The first contact of a scene, or None, by a tiling; its proof is written to a file.
+
+    Args and raises: as `ProvedSearch`.
+    """
+    search = ProvedSearch(
+        scene, Path(path), tiling=tiling, scene_file=scene_file, exact_only=exact_only
+    )
+    return search.run_to_contact()
+
+
+def _stream(path: Path, lines: Iterable[str]) -> None:
+    """Write lines to a neighbour of a file that takes its place at last; to a pipe at once."""
+    try:
+        if path.exists() and not path.is_file():
+            with path.open("w", encoding="utf-8") as pipe:
+                pipe.writelines(f"{line}\n" for line in lines)
+            return
+        target = path.resolve()
+        descriptor, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+        try:
+            with os.fdopen(descriptor, "w", encoding="utf-8") as file:
+                file.writelines(f"{line}\n" for line in lines)
+            os.chmod(name, 0o644)
+            os.replace(name, target)
+        except BaseException:
+            with suppress(OSError):
+                os.unlink(name)
+            raise
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {error.strerror}") from None
