@@ -132,6 +132,54 @@ def test_contact_at_the_last_moment():
     assert verdict(scene, [*lines[:-1], "none"]).endswith("vertex 2 is on the edge 0 1 at t = 1")
 
 
+def test_contact_at_the_first_moment():
+    # Bodies that touch at the start and part: the map after is valid.
+    scene = Scene([Body("a", [(0, 0), (4, 0)]), Body("b", [(2, 0)], Translation([0], [0, 1]))])
+    later = Scene.going_on(scene, scene.bodies, QQ(1, 2))
+    lines = list(Proof(later, scene_file=scene_bytes(scene)).lines())
+    lines[2] = "span 0 1"
+    assert verdict(scene, lines).endswith("vertex 2 is on the edge 0 1 at t = 0")
+    assert accepted(scene, proof_of(scene)[0])
+
+
+def test_a_point_inside_a_body():
+    square = [{"x": [x, x], "y": [y]} for x, y in ((0, 0), (4, 0), (4, 4), (0, 4))]
+    scene = Scene([Body("a", square), Body("p", [(2, 1)])], time=(0, "1/9"))
+    faces = [f"inside 4 {u} {v}" for u, v in ((0, 1), (1, 2), (2, 3), (3, 0))]
+    lines = [*header(scene), *faces, "outer 3 2 1 0", "none"]
+    assert "runs inside a body to another one" in verdict(scene, lines)
+    assert accepted(scene, proof_of(scene)[0])
+
+
+def test_edges_inside_a_rigid_body():
+    scene = Scene([Body("a", [(0, 0), (4, 0), (4, 4), (0, 4)])])
+    assert accepted(scene, [*header(scene), "outer 3 2 1 0", "none"])
+    halves = ["inside 0 1 2", "inside 2 3 0", "outer 3 2 1 0"]
+    assert "is there twice" in verdict(scene, [*header(scene), *halves, "none"])
+
+
+def test_a_flat_vertex_that_runs_into_its_neighbour():
+    bodies = [Body(f"p{i}", [(4 * i, 0)]) for i in range(3)]
+    bodies[1] = Body("p1", [(4, 0)], Translation([0, 1]))
+    scene = Scene(bodies, time=(0, 9))
+    faces = ["outer 0 1 2 1"]
+    assert "vanishes during its life" in verdict(scene, [*header(scene), *faces, "none"])
+    right = "contact 4 4 vertex 1 vertex 2"
+    assert accepted(scene, [*header(scene), *faces, right])
+
+
+def test_an_event_is_needed():
+    # Point 3 passes through the edge 0 1 of a triangle at t = 2, and the map does not change.
+    still = [Body(f"p{i}", [p]) for i, p in enumerate([(-4, 0), (4, 0), (0, 9)])]
+    scene = Scene([*still, Body("q", [(0, 2)], Translation([0], [0, -1]))], time=(0, 3))
+    faces = ["face 0 1 3", "face 1 2 3", "face 2 0 3", "outer 2 1 0"]
+    assert "vanishes during its life" in verdict(scene, [*header(scene), *faces, "none"])
+    event = "event {} {} - 0 1"
+    assert accepted(scene, [*header(scene), *faces, event.format(2, 2), "none"])
+    for time in ("3/2", "5/2"):
+        assert not accepted(scene, [*header(scene), *faces, event.format(time, time), "none"])
+
+
 def test_another_scene():
     from exactpt import proof_check
 
