@@ -174,10 +174,12 @@ def test_an_event_is_needed():
     scene = Scene([*still, Body("q", [(0, 2)], Translation([0], [0, -1]))], time=(0, 3))
     faces = ["face 0 1 3", "face 1 2 3", "face 2 0 3", "outer 2 1 0"]
     assert "vanishes during its life" in verdict(scene, [*header(scene), *faces, "none"])
-    event = "event {} {} - 0 1"
+    event = "event {} {} - 0 1 = 3 0"
     assert accepted(scene, [*header(scene), *faces, event.format(2, 2), "none"])
     for time in ("3/2", "5/2"):
         assert not accepted(scene, [*header(scene), *faces, event.format(time, time), "none"])
+    # The angle at point 3 changes its kind, though both of its edges stay.
+    assert not accepted(scene, [*header(scene), *faces, event[:-6].format(2, 2), "none"])
 
 
 def test_another_scene():
