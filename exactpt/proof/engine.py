@@ -146,7 +146,7 @@ class Run:
             self._face_of.pop(h, None)
         come = []
         for h in sorted(pool):
-            if m.origin[h] == NOTHING or h in self._face_of:
+            if h >= len(m.origin) or m.origin[h] == NOTHING or h in self._face_of:
                 continue
             cycle = m.face(h)
             self._face_of.update(dict.fromkeys(cycle, h))
@@ -189,7 +189,7 @@ class Run:
 
 
 def _differing(old: list[int], new: list[int]) -> Iterator[int]:
-    """Where two lists differ; the second one may be longer."""
+    """Where two lists differ; either may be longer."""
     for i in range(0, max(len(old), len(new)), CHUNK):
         a, b = old[i : i + CHUNK], new[i : i + CHUNK]
         if a != b:

@@ -7,7 +7,7 @@ import tempfile
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, NamedTuple, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.counters import counters
@@ -20,7 +20,38 @@ if TYPE_CHECKING:
     from exactpt.kernel.numbers import QQ
     from exactpt.scene.scene import Scene
 
-__all__ = ["ProvedSearch", "write_proof"]
+__all__ = ["Proved", "ProvedSearch", "prove", "write_proof"]
+
+
+class Proved(NamedTuple):
+    """An answer with its proof, in memory.
+
+    Attributes:
+        contact: the first contact, or None.
+        scene: the bytes of the scene's file.
+        proof: those of the proof.
+    """
+
+    contact: Contact | None
+    scene: bytes
+    proof: bytes
+
+
+def prove(
+    scene: Scene, *, tiling: str = "auto", scene_file: bytes | None = None, exact_only: bool = False
+) -> Proved:
+    """The first contact of a scene by a tiling, with its proof.
+
+    Args:
+        scene: what moves.
+        tiling: which tiling to keep.
+        scene_file: the bytes of the scene's file; by default those that `Scene.save` writes.
+        exact_only: decide everything by exact arithmetic.
+    """
+    file = scene_bytes(scene) if scene_file is None else scene_file
+    proof = Proof(scene, tiling=tiling, scene_file=file, exact_only=exact_only)
+    text = "".join(f"{line}\n" for line in proof.lines())
+    return Proved(proof.contact, file, text.encode())
 
 
 @final

@@ -3,7 +3,8 @@
 import pytest
 from proving import agrees, proof_of, verdict
 
-from exactpt import Body, Pieces, Scene, Translation
+from exactpt import Body, Pieces, Scene, Translation, proof_check
+from exactpt.proof import prove
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 
 
@@ -101,6 +102,20 @@ def test_flat_angles_open_at_a_breakpoint():
         lines, contact = proof_of(scene, tiling)
         assert contact is None
         assert verdict(scene, lines).startswith("accepted: "), tiling
+
+
+def test_a_tiling_that_is_built_anew():
+    scene = generate("crossing_lines", 20)
+    lines, contact = proof_of(scene, "mixed")
+    assert agrees(scene, contact)
+    assert verdict(scene, lines).startswith("accepted: ")
+
+
+def test_proof_in_memory():
+    scene = generate("stars", 6)
+    contact, file, proof = prove(scene, tiling="greedy")
+    assert agrees(scene, contact)
+    assert proof_check.check(file, proof).startswith("accepted: ")
 
 
 def test_times_are_named_by_what_vanishes():

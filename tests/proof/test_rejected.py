@@ -8,11 +8,13 @@ from proving import accepted, agrees, proof_of, verdict
 
 from exactpt import Body, Scene, Translation
 from exactpt.collision.allpairs import first_contact_allpairs
+from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.proof.changes import change, followers
 from exactpt.proof.emit import Proof, scene_bytes
 from exactpt.scene.format import loads
 from exactpt.scene.generate import generate
+from exactpt.tiling.kinetic import KineticTiling
 
 
 def points(*places):
@@ -271,3 +273,23 @@ def test_mutants(family):
                     rejected += 1
     assert rejected > 20
     assert rejected > 15 * kept
+
+
+@pytest.mark.plain
+@pytest.mark.parametrize("tiling", ["lazy", "greedy", "mixed"])
+def test_an_engine_that_is_blind_to_contacts(tiling, monkeypatch):
+    """Its wrong answers have no proof; its right ones do. (Or it notices that it is lost.)"""
+    monkeypatch.setattr(KineticTiling, "_report_touches", lambda *_: None)
+    random, right, wrong = Random(f"blind {tiling}"), 0, 0
+    for _ in range(60):
+        scene = touching_and_going(random)
+        if (expected := first_contact_allpairs(scene)) and expected.kind == "initial":
+            continue
+        try:
+            lines, contact = proof_of(scene, tiling)
+        except AuditError:
+            continue
+        assert accepted(scene, lines) == agrees(scene, contact)
+        right, wrong = right + agrees(scene, contact), wrong + (not agrees(scene, contact))
+    assert right > 5
+    assert wrong > 2
