@@ -26,6 +26,7 @@ import sys
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from decimal import Decimal
 from fractions import Fraction
 from functools import cmp_to_key, lru_cache
 from itertools import pairwise, takewhile, zip_longest
@@ -213,8 +214,9 @@ class Time:
         return g.sign_at(self.low)
 
     def __str__(self) -> str:
-        near = f"{float(self.low):.12g} (between {self.low} and {self.high})"
-        return str(self.low) if self.low == self.high else near
+        near = Decimal(self.low.numerator) / self.low.denominator
+        between = f"{near:.12g} (between {self.low} and {self.high})"
+        return str(self.low) if self.low == self.high else between
 
 
 def between(a: Time, b: Time) -> Fraction:
