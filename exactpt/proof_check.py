@@ -35,6 +35,7 @@ from typing import Any
 
 Point = tuple[Fraction, Fraction]
 Dart = tuple[int, int]
+Angle = tuple[int, int, int]
 Json = Any
 
 
@@ -529,14 +530,13 @@ class PlanarMap:
     """Half-edges with their order around faces, and so around vertices. No coordinates.
 
     Attributes:
-        after, before: of each half-edge, the next and the previous one around its face.
+        after: of each half-edge, the next one around its face.
         out: of each vertex, the vertices to which it has an edge.
         faces: the half-edges of each face, by a number; face_of: of each half-edge, its face.
     """
 
     def __init__(self, vertices: int) -> None:
         self.after: dict[Dart, Dart] = {}
-        self.before: dict[Dart, Dart] = {}
         self.out: list[set[int]] = [set() for _ in range(vertices)]
         self.faces: dict[int, list[Dart]] = {}
         self.face_of: dict[Dart, int] = {}
@@ -548,7 +548,7 @@ class PlanarMap:
             face = list(pairwise([*cycle, cycle[0]])) if len(cycle) > 1 else []
             for d, e in pairwise([*face, *face[:1]]):
                 require(d not in self.after and d[0] != d[1], f"the half-edge {d} is there twice")
-                self.after[d], self.before[e] = e, d
+                self.after[d] = e
                 self.out[d[0]].add(d[1])
         for u, v in self.after:
             require((v, u) in self.after, f"the edge {u} {v} has a face on one side alone")
@@ -573,21 +573,17 @@ class PlanarMap:
             u = self.after[u, v][1]
         return order
 
-    def change(self, removed: list[Dart], added: list[list[int]]) -> set[Dart]:
-        """Change the map, all but its faces.
-
-        Returns:
-            The half-edges that have gone, or have another one before or after them.
-        """
+    def change(self, removed: list[Dart], added: list[list[int]]) -> tuple[set[Dart], set[Angle]]:
+        """Change the map but for its faces; half-edges that have gone, and angles that come."""
         fans = {v: self.clockwise(v) for d in [*removed, *added] for v in d[:2]}
-        touched = set[Dart]()
+        gone, come = set[Dart](), set[Angle]()
         for u, v in removed:
             require((u, v) in self.after, f"there is no edge {u} {v} that could go")
             for a, b in ((u, v), (v, u)):
                 fans[a].remove(b)
                 self.out[a].remove(b)
-                del self.after[a, b], self.before[a, b]
-                touched.add((a, b))
+                del self.after[a, b]
+                gone.add((a, b))
         places: list[tuple[int, int, int]] = []  # at a vertex, the new one stands before another
         for u, v, w, x in added:
             require(u != v and v not in self.out[u], f"the edge {u} {v} is there, or no edge")
@@ -603,15 +599,15 @@ class PlanarMap:
                 places.remove((v, u, w))
         for v, fan in fans.items():
             for u, w in pairwise([*fan, *fan[:1]]):
-                if self.after.get((u, v)) != (v, w) or self.before.get((v, w)) != (u, v):
-                    self.after[u, v], self.before[v, w] = (v, w), (u, v)
-                    touched |= {(u, v), (v, w)}
+                if self.after.get((u, v)) != (v, w):
+                    self.after[u, v] = v, w
+                    come.add((u, v, w))
         for u, v, w, x in added:
             placed = self.after[u, v] == (v, w) and self.after[v, u] == (u, x)
             require(placed, f"the edge {u} {v} does not stand where its item says")
         for u, v in removed:
             require(self.joined(u, v), f"without the edge {u} {v} the map is not connected")
-        return touched
+        return {d for d in gone if d not in self.after}, come
 
     def joined(self, u: int, v: int) -> bool:
         """Whether a path joins two vertices; searched for from both ends in turn."""
@@ -802,7 +798,7 @@ class Checker:
             require((u, v) in self.map.after, f"the body edge {u} {v} is missing")
         self.check_insides(self.ahead)
         self.new_faces = set(self.map.faces)
-        self.begin_lives(set(self.map.after))
+        self.begin_lives((u, v, w) for (u, v), (_, w) in self.map.after.items())
 
     def check_insides(self, vertices: Iterable[int]) -> None:
         """See that edges from vertices into the inside of their body lead to that body."""
@@ -815,11 +811,12 @@ class Checker:
                 same = self.scene.body_of[u] == self.scene.body_of[v]
                 require(same, f"the edge {v} {u} runs inside a body to another one")
 
-    def begin_lives(self, darts: set[Dart]) -> None:
+    def begin_lives(self, angles: Iterable[Angle]) -> None:
         """Let the lives of angles begin now."""
-        for d in darts - self.solid:
-            self.life[d] = Life(self.map.before[d][0], self.now, self.line)
-            self.new_angles.add(d)
+        for u, v, w in angles:
+            if (v, w) not in self.solid:
+                self.life[v, w] = Life(u, self.now, self.line)
+                self.new_angles.add((v, w))
 
     def event(self, time: Time, items: dict[str, list[list[int]]]) -> None:
         """Let all that happens at one time happen."""
@@ -828,26 +825,20 @@ class Checker:
             require((u, v) not in self.body_darts, f"the body edge {u} {v} cannot go or come")
         for d in renewed:
             require(d in self.life, f"there is no angle of {d} to be taken anew")
-        touched, after, before = (
-            self.map.change(removed, items["+"]),
-            self.map.after,
-            self.map.before,
-        )
-        for d in touched & self.solid:
-            require(after[d] in self.solid, f"an edge inside a rigid body, at {d}")
+        gone, come = self.map.change(removed, items["+"])
+        for u, v, w in come:
+            require((u, v) not in self.solid, f"an edge inside a rigid body, {v} {w}")
         # Angles that end, in the faces of the map before: steps 3 and 6.
-        ended = {
-            d
-            for d, life in ((d, self.life.get(d)) for d in touched)
-            if life and (d not in before or before[d][0] != life.u)
-        } | set(renewed)
+        new = {(v, w) for _, v, w in come}
+        again = [(self.life[d].u, *d) for d in renewed if d not in gone | new]
+        ended = {d for d in [*gone, *new, *renewed] if d in self.life}
         self.check_clusters(self.end_lives(ended, time), time)
         self.now = time
-        begun = {d for d in [*touched, *renewed] if d in after and d not in self.life}
-        self.new_faces = self.map.make_faces(touched) | {self.map.face_of[d] for d in begun}
+        self.new_faces = self.map.make_faces(gone | new | {(u, v) for u, v, _ in come})
+        self.new_faces |= {self.map.face_of[v, w] for _, v, w in again}
         self.outer = {f for f in self.outer if f in self.map.faces}
-        self.check_insides({v for v, _ in begun if v in self.ahead})
-        self.begin_lives(begun)
+        self.check_insides({v for _, v, _ in come if v in self.ahead})
+        self.begin_lives([*come, *again])
 
     # Steps 3, 4, 5: the interval after now.
 
@@ -1015,12 +1006,7 @@ def rational(word: str) -> Fraction:
 
 
 def check(scene_file: bytes, proof_file: bytes) -> str:
-    """Check a proof; what it proves.
-
-    Raises:
-        Rejected: the first line that does not hold, and why.
-        NoProofError: if the files are no scene, or no proof of it.
-    """
+    """Check a proof; what it proves. Raises `Rejected`, or `NoProofError`."""
     try:
         text, lines = scene_file.decode("utf-8-sig"), proof_file.decode().splitlines()
     except UnicodeDecodeError:

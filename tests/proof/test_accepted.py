@@ -83,6 +83,16 @@ def test_points_on_a_line_run_into_each_other():
             assert verdict(scene, lines).startswith("accepted: "), tiling
 
 
+@pytest.mark.parametrize("x, y", [([0], [-2, 0, 1]), ([-2, 0, 1], [0]), ([-2, 0, 1], [-2, 0, 1])])
+def test_points_on_a_line_meet_at_an_irrational_time(x, y):
+    scene = Scene([Body("p", [(0, 0)]), Body("q", [(0, 0)], Translation(x, y))], time=(0, 2))
+    for tiling in ("lazy", "greedy", "mixed", "incremental"):
+        lines, contact = proof_of(scene, tiling)
+        assert contact.time.polynomial == (-2, 0, 1)
+        answer = verdict(scene, lines)
+        assert answer.startswith("accepted: no contact before T = 1.4142"), tiling
+
+
 def test_angle_straight_for_a_moment_is_taken_anew():
     # The deforming chain's middle vertex touches the line of its ends at t = 1.
     middle = {"x": [1], "y": [1, -2, 1]}
