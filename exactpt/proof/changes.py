@@ -116,28 +116,27 @@ class Angles:
             heapq.heappop(self._due)
         if not self._due:
             return None
-        highest = enclosing_floats(self._due[0][3].high)[1]
-        return min(entry[3] for entry in self._first_ones(highest))
+        entries = self._popped(self._due[0][3])
+        for entry in entries:
+            heapq.heappush(self._due, entry)
+        return min(entry[3] for entry in entries)
 
     def due(self, time: AlgebraicNumber) -> list[Angle]:
         """The living angles that vanish at a time, before which none does; they are forgotten."""
         found = []
-        for entry in self._first_ones(enclosing_floats(time.high)[1]):
+        for entry in self._popped(time):
             if entry[3].compare(time) == 0:
-                self._due.remove(entry)
                 found.append((self._life[entry[2]][0], *entry[2]))
-        heapq.heapify(self._due)
+            else:
+                heapq.heappush(self._due, entry)
         return found
+
+    def _popped(self, time: AlgebraicNumber) -> list[Entry]:
+        """What is to be known of living angles that may vanish up to a time, off the heap."""
+        highest, entries = enclosing_floats(time.high)[1], []
+        while self._due and self._due[0][0] <= highest:
+            entries.append(heapq.heappop(self._due))
+        return [entry for entry in entries if self._is_alive(entry)]
 
     def _is_alive(self, entry: Entry) -> bool:
         return self._life.get(entry[2], (0, -1))[1] == entry[1]
-
-    def _first_ones(self, highest: float) -> list[Entry]:
-        """The living angles that may vanish up to a time."""
-        found = []
-        while self._due and self._due[0][0] <= highest:
-            found.append(heapq.heappop(self._due))
-        found = [entry for entry in found if self._is_alive(entry)]
-        for entry in found:
-            heapq.heappush(self._due, entry)
-        return found
