@@ -9,9 +9,8 @@ argument are in docs/proofs.md; the comments here say which step of it is where.
 What is checked, in a paragraph. The proof describes a planar map on the vertices of the
 scene, and its changes at certain times. In each open interval between two of these, every
 angle of a face stays convex, reflex or straight: orientations of three vertices do not
-vanish, and these are polynomials in time. Faces have three convex angles, vertices are gone
-around once, and Euler's formula holds: then, by counting angles, the map is drawn without
-crossings, and no two bodies touch. At the times themselves, a touch can only be found among
+vanish, and these are polynomials in time. By counting angles, the map is drawn without
+crossings then, and no two bodies touch. At the times themselves, a touch can only be among
 faces with an angle that vanishes just then.
 
 Exit code: 0 accepted, 1 rejected (with the first line that fails), 2 no proof of this scene.
@@ -500,10 +499,7 @@ class Scene:
         return {v: self.track(v, time.low) for v in vertices}
 
     def is_rigid(self, body: Body, end: Fraction) -> bool:
-        """Whether lengths, dot and cross products of successive edges are constant.
-
-        Then the shape is, up to a motion of the plane: it never changes, nor is it mirrored.
-        """
+        """Whether lengths, dot and cross products of successive edges, so shapes, are constant."""
         n, path = body.size, body.vertices
         triples = [(path[k - 1], path[k], path[(k + 1) % n]) for k in range(n)]
         if not body.closed:
@@ -840,7 +836,13 @@ class Checker:
         self.check_insides({v for _, v, _ in come if v in self.ahead})
         self.begin_lives([*come, *again])
 
-    # Steps 3, 4, 5: the interval after now.
+    # Steps 3, 4, 5: the interval after now. Let a face f turn k(f) times, and the angles of a
+    # vertex v add up to m(v) full turns. There are two angles an edge: the sum of k is E minus
+    # the sum of m. With V - E + F = 2, the sum of m - 1 is the sum of 1 - k, over all faces but
+    # the outer one, plus -k(outer) - 1. Here m = 1, and no term on the right is negative: with
+    # three convex angles, 2 pi k < 3 pi. So each face turns once. Then it is simple: its chains,
+    # seen from a convex angle, lie in two cones that share the apex alone, for the convex angles
+    # and the turns of the chains add up to pi. And the faces lie side by side.
 
     def look_at(self, sample: Fraction) -> None:
         """See what is new at a rational time inside the interval that begins now."""
@@ -920,7 +922,9 @@ class Checker:
             require(not within, f"{shown} vanishes during its life")
         return vanishes
 
-    # Step 6: a contact at a time between intervals.
+    # Step 6: a contact at a time between intervals. Just before, a short segment from a vertex to
+    # what it comes to touch crosses diagonals, and shrinks to a point. So each face that it
+    # crosses is not simple then, and has an angle that vanishes. The segment stays in a cluster.
 
     def check_clusters(self, faces: set[int], time: Time) -> None:
         """See that there is no contact in the clusters of these faces."""
