@@ -992,7 +992,9 @@ class Checker:
                     there ^= a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > x
             there = there and at_start and other.closed
         require(there, f"there is no such contact at t = {time}: {' '.join(words)}")
-        one, two = (f"{scene.of(u).name} vertex {u - scene.of(u).first}" for u in (v[0], v[-1]))
+        names = [f"{scene.of(u).name} vertex {u - scene.of(u).first}" for u in v]
+        one = f"the edge {names[0]} - {names[1]}" if kind == "edge edge" else names[0]
+        two = f"the edge {names[-2]} - {names[-1]}" if kind.endswith("edge") else names[-1]
         return f"{one} with {f'the inside of {other.name}' if kind == 'vertex inside' else two}"
 
 

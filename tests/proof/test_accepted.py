@@ -43,9 +43,12 @@ def test_no_contact():
         ([box("a", 0, 0, size=4), box("b", 1, 1)], "b vertex 0 with the inside of a"),
         (
             [Body("a", [(0, 1), (4, 1)]), Body("b", [(2, 0), (2, 3)])],
-            "a vertex 0 with b vertex 1",
+            "the edge a vertex 0 - a vertex 1 with the edge b vertex 0 - b vertex 1",
         ),
-        ([box("a", 0, 0, size=4), Body("b", [(2, 0)])], "b vertex 0 with a vertex 1"),
+        (
+            [box("a", 0, 0, size=4), Body("b", [(2, 0)])],
+            "b vertex 0 with the edge a vertex 0 - a vertex 1",
+        ),
     ],
 )
 def test_contact_at_the_start_is_one_line(bodies, what):
