@@ -112,6 +112,7 @@ for _name, _place in {
     "scene to shapely": "exactpt.exchange.shapely_door:geometries_of",
     "picture of a scene": "exactpt.render.notebook:scene_svg",
     "picture of a simulation": "exactpt.render.notebook:simulation_svg",
+    "proof of a first contact": "exactpt.proof.written:write_proof",
     "table of a contact": "exactpt.render.notebook:contact_html",
 }.items():
     register(_name, _place)

@@ -19,6 +19,7 @@ from exactpt.kernel.numbers import QQ, rational
 
 if TYPE_CHECKING:
     from exactpt.collision.pairs import PairsSearch
+    from exactpt.proof.written import ProvedSearch
     from exactpt.scene.scene import Scene
     from exactpt.simulation.event import Event
     from exactpt.simulation.simulation import Simulation
@@ -44,6 +45,11 @@ __all__ = ["collide", "simulate"]
     metavar="NAME,NAME...",
     help="Bodies that may overlap each other; for --method pairs or auto.",
 )
+@click.option(
+    "--proof",
+    type=click.Path(path_type=Path),
+    help="Write a proof of the answer; python -m exactpt.proof_check SCENE PROOF checks it.",
+)
 @click.option("--stats", is_flag=True, help="Print counts of events, certificates, decisions.")
 @click.option("--exit-code", is_flag=True, help="Return 1 if there is a contact.")
 @click.option("--exact-only", is_flag=True, help="Switch the float filters off.")
@@ -55,6 +61,7 @@ def collide(
     tiling: str,
     method: str,
     ignore: tuple[str, ...],
+    proof: Path | None,
     stats: bool,
     exit_code: bool,
     exact_only: bool,
@@ -69,10 +76,11 @@ def collide(
       exactpt collide scene.json --json
       exactpt collide scene.json --stats
       exactpt collide scene.json --until 7/2 --exit-code && echo "no contact"
+      exactpt collide scene.json --proof answer.proof
       exactpt collide scene.json --method pairs --ignore boat,buoy --ignore ball,wheel
     """
     given: Scene | None = None
-    search: Simulation | PairsSearch | None = None
+    search: Simulation | PairsSearch | ProvedSearch | None = None
     answer: dict[str, object] = {"contact": None}
     try:
         with time_limit(max_seconds):
@@ -86,6 +94,8 @@ def collide(
                 exact_only=exact_only,
                 max_events=max_events,
                 max_seconds=max_seconds,
+                proof=proof,
+                path=scene,
             )
             answer["tiling"] = search.name
             contact = search.run_to_contact()
@@ -201,7 +211,9 @@ def _run(
         raise
 
 
-def _tell_how_far(spent: BudgetExceeded, search: Simulation | PairsSearch | None) -> None:
+def _tell_how_far(
+    spent: BudgetExceeded, search: Simulation | PairsSearch | ProvedSearch | None
+) -> None:
     """Say up to when there is no contact, if what was interrupted could not."""
     if spent.reached is None and search is not None:
         spent.reached = search.passed()
@@ -216,9 +228,24 @@ def _search(
     exact_only: bool,
     max_events: int | None,
     max_seconds: float | None,
-) -> Simulation | PairsSearch:
+    proof: Path | None,
+    path: Path,
+) -> Simulation | PairsSearch | ProvedSearch:
     """What finds the first contact."""
-    from exactpt.collision.detector import searches_pairs
+    from exactpt.collision.detector import check_provable, searches_pairs
+
+    if proof is not None:
+        check_provable(method, ignoring)
+        from exactpt.proof.written import ProvedSearch
+
+        return ProvedSearch(
+            scene,
+            proof,
+            tiling=tiling,
+            scene_file=path.read_bytes(),
+            exact_only=exact_only,
+            max_events=max_events,
+        )
 
     if ignoring and method == "kinetic":
         raise InputError("--ignore: a tiling watches all bodies: add --method pairs")

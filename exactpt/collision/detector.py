@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
+from pathlib import Path
 from typing import Final
 
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import check_tiling, start_tiling, tiling_for_contact
 from exactpt.errors import InputError
+from exactpt.extensions import extension
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
 
-__all__ = ["METHODS", "first_contact", "searches_pairs"]
+__all__ = ["METHODS", "check_provable", "first_contact", "searches_pairs"]
 
 
 METHODS: Final = ("kinetic", "pairs", "auto")
@@ -26,6 +28,7 @@ def first_contact(
     tiling: str = "auto",
     exact_only: bool = False,
     ignoring: Iterable[Collection[str]] = (),
+    proof: str | Path | None = None,
 ) -> Contact | None:
     """The first contact in the closed time span of a scene, or None.
 
@@ -38,9 +41,12 @@ def first_contact(
         exact_only: decide everything by exact arithmetic, without the float filters.
         ignoring: groups of names; bodies of one group do not touch each other, whatever they
             do. A tiling has no place for bodies that overlap: this needs "pairs" or "auto".
+        proof: a file to write, with what an independent program needs to check the answer
+            (docs/proofs.md). The scene is written beside it, with ``.scene.json`` after the
+            name. This needs a tiling: "kinetic" or "auto".
 
     Raises:
-        InputError: if there is no such method, tiling or body.
+        InputError: if there is no such method, tiling or body, or the proof cannot be written.
     """
     if method not in METHODS:
         raise InputError(f"no method {method!r}; there are: {', '.join(METHODS)}")
@@ -48,6 +54,11 @@ def first_contact(
     groups = list(ignoring)
     if groups and method == "kinetic":
         raise InputError("a tiling watches all bodies: to ignore some, use method='pairs'")
+    if proof is not None:
+        check_provable(method, groups)
+        write_proof = extension("proof of a first contact")
+        contact: Contact | None = write_proof(scene, proof, tiling=tiling, exact_only=exact_only)
+        return contact
     if searches_pairs(method, tiling, groups):
         from exactpt.collision.pairs import PairsSearch
 
@@ -63,6 +74,17 @@ def first_contact(
     except ContactFound as found:
         return contact_of(scene, kinetic.now, found.touches)
     return None
+
+
+def check_provable(method: str, groups: Collection[object]) -> None:
+    """See whether an answer can have a proof.
+
+    Raises:
+        InputError: if not.
+    """
+    if method == "pairs" or groups:
+        what = "method='pairs'" if method == "pairs" else "groups that ignore each other"
+        raise InputError(f"a proof needs a tiling, and {what} has none")
 
 
 def searches_pairs(method: str, tiling: str, groups: Collection[object] = ()) -> bool:

@@ -1,0 +1,151 @@
+"""The vertices of a scene, numbered through, and what is true of them for ever or for how long."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from itertools import accumulate
+from typing import TYPE_CHECKING, final
+
+from exactpt.geometry.polygon import is_counter_clockwise
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.integer_polynomial import (
+    IntPoly,
+    add,
+    evaluate,
+    multiply,
+    scale,
+    subtract,
+)
+from exactpt.kernel.numbers import QQ, ZZ
+from exactpt.kernel.roots import roots_after
+from exactpt.motion.incidence import difference, orientation
+
+if TYPE_CHECKING:
+    from exactpt.motion.body import Body
+    from exactpt.motion.track import Track
+    from exactpt.scene.scene import Scene
+
+__all__ = ["Nodes"]
+
+
+@final
+class Nodes:
+    """The vertices of a scene: bodies in order, each body's in order.
+
+    Attributes:
+        scene: the scene.
+        first: of each body, the number of its first vertex.
+        body_of: of each vertex, the number of its body.
+        rigid: of each body, whether it keeps its shape during the scene.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.first = list(accumulate((body.size for body in scene.bodies), initial=0))
+        self.body_of = [i for i, body in enumerate(scene.bodies) for _ in range(body.size)]
+        self.rigid = [_is_rigid(body, scene._start, scene._end) for body in scene.bodies]
+
+    def solid_faces(self) -> list[list[int]]:
+        """The rings of the rigid closed bodies, counter-clockwise."""
+        rings = []
+        for first, body, rigid in zip(self.first, self.scene.bodies, self.rigid, strict=False):
+            if rigid and body.closed and body.size > 2:
+                ring = list(range(first, first + body.size))
+                turns_left = is_counter_clockwise(body._at(self.scene._start))
+                rings.append(ring if turns_left else ring[::-1])
+        return rings
+
+    def track(self, v: int, after: QQ) -> Track:
+        """The track of a vertex just after a rational time."""
+        i = self.body_of[v]
+        return self.scene.bodies[i]._piece_after(after).tracks[v - self.first[i]]
+
+    def last_break(self, i: int, time: AlgebraicNumber) -> QQ:
+        """The last breakpoint of a body up to a time, or the start of the scene."""
+        breaks = self.scene.bodies[i]._breakpoints
+        return max(
+            (b for b in breaks if b > self.scene._start and time.compare_rational(b) >= 0),
+            default=self.scene._start,
+        )
+
+    def orientation(self, a: int, b: int, c: int, after: QQ) -> IntPoly:
+        """The orientation of three vertices just after a rational time; () if it is always 0."""
+        return orientation(self.track(a, after), self.track(b, after), self.track(c, after))
+
+    def vanishing(self, name: tuple[int, ...], after: QQ) -> IntPoly:
+        """The orientation of three vertices, or the difference of the abscissas of two."""
+        if len(name) == 3:
+            return self.orientation(name[0], name[1], name[2], after)
+        p, q = self.track(name[0], after), self.track(name[1], after)
+        return difference(p.x, p.w, q.x, q.w)
+
+    def breaks(self, vertices: tuple[int, ...]) -> list[QQ]:
+        """The breakpoints of some vertices, in order."""
+        bodies = {self.body_of[v] for v in vertices}
+        return sorted({b for i in bodies for b in self.scene.bodies[i]._breakpoints})
+
+    def fails(self, angle: tuple[int, int, int], now: AlgebraicNumber) -> AlgebraicNumber | None:
+        """When an angle that begins now vanishes, or is straight no longer; None: never.
+
+        A straight one vanishes where two vertices coincide: that is a contact, and left out.
+        """
+        a, p, b = angle
+        i = self.body_of[p]
+        if a == b or (self.rigid[i] and self.body_of[a] == i == self.body_of[b]):
+            return None
+        scene = self.scene
+        breaks = [b for b in self.breaks(angle) if scene._start < b < scene._end]
+        k = bisect_right(breaks, now._low)
+        while k < len(breaks) and now.compare_rational(breaks[k]) >= 0:
+            k += 1
+        begin = breaks[k - 1] if k else scene._start
+        time = now
+        straight: bool | None = None
+        for end in [*breaks[k:], scene._end]:
+            f = self.orientation(a, p, b, begin)
+            if straight is None:
+                straight = not f
+            if (not f) != straight:
+                return AlgebraicNumber(begin)
+            root = next(roots_after(f, time, end), None) if f else None
+            if root is not None:
+                return root.time
+            begin, time = end, AlgebraicNumber(end)
+        return None
+
+
+def _is_rigid(body: Body, start: QQ, end: QQ) -> bool:
+    """Whether a body keeps the lengths of its edges and the angles between them."""
+    times = [start, *(b for b in body._breakpoints if start < b < end)]
+    for t in times:
+        tracks = body._piece_after(t).tracks
+        frame = tracks[0].frame
+        if frame is not None and all(track.frame == frame for track in tracks):
+            continue
+        n = len(tracks)
+        last = n if body.closed and n > 2 else n - 1
+        for k in range(last):
+            a, v, b = tracks[k], tracks[(k + 1) % n], tracks[(k + 2) % n]
+            if not _is_constant(_product(a, v, a), t) or (
+                (body.closed or k + 2 < n)
+                and not (_is_constant(_product(a, v, b), t) and _is_constant(_area(a, v, b), t))
+            ):
+                return False
+    return True
+
+
+def _product(a: Track, v: Track, b: Track) -> tuple[IntPoly, IntPoly]:
+    """(a - v) . (b - v), as numerator and denominator."""
+    f = multiply(difference(v.x, v.w, a.x, a.w), difference(v.x, v.w, b.x, b.w))
+    g = multiply(difference(v.y, v.w, a.y, a.w), difference(v.y, v.w, b.y, b.w))
+    return add(f, g), multiply(multiply(v.w, a.w), multiply(v.w, b.w))
+
+
+def _area(a: Track, v: Track, b: Track) -> tuple[IntPoly, IntPoly]:
+    return orientation(a, v, b), multiply(multiply(a.w, v.w), b.w)
+
+
+def _is_constant(quotient: tuple[IntPoly, IntPoly], t: QQ) -> bool:
+    f, g = quotient
+    c = evaluate(f, t) / evaluate(g, t)
+    return not subtract(scale(f, ZZ(c.denominator)), scale(g, ZZ(c.numerator)))

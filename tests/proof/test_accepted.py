@@ -1,0 +1,138 @@
+"""Proofs of right answers are accepted: all families, all tilings, degenerate ones too."""
+
+import pytest
+from proving import agrees, proof_of, verdict
+
+from exactpt import Body, Pieces, Scene, Translation, proof_check
+from exactpt.proof import prove
+from exactpt.scene.generate import FAMILIES, POINTS, generate
+
+
+@pytest.mark.parametrize("family", [*FAMILIES, *POINTS])
+def test_families(family):
+    for seed in (11, 12):
+        scene = generate(family, seed)
+        for tiling in ("lazy", "greedy", "mixed", *(["incremental"] if family in POINTS else [])):
+            lines, contact = proof_of(scene, tiling)
+            assert verdict(scene, lines).startswith("accepted: "), (family, seed, tiling)
+            assert agrees(scene, contact)
+
+
+def box(name, x, y, motion=None, size=1):
+    corners = [(x, y), (x + size, y), (x + size, y + size), (x, y + size)]
+    return Body(name, corners, motion or Translation())
+
+
+def test_contact():
+    scene = Scene([box("a", 0, 0, Translation([0, 1])), box("b", 4, 0)], time=(0, 10))
+    lines, _ = proof_of(scene)
+    answer = "accepted: no contact before T = 3; contact of a vertex 1 with b vertex 0 at T"
+    assert verdict(scene, lines) == answer
+
+
+def test_no_contact():
+    scene = Scene([box("a", 0, 0), box("b", 4, 0)], time=(0, 10))
+    lines, _ = proof_of(scene)
+    assert verdict(scene, lines) == "accepted: no contact from t = 0 to t = 10"
+
+
+@pytest.mark.parametrize(
+    "bodies, what",
+    [
+        ([box("a", 0, 0), box("b", 1, 0)], "a vertex 1 with b vertex 0"),
+        ([box("a", 0, 0, size=4), box("b", 1, 1)], "b vertex 0 with the inside of a"),
+        (
+            [Body("a", [(0, 1), (4, 1)]), Body("b", [(2, 0), (2, 3)])],
+            "the edge a vertex 0 - a vertex 1 with the edge b vertex 0 - b vertex 1",
+        ),
+        (
+            [box("a", 0, 0, size=4), Body("b", [(2, 0)])],
+            "b vertex 0 with the edge a vertex 0 - a vertex 1",
+        ),
+    ],
+)
+def test_contact_at_the_start_is_one_line(bodies, what):
+    scene = Scene(bodies, time=(0, 1))
+    lines, _ = proof_of(scene)
+    assert len(lines) == 4
+    assert verdict(scene, lines) == f"accepted: no contact before T = 0; contact of {what} at T"
+
+
+@pytest.mark.parametrize(
+    "bodies",
+    [
+        [],
+        [Body("p", [(0, 0)])],
+        [Body("p", [(0, 0)]), Body("q", [(1, 0)], Translation([0, 1]))],
+        [Body("s", [(0, 0), (1, 1)])],
+        [Body("c", [(0, 0), (1, 0), (2, 0), (3, 0)], closed=False), Body("p", [(5, 0)])],
+        [box("a", 0, 0)],
+    ],
+)
+def test_few_vertices_and_all_on_a_line(bodies):
+    scene = Scene(bodies, time=(0, 1))
+    lines, contact = proof_of(scene)
+    assert contact is None
+    assert verdict(scene, lines) == "accepted: no contact from t = 0 to t = 1"
+
+
+def test_points_on_a_line_run_into_each_other():
+    bodies = [Body(f"p{i}", [(3 * i, i)], Translation([0, 4 - i], [0])) for i in (0, 1, 2)]
+    flat = [Body(b.name, [(3 * i, 0)], b.motion) for i, b in enumerate(bodies)]
+    for scene in (Scene(bodies, time=(0, 9)), Scene(flat, time=(0, 9))):
+        for tiling in ("lazy", "greedy", "mixed", "incremental"):
+            lines, contact = proof_of(scene, tiling)
+            assert agrees(scene, contact)
+            assert verdict(scene, lines).startswith("accepted: "), tiling
+
+
+@pytest.mark.parametrize("x, y", [([0], [-2, 0, 1]), ([-2, 0, 1], [0]), ([-2, 0, 1], [-2, 0, 1])])
+def test_points_on_a_line_meet_at_an_irrational_time(x, y):
+    scene = Scene([Body("p", [(0, 0)]), Body("q", [(0, 0)], Translation(x, y))], time=(0, 2))
+    for tiling in ("lazy", "greedy", "mixed", "incremental"):
+        lines, contact = proof_of(scene, tiling)
+        assert contact.time.polynomial == (-2, 0, 1)
+        answer = verdict(scene, lines)
+        assert answer.startswith("accepted: no contact before T = 1.4142"), tiling
+
+
+def test_angle_straight_for_a_moment_is_taken_anew():
+    # The deforming chain's middle vertex touches the line of its ends at t = 1.
+    middle = {"x": [1], "y": [1, -2, 1]}
+    chain = Body("c", [(0, 0), middle, (2, 0)], closed=False)
+    scene = Scene([chain, Body("p", [(1, 5)])], time=(0, 3))
+    lines, _ = proof_of(scene)
+    assert any("=" in line.split() for line in lines)
+    assert verdict(scene, lines).startswith("accepted: ")
+
+
+def test_flat_angles_open_at_a_breakpoint():
+    rest, rise = Translation(), Translation([0], [-1, 1])
+    bodies = [Body("p", [(0, 0)]), Body("r", [(4, 0)]), Body("s", [(2, 4)])]
+    bodies.append(Body("q", [(2, 0)], Pieces([(1, rest), (None, rise)])))
+    scene = Scene(bodies, time=(0, 2))
+    for tiling in ("lazy", "greedy", "mixed", "incremental"):
+        lines, contact = proof_of(scene, tiling)
+        assert contact is None
+        assert verdict(scene, lines).startswith("accepted: "), tiling
+
+
+def test_a_tiling_that_is_built_anew():
+    scene = generate("crossing_lines", 20)
+    lines, contact = proof_of(scene, "mixed")
+    assert agrees(scene, contact)
+    assert verdict(scene, lines).startswith("accepted: ")
+
+
+def test_proof_in_memory():
+    scene = generate("stars", 6)
+    contact, file, proof = prove(scene, tiling="greedy")
+    assert agrees(scene, contact)
+    assert proof_check.check(file, proof).startswith("accepted: ")
+
+
+def test_times_are_named_by_what_vanishes():
+    lines, _ = proof_of(generate("turning_stars", 3), "lazy")
+    events = [line for line in lines if line.startswith("event ")]
+    assert sum(" @ " in line for line in events) > len(events) / 2
+    assert max(map(len, events)) < 300

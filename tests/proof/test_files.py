@@ -1,0 +1,177 @@
+"""Proofs as files, written by the command and from Python; the checker stands alone."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from proving import accepted, proof_of
+
+import exactpt
+from exactpt import proof_check
+from exactpt.cli import cli
+from exactpt.errors import InputError
+from exactpt.proof.written import ProvedSearch
+from exactpt.scene.generate import generate
+
+
+@pytest.fixture
+def scene():
+    return generate("stars", 6)
+
+
+def check(*paths):
+    command = [sys.executable, "-m", "exactpt.proof_check", *map(str, paths)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout + done.stderr
+
+
+def test_the_checker_imports_nothing_but_the_standard_library():
+    code = (
+        "import sys; before = set(sys.modules); import exactpt.proof_check;"
+        "print(*sorted(set(sys.modules) - before))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    found = set(done.stdout.split())
+    assert {m for m in found if m.startswith("exactpt")} == {
+        "exactpt",
+        "exactpt.extensions",  # of the package itself, as every import of one of its modules
+        "exactpt.proof_check",
+    }
+    assert {m.split(".")[0] for m in found} <= {*sys.stdlib_module_names, "exactpt"}
+
+
+def test_the_checker_can_be_read_in_an_evening():
+    lines = Path(proof_check.__file__).read_text(encoding="utf-8").splitlines()
+    assert sum(bool(line.strip()) for line in lines) <= 900
+
+
+def test_first_contact_writes_the_proof_and_the_scene(scene, tmp_path):
+    path = tmp_path / "answer.proof"
+    contact = exactpt.first_contact(scene, proof=path)
+    assert contact.time == exactpt.first_contact(scene).time
+    code, answer = check(f"{path}.scene.json", path)
+    assert code == 0
+    assert answer.startswith("accepted: no contact before T = ")
+
+
+def test_command(scene, tmp_path):
+    file, path = tmp_path / "scene.json", tmp_path / "answer.proof"
+    scene.save(file)
+    arguments = ["collide", str(file), "--proof", str(path), "--json"]
+    done = CliRunner().invoke(cli, arguments, catch_exceptions=False)
+    plain = CliRunner().invoke(cli, ["collide", str(file), "--json"])
+    assert json.loads(done.output)["contact"] == json.loads(plain.output)["contact"]
+    assert json.loads(done.output)["stats"]["events"] > 0
+    assert check(file, path)[0] == 0
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["answer.proof", "scene.json"]
+
+
+def test_until(scene, tmp_path):
+    file, path = tmp_path / "scene.json", tmp_path / "answer.proof"
+    scene.save(file)
+    end = (scene.start + exactpt.first_contact(scene).time.low) / 2
+    CliRunner().invoke(cli, ["collide", str(file), "--until", str(end), "--proof", str(path)])
+    code, answer = check(file, path)
+    assert code == 0
+    assert answer == f"accepted: no contact from t = {scene.start} to t = {end}\n"
+
+
+def test_exit_codes(scene, tmp_path):
+    file, path = tmp_path / "scene.json", tmp_path / "answer.proof"
+    scene.save(file)
+    lines, _ = proof_of(scene)
+    path.write_text("\n".join([*lines[:-1], "none"]) + "\n")
+    code, answer = check(file, path)
+    assert (code, answer.count("\n")) == (1, 1)
+    assert answer.startswith("rejected: line ")
+    for wrong in ("", "no proof\n", "\n".join(lines).replace("sha256 ", "sha256 0")):
+        path.write_text(wrong)
+        code, answer = check(file, path)
+        assert (code, answer.count("\n")) == (2, 1)
+    assert check(file)[0] == check(file, tmp_path / "none")[0] == 2
+
+
+def test_what_no_tiling_takes_is_refused(scene, tmp_path):
+    path = tmp_path / "answer.proof"
+    for options in ({"method": "pairs"}, {"method": "auto", "ignoring": [["s0", "s1"]]}):
+        with pytest.raises(InputError, match="a proof needs a tiling"):
+            exactpt.first_contact(scene, proof=path, **options)
+    assert not list(tmp_path.iterdir())
+
+
+def test_out_of_budget_nothing_is_left(scene, tmp_path):
+    search = ProvedSearch(scene, tmp_path / "p", scene_file=b"{}", max_events=1)
+    with pytest.raises(exactpt.BudgetExceeded) as spent:
+        search.run_to_contact()
+    assert scene.start <= spent.value.reached <= exactpt.first_contact(scene).time.high
+    assert not list(tmp_path.iterdir())
+
+
+def test_scenes_are_read_as_the_format_says():
+    text = """{"exactpt": 1, "time": [-1, 2.5e0], "bodies": [
+        {"name": "a", "vertices": [["0","0"], [1, "1/2"], {"x": [0.5], "y": ["-3e-2", 1]}]},
+        {"name": "b", "keyframes": [{"t": 0, "vertices": [[5, 5]]}, {"t": 2, "vertices": [[6, 7]]}]}
+    ]}"""
+    scene = proof_check.Scene(text)
+    assert (scene.start, scene.end) == (-1, 2.5)
+    assert scene.at(2, scene.end) == (0.5, proof_check.Fraction("2.47"))
+    assert [scene.at(3, t) for t in map(proof_check.Fraction, (-1, 1, 2))] == [
+        (5, 5),
+        (5.5, 6),
+        (6, 7),
+    ]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[]",
+        '{"exactpt": 2, "time": [0, 1], "bodies": []}',
+        '{"exactpt": 1, "time": [1, 1], "bodies": []}',
+        '{"exactpt": 1, "time": [0, NaN], "bodies": []}',
+        '{"exactpt": 1, "time": [0, 1], "bodies": [{"name": "a", "vertices": []}]}',
+        '{"exactpt": 1, "time": [0, 1], "bodies": [{"name": "a", "keyframes": [], "radius": 1}]}',
+        '{"exactpt": 1, "time": [0, 1], "bodies": [], "bodies": []}',
+        '{"exactpt": 1, "time": [0, 1], "bodies": [{"name": "a", "vertices": [["1/0", 1]]}]}',
+    ],
+)
+def test_what_is_no_scene(text):
+    with pytest.raises(proof_check.NoProofError):
+        proof_check.Scene(text)
+
+
+@pytest.mark.parametrize("family", ["turning", "keyframed", "pieces", "deforming", "clamps"])
+def test_tracks_are_those_of_the_package(family):
+    from exactpt.proof.emit import scene_bytes
+
+    scene = generate(family, 5)
+    read = proof_check.Scene(scene_bytes(scene).decode())
+    for k in range(9):
+        t = scene.start + (scene.end - scene.start) * k / 8
+        places = [p for body in scene.bodies for p in body.at(t)]
+        at = proof_check.Fraction(str(t))
+        assert [tuple(map(str, p)) for p in places] == [
+            tuple(map(str, read.at(v, at))) for v in range(len(places))
+        ]
+
+
+def test_nothing_that_is_malformed_crashes_the_checker(scene):
+    from random import Random
+
+    lines, _ = proof_of(scene)
+    random = Random(5)
+    words = ["-", "+", "=", "@", "-1", "9999", "1/0", "x", "vertex", "edge", "inside", "none", "1"]
+    for _ in range(300):
+        i = random.randrange(2, len(lines))
+        line = lines[i].split()
+        line[random.randrange(len(line))] = random.choice(words)
+        line = line[: random.randint(1, len(line))]
+        accepted(scene, [*lines[:i], " ".join(line), *lines[i + 1 :]])
+    for last in ("contact", "contact 0 0", "contact 0 0 vertex", "contact 0 0 vertex 1 inside 99"):
+        assert not accepted(scene, [*lines[:3], last])
+        assert not accepted(scene, [*lines[:-1], last])
+    assert not accepted(scene, lines[:-1])
+    assert not accepted(scene, [*lines, lines[-1]])
