@@ -12,6 +12,7 @@ for one first contact in a sparse crowd that is all that is needed.
 from __future__ import annotations
 
 import heapq
+import math
 import time as clock
 from collections.abc import Collection, Iterable
 from fractions import Fraction
@@ -31,7 +32,7 @@ from exactpt.geometry.boxes import overlapping_pairs
 from exactpt.geometry.polygon import edges
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
-from exactpt.kernel.numbers import QQ, fraction
+from exactpt.kernel.numbers import QQ, fraction, power_of_two
 from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.vertices import Vertices
 from exactpt.scene.scene import Scene
@@ -41,7 +42,7 @@ __all__ = ["PairsSearch"]
 Indices: TypeAlias = NDArray[np.int64]
 
 SLABS: Final = 32
-"""The time span is this many of the first slab."""
+"""Number of first slabs in the time span, where nothing is known of how fast bodies move."""
 
 SMALLEST_SLAB: Final = 1 << 40
 
@@ -141,7 +142,7 @@ class PairsSearch:
     def _run(self) -> Contact | None:
         """Search slab by slab."""
         now, end = self._scene._start, self._scene._end
-        step = (end - now) / SLABS
+        step = self._first_step()
         least = (end - now) / SMALLEST_SLAB
         while now < end:
             self._passed = now
@@ -165,6 +166,20 @@ class PairsSearch:
             now = later
             self._enter_pieces(now)
         return None
+
+    def _first_step(self) -> QQ:
+        """Length of the first slab: the average vertex moves as far as vertices are apart.
+
+        It depends on how fast bodies pass each other, not on how long they are watched.
+        """
+        start, span = self._scene._start, self._scene._end - self._scene._start
+        frame = self._vertices.frame
+        stride = self._swept.stride(frame.time(start)[0])
+        if math.isnan(stride):
+            return span / SLABS
+        if math.isinf(stride):
+            return span
+        return min(span, power_of_two(math.frexp(stride)[1] + frame.time_scale))
 
     def _enter_pieces(self, now: QQ) -> None:
         ended = [i for i, m in enumerate(self._vertices.bodies) if m.until == now]

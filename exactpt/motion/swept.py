@@ -21,11 +21,18 @@ Floats: TypeAlias = NDArray[np.float64]
 
 @final
 class SweptBoxes:
-    """The images of some tracks as arrays.
+    """The images of some tracks as arrays, seen from a place that drifts along with them.
+
+    What all bodies have in common, as a convoy its velocity, brings none nearer to another.
+    So the medians of the coefficients from t on, over all vertices that translate, are
+    subtracted: the drift. Differences of places stay what they are.
 
     Args:
         images: of the tracks.
         errors: of the frame, see `exactpt.motion.frame.Frame`.
+
+    Attributes:
+        drift: its coefficients, in x and in y, constant (0) first.
     """
 
     def __init__(self, images: Sequence[Image], errors: Sequence[float]) -> None:
@@ -36,17 +43,24 @@ class SweptBoxes:
             self._ys[i, : len(image.ys)] = image.ys
             self._ws[i, : len(image.ws)] = image.ws
         self._turning = np.array([bool(image.ws) for image in images])
+        self.drift = np.zeros((2, size))
+        straight = ~self._turning & ~np.isnan(self._xs[:, 0])
+        if straight.any():
+            for drift, cs in zip(self.drift, (self._xs, self._ys), strict=True):
+                drift[1:] = np.median(cs[straight, 1:], axis=0)
+                cs[~self._turning] -= drift
         self._errors = np.array([*errors, *[0.0] * size][:size])
 
     @np.errstate(all="ignore")
     def during(self, low: float, high: float) -> Boxes:
-        """A box for each track, in the frame, while low <= t <= high.
+        """A box for each track, in the frame and off by the drift, while low <= t <= high.
 
         Around the middle m of the interval, r its half-width, a polynomial is
         c'_0 + c'_1 (t - m) + ..., so it is off c'_0 by at most sum |c'_i| r^i. Computing
         the c'_i by Horner's rule takes at most 2 n operations each; their errors times
         r^i add up to at most 4 n u sum |c_i| (|m| + r)^i, and the coefficients
-        themselves are off by ``errors[i]`` (of turning tracks: by 2 u |c_i|). `TINY` covers
+        themselves are off by ``errors[i]`` (of turning tracks: by 2 u |c_i|), and by another
+        u |c_i| from the subtraction of the drift. `TINY` covers
         what underflows: an error below 2^-1070 grows by (1 + |m| + r)^n at most, and where
         that is large the leading term, with a coefficient of 2^-100 or more, is larger.
         Whatever is not a number has the whole plane.
@@ -55,15 +69,21 @@ class SweptBoxes:
         y_low, y_high = self._range(self._ys, low, high)
         if self._turning.any():
             w_low, w_high = self._range(self._ws, low, high)
-            x = _quotient(x_low, x_high, w_low, w_high)
-            y = _quotient(y_low, y_high, w_low, w_high)
+            drift_low, drift_high = self._range(self.drift, low, high, exact=True)
+            x, y = (
+                _difference(_quotient(*place, w_low, w_high), drift_low[k], drift_high[k])
+                for k, place in enumerate(((x_low, x_high), (y_low, y_high)))
+            )
             x_low, x_high = np.where(self._turning, x, (x_low, x_high))
             y_low, y_high = np.where(self._turning, y, (y_low, y_high))
         boxes = np.stack((x_low, x_high, y_low, y_high), axis=1)
         widen_unknown(boxes)
         return boxes
 
-    def _range(self, cs: Floats, low: float, high: float) -> tuple[Floats, Floats]:
+    def _range(
+        self, cs: Floats, low: float, high: float, *, exact: bool = False
+    ) -> tuple[Floats, Floats]:
+        """Bounds of polynomials, whose coefficients are exact or else have errors."""
         n = cs.shape[1]
         m = 0.5 * (low + high)
         r = max(high - m, m - low) * (1.0 + 4.0 * U)
@@ -74,9 +94,50 @@ class SweptBoxes:
         powers = r ** np.arange(n)
         spread = np.abs(shifted[:, 1:]) @ powers[1:]
         reach = (abs(m) + r) ** np.arange(n)
-        rounding = (np.abs(cs) @ reach) * (16.0 * n * U) + self._errors @ reach
+        rounding = (np.abs(cs) @ reach) * (16.0 * n * U)
+        if not exact:
+            rounding = rounding + self._errors @ reach
         radius = (spread + rounding) * SLACK + 4.0 * U * np.abs(shifted[:, 0]) + TINY
         return shifted[:, 0] - radius, shifted[:, 0] + radius
+
+    @np.errstate(all="ignore")
+    def stride(self, now: float) -> float:
+        """Time, in the frame, in which vertices move by as much as they are apart, on average.
+
+        An estimate: it chooses where to look, and decides nothing. Infinite if all drift
+        along; not a number if it is not known.
+        """
+        x, dx = _value_and_slope(self._xs, now)
+        y, dy = _value_and_slope(self._ys, now)
+        if self._turning.any():
+            w, dw = _value_and_slope(self._ws, now)
+            (drift_x, drift_y), slopes = _value_and_slope(self.drift, now)
+            turned = [
+                np.where(self._turning, there, here)
+                for there, here in (
+                    (x / w - drift_x, x),
+                    (y / w - drift_y, y),
+                    ((dx - x / w * dw) / w - slopes[0], dx),
+                    ((dy - y / w * dw) / w - slopes[1], dy),
+                )
+            ]
+            x, y, dx, dy = turned
+        gap = np.hypot(np.ptp(x), np.ptp(y)) / np.sqrt(len(x))
+        return float(gap / np.hypot(dx, dy).mean())
+
+
+def _value_and_slope(cs: Floats, t: float) -> tuple[Floats, Floats]:
+    value, slope = np.zeros(len(cs)), np.zeros(len(cs))
+    for c in cs.T[::-1]:
+        slope = slope * t + value
+        value = value * t + c
+    return value, slope
+
+
+def _difference(interval: tuple[Floats, Floats], low: float, high: float) -> tuple[Floats, Floats]:
+    """The range of a number of an interval less one between low and high."""
+    least, most = interval[0] - high, interval[1] - low
+    return least - 2.0 * U * np.abs(least) - TINY, most + 2.0 * U * np.abs(most) + TINY
 
 
 def _quotient(low: Floats, high: Floats, w_low: Floats, w_high: Floats) -> tuple[Floats, Floats]:

@@ -6,9 +6,10 @@ import pytest
 
 from exactpt.collision import pairs
 from exactpt.collision.allpairs import first_contact_allpairs
-from exactpt.collision.detector import searches_pairs
+from exactpt.collision.detector import first_contact, searches_pairs
 from exactpt.collision.pairs import PairsSearch
-from exactpt.kernel.numbers import rational
+from exactpt.geometry.boxes import overlapping_pairs
+from exactpt.kernel.numbers import QQ, rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.scene.scene import Scene
@@ -76,3 +77,49 @@ def test_the_winner_s_time_is_not_looked_at_among_all_vertices(monkeypatch):
     assert contact is not None
     assert contact.time == 6
     assert 4 <= len(asked) <= 9
+
+
+def crowd(speeds, span, count=40):
+    """Boxes on a grid, each with a velocity of its own."""
+    bodies = []
+    for i in range(count):
+        x, y = 6 * (i % 7), 6 * (i // 7)
+        corners = [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)]
+        vx, vy = speeds(i)
+        bodies.append(Body(f"b{i}", corners, Translation([0, vx], [0, vy])))
+    return Scene(bodies, (0, span))
+
+
+@pytest.fixture
+def compared(monkeypatch):
+    """How many pairs of boxes have been found to meet."""
+    counted = []
+
+    def counting(boxes):
+        for first, second in overlapping_pairs(boxes):
+            counted.append(len(first))
+            yield first, second
+
+    monkeypatch.setattr(pairs, "overlapping_pairs", counting)
+    return counted
+
+
+@pytest.mark.parametrize("slower", [0, QQ(1, 4096)])
+def test_a_convoy_is_looked_at_as_if_it_stood(compared, slower):
+    """Of one common velocity, or nearly: all boxes met all others, in every slab."""
+    scene = crowd(lambda i: (3 - i * slower, 1), 1000 if not slower else 100)
+
+    assert first_contact(scene, method="pairs") is None
+    assert sum(compared) < 100 * scene.vertex_count
+
+
+def test_slabs_do_not_depend_on_the_time_span(compared):
+    rng = Random("span")
+    speeds = [(rng.uniform(-1, 1), rng.uniform(-1, 1)) for _ in range(40)]
+    counts = []
+    for span in (10, 100, 10_000):
+        compared.clear()
+        assert first_contact(crowd(speeds.__getitem__, span), method="pairs") is not None
+        counts.append(sum(compared))
+
+    assert max(counts) <= 1.2 * min(counts)

@@ -37,13 +37,40 @@ def test_boxes_contain_the_vertices(bodies, begin, length):
     first, last = as_rational(begin), as_rational(begin + length)
     low, high = frame.time(first)[0], frame.time(last)[1]
 
-    boxes = SweptBoxes(images, frame.errors).during(low, high).tolist()
+    swept = SweptBoxes(images, frame.errors)
+    boxes = swept.during(low, high).tolist()
 
     for track, (x_low, x_high, y_low, y_high) in zip(tracks, boxes, strict=True):
         for k in range(9):
-            x, y = track.at(first + (last - first) * QQ(k, 8))
-            assert x_low <= (x - frame.center[0]) / QQ(2) ** frame.scale[0] <= x_high
-            assert y_low <= (y - frame.center[1]) / QQ(2) ** frame.scale[1] <= y_high
+            t = first + (last - first) * QQ(k, 8)
+            x, y = track.at(t)
+            dx, dy = drift_at(swept, frame, t)
+            assert x_low <= (x - frame.center[0]) / QQ(2) ** frame.scale[0] - dx <= x_high
+            assert y_low <= (y - frame.center[1]) / QQ(2) ** frame.scale[1] - dy <= y_high
+
+
+def drift_at(swept, frame, t):
+    """How far the boxes have drifted at a time, exactly."""
+    t = (t - frame.origin) / QQ(2) ** frame.time_scale
+    return [
+        sum(QQ(*c.as_integer_ratio()) * t**i for i, c in enumerate(row.tolist()))
+        for row in swept.drift
+    ]
+
+
+def test_what_all_have_in_common_moves_no_box():
+    """A convoy: each box is as if its body were at rest."""
+    tracks = [
+        Body("a", [(3 * i, i)], Translation([0, 5, "1/3"], [0, -7]))._piece_after(QQ(0)).tracks[0]
+        for i in range(5)
+    ]
+    frame = frame_for([(QQ(0), QQ(0)), (QQ(12), QQ(4))], QQ(0), QQ(1000))
+
+    swept = SweptBoxes([frame.image(track) for track in tracks], frame.errors)
+
+    for i, box in enumerate(swept.during(0.0, 1000.0).tolist()):
+        assert [round(v, 6) for v in box] == [3 * i, 3 * i, i, i]
+    assert swept.stride(0.0) == float("inf")
 
 
 @pytest.mark.parametrize("numerator", [5, 7, 9, 11, 13])
@@ -57,7 +84,9 @@ def test_boxes_contain_what_underflows(bits, numerator):
         image = frame.image(power._piece_after(QQ(0)).tracks[0])
         low, high = frame.time(t)[0], frame.time(t * (1 + QQ(1, 1 << 50)))[1]
 
-        x_low, x_high, *_ = SweptBoxes([image], frame.errors).during(low, high)[0].tolist()
+        rest = frame.image(Body("b", [(0, 0)])._piece_after(QQ(0)).tracks[0])
+        swept = SweptBoxes([image, rest, rest], frame.errors)
+        x_low, x_high, *_ = swept.during(low, high)[0].tolist()
 
         assert x_low <= t**degree <= x_high
 
@@ -69,7 +98,9 @@ def test_boxes_are_tight():
     frame = frame_for([(QQ(0), QQ(0)), (QQ(2), QQ(2))], QQ(0), QQ(1))
     assert frame.point((QQ(1, 2), QQ(1, 2))) == (0.5, 0.5)
 
-    boxes = SweptBoxes([frame.image(line), frame.image(turn)], frame.errors).during(0.0, 1.0)
+    rest = Body("b", [(1, 1)])._piece_after(QQ(0)).tracks[0]
+    images = [frame.image(track) for track in (line, turn, rest, rest)]
+    boxes = SweptBoxes(images, frame.errors).during(0.0, 1.0)
 
     assert [round(v, 9) for v in boxes[0].tolist()] == [0, 1, -2, 0]
     x_low, x_high, y_low, y_high = boxes[1].tolist()
