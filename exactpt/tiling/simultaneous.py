@@ -47,6 +47,11 @@ class Batch:
             if self.touched.setdefault(h, self._repair) != self._repair:
                 self._is_tangled = True
 
+    def doubt(self, half_edges: list[int]) -> None:
+        """Note that the tiles of these have to be checked, whatever else is repaired."""
+        self.touch(half_edges)
+        self._is_tangled = True
+
     def needs_check(self, mesh: Mesh) -> bool:
         """Whether a repair may not be right by itself."""
         if self.has_new_motions and self._repair > 0:

@@ -162,21 +162,43 @@ def inner_point(points, rng):
             return p
 
 
+def anchors_beside(path, scene, inner):
+    """name -> a point of each body that a path does not pass; a body without one has none.
+
+    A taut path touches bodies, and where it runs along an open chain its points do not tell on
+    which side of the chain it is: both classes have the same points there. Beside an anchor
+    that is not on the path they do tell, since the path can be pushed off the bodies by less
+    than its distance from the anchors. Leaving anchors out keeps equal words equal.
+
+    Args:
+        inner: of each body, the point to be preferred; else it is a vertex.
+    """
+    legs = list(pairwise(path))
+    beside = {}
+    for name, points in scene.items():
+        for p in (inner[name], *points):
+            if not any(on_segment(p, a, b) for a, b in legs):
+                beside[name] = p
+                break
+    return beside
+
+
 def crossing_word(path, anchors):
     """How a path passes above each anchor, reduced: equal for two paths with the same ends if
     and only if one can be deformed into the other in the plane without the anchors.
+
+    No anchor is on a path. Each is a little to the left of where it is given, of two in one
+    column the one whose name is first the farther: so no two are passed at once, none is left or
+    right of an end by chance, and a way back passes them in the opposite order.
     """
+    columns = sorted(anchors.items(), key=lambda anchor: (anchor[1][0], anchor[0]))
     word = []
     for p, q in pairwise(path):
-        passed = []
-        for name, (x, y) in anchors.items():
-            if (p[0] < x) != (q[0] < x):
-                t = (x - p[0]) / (q[0] - p[0])
-                if p[1] + t * (q[1] - p[1]) > y:
-                    passed.append((t, name, 1 if p[0] < x else -1))
-        for _, name, way in sorted(passed):
-            if word and word[-1] == (name, -way):
-                word.pop()
-            else:
-                word.append((name, way))
+        way = 1 if p[0] < q[0] else -1
+        for name, (x, y) in columns[::way]:
+            if (p[0] < x) != (q[0] < x) and way * cross(p, q, (x, y)) < 0:
+                if word and word[-1] == (name, -way):
+                    word.pop()
+                else:
+                    word.append((name, way))
     return word

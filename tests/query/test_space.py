@@ -109,8 +109,7 @@ def check_taut(path, bodies):
 def check_paths(space, bodies, rng, count):
     """Paths are taut, and a shortened walk can be deformed into the walk."""
     found = 0
-    anchors = {name: brute.inner_point(points, rng) for name, points in bodies.items()}
-    thick = all(len(points) > 2 for points in bodies.values())
+    inner = {name: brute.inner_point(points, rng) for name, points in bodies.items()}
     for _ in range(count):
         walk = [some_point(rng, bodies)]
         for _ in range(rng.randint(1, 12)):
@@ -128,8 +127,8 @@ def check_paths(space, bodies, rng, count):
         check_taut(path, bodies)
         assert (path.points[0], path.points[-1]) == (walk[0], walk[-1])
         check_taut(direct, bodies)
-        if thick:
-            assert brute.crossing_word(walk, anchors) == brute.crossing_word(path.points, anchors)
+        anchors = brute.anchors_beside(path.points, bodies, inner)
+        assert brute.crossing_word(walk, anchors) == brute.crossing_word(path.points, anchors)
     return found
 
 
@@ -175,6 +174,39 @@ def check_neighbours(space, bodies):
             seen.add(name)
             todo += joined[name]
     assert len(seen) == len(names)
+
+
+def test_bug_a_path_along_a_chain_is_told_by_what_it_does_not_touch():
+    """The crossing word said that it had left the class of the walk (chains:0, chains:1)."""
+    chain = [(0, 0), (4, 0), (4, -3)]
+    scene = Scene([Body("chain", chain, closed=False), Body("point", [(9, 1)])])
+    space = FreeSpace(start_tiling(scene, "auto", scene.start), scene.start)
+    bodies = brute.points_of(scene, 0)
+    inner = {name: brute.inner_point(points, None) for name, points in bodies.items()}
+    walk = [(-1, -2), (-1, 1), (5, 1), (5, -2)]
+
+    over, under = space.shorten(walk), space.shorten([walk[0], (-1, -4), (5, -4), walk[-1]])
+
+    assert over.points == (walk[0], (0, 0), (4, 0), walk[-1])
+    anchors = brute.anchors_beside(over.points, bodies, inner)
+    assert anchors == {"chain": (4, -3), "point": (9, 1)}
+    word = brute.crossing_word(walk, anchors)
+    assert word == brute.crossing_word(over.points, anchors) == [("chain", 1)]
+    assert brute.crossing_word(under.points, anchors) == []
+
+
+def test_bug_the_way_back_over_two_anchors_in_one_column_undoes_the_way_there():
+    """It was in the same order as the way there (chains_on_grid:1)."""
+    anchors = {"a": (1, 4), "b": (1, 2), "c": (1, 9)}
+
+    assert brute.crossing_word([(0, 5), (2, 6)], anchors) == [("a", 1), ("b", 1)]
+    assert brute.crossing_word([(0, 5), (2, 6), (2, 5), (0, 6)], anchors) == []
+    assert brute.crossing_word([(0, 5), (1, 6), (0, 7)], anchors) == []
+    assert brute.crossing_word([(0, 5), (2, 6), (1, 3), (0, 3)], anchors) == [("a", 1)]
+
+
+def test_points_that_a_path_covers_anchor_nothing():
+    assert brute.anchors_beside([(0, 0), (4, 0)], {"p": [(1, 0)]}, {"p": (1, 0)}) == {}
 
 
 @pytest.mark.parametrize("family", sorted(FAMILIES))

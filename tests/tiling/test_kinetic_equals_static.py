@@ -12,10 +12,14 @@ from fuzz.statics import run_and_audit
 GENERIC = ("convex", "mixed_shapes", "ballistic", "turning", "deforming", "pieces", "keyframed")
 MANY = dict.fromkeys(FAMILIES, 40)
 FEW = dict.fromkeys(FAMILIES, 3)
+# Measured, of 40 scenes: the rebuilds that there are. Two combs part, and the tops of all teeth of
+# both are on one line at one time: repairs one by one may leave a corner that cannot close, since
+# its longer side is a tooth. The greedy and the lazy tiling, and all other families, need none.
+REBUILDS = {("mixed", "combs"): 6}
 
 
 def run_all(counts, tiling):
-    total = Counter()
+    total, rebuilds = Counter(), Counter()
     for family, count in counts.items():
         for seed in range(count):
             result = run_and_audit(generate(family, seed), tiling)
@@ -26,14 +30,12 @@ def run_all(counts, tiling):
             total["scenes"] += 1
             total["gaps"] += gaps
             total["contacts"] += contact
-            if family in GENERIC:
-                total["generic rebuilds"] += kinetic.stats.rebuilds
-                total["generic flips"] += kinetic.stats.flips
-            else:
-                total["degenerate rebuilds"] += kinetic.stats.rebuilds
-                total["degenerate flips"] += kinetic.stats.flips
+            rebuilds[family] += kinetic.stats.rebuilds
+            total["generic flips" if family in GENERIC else "degenerate flips"] += (
+                kinetic.stats.flips
+            )
             total.update({f"{kind} events": n for kind, n in kinetic.stats.events.items()})
-    return total
+    return total, +rebuilds
 
 
 @pytest.mark.parametrize(
@@ -42,12 +44,13 @@ def run_all(counts, tiling):
 @pytest.mark.parametrize("tiling", TILINGS)
 def test_kinetic_equals_static(counts, tiling):
     """Paper, Lemma 4.3; no mismatch, and on generic scenes neither rebuild nor repair flip."""
-    total = run_all(counts, tiling)
+    total, rebuilds = run_all(counts, tiling)
 
-    print(tiling, dict(total))  # noqa: T201 - shown with -s
+    print(tiling, dict(total), "rebuilds", dict(rebuilds))  # noqa: T201 - shown with -s
     assert total["gaps"] > 10 * len(counts)
-    assert total["generic rebuilds"] == total["generic flips"] == 0
-    assert total["degenerate rebuilds"] <= total["scenes"] // 50
+    assert total["generic flips"] == 0
+    for family, count in rebuilds.items():
+        assert count <= REBUILDS.get((tiling, family), 0) * counts[family] // 40, family
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.repairs import RepairedTiling
+from fuzz.statics import run_and_audit
 
 pytestmark = pytest.mark.plain
 
@@ -107,3 +108,14 @@ def test_a_batch_of_more_repairs_than_are_pending_is_no_reason_to_build_anew():
 
     assert sum(1 for _ in kinetic.run()) > 1000
     assert kinetic.stats.rebuilds == 0
+
+
+@pytest.mark.parametrize("seed, flips", [(0, 0), (4, 2), (7, 2), (36, 3)])
+def test_pairs_exchanged_on_one_vertical_line_are_no_reason_to_build_anew(seed, flips):
+    """Rings in step: a diagonal that has to give way is not there yet (4, 36), or a bitangent
+    that enters finds none to replace (0, 7, 36). What the check flips is the static tiling.
+    """
+    stats = run_and_audit(generate("concentric", seed), "greedy").kinetic.stats
+
+    assert stats.rebuilds == 0
+    assert stats.flips == flips

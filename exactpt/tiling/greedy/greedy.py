@@ -285,8 +285,8 @@ class GreedyTiling(PopulatedTiling):
         """A diagonal has become the one of largest theta: its shadow takes its place."""
         h = self._edge(u, v)
         if h is None:
-            raise RebuildNeeded
-        if not self.mesh.is_hull(h):
+            self._doubt_around(u)
+        elif not self.mesh.is_hull(h):
             visits = shadow(self.mesh, h, moment)
             if visits is None:
                 raise RebuildNeeded
@@ -314,7 +314,20 @@ class GreedyTiling(PopulatedTiling):
             if visits is not None and {m.origin[visits[0]], m.origin[visits[1]]} == {u, v}:
                 self._flip(h, visits, moment)
                 return
-        raise RebuildNeeded
+        self._doubt_around(u)
+
+    def _doubt_around(self, u: int) -> None:
+        """Leave a pair to the check of the batch, which flips until the tiling is greedy.
+
+        Of several pairs on one vertical line the exchanges, one by one, may find a diagonal that
+        an earlier one should have made, or one that it has made too soon. By Lemma 4.2 it is
+        enough if the check looks at every diagonal s that its shadow s' may have passed. Tiles
+        changed now are looked at. If those of s are as they were, theta(s) was less than
+        theta(s') just before now, and as the two cross, one of them is vertical now: a pair
+        (u, v) that is exchanged. If it is s, s was there and has been flipped. If it is s' (or
+        what s' has become, on the same line), u is in a tile of s: s is an edge of a tile at u.
+        """
+        self._batch.doubt(self.mesh.map.fan(self.mesh.ring_edge[u]))
 
     def _flip(self, h: int, visits: tuple[int, int], moment: OneSided) -> None:
         old = self.mesh.ends(h)
