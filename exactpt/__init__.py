@@ -16,7 +16,7 @@ from exactpt.extensions import register
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact, Pair
     from exactpt.collision.detector import first_contact
-    from exactpt.collision.nearing import first_within
+    from exactpt.collision.proximity import first_within
     from exactpt.errors import AuditError, BudgetExceeded, ExactPTError, InputError
     from exactpt.exchange.files import read_shapes, write_shapes
     from exactpt.kernel.algebraic import AlgebraicNumber
@@ -67,7 +67,7 @@ _ROOMS: Final = {
         "Pair",
     ),
     "exactpt.collision.detector": ("first_contact",),
-    "exactpt.collision.nearing": ("first_within",),
+    "exactpt.collision.proximity": ("first_within",),
     "exactpt.errors": (
         "AuditError",
         "BudgetExceeded",
@@ -107,9 +107,9 @@ _ROOM_OF: Final = {name: room for room, names in _ROOMS.items() for name in name
 
 
 for _name, _place in {
-    "body from shapely": "exactpt.exchange.shapely_door:body_from",
-    "scene from shapely": "exactpt.exchange.shapely_door:scene_from",
-    "scene to shapely": "exactpt.exchange.shapely_door:geometries_of",
+    "body from shapely": "exactpt.exchange.shapely_adapter:body_from",
+    "scene from shapely": "exactpt.exchange.shapely_adapter:scene_from",
+    "scene to shapely": "exactpt.exchange.shapely_adapter:geometries_of",
     "picture of a scene": "exactpt.render.notebook:scene_svg",
     "picture of a simulation": "exactpt.render.notebook:simulation_svg",
     "table of a contact": "exactpt.render.notebook:contact_html",

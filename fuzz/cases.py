@@ -16,8 +16,8 @@ from typing import Final, NamedTuple, NoReturn
 from exactpt.errors import InputError
 from exactpt.scene.format import loads, to_json
 from exactpt.scene.scene import Scene
-from fuzz.excerpt import scene_of
 from fuzz.shrink import shrink
+from fuzz.subscene import scene_of
 from fuzz.witnesses import WITNESSES, Difference
 
 __all__ = ["HANGS", "Case", "Failure", "Outcome", "failure_of", "limit", "run_case", "shrunk"]

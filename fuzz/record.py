@@ -19,7 +19,7 @@ from exactpt.collision.detector import first_contact
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
-from fuzz.excerpt import scene_of
+from fuzz.subscene import scene_of
 from fuzz.witnesses import tilings_of
 
 __all__ = ["differences", "record"]

@@ -27,7 +27,7 @@ def shapes_of(text: str) -> Iterator[Shape]:
     Raises:
         InputError: one line that names the geometry and what is wrong with it.
     """
-    from exactpt.exchange.shapely_door import read_wkt, shapes_of_geometry
+    from exactpt.exchange.shapely_adapter import read_wkt, shapes_of_geometry
 
     for i, part in enumerate(_NEXT.split(text.strip())):
         where = f"geometry {i}"

@@ -9,7 +9,7 @@ from exactpt.kernel.numbers import QQ, fraction
 from exactpt.kernel.numbers import place as in_fractions
 from exactpt.query.answers import Hit, Place
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.query.walk import On, Ray, Spot, next_leg
+from exactpt.query.walk import On, Ray, Spot, next_step
 
 __all__ = ["cast", "find", "place_of"]
 
@@ -30,12 +30,12 @@ def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
     ray = Ray(plane, start, (p[0] - start[0], p[1] - start[1]))
     spot, at, crossed = Spot(On.NODE, 0), QQ(0), 0
     while True:
-        leg = next_leg(plane, ray, spot, at)
-        if leg.end is None or leg.at > 1:
-            return leg.through, crossed
-        if leg.at == 1:
-            return leg.end, crossed
-        spot, at, crossed = leg.end, leg.at, crossed + 1
+        step = next_step(plane, ray, spot, at)
+        if step.end is None or step.at > 1:
+            return step.through, crossed
+        if step.at == 1:
+            return step.end, crossed
+        spot, at, crossed = step.end, step.at, crossed + 1
 
 
 def place_of(plane: Subdivision, spot: Spot, crossed: int = 0) -> Place:
@@ -73,14 +73,14 @@ def cast(
     if not plane.points:
         return None
     ray = Ray(plane, origin, direction)
-    if OUTSIDE not in plane.door:
+    if OUTSIDE not in plane.edge_of:
         return _cast_at_point(plane, ray, limit)
     at, crossed = QQ(0), 0
     while True:
-        leg = next_leg(plane, ray, spot, at)
-        if leg.end is None or (limit is not None and leg.at > limit):
+        step = next_step(plane, ray, spot, at)
+        if step.end is None or (limit is not None and step.at > limit):
             return None
-        spot, at = leg.end, leg.at
+        spot, at = step.end, step.at
         place = place_of(plane, spot)
         if place.body is not None:
             point = in_fractions(ray.point(at))

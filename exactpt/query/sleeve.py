@@ -36,7 +36,7 @@ class Sleeves:
         self._plane = plane
         self._tiles: dict[int, list[Triangle]] = {}
 
-    def doors(self, start: int, goal: int) -> list[int]:
+    def dual_path(self, start: int, goal: int) -> list[int]:
         """The fewest diagonals to cross from one tile to another.
 
         Raises:
@@ -47,26 +47,26 @@ class Sleeves:
         queue = deque([start])
         while queue and goal not in came:
             tile = queue.popleft()
-            for h in m.face(plane.door[tile]):
+            for h in m.face(plane.edge_of[tile]):
                 there = plane.face[h ^ 1]
                 if there >= 0 and not plane.boundary[h >> 1] and there not in came:
                     came[there] = h
                     queue.append(there)
         if goal not in came:
             raise AuditError(f"no way leads from tile {start} to tile {goal}")
-        doors = []
+        crossed = []
         tile = goal
         while came[tile] >= 0:
-            doors.append(came[tile])
+            crossed.append(came[tile])
             tile = plane.face[came[tile]]
-        return doors[::-1]
+        return crossed[::-1]
 
-    def portals(self, start: Point, tile: int, doors: Sequence[int], goal: Point) -> list[Portal]:
+    def portals(self, start: Point, tile: int, crossed: Sequence[int], goal: Point) -> list[Portal]:
         """The edges of triangles between a point of a tile and one beyond the last door."""
         plane, origin = self._plane, self._plane.map.origin
         portals: list[Portal] = []
         here = self._triangle_of(tile, start)
-        for h in doors:
+        for h in crossed:
             u, v = origin[h], origin[h ^ 1]
             portals += self._between(tile, here, self._triangle_at(tile, u, v))
             portals.append((v, u))
@@ -78,7 +78,7 @@ class Sleeves:
         known = self._tiles.get(tile)
         if known is None:
             m = self._plane.map
-            cycle = [m.origin[h] for h in m.face(self._plane.door[tile])]
+            cycle = [m.origin[h] for h in m.face(self._plane.edge_of[tile])]
             known = self._tiles[tile] = triangulated(cycle, self._plane.points)
         return known
 

@@ -23,11 +23,11 @@ from exactpt.kernel.numbers import QQ, Rational, fraction, rational
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.query.answers import Hit, Path, Place, VertexName
+from exactpt.query.homotopy import ShortestPaths
 from exactpt.query.locate import cast, find, place_of
+from exactpt.query.outer import OuterRectangle, with_outer_triangulation
 from exactpt.query.relative import relative_hull, top_nodes
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.query.surround import Around, surrounded
-from exactpt.query.ways import Ways
 from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.mixed.static import mixed_mesh
 from exactpt.tiling.tiling import Tiling
@@ -63,7 +63,7 @@ class FreeSpace:
             (self._mesh, top_nodes(self._mesh)) if isinstance(self._mesh, LabelledMesh) else None
         )
         self._at = at
-        self._wide: dict[int, Ways] = {}
+        self._wide: dict[int, ShortestPaths] = {}
         self.snapshot: Snapshot = snapshot(self._vertices, self._mesh, kinetic.name, at)
 
     @property
@@ -122,7 +122,7 @@ class FreeSpace:
             InputError: if one of the points is not free.
         """
         p, q = _point(start), _point(goal)
-        return self._ways((p, q)).path(p, q)
+        return self._paths((p, q)).path(p, q)
 
     def shorten(self, walk: Sequence[PointLike]) -> Path:
         """The shortest path that a walk can be deformed into, its ends fixed.
@@ -136,23 +136,23 @@ class FreeSpace:
         points = [_point(p) for p in walk]
         if not points:
             raise InputError("a walk has at least one point")
-        return self._ways(points).shorten(points)
+        return self._paths(points).shorten(points)
 
-    def _ways(self, points: Sequence[Point]) -> Ways:
+    def _paths(self, points: Sequence[Point]) -> ShortestPaths:
         """What knows the ways between points: in a rectangle that has them inside."""
         plane = self._plane
         count = self._around.doublings(points) if plane.points else 0
         if count not in self._wide:
             if plane.points:
                 corners = self._around.corners(count)
-                wider = surrounded(self.snapshot, self._hull_nodes(), corners)
+                wider = with_outer_triangulation(self.snapshot, self._hull_nodes(), corners)
                 plane = Subdivision(wider, self._hidden)
-            self._wide[count] = Ways(plane)
+            self._wide[count] = ShortestPaths(plane)
         return self._wide[count]
 
     @cached_property
-    def _around(self) -> Around:
-        return Around.of(self.snapshot)
+    def _around(self) -> OuterRectangle:
+        return OuterRectangle.of(self.snapshot)
 
     # Bodies
 
@@ -165,10 +165,10 @@ class FreeSpace:
 
     def _hull_nodes(self) -> list[int]:
         plane = self._plane
-        if OUTSIDE not in plane.door:
+        if OUTSIDE not in plane.edge_of:
             return list(range(len(plane.points)))
         m = plane.map
-        cycle = [m.origin[h] for h in m.face(plane.door[OUTSIDE])][::-1]
+        cycle = [m.origin[h] for h in m.face(plane.edge_of[OUTSIDE])][::-1]
         least = cycle.index(min(cycle))
         return cycle[least:] + cycle[:least]
 

@@ -70,7 +70,7 @@ class Subdivision:
         self.out: list[int] = [-1] * len(self.points)
         self._link(hidden)
         self.face: list[int] = [OUTSIDE] * len(self.map.origin)
-        self.door: dict[int, int] = {}
+        self.edge_of: dict[int, int] = {}
         self._name_faces()
 
     def direction(self, h: int) -> Point:
@@ -127,9 +127,9 @@ class Subdivision:
             face = names.get((origin[h], origin[h ^ 1]))
             if face is not None:
                 self.face[h] = face
-                self.door[face] = h
+                self.edge_of[face] = h
             else:
-                self.door[OUTSIDE] = h
+                self.edge_of[OUTSIDE] = h
 
     def _inner_edges(self, body: int) -> Sequence[tuple[int, int]]:
         """The edges of a body with an inside, with that on their left."""

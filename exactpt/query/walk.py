@@ -14,7 +14,7 @@ from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, sign
 from exactpt.query.subdivision import Subdivision, cross
 
-__all__ = ["Leg", "On", "Ray", "Spot", "next_leg"]
+__all__ = ["On", "Ray", "RayStep", "Spot", "next_step"]
 
 
 class On(Enum):
@@ -37,11 +37,11 @@ class Spot(NamedTuple):
     handle: int
 
 
-class Leg(NamedTuple):
+class RayStep(NamedTuple):
     """A part of a ray.
 
     Attributes:
-        through: the face, or the half-edge in the direction of the ray, that the open leg
+        through: the face, or the half-edge in the direction of the ray, that the open step
             is in.
         end: where it ends, or None if it never does.
         at: the parameter of the end: it is origin + at * direction.
@@ -94,10 +94,10 @@ class Ray:
         )
 
 
-def next_leg(plane: Subdivision, ray: Ray, spot: Spot, at: QQ) -> Leg:
-    """The leg of a ray that begins on a spot, at a parameter."""
+def next_step(plane: Subdivision, ray: Ray, spot: Spot, at: QQ) -> RayStep:
+    """The step of a ray that begins on a spot, at a parameter."""
     if spot.on is On.FACE:
-        return _through_face(plane, ray, spot.handle, plane.door[spot.handle], at)
+        return _through_face(plane, ray, spot.handle, plane.edge_of[spot.handle], at)
     if spot.on is On.EDGE:
         h = spot.handle
         turn = sign(cross(plane.direction(h), ray.direction))
@@ -117,9 +117,9 @@ def _ahead(plane: Subdivision, ray: Ray, h: int) -> bool:
     return x * dx + y * dy > 0
 
 
-def _along(plane: Subdivision, ray: Ray, h: int) -> Leg:
+def _along(plane: Subdivision, ray: Ray, h: int) -> RayStep:
     end = plane.map.target(h)
-    return Leg(Spot(On.EDGE, h), Spot(On.NODE, end), ray.reaches(end))
+    return RayStep(Spot(On.EDGE, h), Spot(On.NODE, end), ray.reaches(end))
 
 
 def _sector(plane: Subdivision, ray: Ray, node: int) -> tuple[int, bool]:
@@ -148,12 +148,12 @@ def _is_below_pi(plane: Subdivision, h: int, g: int) -> bool:
     return cross(plane.direction(h), plane.direction(g)) > 0
 
 
-def _through_face(plane: Subdivision, ray: Ray, face: int, door: int, at: QQ) -> Leg:
-    """The leg through a face, given by one of its half-edges: to where its boundary is next."""
+def _through_face(plane: Subdivision, ray: Ray, face: int, start: int, at: QQ) -> RayStep:
+    """The step through a face, given by one of its half-edges: to where its boundary is next."""
     m = plane.map
     best: QQ | None = None
     end: Spot | None = None
-    h = door
+    h = start
     while True:
         u, v = m.origin[h], m.origin[h ^ 1]
         s, t = ray.side(u), ray.side(v)
@@ -166,5 +166,5 @@ def _through_face(plane: Subdivision, ray: Ray, face: int, door: int, at: QQ) ->
             if when > at and (best is None or when < best):
                 best, end = when, Spot(On.EDGE, h)
         h = m.following[h]
-        if h == door:
-            return Leg(Spot(On.FACE, face), end, at if best is None else best)
+        if h == start:
+            return RayStep(Spot(On.FACE, face), end, at if best is None else best)

@@ -16,18 +16,18 @@ from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from fuzz.thin import SUFFIX, thinned
 
-__all__ = ["excerpt", "scene_of"]
+__all__ = ["scene_of", "subscene"]
 
 WHOLE: Final = 64
 """Of so many scenes of a family one is left whole."""
 
 FEWEST, MOST = 4, 24
-"""Vertices of an excerpt; one more body is taken while there are fewer. (A point counts as
+"""Vertices of an subscene; one more body is taken while there are fewer. (A point counts as
 three, a segment too: what has no inside has copies, which move apart from each other.)"""
 
 
 def scene_of(family: str, seed: int) -> Scene:
-    """The scene that a campaign looks at: mostly an excerpt of the family's.
+    """The scene that a campaign looks at: mostly an subscene of the family's.
 
     Args:
         family: its name; with `fuzz.thin.SUFFIX`, half of the bodies are thinned.
@@ -36,7 +36,7 @@ def scene_of(family: str, seed: int) -> Scene:
     name = family.removesuffix(SUFFIX)
     scene = generate(name, seed)
     if seed % WHOLE:
-        scene = excerpt(scene, Random(f"excerpt of {name}:{seed}"))
+        scene = subscene(scene, Random(f"excerpt of {name}:{seed}"))
     return scene if name == family else thinned(scene, Random(f"{family}:{seed}"))
 
 
@@ -49,7 +49,7 @@ def _gap(p: Sequence[Point], q: Sequence[Point]) -> QQ:
     return gap
 
 
-def excerpt(scene: Scene, rng: Random) -> Scene:
+def subscene(scene: Scene, rng: Random) -> Scene:
     """Some bodies of a scene, in its order: at random, or one and those near it at some time.
 
     At least two, if there are so many; few vertices are more likely than many.

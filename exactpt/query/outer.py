@@ -19,10 +19,10 @@ from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.pseudotriangulation.snapshot import Edge, Face, Node, Snapshot
 from exactpt.query.sleeve import triangulated
 
-__all__ = ["Around", "surrounded"]
+__all__ = ["OuterRectangle", "with_outer_triangulation"]
 
 
-class Around(NamedTuple):
+class OuterRectangle(NamedTuple):
     """Rectangles around the bodies: a box, and a margin that is doubled again and again."""
 
     left: QQ
@@ -31,7 +31,7 @@ class Around(NamedTuple):
     high: QQ
 
     @classmethod
-    def of(cls, snapshot: Snapshot) -> Around:
+    def of(cls, snapshot: Snapshot) -> OuterRectangle:
         """The box of a tiling of at least one body."""
         xs, ys = [node._x for node in snapshot.nodes], [node._y for node in snapshot.nodes]
         return cls(min(xs), max(xs), min(ys), max(ys))
@@ -53,13 +53,15 @@ class Around(NamedTuple):
             count += 1
 
 
-def surrounded(snapshot: Snapshot, hull: Sequence[int], corners: Sequence[Point]) -> Snapshot:
+def with_outer_triangulation(
+    snapshot: Snapshot, hull: Sequence[int], corners: Sequence[Point]
+) -> Snapshot:
     """The tiling with tiles around it, in a rectangle.
 
     Args:
         snapshot: a tiling of at least one body.
         hull: the nodes on its convex hull, counter-clockwise.
-        corners: of the rectangle, see `Around`.
+        corners: of the rectangle, see `OuterRectangle`.
     """
     places = [(node._x, node._y) for node in snapshot.nodes]
     first = len(places)
