@@ -1,4 +1,4 @@
-"""Homotopy classes of paths: the tiles that a walk passes, and the shortest path of its class."""
+"""Homotopy classes of paths: the diagonals that a path crosses, and its shortest representative."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ __all__ = ["ShortestPaths"]
 
 @final
 class ShortestPaths:
-    """Paths inside the convex hull of a subdivision."""
+    """Shortest paths within the convex hull of a subdivision."""
 
     def __init__(self, plane: Subdivision) -> None:
         self._plane = plane
         self._sleeves = Sleeves(plane)
 
     def path(self, p: Point, q: Point) -> Path:
-        """The shortest of the paths that cross the fewest diagonals in the same order."""
+        """The shortest path homotopic to one that crosses the fewest diagonals."""
         if not self._plane.points:
             return _path((p, q), (), 0)
         first = self._tile(p)
         return self._tight(p, first, self._sleeves.dual_path(first, self._tile(q)), q)
 
     def shorten(self, points: Sequence[Point]) -> Path:
-        """The shortest path that a polyline can be deformed into."""
+        """The shortest path homotopic to a polyline."""
         if not self._plane.points:
             return _path((points[0], points[-1]), (), 0)
         first = tile = self._tile(points[0])
@@ -47,7 +47,7 @@ class ShortestPaths:
         return self._tight(points[0], first, without_steps_back(crossed), points[-1])
 
     def _tile(self, p: Point) -> int:
-        """A tile that has a free point."""
+        """A tile that contains a free point, in its interior or on its boundary."""
         plane = self._plane
         spot, _ = find(plane, p)
         place = place_of(plane, spot)
@@ -58,7 +58,7 @@ class ShortestPaths:
         return spot.handle
 
     def _crossed_along(self, p: Point, tile: int, q: Point) -> list[int]:
-        """The half-edges that a free segment crosses, from a tile with p to one with q."""
+        """The half-edges crossed by a free segment from a point p of ``tile`` to q, in order."""
         plane = self._plane
         if p == q:
             return []
@@ -73,7 +73,7 @@ class ShortestPaths:
                 crossed.append(spot.handle if plane.face[spot.handle] == here else spot.handle ^ 1)
                 here = there
             if step.end is None or step.at >= 1:
-                self._tile(q)  # refuses what is not free
+                self._tile(q)  # raises if q is not free
                 return crossed
             place = place_of(plane, step.end)
             if place.body is not None:
@@ -90,5 +90,5 @@ class ShortestPaths:
 
 
 def _path(points: Iterable[Point], bends: tuple[VertexName, ...], crossed: int) -> Path:
-    """A path in numbers of Python's own."""
+    """A path with coordinates as `Fraction`."""
     return Path(tuple(map(place, points)), bends, crossed)

@@ -1,4 +1,4 @@
-"""Where a point is, and what a ray hits first: walks from face to face."""
+"""Point location and ray shooting, by walks from face to face."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ __all__ = ["cast", "find", "place_of"]
 
 
 def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
-    """Where a point is, by a walk from the first node.
+    """Point location by a straight walk from the first node.
 
     Returns:
-        The face, edge or node; and how many edges and nodes the walk has passed.
+        The face, edge or node that contains the point; number of edges and nodes passed.
     """
     if not plane.points:
         return Spot(On.FACE, OUTSIDE), 0
@@ -39,7 +39,7 @@ def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
 
 
 def place_of(plane: Subdivision, spot: Spot, crossed: int = 0) -> Place:
-    """A spot in terms of the scene."""
+    """The location of a spot in terms of the scene's bodies."""
     handle = spot.handle
     if spot.on is On.NODE:
         body, vertex = plane.node_name(handle)
@@ -61,10 +61,10 @@ def place_of(plane: Subdivision, spot: Spot, crossed: int = 0) -> Place:
 def cast(
     plane: Subdivision, origin: Point, direction: Point, limit: QQ | None = None
 ) -> Hit | None:
-    """The first point of a ray that a body has, up to a parameter (None: no limit).
+    """The first point of a ray that belongs to a body; None if there is none up to ``limit``.
 
-    Every node belongs to a body, so what can be passed without a hit is the inside of a
-    diagonal alone.
+    Every node belongs to a body, so a ray can only cross the interior of a diagonal without
+    hitting a body. ``limit`` is a parameter of the ray; None is no limit.
     """
     spot, _ = find(plane, origin)
     place = place_of(plane, spot)
@@ -89,7 +89,7 @@ def cast(
 
 
 def _cast_at_point(plane: Subdivision, ray: Ray, limit: QQ | None) -> Hit | None:
-    """The same in a scene of one point."""
+    """`cast` in a scene that consists of a single point."""
     at = ray.reaches(0)
     if ray.side(0) != 0 or at < 0 or (limit is not None and at > limit):
         return None
