@@ -1,4 +1,4 @@
-"""The tiling of a scene at a rational time, built there or reached by running."""
+"""The tiling of a scene at a rational time, built there or reached by a run."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ def tile_at(
 
     Args:
         scene: the scene.
-        at: when.
-        tiling: which one.
-        by_running: simulate from the start up to then; else the tiling is built then.
+        at: the rational time.
+        tiling: the name of the tiling, or "auto".
+        by_running: whether to run from the start to that time; otherwise it is built then.
         max_events: see `Simulation`.
         max_seconds: see `Simulation`.
 
     Raises:
         InputError: if the time is outside the span, or not before the first contact.
-        BudgetExceeded: if the bounds are reached.
+        BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
     if not scene._start <= at <= scene._end:
         raise InputError(
