@@ -26,9 +26,9 @@ class Still:
 
     Attributes:
         scene: the scene.
-        at: the time; of one that is not rational, a rational just before it.
-        tiling: the tiling then (at a contact: the one that ends there); None if the bodies
-            touch at the start, and there is none.
+        at: the time; a rational just before it if the time is irrational.
+        tiling: the tiling at that time (at a contact: the one just before); None if the bodies
+            touch at the start and there is no tiling.
         contact: the contact, if this is its time.
     """
 
@@ -46,12 +46,12 @@ def still(
     max_events: int | None = None,
     max_seconds: float | None = None,
 ) -> Still:
-    """The scene at a rational time, or (None) at its first contact.
+    """The scene at a rational time, or at its first contact if ``at`` is None.
 
     Raises:
         InputError: if the time is outside the span or after the first contact, or there is
             no contact.
-        BudgetExceeded: if the bounds are reached.
+        BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
     if at is not None and not scene._start <= at <= scene._end:
         raise InputError(
@@ -81,6 +81,6 @@ def still_of(simulation: Simulation) -> Still:
     at = near(now, scene._end - scene._start)
     if kinetic is None:
         return Still(scene, at, None, contact)
-    # Where it is not defined, the tiling is the one that ends or has just begun then.
+    # At an event time the tiling may be undefined: draw the one that ends or begins there.
     mesh = kinetic.mesh_now(at) if contact is None and now.is_rational else kinetic.mesh_after()
     return Still(scene, at, snapshot(kinetic.vertices, mesh, simulation.name, at), contact)
