@@ -1,4 +1,4 @@
-"""collide and simulate: when bodies first touch, and what happens until then."""
+"""collide and simulate: the first contact, and the events up to it."""
 
 from __future__ import annotations
 
@@ -161,7 +161,7 @@ def simulate(
 
 
 def _say(line: str, *, go_on: bool) -> None:
-    """Print a line; without a reader go on all the same if there is a file to complete."""
+    """Print a line; if the reader is gone, continue only if there is a file to complete."""
     try:
         click.echo(line)
     except BrokenPipeError:
@@ -180,7 +180,7 @@ def _run(
     max_events: int | None,
     max_seconds: float | None,
 ) -> list[str]:
-    """Simulate, and tell every event; what is to be said at the end."""
+    """Simulate and report every event; the lines to print at the end."""
     from exactpt.simulation.simulation import Simulation
 
     simulation: Simulation | None = None
@@ -202,7 +202,7 @@ def _run(
 
 
 def _tell_how_far(spent: BudgetExceeded, search: Simulation | PairsSearch | None) -> None:
-    """Say up to when there is no contact, if what was interrupted could not."""
+    """Complete an interruption by the time up to which there is provably no contact."""
     if spent.reached is None and search is not None:
         spent.reached = search.passed()
 
@@ -217,7 +217,7 @@ def _search(
     max_events: int | None,
     max_seconds: float | None,
 ) -> Simulation | PairsSearch:
-    """What finds the first contact."""
+    """The search that finds the first contact."""
     from exactpt.collision.detector import searches_pairs
 
     if ignoring and method == "kinetic":

@@ -1,4 +1,4 @@
-"""tile and check: the tiling at a time, and CGAL's word on all of them."""
+"""tile and check: the tiling at a time, and the verdict of CGAL on all tilings of a run."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def check(
       exactpt check scene.json --json
       exactpt check scene.json --quiet && echo "CGAL agrees"
 
-    This needs the program cgal_check, which `make test` builds from a checkout, beside CGAL.
+    This needs the program cgal_check; in a checkout `make test` builds it, with CGAL.
     """
     from exactpt.check import check_scene
 
