@@ -118,7 +118,7 @@ for _name, _place in {
 
 
 def __getattr__(name: str) -> object:
-    """A public name, imported when it is first asked for (PEP 562): nothing else is paid for."""
+    """A public name, imported on first use (PEP 562)."""
     if name not in _ROOM_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value: object = getattr(import_module(_ROOM_OF[name]), name)
