@@ -88,7 +88,7 @@ TANGLES: Final[dict[str, TangleFamily]] = {"combs": combs, "spirals": spirals}
 
 
 def tangle(given: Tangle, *, shift: int = 0) -> Scene:
-    """One of two outlines drifts, along the teeth or across the corridor; ``shift`` separates them."""
+    """One of two outlines drifts, along the teeth or the corridor; ``shift`` separates them."""
     moved = [(x + shift, y) for x, y in given.second]
     drift = Translation([0, "1/7"], [0, "1/5"])
     return Scene([Body("a", given.first), Body("b", moved, drift)], (0, 41))
