@@ -113,7 +113,7 @@ def _require_cgal() -> None:
 @click.option("--large", is_flag=True, help="The largest scenes too (minutes).")
 @click.option("--samples", type=click.IntRange(min=0), default=5, show_default=True)
 def run_battery(words: tuple[str, ...], large: bool, samples: int) -> None:  # noqa: FBT001
-    """Run the scenes in which everything coincides (those with a WORD in their names)."""
+    """Run the highly degenerate scenes of the battery (those with a WORD in their names)."""
     _require_cgal()
     click.echo(battery.table([])[0])
     differences = 0
@@ -132,7 +132,7 @@ def run_battery(words: tuple[str, ...], large: bool, samples: int) -> None:  # n
 @click.option("--cases", "most", type=click.IntRange(min=1), default=400, show_default=True)
 @click.option("--seed", type=int, default=0, show_default=True)
 def find_planted(words: tuple[str, ...], most: int, seed: int) -> None:
-    """Plant classic mistakes one at a time, and see how soon the fuzzer finds them."""
+    """Plant classic bugs one at a time, and count the scenes until the fuzzer finds them."""
     click.echo(planted.table([])[0])
     escaped = 0
     for bug in planted.PLANTED:
@@ -173,9 +173,9 @@ COMMANDS = {
 
 
 def main() -> None:
-    """Run one of the commands; without the name of one, a campaign.
+    """Run a subcommand; without its name, a campaign.
 
-    Being killed is like Ctrl-C: workers must not outlive the one who gives them work.
+    A termination signal acts like Ctrl-C, so that worker processes are ended too.
     """
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     name, *rest = [*sys.argv[1:], ""]

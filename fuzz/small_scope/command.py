@@ -74,7 +74,7 @@ def small_scope(
 
 
 def _progress(start: int | None, *, today: bool, state: Path | None) -> Progress:
-    """Where to begin, or to go on."""
+    """Where to begin, or to continue."""
     if start is not None and today:
         raise InputError("either --start or --today")
     if state is not None and state.exists():
@@ -86,7 +86,7 @@ def _progress(start: int | None, *, today: bool, state: Path | None) -> Progress
 
 
 class _Reporter:
-    """Prints faults as they come, saves the first of each kind, and where the run is."""
+    """Prints new faults and the progress of the run; saves the first scene of each fault."""
 
     def __init__(self, progress: Progress, state: Path | None, shrink: float) -> None:
         self._progress = progress
@@ -95,7 +95,7 @@ class _Reporter:
         self._met = {(f.method, f.what) for f in progress.tally.faults}
 
     def new_faults(self, faults: list[tuple[Fault, int]]) -> None:
-        """Report faults that were not met before."""
+        """Report faults that have not been reported before."""
         if self._state is not None:
             self._progress.save(self._state)
         for fault, number in faults:

@@ -1,6 +1,6 @@
 """Motions with a contact of a given order at a given time.
 
-A motion is written in a local time s that is 0 at the contact: t - 1, t^2 - 2, ...
+A motion is a function of a local time s that vanishes at the contact: t - 1, t^2 - 2, ...
 """
 
 from __future__ import annotations
@@ -41,18 +41,18 @@ COMPANIONS: Final = {
     "cube": ("linear", "square"),
     "fourth": ("linear", "square"),
 }
-"""What the other coordinate does; a linear one with a square is a square with a linear one."""
+"""Possible motions in the other coordinate; linear with a square equals a square with linear."""
 
 ORDERS: Final = ("rest", *POWERS, "turn", "deform")
-"""How bodies come into contact: at rest, by a power of the time, by a turn, by a vertex."""
+"""How bodies come into contact: at rest, by a power of the time, a rotation, a moving vertex."""
 
 
 class Clock(NamedTuple):
-    """When the planned contact is.
+    """The time of the planned contact.
 
     Attributes:
         time: its name.
-        local: the local time; with two entries the second one holds from t = 1 on.
+        local: the local time; of two entries the second one holds from t = 1 on.
         span: the time span of the scene.
     """
 
@@ -69,7 +69,7 @@ SLOTS: Final = (
     Clock("end", (MIDDLE,), (0, 1)),
     Clock("start", (Polynomial([0, 1]),), (0, 2)),
 )
-"""The times of contacts in turn. At a break bodies touch, and part the way they came."""
+"""Times of contact, used in turn. At a break bodies touch, and separate as they came."""
 
 TIMES: Final = ("start", "middle", "root", "break", "end")
 
@@ -79,18 +79,18 @@ DRIFTS: Final[tuple[Path, ...]] = (
     (Polynomial([0, 1]), Polynomial([0, "-1/2"])),
     (Polynomial([0, -1]), Polynomial([1, 0, 1])),
 )
-"""Motions that all bodies have in common."""
+"""Motions shared by all bodies."""
 
 
 class Way(NamedTuple):
-    """A motion up to its time.
+    """A motion of a given order of contact.
 
     Attributes:
-        companion: what the other coordinate does: "alone" if the motion is along a line, else
-            it is "linear" or the "square" of that. Of a turn and of a vertex: "alone" if the
-            motion goes on, "square" if it turns back.
+        companion: the motion in the other coordinate: "alone" for motion along a line, otherwise
+            "linear" or "square". For a rotation or a moving vertex: "alone" if the motion
+            continues, "square" if it turns back.
         direction: the index of the direction in which the body is before the contact.
-        part: of a turn, on which side the pivot is; of a deforming body, which vertex.
+        part: for a rotation, the side of the pivot; for a deforming body, the vertex.
     """
 
     companion: str
@@ -99,9 +99,9 @@ class Way(NamedTuple):
 
 
 def ways(order: str, free: int, parts: Sequence[int]) -> list[Way]:
-    """The ways to come into contact with an order from the free directions.
+    """The motions with an order of contact that arrive from the free directions.
 
-    There is one for each free direction at least; ``parts`` are the vertices that may deform.
+    There is at least one for each free direction; ``parts`` are the vertices that may deform.
     """
     open_ways = [i for i in range(len(DIRECTIONS)) if free >> i & 1]
     if order == "rest":
@@ -116,12 +116,12 @@ def ways(order: str, free: int, parts: Sequence[int]) -> list[Way]:
 
 
 def _is_curved(step: Vector) -> bool:
-    """Whether it stands for the directions next to an axis: there parabolas begin."""
+    """Whether it represents directions next to an axis, where parabolas begin."""
     return 8 in map(abs, step)
 
 
 def _unit(step: Vector) -> tuple[QQ, QQ]:
-    """A direction at about the length of an edge."""
+    """A direction scaled to about the length of an edge."""
     size = max(map(abs, step))
     scale = 4 if size == 8 else 2 if size == 3 else 1
     return QQ(step[0], scale), QQ(step[1], scale)
@@ -129,7 +129,7 @@ def _unit(step: Vector) -> tuple[QQ, QQ]:
 
 @cache
 def _path(power: int, companion: str, step: Vector, local: Polynomial) -> Path:
-    """A displacement that is 0 at local time 0, and in the direction of a step before it."""
+    """A displacement that vanishes at local time 0, and is in direction ``step`` before it."""
     f = _power(local, power)
     f = -f if power % 2 else f
     if companion == "alone":
@@ -154,22 +154,22 @@ def _in_pieces(motions: Sequence[SimpleMotion]) -> Motion:
 
 
 def drifting(drift: Path) -> Motion:
-    """The motion of a body that only has the common one."""
+    """The motion of a body that has only the shared motion."""
     return Translation(*drift) if drift != (ZERO, ZERO) else REST
 
 
 def motion_of(
     order: str, way: Way, step: Vector, clock: Clock, drift: Path, pivot: tuple[QQ, QQ]
 ) -> Motion:
-    """The motion of a body that keeps its shape; at the contact it is where it rests.
+    """The motion of a rigid body; at the contact it is in its rest position.
 
     Args:
-        order: of contact.
+        order: the order of contact.
         way: the motion.
-        step: its direction, as the scene is turned.
+        step: its direction, after the symmetry of the presentation.
         clock: the time of contact.
-        drift: what is added to the motion.
-        pivot: a point of contact; a turn is about a point beside it.
+        drift: the shared motion.
+        pivot: a point of contact; a rotation is about a point beside it.
     """
     if order == "rest":
         return drifting(drift)
@@ -180,7 +180,7 @@ def motion_of(
 
 
 def _turn(way: Way, step: Vector, local: Polynomial, drift: Path, touched: tuple[QQ, QQ]) -> Rigid:
-    """A quarter turn in a unit of local time, by which the point of contact moves sideways."""
+    """A quarter turn in a unit of local time, which moves the point of contact sideways."""
     half_turn = local * local if way.companion == "square" else -local
     x, y = _unit(step)
     side = -2 if way.part else 2
@@ -193,17 +193,17 @@ def deforming(
     name: str, points: Points, vertex: int, way: Way, step: Vector, clock: Clock, drift: Path,
     factor: QQ, *, closed: bool,
 ) -> Body:  # fmt: skip
-    """A body of which a vertex moves, and has its place in the shape at the contact.
+    """A body with one moving vertex, in its given shape at the contact.
 
     Args:
-        name: of the body.
+        name: the name of the body.
         points: its vertices at the contact.
-        vertex: the index of the one that moves.
+        vertex: the index of the moving one.
         way: its motion.
-        step: the direction of that, as the scene is turned.
+        step: the direction of that, after the symmetry of the presentation.
         clock: the time of contact.
-        drift: what is added to the motion of all vertices.
-        factor: how far the vertex moves.
+        drift: the shared motion.
+        factor: scale of the motion of the vertex.
         closed: whether the body is a polygon.
     """
     power = 2 if way.companion == "square" else 1

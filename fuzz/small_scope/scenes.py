@@ -1,4 +1,4 @@
-"""Scenes with a planned contact, from a placement and a way to come there."""
+"""Scenes with a planned contact, made from a placement and a motion."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ from fuzz.small_scope.shapes import SYMMETRIES, Matrix, Shape, Vector, edges, on
 __all__ = ["Plan", "Presentation", "scene_of", "touching"]
 
 SMALLEST = 8
-"""A deforming vertex moves by 2 to the power of minus this at least."""
+"""A deforming vertex moves by at least 2 to the power of minus this."""
 
 
 class Plan(NamedTuple):
-    """A contact as it is planned.
+    """A planned contact.
 
     Attributes:
         placement: the two bodies at the contact.
         third: another body, or None.
-        order: of contact.
-        clock: when it is.
-        way: how it comes about.
+        order: the order of contact.
+        clock: the time of contact.
+        way: the motion.
         mover: which of the two bodies moves or deforms.
     """
 
@@ -50,12 +50,12 @@ class Plan(NamedTuple):
 
 
 class Presentation(NamedTuple):
-    """How a scene is shown: what makes no difference to the contact.
+    """The presentation of a scene, which is irrelevant for the contact.
 
     Attributes:
-        matrix: how the scene is turned or reflected.
-        drift: a motion that all bodies have in common.
-        listing: a number by which bodies and vertices are put in order.
+        matrix: a symmetry applied to the scene.
+        drift: a motion shared by all bodies.
+        listing: a number that determines the order of bodies and vertices.
     """
 
     matrix: Matrix
@@ -64,18 +64,18 @@ class Presentation(NamedTuple):
 
     @classmethod
     def numbered(cls, code: int) -> Presentation:
-        """The one that the digits of a number stand for."""
+        """The presentation encoded by the digits of a number."""
         code, i = divmod(code, len(SYMMETRIES))
         listing, k = divmod(code, len(DRIFTS))
         return cls(SYMMETRIES[i], DRIFTS[k], listing)
 
     def point(self, place: Vector) -> tuple[QQ, QQ]:
-        """The image of a place in half units."""
+        """The image of a point in half units."""
         x, y = turned(self.matrix, place)
         return QQ(x, 2), QQ(y, 2)
 
     def listed(self, shape: Shape) -> list[int]:
-        """The vertices in the order of their list: a chain or ring from either end or anywhere."""
+        """The order of the vertices: a chain or polygon from either end or from any vertex."""
         order = list(range(len(shape.vertices)))
         if shape.closed:
             first = self.listing // 2 % len(order)
@@ -112,7 +112,7 @@ def _edges(shape: Shape, corners: list[Vector]) -> list[tuple[Vector, Vector]]:
 
 
 def scene_of(plan: Plan, shown: Presentation) -> Scene:
-    """The scene in which a contact is planned."""
+    """The scene with a planned contact."""
     x, y = turned(shown.matrix, DIRECTIONS[plan.way.direction])
     step = (-x, -y) if plan.mover else (x, y)
     touched = shown.point(touching(plan.placement, plan.mover)[1])
