@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-__all__ = ["AuditError", "BudgetExceeded", "ExactPTError", "InputError"]
+__all__ = ["AuditError", "BudgetExceeded", "ExactPTError", "InputError", "TimeRangeError"]
 
 
 class ExactPTError(Exception):
@@ -14,6 +14,10 @@ class ExactPTError(Exception):
 
 class InputError(ExactPTError, ValueError):
     """The input is not acceptable; the message says what is wrong and where."""
+
+
+class TimeRangeError(InputError):
+    """There is no answer at the given time: it is outside the time span or after the contact."""
 
 
 class AuditError(ExactPTError, AssertionError):

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal
 
 import click
 
-from exactpt.errors import InputError
+from exactpt.errors import InputError, TimeRangeError
 from exactpt.kernel.numbers import QQ, parse_rational
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ __all__ = [
     "budget",
     "drop_standard_output",
     "load",
+    "naming_at",
     "output",
 ]
 
@@ -127,6 +129,15 @@ def load(path: Path, until: QQ | None = None) -> Scene:
         return scene.until(until)
     except InputError as error:
         raise InputError(f"--until: {error}") from None
+
+
+@contextmanager
+def naming_at() -> Iterator[None]:
+    """Name the option --at in errors about the time that it gives."""
+    try:
+        yield
+    except TimeRangeError as error:
+        raise InputError(f"--at: {error}") from None
 
 
 def drop_standard_output() -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, output
+from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, naming_at, output
 from exactpt.cli.progress import QUIET, progress
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.numbers import QQ, rational
@@ -46,7 +46,7 @@ def tile(
     from exactpt.files import write_atomically
     from exactpt.simulation.tile import tile_at
 
-    with time_limit(max_seconds):
+    with time_limit(max_seconds), naming_at():
         given = load(scene)
         snapshot = tile_at(
             given,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, Literal
 
-from exactpt.errors import InputError
+from exactpt.errors import InputError, TimeRangeError
 from exactpt.files import write_atomically
 from exactpt.kernel.numbers import show
 from exactpt.render.film import film_of
@@ -52,7 +52,8 @@ def draw(
         reached: called with the times that the run of an animation reaches.
 
     Raises:
-        InputError: if the suffix is not in `ENDINGS`, or there is nothing to draw at that time.
+        InputError: if the suffix is not in `ENDINGS`, or there is no contact to draw.
+        TimeRangeError: if there is nothing to draw at that time.
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
     ending = path.suffix.lower()
@@ -87,8 +88,8 @@ def _shown_first(film: Film, at: QQ | Literal["contact"] | None) -> AlgebraicNum
             )
         return film.end
     if at is not None and (at < film.scene._start or film.end.compare_rational(at) < 0):
-        raise InputError(
-            f"--at: nothing to show at t = {show(at)}: the animation runs from "
+        raise TimeRangeError(
+            f"nothing to show at t = {show(at)}: the animation runs from "
             f"t = {show(film.scene._start)} to t = {float(film.end)!r}"
         )
     return at

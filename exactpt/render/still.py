@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, final
 
-from exactpt.errors import InputError
+from exactpt.errors import InputError, TimeRangeError
 from exactpt.kernel.numbers import show
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.render.fixed import near
@@ -49,13 +49,13 @@ def still(
     """The scene at a rational time, or at its first contact if ``at`` is None.
 
     Raises:
-        InputError: if the time is outside the span or after the first contact, or there is
-            no contact.
+        InputError: if there is no contact, but it is asked for.
+        TimeRangeError: if the time is outside the span or after the first contact.
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
     if at is not None and not scene._start <= at <= scene._end:
-        raise InputError(
-            f"--at: t = {show(at)} is outside the time span "
+        raise TimeRangeError(
+            f"t = {show(at)} is outside the time span "
             f"from {show(scene._start)} to {show(scene._end)}"
         )
     simulation = Simulation(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
@@ -67,8 +67,8 @@ def still(
             f"no contact to draw from t = {show(scene._start)} to t = {show(scene._end)}"
         )
     if at is not None and contact is not None and contact.time.compare_rational(at) != 0:
-        raise InputError(
-            f"--at: nothing to draw at t = {show(at)}: "
+        raise TimeRangeError(
+            f"nothing to draw at t = {show(at)}: "
             f"the first contact is at t = {float(contact.time)!r}"
         )
     return still_of(simulation)

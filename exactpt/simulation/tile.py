@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from exactpt.collision.tilings import plan_tiling
-from exactpt.errors import InputError
+from exactpt.errors import TimeRangeError
 from exactpt.kernel.numbers import QQ, show
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.scene.scene import Scene
@@ -32,12 +32,13 @@ def tile_at(
         max_seconds: see `Simulation`.
 
     Raises:
-        InputError: if the time is outside the span, or not before the first contact.
+        InputError: if there is no such tiling, or it does not support these bodies.
+        TimeRangeError: if the time is outside the span, or not before the first contact.
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
     if not scene._start <= at <= scene._end:
-        raise InputError(
-            f"--at: t = {show(at)} is outside the time span "
+        raise TimeRangeError(
+            f"t = {show(at)} is outside the time span "
             f"from {show(scene._start)} to {show(scene._end)}"
         )
     plan = plan_tiling(scene, plan_tiling(scene, tiling, scene._start).name, at)
@@ -50,8 +51,8 @@ def tile_at(
     for _ in simulation.run(at):
         pass
     if simulation.contact is not None:
-        raise InputError(
-            f"--at: no tiling at t = {show(at)}: the first contact is at "
+        raise TimeRangeError(
+            f"no tiling at t = {show(at)}: the first contact is at "
             f"t = {float(simulation.contact.time)!r}"
         )
     if by_running:
