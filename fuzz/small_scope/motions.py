@@ -21,14 +21,14 @@ __all__ = [
     "ORDERS",
     "SLOTS",
     "TIMES",
+    "Approach",
     "Clock",
     "Path",
     "Points",
-    "Way",
+    "approaches",
     "deforming",
     "drifting",
     "motion_of",
-    "ways",
 ]
 
 Points: TypeAlias = list[tuple[QQ, QQ]]
@@ -82,7 +82,7 @@ DRIFTS: Final[tuple[Path, ...]] = (
 """Motions shared by all bodies."""
 
 
-class Way(NamedTuple):
+class Approach(NamedTuple):
     """A motion of a given order of contact.
 
     Attributes:
@@ -98,21 +98,24 @@ class Way(NamedTuple):
     part: int = 0
 
 
-def ways(order: str, free: int, parts: Sequence[int]) -> list[Way]:
+def approaches(order: str, free: int, parts: Sequence[int]) -> list[Approach]:
     """The motions with an order of contact that arrive from the free directions.
 
     There is at least one for each free direction; ``parts`` are the vertices that may deform.
     """
-    open_ways = [i for i in range(len(DIRECTIONS)) if free >> i & 1]
+    open_directions = [i for i in range(len(DIRECTIONS)) if free >> i & 1]
     if order == "rest":
-        return [Way("alone", 0)]
+        return [Approach("alone", 0)]
     if order in POWERS:
         curved = [
-            Way(c, i) for i in open_ways if _is_curved(DIRECTIONS[i]) for c in COMPANIONS[order]
+            Approach(c, i)
+            for i in open_directions
+            if _is_curved(DIRECTIONS[i])
+            for c in COMPANIONS[order]
         ]
-        return [Way("alone", i) for i in open_ways] + curved
+        return [Approach("alone", i) for i in open_directions] + curved
     chosen = (0, 1) if order == "turn" else parts
-    return [Way(c, i, k) for i in open_ways for c in ("alone", "square") for k in chosen]
+    return [Approach(c, i, k) for i in open_directions for c in ("alone", "square") for k in chosen]
 
 
 def _is_curved(step: Vector) -> bool:
@@ -159,13 +162,13 @@ def drifting(drift: Path) -> Motion:
 
 
 def motion_of(
-    order: str, way: Way, step: Vector, clock: Clock, drift: Path, pivot: tuple[QQ, QQ]
+    order: str, approach: Approach, step: Vector, clock: Clock, drift: Path, pivot: tuple[QQ, QQ]
 ) -> Motion:
     """The motion of a rigid body; at the contact it is in its rest position.
 
     Args:
         order: the order of contact.
-        way: the motion.
+        approach: the motion.
         step: its direction, after the symmetry of the presentation.
         clock: the time of contact.
         drift: the shared motion.
@@ -174,24 +177,26 @@ def motion_of(
     if order == "rest":
         return drifting(drift)
     if order == "turn":
-        return _in_pieces([_turn(way, step, local, drift, pivot) for local in clock.local])
-    paths = [_path(POWERS[order], way.companion, step, local) for local in clock.local]
+        return _in_pieces([_turn(approach, step, local, drift, pivot) for local in clock.local])
+    paths = [_path(POWERS[order], approach.companion, step, local) for local in clock.local]
     return _in_pieces([Translation(drift[0] + x, drift[1] + y) for x, y in paths])
 
 
-def _turn(way: Way, step: Vector, local: Polynomial, drift: Path, touched: tuple[QQ, QQ]) -> Rigid:
+def _turn(
+    approach: Approach, step: Vector, local: Polynomial, drift: Path, touched: tuple[QQ, QQ]
+) -> Rigid:
     """A quarter turn in a unit of local time, which moves the point of contact sideways."""
-    half_turn = local * local if way.companion == "square" else -local
+    half_turn = local * local if approach.companion == "square" else -local
     x, y = _unit(step)
-    side = -2 if way.part else 2
+    side = -2 if approach.part else 2
     pivot = (touched[0] - side * y, touched[1] + side * x)
     half_turn = _times(half_turn, QQ(side, 2))
     return Rigid(half_turn, pivot=pivot, x=drift[0], y=drift[1])
 
 
 def deforming(
-    name: str, points: Points, vertex: int, way: Way, step: Vector, clock: Clock, drift: Path,
-    factor: QQ, *, closed: bool,
+    name: str, points: Points, vertex: int, approach: Approach, step: Vector, clock: Clock,
+    drift: Path, factor: QQ, *, closed: bool,
 ) -> Body:  # fmt: skip
     """A body with one moving vertex, in its given shape at the contact.
 
@@ -199,14 +204,14 @@ def deforming(
         name: the name of the body.
         points: its vertices at the contact.
         vertex: the index of the moving one.
-        way: its motion.
+        approach: its motion.
         step: the direction of that, after the symmetry of the presentation.
         clock: the time of contact.
         drift: the shared motion.
         factor: scale of the motion of the vertex.
         closed: whether the body is a polygon.
     """
-    power = 2 if way.companion == "square" else 1
+    power = 2 if approach.companion == "square" else 1
     path = _path(power, "alone", step, clock.local[0])
 
     def place(displacement: tuple[Polynomial, Polynomial]) -> Path:

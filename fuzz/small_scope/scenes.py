@@ -11,10 +11,10 @@ from exactpt.motion.motions import Motion
 from exactpt.scene.scene import Scene
 from fuzz.small_scope.motions import (
     DRIFTS,
+    Approach,
     Clock,
     Path,
     Points,
-    Way,
     deforming,
     drifting,
     motion_of,
@@ -37,7 +37,7 @@ class Plan(NamedTuple):
         third: another body, or None.
         order: the order of contact.
         clock: the time of contact.
-        way: the motion.
+        approach: the motion.
         mover: which of the two bodies moves or deforms.
     """
 
@@ -45,7 +45,7 @@ class Plan(NamedTuple):
     third: Third | None
     order: str
     clock: Clock
-    way: Way
+    approach: Approach
     mover: int
 
 
@@ -113,7 +113,7 @@ def _edges(shape: Shape, corners: list[Vector]) -> list[tuple[Vector, Vector]]:
 
 def scene_of(plan: Plan, shown: Presentation) -> Scene:
     """The scene with a planned contact."""
-    x, y = turned(shown.matrix, DIRECTIONS[plan.way.direction])
+    x, y = turned(shown.matrix, DIRECTIONS[plan.approach.direction])
     step = (-x, -y) if plan.mover else (x, y)
     touched = shown.point(touching(plan.placement, plan.mover)[1])
     rest = drifting(shown.drift)
@@ -121,7 +121,7 @@ def scene_of(plan: Plan, shown: Presentation) -> Scene:
         movers = [_deformed(plan, shown, step, QQ(1, 1 << k)) for k in range(SMALLEST + 1)]
         carried = rest
     else:
-        carried = motion_of(plan.order, plan.way, step, plan.clock, shown.drift, touched)
+        carried = motion_of(plan.order, plan.approach, step, plan.clock, shown.drift, touched)
         movers = [_body("a", plan, shown, plan.mover, carried)]
     others = [_body("b", plan, shown, 1 - plan.mover, rest)]
     if plan.third is not None:
@@ -160,7 +160,15 @@ def _deformed(plan: Plan, shown: Presentation, step: Vector, factor: QQ) -> Body
     shape = (plan.placement.a, plan.placement.b)[plan.mover]
     order, corners = shown.listed(shape), _corners(plan.placement, plan.mover)
     points: Points = [shown.point(corners[i]) for i in order]
-    vertex = order.index(plan.way.part)
+    vertex = order.index(plan.approach.part)
     return deforming(
-        "a", points, vertex, plan.way, step, plan.clock, shown.drift, factor, closed=shape.closed
+        "a",
+        points,
+        vertex,
+        plan.approach,
+        step,
+        plan.clock,
+        shown.drift,
+        factor,
+        closed=shape.closed,
     )

@@ -13,7 +13,7 @@ from functools import cache
 from typing import Final, NamedTuple
 
 from exactpt.scene.scene import Scene
-from fuzz.small_scope.motions import ORDERS, SLOTS, Clock, Way, ways
+from fuzz.small_scope.motions import ORDERS, SLOTS, Approach, Clock, approaches
 from fuzz.small_scope.numbering import mixed, spread
 from fuzz.small_scope.placements import Placement, complete
 from fuzz.small_scope.sample import SAMPLES, Third, sampled
@@ -129,8 +129,8 @@ def in_part(number: int, part: str, index: int, turn: int) -> Planned:
 def _plan(placement: Placement, third: Third | None, order: str, place: int, turn: int) -> Plan:
     """The plan for a turn; after enough rounds all plans have been used."""
     if order == "rest":
-        return Plan(placement, third, order, SLOTS[-1], Way("alone", 0), 0)
-    both = [ways(order, placement.free, touching(placement, mover)[0]) for mover in (0, 1)]
+        return Plan(placement, third, order, SLOTS[-1], Approach("alone", 0), 0)
+    both = [approaches(order, placement.free, touching(placement, mover)[0]) for mover in (0, 1)]
     count = len(SLOTS) * (len(both[0]) + len(both[1]))
     first = mixed(place * len(ORDERS) + ORDERS.index(order))
     k, slot = divmod((first + spread(turn, count)) % count, len(SLOTS))
