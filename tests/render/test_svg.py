@@ -146,10 +146,10 @@ def test_no_picture_of_what_is_not_known(at, message):
 @pytest.mark.parametrize(
     "ask",
     [
-        lambda folder: tile_at(small(), QQ(11)),
-        lambda folder: tile_at(small(), QQ(4)),
-        lambda folder: still(small(), QQ(11)),
-        lambda folder: still(small(), QQ(4)),
+        lambda _: tile_at(small(), QQ(11)),
+        lambda _: tile_at(small(), QQ(4)),
+        lambda _: still(small(), QQ(11)),
+        lambda _: still(small(), QQ(4)),
         lambda folder: draw(small(), folder / "film.html", at=QQ(11)),
     ],
 )
