@@ -58,8 +58,8 @@ def cli() -> None:
       exactpt collide scene.json
       exactpt draw scene.json -o scene.html
 
-    Commands, options and files complete themselves with the tab key after (for bash; zsh and
-    fish likewise):
+    Tab completion of commands, options and files is enabled by (for bash; zsh and fish
+    likewise):
 
     \b
       eval "$(_EXACTPT_COMPLETE=bash_source exactpt)"

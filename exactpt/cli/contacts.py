@@ -29,22 +29,22 @@ __all__ = ["collide", "simulate"]
 @click.command()
 @SCENE
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
-@click.option("--until", type=RATIONAL, help="Look no further than this time.")
+@click.option("--until", type=RATIONAL, help="Search up to this time.")
 @TILING
 @click.option(
     "--method",
     default="kinetic",
     show_default=True,
     type=click.Choice(["kinetic", "pairs", "auto"]),
-    help="By a tiling, by a search over pairs, or whichever is expected to be faster.",
+    help="A tiling, a search over pairs, or whichever is expected to be faster.",
 )
 @click.option(
     "--ignore",
     multiple=True,
     metavar="NAME,NAME...",
-    help="Bodies that may overlap each other; for --method pairs or auto.",
+    help="Bodies whose contacts with each other are ignored; for --method pairs or auto.",
 )
-@click.option("--stats", is_flag=True, help="Print counts of events, certificates, decisions.")
+@click.option("--stats", is_flag=True, help="Print counts of events, certificates and decisions.")
 @click.option("--exit-code", is_flag=True, help="Return 1 if there is a contact.")
 @click.option("--exact-only", is_flag=True, help="Switch the float filters off.")
 @budget
@@ -112,9 +112,9 @@ def collide(
 
 @click.command()
 @SCENE
-@click.option("--events", type=click.Path(path_type=Path), help="Write an event a line (JSON).")
+@click.option("--events", type=click.Path(path_type=Path), help="Write one event per line (JSON).")
 @click.option("--until", type=RATIONAL, help="Stop at this time.")
-@click.option("-v", "--verbose", is_flag=True, help="Print an event a line, in words.")
+@click.option("-v", "--verbose", is_flag=True, help="Print one event per line, in words.")
 @QUIET
 @TILING
 @budget

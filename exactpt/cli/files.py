@@ -27,7 +27,7 @@ _FEW = 3
 @click.command()
 @click.argument("source", type=click.Path(path_type=Path), metavar="IN")
 @click.argument("target", type=click.Path(path_type=Path), metavar="OUT")
-@click.option("--at", type=RATIONAL, help="When, if OUT is no scene; by default at the start.")
+@click.option("--at", type=RATIONAL, help="The time, if OUT is not a scene; by default the start.")
 @click.option(
     "--time",
     type=RATIONAL,
@@ -35,14 +35,14 @@ _FEW = 3
     default=("0", "1"),
     show_default=True,
     metavar="START END",
-    help="The time span of a scene that is made.",
+    help="The time span of the new scene.",
 )
 @click.option(
     "--tolerance",
     type=float,
     default=0.1,
     show_default=True,
-    help="SVG: how far chords may be from their curve, in units of the drawing.",
+    help="SVG: maximum distance of a chord from its curve, in units of the drawing.",
 )
 @click.option(
     "--holes",
@@ -51,7 +51,7 @@ _FEW = 3
     show_default=True,
     help="What to do with polygons that have holes.",
 )
-@click.option("--skip-invalid", is_flag=True, help="Leave out what cannot be a body, and say so.")
+@click.option("--skip-invalid", is_flag=True, help="Leave out invalid shapes, with a message.")
 @QUIET
 def convert(
     source: Path,
@@ -147,7 +147,7 @@ class _WithFamilies(click.Command):
 
 @click.command(cls=_WithFamilies)
 @click.argument("family")
-@click.option("--seed", type=int, default=0, show_default=True, help="Another seed, another scene.")
+@click.option("--seed", type=int, default=0, show_default=True, help="Seed of the scene.")
 @output("The scene file; by default standard output.")
 def generate(family: str, seed: int, output: Path | None) -> int:
     """Make a scene of a family; a seed gives the same scene on every machine.

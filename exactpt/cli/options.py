@@ -90,7 +90,7 @@ TILING = click.option(
     default="auto",
     show_default=True,
     type=click.Choice(["auto", "incremental", "greedy", "mixed", "lazy"]),
-    help="Which tiling to keep.",
+    help="The tiling to maintain.",
 )
 
 

@@ -22,14 +22,14 @@ __all__ = ["demo", "draw"]
 @click.option(
     "--at",
     type=MOMENT,
-    help='When: a number, or "contact"; by default at the start.',
+    help='The time: a number, or "contact"; by default the start.',
 )
 @click.option(
     "--theme",
     type=click.Choice(["auto", "light", "dark"]),
     default="auto",
     show_default=True,
-    help="Light or dark; auto: as the reader prefers (PNG: light).",
+    help="Light or dark; auto: the preference of the reader (PNG: light).",
 )
 @QUIET
 @TILING

@@ -18,8 +18,8 @@ __all__ = ["check", "tile"]
 
 @click.command()
 @SCENE
-@click.option("--at", type=RATIONAL, help="When; by default at the start.")
-@click.option("--run", "by_running", is_flag=True, help="Simulate up to then.")
+@click.option("--at", type=RATIONAL, help="The time; by default the start.")
+@click.option("--run", "by_running", is_flag=True, help="Simulate from the start up to that time.")
 @TILING
 @output("Write to a file.")
 @budget
@@ -34,8 +34,8 @@ def tile(
 ) -> int:
     """Print the tiling of the free space at a rational time, as JSON.
 
-    It is built at that time, or with --run reached by simulating from the start; for the
-    canonical tilings the two are equal.
+    The tiling is built at that time, or with --run reached by simulating from the start; for
+    the canonical tilings both are equal.
 
     \b
     Examples:

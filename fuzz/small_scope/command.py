@@ -23,18 +23,20 @@ FAILED, INTERRUPTED = 1, 130
 
 
 @click.command("small-scope", context_settings={"help_option_names": ["-h", "--help"]})
-@click.option("--count", type=click.IntRange(min=1), help="How many scenes; by default a round.")
-@click.option("--seconds", type=click.FloatRange(min=0), help="For how long.")
+@click.option("--count", type=click.IntRange(min=1), help="Number of scenes; by default a round.")
+@click.option("--seconds", type=click.FloatRange(min=0), help="Time limit.")
 @click.option("--start", type=click.IntRange(min=0), help="The number of the first scene.")
-@click.option("--today", is_flag=True, help="Start where it is the turn of this day.")
+@click.option("--today", is_flag=True, help="Start with the scene of this day.")
 @click.option(
     "--state",
     type=click.Path(dir_okay=False, path_type=Path),
-    help="Go on from this file if it is there, and keep it up to date.",
+    help="Continue from this file if it exists, and update it.",
 )
-@click.option("--jobs", type=click.IntRange(min=1), default=1, help="How many processes.")
-@click.option("--shrink", default=20.0, show_default=True, help="Seconds for each kind of failure.")
-@click.option("--show", type=click.IntRange(min=0), help="Print the scene with a number, no more.")
+@click.option("--jobs", type=click.IntRange(min=1), default=1, help="Number of processes.")
+@click.option("--shrink", default=20.0, show_default=True, help="Seconds for shrinking a fault.")
+@click.option(
+    "--show", type=click.IntRange(min=0), help="Print the scene with this number and stop."
+)
 def small_scope(
     count: int | None,
     seconds: float | None,
