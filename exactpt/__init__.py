@@ -16,7 +16,7 @@ from exactpt.extensions import register
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact, Pair
     from exactpt.collision.detector import first_contact
-    from exactpt.collision.nearing import first_within
+    from exactpt.collision.proximity import first_within
     from exactpt.errors import AuditError, BudgetExceeded, ExactPTError, InputError
     from exactpt.exchange.files import read_shapes, write_shapes
     from exactpt.kernel.algebraic import AlgebraicNumber
@@ -67,7 +67,7 @@ _ROOMS: Final = {
         "Pair",
     ),
     "exactpt.collision.detector": ("first_contact",),
-    "exactpt.collision.nearing": ("first_within",),
+    "exactpt.collision.proximity": ("first_within",),
     "exactpt.errors": (
         "AuditError",
         "BudgetExceeded",
@@ -107,9 +107,9 @@ _ROOM_OF: Final = {name: room for room, names in _ROOMS.items() for name in name
 
 
 for _name, _place in {
-    "body from shapely": "exactpt.exchange.shapely_door:body_from",
-    "scene from shapely": "exactpt.exchange.shapely_door:scene_from",
-    "scene to shapely": "exactpt.exchange.shapely_door:geometries_of",
+    "body from shapely": "exactpt.exchange.shapely_adapter:body_from",
+    "scene from shapely": "exactpt.exchange.shapely_adapter:scene_from",
+    "scene to shapely": "exactpt.exchange.shapely_adapter:geometries_of",
     "picture of a scene": "exactpt.render.notebook:scene_svg",
     "picture of a simulation": "exactpt.render.notebook:simulation_svg",
     "proof of a first contact": "exactpt.proof.written:write_proof",
@@ -119,7 +119,7 @@ for _name, _place in {
 
 
 def __getattr__(name: str) -> object:
-    """A public name, imported when it is first asked for (PEP 562): nothing else is paid for."""
+    """A public name, imported on first use (PEP 562)."""
     if name not in _ROOM_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value: object = getattr(import_module(_ROOM_OF[name]), name)

@@ -1,7 +1,7 @@
-"""A scene checked by independent witnesses.
+"""Verification of a scene's run by independent means.
 
-CGAL verifies every tiling and event time. That these are right does not say that no contact
-was missed between them; a search over pairs of features, without a tiling, verifies that.
+CGAL verifies every tiling and every event time. This does not prove that no contact was missed
+in between; a search over pairs of features, without a tiling, verifies that.
 """
 
 from __future__ import annotations
@@ -31,17 +31,17 @@ __all__ = ["Report", "check_scene"]
 @final
 @dataclass(slots=True)
 class Report:
-    """What was checked, and what failed.
+    """The extent of a check, and its failures.
 
     Attributes:
         tiling: the name of the tiling.
-        tilings: how many tilings CGAL has verified.
-        times: how many event times.
-        events: how many events there were.
+        tilings: number of tilings that CGAL has verified.
+        times: number of event times that CGAL has verified.
+        events: number of events.
         contact: the time of the first contact, as in docs/format.md, or None.
-        pairs_agree: whether the search over pairs finds the same contact; None if it has
-            not been asked.
-        failures: a line each.
+        pairs_agree: whether the search over pairs finds the same contact; None if it has not
+            been run.
+        failures: one line for each failure.
     """
 
     tiling: str
@@ -54,7 +54,7 @@ class Report:
 
     @property
     def ok(self) -> bool:
-        """Whether nothing failed."""
+        """Whether there are no failures."""
         return not self.failures
 
     def to_json(self) -> dict[str, object]:
@@ -71,7 +71,7 @@ class Report:
         }
 
     def lines(self) -> list[str]:
-        """The report for people."""
+        """The report as lines of text."""
         by_cgal = len(self.failures) - (self.pairs_agree is False)
         head = f"CGAL {'DISAGREES' if by_cgal else 'agrees'}: "
         head += f"{self.tilings} tilings ({self.tiling}), {self.times} event times"
@@ -90,23 +90,23 @@ def check_scene(
     max_seconds: float | None = None,
     reached: Callable[[AlgebraicNumber], None] | None = None,
 ) -> Report:
-    """Simulate a scene, and have CGAL verify what the tiling was and when it changed.
+    """Simulate a scene, and have CGAL verify its tilings and event times.
 
-    The tiling at the start, at a rational time between any two consecutive event times,
-    and at the end; each event time is one real root of its polynomial in its interval, and
-    later than the one before. Then the first contact is looked for once more, by a search
-    over pairs of features.
+    Tilings are verified at the start, at a rational time between any two consecutive event
+    times, and at the end. Each event time must be the only real root of its polynomial in its
+    interval, and not earlier than the one before. Then a search over pairs of features must
+    find the same first contact.
 
     Args:
-        scene: what moves.
-        tiling: which tiling to keep.
-        max_events: stop when there have been more events than these.
+        scene: the bodies, their motions and the time span.
+        tiling: the name of the tiling, or "auto".
+        max_events: maximum number of events; None for no limit.
         max_seconds: see `exactpt.Simulation`.
-        reached: is told of each event time when it has been checked.
+        reached: called with each event time after its verification.
 
     Raises:
         InputError: if the program cgal_check is missing.
-        BudgetExceeded: if the bounds are reached.
+        BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
     plan = plan_tiling(scene, tiling, scene._start)
     report = Report(plan.name)
@@ -140,7 +140,7 @@ def _watch(
     deadline: float | None,
     reached: Callable[[AlgebraicNumber], None] | None,
 ) -> Contact | None:
-    """Run to the first contact, with a witness to all tilings and times."""
+    """Run to the first contact, and have all tilings and event times verified."""
     scene, report = witness.scene, witness.report
     try:
         witness.tiling(kinetic, scene._start)
@@ -167,7 +167,7 @@ def _watch(
 
 @final
 class _Witness:
-    """CGAL, asked about the tilings and event times of a run, and the report of its answers."""
+    """Asks CGAL about the tilings and event times of a run, and collects the verdicts."""
 
     def __init__(self, scene: Scene, cgal: CgalCheck, report: Report) -> None:
         self.scene = scene
@@ -177,13 +177,13 @@ class _Witness:
         self._before: IsolatedRoot | None = None
 
     def between(self, kinetic: Tiling) -> None:
-        """Verify the tiling between now and the next event, if there is time between."""
+        """Verify the tiling between now and the next event, unless they are simultaneous."""
         following = kinetic.next_number()
         if following is not None and kinetic.now.compare(following) < 0:
             self.tiling(kinetic, rational_between(kinetic.now, following))
 
     def tiling(self, kinetic: Tiling, at: QQ) -> None:
-        """Verify the tiling at a time at which it holds."""
+        """Verify the tiling at a rational time before the next event."""
         mesh = kinetic.mesh_now(at)
         tile = snapshot(kinetic.vertices, mesh, self.report.tiling, at).to_json()
         verdict = self._cgal.check_tiling(tile, self._shapes)
@@ -192,7 +192,7 @@ class _Witness:
             self.report.failures.append(f"tiling at t = {at}: {verdict.reason}")
 
     def time(self, time: AlgebraicNumber) -> None:
-        """Verify an event time, and that it is not before the last one."""
+        """Verify an event time, and that it is not before the previous one."""
         number = time.simplified()
         root = IsolatedRoot(number._polynomial, *number._canonical_interval())
         verdict = self._cgal.check_root(*root)

@@ -1,7 +1,8 @@
-"""What upper rooms add to the values of lower ones, by name; imported when it is used.
+"""Extension points: functions of higher packages that values of lower packages call, by name.
 
-A scene shows itself in a notebook, and a body comes from another library's geometry. The
-room of the value knows the name of the extension alone; `exactpt` registers where it is.
+Examples are the picture of a scene in a notebook, and a body from a geometry of another
+library. The lower package knows only the name; `exactpt` registers the function, which is
+imported on first use.
 """
 
 from __future__ import annotations
@@ -16,17 +17,17 @@ _places: dict[str, str] = {}
 
 
 def register(name: str, place: str) -> None:
-    """Say where an extension is.
+    """Register an extension.
 
     Args:
-        name: of the extension.
-        place: ``"module:function"``.
+        name: the name of the extension.
+        place: the function, as ``"module:function"``.
     """
     _places[name] = place
 
 
 def extension(name: str) -> Callable[..., Any]:
-    """The function that has been registered under a name."""
+    """The function registered under a name."""
     module, _, function = _places[name].partition(":")
     found: Callable[..., Any] = getattr(import_module(module), function)
     return found

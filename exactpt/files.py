@@ -1,4 +1,4 @@
-"""Files that are written: complete, or not there."""
+"""Output files that are either complete or not there."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["write_atomically", "writing"]
 
 
 def write_atomically(path: Path, content: str | bytes) -> None:
-    """Write a file; see `writing`.
+    """Write a file atomically, see `writing`.
 
     Raises:
         InputError: if the file cannot be written.
@@ -27,13 +27,14 @@ def write_atomically(path: Path, content: str | bytes) -> None:
 
 @contextlib.contextmanager
 def writing(path: Path) -> Iterator[Callable[[str | bytes], None]]:
-    """Give a function that writes to a temporary neighbour, which becomes the file at the end.
+    """Give a function that writes to a temporary file, which replaces ``path`` at the end.
 
-    After an exception inside, nothing is left, and an older file is as it was. A link stays,
-    what it leads to is replaced; the file keeps its permissions. A pipe or a device is written
-    to as it is, never replaced, and so is what a process has open (``/dev/stdout``).
+    The temporary file is in the same folder. After an exception inside the context it is
+    removed, and an older file is unchanged. A symbolic link stays, its target is replaced;
+    permissions are kept. A pipe or a device is written to directly, and so is a file that a
+    process has open (``/dev/stdout``).
 
-    Any number of threads may do this at once.
+    Any number of threads may do this at the same time.
 
     Raises:
         InputError: if the file cannot be written.
@@ -74,7 +75,7 @@ def _refusing(path: Path) -> Iterator[None]:
 
 
 def _open_beside(target: Path, mode: int | None) -> BinaryIO:
-    """A new file in the same folder, for no more eyes than the one that it will replace."""
+    """A new file in the same folder, readable by nobody who may not read the one it replaces."""
     name = target.with_name(f".exactpt-{secrets.token_hex(8)}")
     allowed = 0o666 if mode is None else mode & 0o666 | stat.S_IWUSR
     return open(name, "xb", opener=lambda path, flags: os.open(path, flags, allowed))

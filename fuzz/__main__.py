@@ -31,16 +31,16 @@ HELP = {"help_option_names": ["-h", "--help"]}
 @click.command("fuzz", context_settings=HELP)
 @click.argument("families", nargs=-1, type=click.Choice(sorted(FAMILIES)), metavar="[FAMILY]...")
 @click.option("--family", "more", multiple=True, type=click.Choice(sorted(FAMILIES)))
-@click.option("--thin", is_flag=True, help="Make half of the bodies chains, segments, points.")
+@click.option("--thin", is_flag=True, help="Reduce half of the bodies to chains, segments, points.")
 @click.option("--witness", "witnesses", multiple=True, type=click.Choice(list(WITNESSES)))
-@click.option("--cases", "--count", "count", type=click.IntRange(min=1), help="How many scenes.")
-@click.option("--seconds", type=click.FloatRange(min=0), help="For how long.")
-@click.option("--minutes", type=click.FloatRange(min=0), help="For how long.")
-@click.option("--seed", type=int, default=0, show_default=True, help="Of the first scenes.")
-@click.option("--start", type=click.IntRange(min=0), default=0, help="Go on with this case.")
-@click.option("--jobs", type=click.IntRange(min=1), default=1, help="How many processes.")
+@click.option("--cases", "--count", "count", type=click.IntRange(min=1), help="Number of scenes.")
+@click.option("--seconds", type=click.FloatRange(min=0), help="Time limit.")
+@click.option("--minutes", type=click.FloatRange(min=0), help="Time limit.")
+@click.option("--seed", type=int, default=0, show_default=True, help="Seed of the first scenes.")
+@click.option("--start", type=click.IntRange(min=0), default=0, help="Number of the first case.")
+@click.option("--jobs", type=click.IntRange(min=1), default=1, help="Number of processes.")
 @click.option("--scheduler", help="The address of a Dask scheduler, instead of --jobs.")
-@click.option("--shrink", default=60.0, show_default=True, help="Seconds for each failure.")
+@click.option("--shrink", default=60.0, show_default=True, help="Seconds for shrinking a failure.")
 def fuzz(
     families: tuple[str, ...],
     more: tuple[str, ...],
@@ -110,10 +110,10 @@ def _require_cgal() -> None:
 
 @click.command("battery", context_settings=HELP)
 @click.argument("words", nargs=-1, metavar="[WORD]...")
-@click.option("--large", is_flag=True, help="The largest scenes too (minutes).")
+@click.option("--large", is_flag=True, help="Include the largest scenes (minutes).")
 @click.option("--samples", type=click.IntRange(min=0), default=5, show_default=True)
 def run_battery(words: tuple[str, ...], large: bool, samples: int) -> None:  # noqa: FBT001
-    """Run the scenes in which everything coincides (those with a WORD in their names)."""
+    """Run the highly degenerate scenes of the battery (those with a WORD in their names)."""
     _require_cgal()
     click.echo(battery.table([])[0])
     differences = 0
@@ -132,7 +132,7 @@ def run_battery(words: tuple[str, ...], large: bool, samples: int) -> None:  # n
 @click.option("--cases", "most", type=click.IntRange(min=1), default=400, show_default=True)
 @click.option("--seed", type=int, default=0, show_default=True)
 def find_planted(words: tuple[str, ...], most: int, seed: int) -> None:
-    """Plant classic mistakes one at a time, and see how soon the fuzzer finds them."""
+    """Plant classic bugs one at a time, and count the scenes until the fuzzer finds them."""
     click.echo(planted.table([])[0])
     escaped = 0
     for bug in planted.PLANTED:
@@ -147,11 +147,11 @@ def find_planted(words: tuple[str, ...], most: int, seed: int) -> None:
 @click.command("record", context_settings=HELP)
 @click.argument("output", type=click.Path(dir_okay=False, path_type=Path))
 @click.option("--cases", "count", type=click.IntRange(min=1), default=2000, show_default=True)
-@click.option("--seed", type=int, default=0, show_default=True, help="Of the first scenes.")
+@click.option("--seed", type=int, default=0, show_default=True, help="Seed of the first scenes.")
 @click.option(
     "--against",
     type=click.Path(exists=True, dir_okay=False, path_type=Path),
-    help="Print what differs from this record.",
+    help="Print the differences from this record.",
 )
 def make_record(output: Path, count: int, seed: int, against: Path | None) -> None:
     """Write a digest of all events, contacts, tilings and saved runs of many scenes."""
@@ -173,9 +173,9 @@ COMMANDS = {
 
 
 def main() -> None:
-    """Run one of the commands; without the name of one, a campaign.
+    """Run a subcommand; without its name, a campaign.
 
-    Being killed is like Ctrl-C: workers must not outlive the one who gives them work.
+    A termination signal acts like Ctrl-C, so that worker processes are ended too.
     """
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     name, *rest = [*sys.argv[1:], ""]

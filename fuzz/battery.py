@@ -1,7 +1,7 @@
-"""The battery: large scenes in which everything coincides, each with what must come of it.
+"""The battery: large, highly degenerate scenes with known answers.
 
-Every tiling against the all-pairs reference, or against the answer that the construction
-gives where the reference would take too long; CGAL looks at snapshots at sampled times.
+Every tiling is compared with the all-pairs reference, or with the answer known by construction if
+the reference would take too long; CGAL verifies snapshots at sampled times.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Trial:
     """A scene of the battery.
 
     Attributes:
-        build: makes it.
+        build: a function that makes it.
         contact: the time of its first contact, or `NEVER`.
         large: whether the reference takes minutes.
     """
@@ -47,20 +47,20 @@ class Trial:
 
 @dataclass(slots=True)
 class Row:
-    """What came of a scene with a tiling.
+    """The result of a scene with a tiling.
 
     Attributes:
         name, tiling: the scene and the tiling.
-        bodies: how many there are.
-        events: how many there were, of all kinds.
-        batches: at how many times several certificates failed.
-        rebuilds: how often the tiling was built anew.
-        flips: repair flips.
-        exact: decisions that needed exact arithmetic.
-        contact: what was found, in words.
-        snapshots: how many tilings CGAL accepted.
-        differences: a line for each.
-        seconds: for the run itself.
+        bodies: number of bodies.
+        events: number of events of all kinds.
+        batches: number of times at which several certificates failed.
+        rebuilds: number of times that the tiling was rebuilt.
+        flips: number of flips in repairs.
+        exact: number of decisions by exact arithmetic.
+        contact: the first contact, in words.
+        snapshots: number of tilings that CGAL has accepted.
+        differences: one line for each.
+        seconds: processor time of the run itself.
     """
 
     name: str
@@ -105,7 +105,7 @@ _OCTAGON: Final = tuple(
 
 
 def _mirrored(n: int) -> Scene:
-    """Pairs of bodies that pass near each other below and above a mirror, and never meet."""
+    """Pairs of bodies that pass near each other below and above a mirror line without contact."""
     bodies = []
     for i in range(n):
         x, y = 10 * i, 3 + i % 3
@@ -124,7 +124,7 @@ def _convoy(n: int) -> Scene:
 
 
 def _sweeps(n: int, gap: QQ) -> Scene:
-    """Boxes that sweep along the edges of long tables, all at a distance."""
+    """Boxes that sweep along the edges of long tables, all at the same distance."""
     bodies = []
     for i in range(n):
         y = 5 * i
@@ -134,7 +134,7 @@ def _sweeps(n: int, gap: QQ) -> Scene:
 
 
 def _grazing(n: int, miss: QQ) -> Scene:
-    """Bodies thrown up to a ceiling, all to reach it at t = 2, or to miss it by a little."""
+    """Bodies thrown up to a ceiling, which all reach it at t = 2 or miss it by ``miss``."""
     rise = 8 - miss
     motion = Translation([], poly(0, rise, -rise / 4))
     ceiling = Body("ceiling", box(-5, 10, 6 * n + 10, 2))
@@ -171,7 +171,7 @@ BATTERY: Final[dict[str, Trial]] = {
 
 
 def play(name: str, *, samples: int = 5, cgal: bool = True) -> Iterator[Row]:
-    """Run a scene of the battery with every tiling that is for it."""
+    """Run a scene of the battery with every tiling that supports it."""
     trial = BATTERY[name]
     scene = trial.build()
     expected = None if trial.large else first_contact_allpairs(scene)
@@ -207,7 +207,7 @@ def _run(scene: Scene, row: Row) -> Contact | None:
 
 
 def _look(scene: Scene, row: Row, contact: Contact | None, samples: int) -> None:
-    """Have CGAL look at snapshots at times spread over the span before the contact."""
+    """Have CGAL verify snapshots at times spread over the span before the contact."""
     end = scene.end if contact is None else contact.time.low
     times = [scene.start + (end - scene.start) * i / samples for i in range(samples)]
     shapes = BodyShape.of_scene(scene)
@@ -226,7 +226,7 @@ def _look(scene: Scene, row: Row, contact: Contact | None, samples: int) -> None
 
 
 def table(rows: Sequence[Row]) -> list[str]:
-    """The rows as lines of text, differences below each."""
+    """The rows as lines of text, with the differences below each."""
     head = (
         f"{'scene':36}{'tiling':9}{'bodies':>7}{'events':>8}{'batches':>8}{'rebuilds':>9}"
         f"{'flips':>6}{'exact':>8}{'CGAL':>5}{'differ':>7}{'seconds':>8}  contact"

@@ -1,4 +1,4 @@
-"""A campaign: many cases, here, on the cores of this machine, or on a Dask cluster."""
+"""Campaigns of many cases: in this process, on several cores, or on a Dask cluster."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Campaign:
-    """What is to be done.
+    """The parameters of a campaign.
 
     Attributes:
-        families: taken in turn.
-        witnesses: who look at every case.
+        families: names of families, taken in turn.
+        witnesses: names of the witnesses that check every case.
         seed: the seed of the first scene of each family.
-        start: the number of the first case, to go on where another campaign stopped.
-        count: how many cases; None for as many as there is time for.
-        seconds: stop after this time; None for never.
-        shrink_seconds: how long each failure is shrunk.
+        start: number of the first case, to continue another campaign.
+        count: number of cases; None for no limit.
+        seconds: time limit in seconds; None for no limit.
+        shrink_seconds: time limit for shrinking each failure.
     """
 
     families: Sequence[str]
@@ -45,11 +45,11 @@ class Campaign:
 
 @dataclass(slots=True)
 class Summary:
-    """What came of a campaign.
+    """The result of a campaign.
 
     Attributes:
-        outcomes: by the number of the case.
-        seconds: how long it took.
+        outcomes: outcomes by number of the case.
+        seconds: duration.
         finished: whether it was not interrupted.
     """
 
@@ -59,7 +59,7 @@ class Summary:
 
     @property
     def failed(self) -> bool:
-        """Whether a witness objected to a case."""
+        """Whether a witness has found a failure."""
         return any(outcome.failures for outcome in self.outcomes.values())
 
     def next_start(self, start: int) -> int:
@@ -67,7 +67,7 @@ class Summary:
         return next(i for i in itertools.count(start) if i not in self.outcomes)
 
     def table(self) -> list[str]:
-        """A line for each family: cases, cases a second, failures, seconds by witness."""
+        """One line for each family: cases, cases per second, failures, seconds by witness."""
         rows = sorted({outcome.case.family for outcome in self.outcomes.values()})
         witnesses = list(dict.fromkeys(w for o in self.outcomes.values() for w in o.seconds))
         head = ("family", "cases", "a second", "failures", *witnesses)
@@ -107,10 +107,11 @@ def run(
     """Run a campaign; every case counts once.
 
     Args:
-        campaign: what to do.
-        report: called with every outcome as it comes.
-        jobs: how many processes.
-        scheduler: the address of a Dask scheduler; its workers must find this checkout.
+        campaign: its parameters.
+        report: called with every outcome as it arrives.
+        jobs: number of processes.
+        scheduler: the address of a Dask scheduler, whose workers must be able to import this
+            checkout.
     """
     summary = Summary()
     began = clock.monotonic()
@@ -135,7 +136,7 @@ def run(
 
 
 def _until(items: Iterable[T], seconds: float | None) -> Iterator[T]:
-    """The items, until the time is up."""
+    """The items, until the time limit is reached."""
     deadline = None if seconds is None else clock.monotonic() + seconds
     for item in items:
         if deadline is not None and clock.monotonic() > deadline:
@@ -144,7 +145,7 @@ def _until(items: Iterable[T], seconds: float | None) -> Iterator[T]:
 
 
 def _on_cores(job: Job, todo: Iterator[Case], jobs: int) -> Iterator[Outcome]:
-    """Outcomes as they come; a few cases are ahead of those at work."""
+    """The outcomes as they arrive; a few cases are queued ahead of the running ones."""
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
         pending: set[Future[Outcome]] = set()
         try:
@@ -161,7 +162,7 @@ def _on_cores(job: Job, todo: Iterator[Case], jobs: int) -> Iterator[Outcome]:
 
 
 def _on_cluster(job: Job, todo: Iterator[Case], scheduler: str) -> Iterator[Outcome]:
-    """The same on a Dask cluster, which runs the cases of a lost worker elsewhere."""
+    """As `_on_cores`, on a Dask cluster, which repeats the cases of a lost worker elsewhere."""
     from distributed import Client, as_completed
 
     with Client(scheduler) as client:

@@ -1,4 +1,4 @@
-"""Cases: a scene of a family by its seed, what the witnesses say of it, and how long it took."""
+"""Cases: a scene of a family and a seed, the verdicts of the witnesses, and their times."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ from typing import Final, NamedTuple, NoReturn
 from exactpt.errors import InputError
 from exactpt.scene.format import loads, to_json
 from exactpt.scene.scene import Scene
-from fuzz.excerpt import scene_of
 from fuzz.shrink import shrink
+from fuzz.subscene import scene_of
 from fuzz.witnesses import WITNESSES, Difference
 
 __all__ = ["HANGS", "Case", "Failure", "Outcome", "failure_of", "limit", "run_case", "shrunk"]
 
 HANGS: Final = "hangs"
 PATIENCE: Final = 60.0
-"""A witness that takes more seconds than this, of processor time, hangs."""
+"""Seconds of processor time after which a witness counts as hanging."""
 
 
 class Case(NamedTuple):
-    """A scene to be looked at: the ``number``-th of its campaign."""
+    """A scene to be checked: the ``number``-th of its campaign."""
 
     number: int
     family: str
@@ -37,13 +37,13 @@ class Case(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """What a witness objects to.
+    """A failure found by a witness.
 
     Attributes:
-        witness: its name.
-        signature: how it failed, the same for the same fault in another scene.
-        why: how it failed, in words.
-        scene: the scene, as JSON; shrunk if there was time.
+        witness: name of the witness.
+        signature: type of the failure, the same for the same fault in another scene.
+        why: description of the failure.
+        scene: the scene as JSON, shrunk if there was time.
     """
 
     witness: str
@@ -54,12 +54,12 @@ class Failure:
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What came of a case.
+    """The result of a case.
 
     Attributes:
         case: the case.
-        seconds: how long each witness took, by name.
-        failures: what they objected to.
+        seconds: time of each witness, by name.
+        failures: the failures found.
     """
 
     case: Case
@@ -68,7 +68,7 @@ class Outcome:
 
 
 def run_case(case: Case, witnesses: Sequence[str], shrink_seconds: float = 60.0) -> Outcome:
-    """Let witnesses look at a case; what they object to is shrunk for so long each."""
+    """Have witnesses check a case; each failure is shrunk for at most ``shrink_seconds``."""
     try:
         scene = scene_of(case.family, case.seed)
     except InputError as error:
@@ -82,7 +82,7 @@ def run_case(case: Case, witnesses: Sequence[str], shrink_seconds: float = 60.0)
         failure = failure_of(name, scene, case.seed)
         seconds[name] = clock.perf_counter() - began
         if failure is not None:
-            # What fails at once fails at once when it is smaller, too.
+            # A failure that takes little time takes little time in a smaller scene, too.
             hangs = failure.signature == HANGS
             patience = 15.0 if hangs else min(PATIENCE, 2.0 + 4.0 * seconds[name])
             failures.append(shrunk(failure, case.seed, shrink_seconds, patience))
@@ -92,13 +92,13 @@ def run_case(case: Case, witnesses: Sequence[str], shrink_seconds: float = 60.0)
 def failure_of(
     name: str, scene: Scene, turn: int | None = None, patience: float = PATIENCE
 ) -> Failure | None:
-    """What a witness objects to in a scene, or None; for ``turn`` see `Witness`."""
+    """The failure that a witness finds in a scene, or None; for ``turn`` see `Witness`."""
     try:
         with limit(patience):
             WITNESSES[name](scene, turn)
     except Difference as found:
         return _failure(name, found.kind, str(found), scene)
-    except Exception as error:  # whatever breaks is a finding
+    except Exception as error:  # any exception is a finding
         where = traceback.extract_tb(error.__traceback__)[-1]
         signature = f"{type(error).__name__} in {where.name}"
         return _failure(name, signature, f"{signature}: {error}", scene)
@@ -110,7 +110,7 @@ def _failure(name: str, signature: str, why: str, scene: Scene) -> Failure:
 
 
 def shrunk(failure: Failure, turn: int, seconds: float, patience: float) -> Failure:
-    """The same failure in the smallest scene that is found in this time."""
+    """The same failure in the smallest scene found within the time limit."""
     best = failure
 
     def still_fails(data: object) -> bool:
@@ -135,7 +135,7 @@ class _TooSlow(Difference):
 
 @contextlib.contextmanager
 def limit(seconds: float) -> Iterator[None]:
-    """Interrupt what takes longer; only in a main thread, elsewhere signals cannot."""
+    """Interrupt what takes longer; only in the main thread, where signals are delivered."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return

@@ -1,7 +1,7 @@
-"""The corpus: shrunk scenes that once failed, each with a note of what went wrong.
+"""The corpus: shrunk scenes that once failed, each with a note on the fault.
 
 ``<witness>-<hash>.json`` is a scene, to be run like any other; ``<witness>-<hash>.txt``
-beside it says what was found, where, and (written by hand) what it came from.
+beside it says what was found, where, and (written by hand) what caused it.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ FOLDER: Final = Path(__file__).parent / "corpus"
 
 
 def files(folder: Path = FOLDER) -> list[Path]:
-    """The scenes of a corpus."""
+    """The scene files of a corpus."""
     return sorted(folder.glob("*.json"))
 
 
 def save(failure: Failure, case: Case, folder: Path = FOLDER) -> Path:
-    """Write a failure and its note; the path of the scene."""
+    """Write a failure and its note; returns the path of the scene."""
     data = json.loads(failure.scene)
     text = json.dumps(data, indent=1) + "\n"
     digest = hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:10]

@@ -1,7 +1,7 @@
-"""Planted bugs: classic mistakes, put in one at a time, that the fuzzer must find.
+"""Planted bugs: classic mistakes, made one at a time, that the fuzzer must find.
 
-Who trusts a fuzzer that finds nothing should see it find something. Each mistake is a
-patch of one function while it lasts; nothing is left behind.
+They show that the fuzzer would find a fault if there were one. Each mistake is a temporary
+patch of one function.
 """
 
 from __future__ import annotations
@@ -33,12 +33,12 @@ Function = Callable[..., Any]
 
 
 def _replaced(owner: object, name: str, make: Callable[[Function], Function]) -> Any:
-    """A patch of a function by what is made of the right one."""
+    """A context in which a function is replaced by a wrong one made from it."""
     return patch.object(owner, name, make(getattr(owner, name)))
 
 
 def _sign_at_a_root(right: Function) -> Function:
-    """Of a function that vanishes now, the sign before now is taken for the one after."""
+    """A sign just before now is taken for the sign just after it, if the function vanishes now."""
 
     def wrong(self: Certifier, *args: Any) -> Any:
         with patch.object(AlgebraicNumber, "sign_after", AlgebraicNumber.sign_before):
@@ -59,7 +59,7 @@ def _events_dropped(right: Function) -> Function:
 
 
 def _order_of_ties(right: Function) -> Function:
-    """Events that overlap are not compared exactly: the first slot comes first."""
+    """Events with overlapping enclosures are ordered by slot, without exact comparison."""
 
     def wrong(self: EventQueue, s: Any, t: Any) -> int:
         order: int = right(self, s, t)
@@ -69,7 +69,7 @@ def _order_of_ties(right: Function) -> Function:
 
 
 def _even_roots(right: Function) -> Function:
-    """Roots of even multiplicity are passed over, as no certificate fails there."""
+    """Roots of even multiplicity are ignored, as no certificate fails there."""
 
     def wrong(*args: Any) -> Iterator[Any]:
         return (root for root in right(*args) if root.crossing)
@@ -78,7 +78,7 @@ def _even_roots(right: Function) -> Function:
 
 
 def _even_zeros_of_copies(right: Function) -> Function:
-    """The same of the orientations of copies of one vertex alone."""
+    """As `_even_roots`, for orientations of infinitesimal copies of one vertex only."""
 
     def wrong(self: Certifier, a: Any, b: Any, c: Any) -> Any:
         if len({id(v.track) for v in (a, b, c)}) == 3:
@@ -97,7 +97,7 @@ def _always(value: object) -> Callable[[Function], Function]:
 
 
 def _rigid_if_one_velocity(right: Function) -> Function:
-    """Vertices are taken for rigid if two of the three are."""
+    """Three vertices count as rigid if two of them are."""
 
     def wrong(self: Certifier, a: int, b: int, c: int) -> bool:
         pair: bool = right(self, a, b, b)
@@ -107,12 +107,12 @@ def _rigid_if_one_velocity(right: Function) -> Function:
 
 
 def _no_meetings(right: Function) -> Function:  # noqa: ARG001
-    """Vertices that coincide do not count: only edges are hit."""
+    """Coincident vertices are no contacts: only vertices on edges are."""
     return lambda *args: False
 
 
 def _wrong_diagonal(right: Function) -> Function:
-    """Of two diagonals that become one line, the other one gives way."""
+    """Of two diagonals that become collinear, the wrong one is removed."""
 
     def wrong(self: KineticTiling, h: int) -> None:
         mesh = self.mesh
@@ -128,7 +128,7 @@ def _wrong_diagonal(right: Function) -> Function:
 
 
 def _first_body_only(right: Function) -> Function:
-    """Contacts at the start are looked for, but only between vertices and edges."""
+    """At the start only vertices and edges are tested, not containment."""
 
     def wrong(scene: Any) -> Any:
         touches, _ = right(scene)
@@ -138,7 +138,7 @@ def _first_body_only(right: Function) -> Function:
 
 
 def _narrow(right: Function) -> Function:
-    """Enclosures of roots are a tenth of what they must be."""
+    """Enclosures of roots are narrowed to a tenth of the proved width."""
 
     def wrong(*args: Any) -> Any:
         s, low, high = right(*args)
@@ -151,7 +151,7 @@ def _narrow(right: Function) -> Function:
 
 
 def _flipped(right: Function) -> Function:
-    """The sign of what is linear in all three vertices is the other one."""
+    """The sign of a form that is linear in all three vertices is inverted."""
 
     def wrong(*args: Any) -> Any:
         s, low, high = right(*args)
@@ -161,7 +161,7 @@ def _flipped(right: Function) -> Function:
 
 
 def _swapped(right: Function) -> Function:
-    """Of two vertices with equal x for ever the lower one is taken for the left one."""
+    """Of two vertices with identically equal x, the lower one counts as the left one."""
 
     def wrong(a: Any, b: Any) -> Iterator[Any]:
         dx, dy, *offsets = right(a, b)
@@ -171,7 +171,7 @@ def _swapped(right: Function) -> Function:
 
 
 def _unguarded(right: Function) -> Function:
-    """Filters take coordinates for exact that are rounded."""
+    """Filters treat rounded coordinates as exact."""
 
     def wrong(self: Certifier, *args: Any, **kwargs: Any) -> None:
         right(self, *args, **kwargs)
@@ -210,7 +210,7 @@ PLANTED: Final[dict[str, Callable[[], Any]]] = {
         GreedyTiling, "_repair_more", lambda right: lambda self: self._due_cells.clear()
     ),
 }
-"""The mistakes: each gives a context in which it is made."""
+"""The mistakes: functions that return a context in which the mistake is made."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -219,10 +219,10 @@ class Found:
 
     Attributes:
         bug: its name.
-        failure: what a witness objected to; None if it escaped.
-        family: where.
-        scenes: how many scenes that took.
-        seconds: and how long.
+        failure: the failure found; None if there was none.
+        family: the family of the scene.
+        scenes: number of scenes checked.
+        seconds: processor time.
     """
 
     bug: str
@@ -233,10 +233,10 @@ class Found:
 
 
 def hunt(bug: str, most: int = 400, witnesses: Sequence[str] = WITNESSES, seed: int = 0) -> Found:
-    """Look for a planted bug in the scenes of a campaign, at most so many.
+    """Look for a planted bug in at most ``most`` scenes of a campaign.
 
     Raises:
-        InputError: if the package is compiled: then nothing can be planted.
+        InputError: if the package is compiled: compiled functions cannot be patched.
     """
     if not filters.__file__.endswith(".py"):
         raise InputError("mistakes are planted in the plain package only: make plain")
@@ -254,7 +254,7 @@ def hunt(bug: str, most: int = 400, witnesses: Sequence[str] = WITNESSES, seed: 
 
 
 def table(found: Sequence[Found]) -> list[str]:
-    """A line for each planted bug."""
+    """One line for each planted bug."""
     lines = [f"{'planted bug':34}{'scenes':>7}{'seconds':>9}  found by"]
     for f in found:
         by = f"{f.failure.witness}, {f.family}: {f.failure.signature}" if f.failure else "NOTHING"

@@ -1,8 +1,8 @@
-"""Records: a digest of all that runs tell, before a change and after it.
+"""Records: digests of all output of runs, to compare two versions of the code.
 
-A change of the structure of the code must not change an answer. A record has a line for
-every scene and tiling; two records of one seed are equal if and only if all event logs,
-contacts, tilings and saved simulations are, byte for byte.
+A refactoring must not change any output. A record has one line for every scene and tiling;
+two records with the same seed are equal if and only if all event logs, contacts, tilings and
+saved simulations are, byte for byte.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from exactpt.collision.detector import first_contact
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
-from fuzz.excerpt import scene_of
+from fuzz.subscene import scene_of
 from fuzz.witnesses import tilings_of
 
 __all__ = ["differences", "record"]
 
 SHARES: Final = (0, 1, 2, 3)
-"""The quarters of the time up to the contact at which a run is looked at."""
+"""Quarters of the time up to the contact at which tiling and saved simulation are recorded."""
 
 
 def record(families: Sequence[str], count: int, seed: int = 0) -> Iterator[str]:
@@ -43,7 +43,7 @@ def record(families: Sequence[str], count: int, seed: int = 0) -> Iterator[str]:
 
 
 def differences(old: Sequence[str], new: Sequence[str]) -> list[str]:
-    """What differs between two records: lines of the new one, and what is only in the old."""
+    """The differences of two records: lines of the new one, and lines missing from it."""
     known, made = set(old), set(new)
     changed = [f"+ {line}" for line in new if line not in known]
     return changed + [f"- {line}" for line in old if line not in made]
@@ -71,7 +71,7 @@ def _run(scene: Scene, tiling: str, last: QQ) -> dict[str, object]:
 
 
 def _saved(simulation: Simulation) -> object:
-    """The saved simulation."""
+    """The data of the saved simulation."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "run.json"
         simulation.save(path)

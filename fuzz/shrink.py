@@ -1,7 +1,7 @@
 """Shrinking: a smaller scene that still fails, by delta debugging on its JSON data.
 
 Source: A. Zeller and R. Hildebrandt, *Simplifying and isolating failure-inducing input*,
-IEEE Transactions on Software Engineering 28 (2002) 183-200: first leave out halves, then
+IEEE Transactions on Software Engineering 28 (2002) 183-200: remove halves first, then
 quarters, and so on.
 """
 
@@ -17,13 +17,13 @@ from typing import Any, Final, TypeAlias
 __all__ = ["shrink"]
 
 Data: TypeAlias = Any
-"""A scene as JSON data; candidates may be no scene at all, whoever judges them sees to it."""
+"""A scene as JSON data. Candidates may be invalid scenes; ``fails`` must be false for these."""
 
 Path: TypeAlias = tuple[str | int, ...]
 
 
 def shrink(data: Data, fails: Callable[[Data], bool], seconds: float) -> Data:
-    """The smallest scene found in this time for which ``fails`` holds, as it does for data."""
+    """The smallest scene found in time for which ``fails`` holds; it must hold for ``data``."""
     deadline = clock.monotonic() + seconds
     best, size = data, _size(data)
     improved = True
@@ -42,7 +42,7 @@ def shrink(data: Data, fails: Callable[[Data], bool], seconds: float) -> Data:
 
 
 def _size(data: Data) -> tuple[int, int, int, int]:
-    """Bodies, vertices, then how long the numbers are, and the text."""
+    """Size by which scenes are compared: bodies, vertices, weight of numbers, length of text."""
     bodies = data["bodies"]
     vertices = sum(
         len(body.get("vertices", ())) + sum(len(f["vertices"]) for f in body.get("keyframes", ()))
@@ -53,14 +53,14 @@ def _size(data: Data) -> tuple[int, int, int, int]:
 
 
 def _weight(text: str) -> int:
-    """0 for 0, and more the more complicated the number is."""
+    """The complexity of a number; 0 for 0."""
     q = Fraction(text)
     bits = 4 * (q.numerator.bit_length() + q.denominator.bit_length() - 1)
     return bits + (q < 0) + min(abs(q.numerator), 3)
 
 
 def _without(items: Sequence[Data]) -> Iterator[list[Data]]:
-    """The items without a half of them, a quarter, ..., a single one."""
+    """The items without one half, one quarter, ..., one of them."""
     width = len(items) // 2
     while width:
         for start in range(0, len(items), width):
@@ -187,7 +187,7 @@ _STEPS: Final = (
 
 
 def _numbers(data: Data) -> Iterator[Path]:
-    """Where the numbers are: all texts but the names."""
+    """The paths of all numbers: of all texts except names."""
     for path in _paths(data):
         if isinstance(_at(data, path), str) and path[-1] != "name":
             yield path

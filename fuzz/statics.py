@@ -1,4 +1,4 @@
-"""Kinetic equals static: between any two events the tiling is the one that is built there."""
+"""Kinetic equals static: between two events the tiling equals the one built from nothing there."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ from exactpt.tiling.tiling import Tiling
 __all__ = ["FREE_TO_DIFFER", "Audited", "audit_at", "audit_now", "run_and_audit"]
 
 FREE_TO_DIFFER: Final = frozenset({"lazy"})
-"""The tilings that depend on what happened before; all others are canonical."""
+"""The tilings that depend on their history; all others are canonical."""
 
 
 class Audited(NamedTuple):
-    """A run that passed all audits.
+    """A run that has passed all audits.
 
     Attributes:
         kinetic: the tiling at its end.
         contact: whether it ended with a contact.
-        gaps: how many times were audited, between two events each.
+        gaps: number of audited intervals between consecutive events.
     """
 
     kinetic: Tiling
@@ -42,17 +42,17 @@ class Audited(NamedTuple):
 def run_and_audit(
     scene: Scene, tiling: str, *, exact_only: bool = False, middle: bool = True
 ) -> Audited | None:
-    """Run a scene, auditing every gap between events.
+    """Run a scene and audit the tiling between any two consecutive events.
 
-    At a rational time within the gap, and (``middle``) at one nearer to its start; and at
-    the times of events that are rational.
+    The audit takes place at a rational time in the interval, with ``middle`` at another one
+    nearer to its start, and at event times that are rational.
 
     Returns:
-        What was run; None if bodies touch at the start.
+        The audited run; None if bodies touch at the start.
 
     Raises:
         AuditError: at the first fault.
-        InputError: if the tiling is not for such scenes.
+        InputError: if the tiling does not support the scene.
     """
     if initial_touches(scene)[1]:
         return None
@@ -79,11 +79,11 @@ def audit_at(kinetic: Tiling, at: QQ) -> None:
     """Compare a tiling with the static one, at a rational time before its next event.
 
     Raises:
-        AuditError: if an angle is not as marked, or the tilings differ.
+        AuditError: if the marks of an angle are wrong, or the tilings differ.
     """
     instant = PredicatesAt(kinetic.vertices, at)
     if kinetic.name == POINT_TILING:
-        kinetic.mesh_after().audit()  # its points have no rings
+        kinetic.mesh_after().audit()  # points have no boundary cycles
     else:
         audit_angles(kinetic.mesh_after(), instant)
     if kinetic.name in FREE_TO_DIFFER:
@@ -103,7 +103,7 @@ def audit_now(kinetic: Tiling) -> None:
     """Compare the tiling at the current time, which is rational, with the static one.
 
     Raises:
-        AuditError: if they differ, or there is none.
+        AuditError: if they differ, or there is no static one.
     """
     now = kinetic.now.low
     instant = PredicatesAt(kinetic.vertices, now, after=False)
@@ -125,13 +125,13 @@ def _audit_cells(kept: VerticalDecomposition, static: VerticalDecomposition, at:
 
 
 def _diagonals(mesh: Mesh) -> list[tuple[int, int]]:
-    """Those in free space; those inside bodies are not canonical."""
+    """The diagonals in the free space; those inside bodies are not canonical."""
     pairs = (mesh.ends(h) for h in mesh.diagonals() if mesh.region[h] != INSIDE)
     return sorted((u, v) if u < v else (v, u) for u, v in pairs)
 
 
 def _labels(mesh: Mesh) -> dict[tuple[int, int], object]:
-    """The labels of the mixed tiling; no other has any."""
+    """The labels of the mixed tiling; empty for any other."""
     if not isinstance(mesh, LabelledMesh):
         return {}
     return {mesh.ends(h): mesh.labels[h] for h in mesh.map.half_edges() if mesh.labels[h]}

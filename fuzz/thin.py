@@ -1,6 +1,6 @@
-"""Scenes with half of their bodies cut down to chains, segments and points.
+"""Scenes with half of their bodies reduced to degenerate ones: chains, segments and points.
 
-Bodies without an inside have copies of their vertices, which most families never show.
+Bodies without interior have infinitesimal copies of vertices, which few families contain.
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ from exactpt.scene.scene import Scene
 __all__ = ["SUFFIX", "thinned"]
 
 SUFFIX: Final = "/thin"
-"""Of the name of a family whose scenes are thinned."""
+"""Suffix of the name of a family whose scenes are reduced in this way."""
 
 
 def thinned(scene: Scene, rng: Random) -> Scene:
-    """A scene with half of its bodies, by chance, replaced by a part of their boundary."""
+    """A scene with half of its bodies, chosen at random, replaced by parts of their boundaries."""
     bodies = [_part(body, rng) if rng.random() < 0.5 else body for body in scene.bodies]
     return Scene(bodies, (scene.start, scene.end))
 
 
 def _part(body: Body, rng: Random) -> Body:
-    """Some consecutive vertices of a body, in the same motion: as an open chain, or fewer."""
+    """Some consecutive vertices of a body, in the same motion, as an open chain or less."""
     most = rng.choice([1, 2, body.size, body.size])
     size, first = min(most, body.size), rng.randrange(body.size) if body.closed else 0
     chosen = [(first + i) % body.size for i in range(size)]

@@ -1,7 +1,7 @@
-"""Symmetric variants of a scene: what happens in them follows from what happens in it.
+"""Symmetric variants of a scene, whose contacts follow from those of the scene.
 
-Each variant maps a scene to another one, and the contact of the one to that of the other:
-space by a similarity, time by t' = a t + b, bodies and vertices by new names and numbers.
+Each variant maps a scene to another one, and its contact to the other's contact: space by a
+similarity, time by t' = a t + b, bodies and vertices by new names and numbers.
 """
 
 from __future__ import annotations
@@ -43,13 +43,13 @@ class Variant:
     """A map of scenes.
 
     Attributes:
-        matrix, shift: p' = matrix p + shift; the matrix is a multiple of a turn or mirror.
+        matrix, shift: p' = matrix p + shift; the matrix is a multiple of a rotation or reflection.
         rate, delay: t' = rate t + delay.
-        drift: a velocity that every body gets besides.
-        cut: whether every motion is cut in two pieces that are the same, each body's a
-            little later than the one's before it: within one double.
-        renumber: "turned" or "reversed": where and in which sense vertices are numbered.
-        reorder: whether bodies come in another order and with other names.
+        drift: a velocity added to all bodies.
+        cut: whether every motion is cut into two identical pieces, for each body a little later
+            than for the previous one: within one double.
+        renumber: "turned" or "reversed": new first vertex, or reversed order of vertices.
+        reorder: whether bodies are reordered and renamed.
     """
 
     matrix: Matrix = _IDENTITY
@@ -87,7 +87,7 @@ class Variant:
         return v if self.renumber == "reversed" else u
 
     def place(self, point: tuple[float, float], time: float) -> tuple[float, float]:
-        """About where a point of the scene at a time of the scene goes."""
+        """The approximate image of a point of the scene at a time of the scene."""
         x, y = (c + float(d) * time for c, d in zip(point, self.drift, strict=True))
         (a, b), (c, d) = ((float(p), float(q)) for p, q in self.matrix)
         return a * x + b * y + float(self.shift[0]), c * x + d * y + float(self.shift[1])
@@ -130,11 +130,11 @@ class Variant:
         return _times(a, v[0]) + _times(b, v[1]), _times(c, v[0]) + _times(d, v[1])
 
     def _then(self, f: Polynomial) -> Polynomial:
-        """The function of t' that f is of t = (t' - delay) / rate."""
+        """The function of t' that equals f at t = (t' - delay) / rate."""
         return _compose(f, Polynomial([-self.delay / self.rate, 1 / self.rate]))
 
     def _motion(self, motion: SimpleMotion) -> SimpleMotion:
-        """The image of a motion g: p -> S(g(S^-1(p)))), S the map of space."""
+        """The image of a motion g: p -> S(g(S^-1(p))), S the map of space."""
         if not isinstance(motion, (Translation, Rigid, Affine)):
             raise TypeError(f"no variant of {motion!r}")
         drifting = (
@@ -235,7 +235,7 @@ VARIANTS: Final[Mapping[str, Variant]] = {
     ),
     "backwards": Variant(rate=QQ(-1)),
 }
-"""The variants by name. "backwards" keeps only that there is no contact."""
+"""The variants by name. "backwards" preserves only that there is no contact."""
 
 
 def expected_time(variant: Variant, time: AlgebraicNumber) -> AlgebraicNumber:
@@ -256,7 +256,7 @@ def expected_time(variant: Variant, time: AlgebraicNumber) -> AlgebraicNumber:
 def difference(
     variant: Variant, scene: Scene, contact: Contact | None, image: Contact | None
 ) -> str | None:
-    """What is wrong with the contact found in the image of a scene; None: nothing."""
+    """The error in the contact found in the image of a scene, in words; None if there is none."""
     if contact is None or image is None:
         if (contact is None) == (image is None):
             return None

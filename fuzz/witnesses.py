@@ -1,4 +1,4 @@
-"""The witnesses: each looks at a scene in its own way, and says what contradicts what."""
+"""The witnesses: independent checks of a scene, each of which reports contradictions."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ from fuzz.variants import VARIANTS, difference
 __all__ = ["WITNESSES", "Difference", "Witness", "contact_by", "tilings_of"]
 
 Witness: TypeAlias = Callable[[Scene, int | None], None]
-"""Raises `Difference`, or whatever broke, if something is wrong with a scene.
+"""A check of a scene; raises `Difference`, or any other exception, if it fails.
 
-Takes the scene, and whose turn it is: a number that chooses one tiling, and some of the
-variants, so that a campaign sees more scenes in its time. None: all of them.
+Its arguments are the scene and a turn: a number that selects one tiling and some of the
+variants, so that a campaign covers more scenes in its time. None selects all of them.
 """
 
 
 class Difference(Exception):  # noqa: N818 - what was found, the purpose of it all
-    """Two ways to the same answer have led to two answers.
+    """Two methods have given different answers.
 
     Attributes:
-        kind: what differs, in a few words that do not depend on the scene's numbers.
+        kind: the type of the difference, in words that do not depend on the scene's numbers.
     """
 
     def __init__(self, kind: str, detail: str = "") -> None:
@@ -39,7 +39,7 @@ class Difference(Exception):  # noqa: N818 - what was found, the purpose of it a
 
 
 def reference(scene: Scene, turn: int | None) -> None:  # noqa: ARG001 - always all
-    """The first contact by every tiling, and by none, is that of the all-pairs reference."""
+    """The first contact is the same by every tiling, by pairs, and by the all-pairs reference."""
     expected = first_contact_allpairs(scene)
     for name in ("pairs", *tilings_of(scene)):
         found = contact_by(scene, name)
@@ -56,7 +56,7 @@ def contact_by(scene: Scene, name: str) -> Contact | None:
 
 
 def static(scene: Scene, turn: int | None) -> None:
-    """Between any two events the kinetic tiling is the static one."""
+    """Between any two events the kinetic tiling equals the static one."""
 
     def audit(name: str) -> None:
         run_and_audit(scene, name, middle=False)
@@ -82,7 +82,7 @@ def filters(scene: Scene, turn: int | None) -> None:
 
 
 def symmetry(scene: Scene, turn: int | None) -> None:
-    """Symmetric variants of a scene have the same first contact, mapped."""
+    """Symmetric variants of a scene have the image of its first contact."""
     contact = first_contact(scene)
     tilings = tilings_of(scene)
     stride = 1 if turn is None else 5
@@ -121,13 +121,13 @@ WITNESSES: Final[dict[str, Witness]] = {
 
 
 def tilings_of(scene: Scene) -> list[str]:
-    """The tilings that must accept a scene."""
+    """The tilings that must support a scene."""
     points = all(body.size == 1 for body in scene.bodies)
     return [*TILINGS, POINT_TILING] if points else [*TILINGS]
 
 
 def _with_tilings(scene: Scene, check: Callable[[str], None], turn: int | None) -> None:
-    """Check with each tiling, or with that whose turn it is."""
+    """Check with each tiling, or with the one selected by ``turn``."""
     names = tilings_of(scene)
     for name in names if turn is None else [names[turn % len(names)]]:
         check(name)

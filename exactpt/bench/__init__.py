@@ -1,1 +1,1 @@
-"""Benchmarks: how fast, how exact, and beside what a user would pick instead."""
+"""Benchmarks: speed and accuracy, in comparison with other programs."""

@@ -1,8 +1,8 @@
-"""Wrong signs, event orders and structures by kind of number, as degeneracy grows.
+"""Wrong signs, event orders and structures by number type, as degeneracy grows.
 
-Signs are of points that miss a line by about the degeneracy; orders of two events that are the
-degeneracy apart; structures are convex hulls of points that are so close to one line. All
-coordinates are rationals that no binary number is equal to.
+Signs: orientations of points whose distance from a common line is about the degeneracy. Orders:
+two events whose times differ by the degeneracy. Structures: convex hulls of points that close to
+a line. All coordinates are rationals without a finite binary expansion.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ from exactpt.kernel.numbers import QQ, ZZ
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 
 UNIT: Final = 1009
-"""The denominator of coordinates, a prime."""
+"""Denominator of all coordinates, a prime."""
 
 T = TypeVar("T")
 
 
 class Sizes(NamedTuple):
-    """How much is asked.
+    """Size of the benchmark.
 
     Attributes:
-        questions: of each kind for each degeneracy.
-        points: of each structure.
-        exponents: degeneracies 10^-e; None: 0.
+        questions: number of questions of each kind for each degeneracy.
+        points: number of points of each structure.
+        exponents: e for degeneracy 10^-e; None for degeneracy 0.
     """
 
     questions: int
@@ -44,7 +44,7 @@ FULL: Final = Sizes(200, 16, (2, 5, 10, 14, 16, 18, 20, 30, 50, 100, 150, 200, 3
 
 
 class _Asked(NamedTuple):
-    """Answers to all questions of one degeneracy, and microseconds a question."""
+    """The answers to all questions of one degeneracy, and microseconds per question."""
 
     signs: list[int]
     orders: list[int]
@@ -53,7 +53,7 @@ class _Asked(NamedTuple):
 
 
 class _Input(NamedTuple):
-    """Points in blocks: triples for signs, pairs of triples for orders, lists for hulls."""
+    """The points; triples of them for signs, pairs of triples for orders, lists for hulls."""
 
     points: list[MovingPoint]
     signs: list[Triple]
@@ -62,7 +62,7 @@ class _Input(NamedTuple):
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
-    """Ask the same of every arithmetic.
+    """Ask all arithmetics the same questions.
 
     Raises:
         AuditError: if the filter and exact arithmetic disagree.
@@ -153,7 +153,7 @@ def _make(sizes: Sizes, tiny: QQ, rng: Random) -> _Input:
 
 
 def _collinear(rng: Random, count: int, tiny: QQ, time: QQ) -> list[MovingPoint]:
-    """Points that are on one line at a time, but for up to five times the degeneracy."""
+    """Points that lie on one line at a time, up to five times the degeneracy."""
 
     def some() -> QQ:
         return QQ(rng.randint(-5 * UNIT, 5 * UNIT), UNIT)

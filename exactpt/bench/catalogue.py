@@ -1,4 +1,4 @@
-"""The benchmarks by name, each imported when it is run."""
+"""The benchmarks by name; the module of each is imported when it is run."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ BENCHMARKS: Final[dict[str, str]] = {
     "skipping": "what is never computed, beside a run that computes all of it",
     "kernel": "first roots and their order, beside python-flint, SymPy and mpmath",
 }
-"""Each with what it shows."""
+"""Name of each benchmark, and what it shows."""
 
 
 def run(name: str, output: Output, *, quick: bool, seed: int) -> None:
@@ -28,9 +28,9 @@ def run(name: str, output: Output, *, quick: bool, seed: int) -> None:
 
     Args:
         name: one of `BENCHMARKS`.
-        output: where its tables and plots go.
-        quick: sizes that take seconds, not minutes.
-        seed: of all that is random.
+        output: the destination of its tables and plots.
+        quick: whether to use sizes that take seconds, not minutes.
+        seed: seed of everything random.
     """
     module = import_module(f"exactpt.bench.{name.replace('-', '_')}")
     output.begin(name, BENCHMARKS[name])

@@ -1,7 +1,7 @@
-"""Run time against error in the time of the first contact, beside what a user would pick instead.
+"""Run time against error in the time of the first contact, in comparison with other programs.
 
-The truth is planted, or found by the plain exact search where that ends in time; else it
-is what exactpt finds by two ways that have little in common.
+The true time is planted, or found by the exact reference search if that is fast enough;
+otherwise it is the common answer of two methods of exactpt that share little code.
 """
 
 from __future__ import annotations
@@ -38,10 +38,10 @@ from exactpt.scene.scene import Scene
 __all__ = ["FAMILIES", "FULL", "QUICK", "Sizes", "run"]
 
 LEAST_ERROR: Final = 1e-17
-"""No error, where the axis is logarithmic."""
+"""Stands for no error on a logarithmic axis."""
 
 PAIR_SECONDS: Final = 3e-5
-"""What the plain exact search takes for a vertex and an edge, about."""
+"""Estimated seconds of the exact reference search for one vertex and one edge."""
 
 Family: TypeAlias = Callable[[int, Random], Scene]
 
@@ -55,21 +55,21 @@ FAMILIES: Final[dict[str, Family]] = {
     "grazing": grazing,
     "thin and fast": thin_and_fast,
 }
-"""Scenes by size: bodies of crowds, teeth of clamps, vertices of each comb and spiral."""
+"""Scenes by size: number of bodies of crowds, teeth of clamps, vertices of each comb and spiral."""
 
 PLANTED: Final = {"combs": AlgebraicNumber(14), "grazing": AlgebraicNumber(2)}
-"""Teeth 2 apart at a speed of 1/7; the apex of every throw."""
+"""Planted times: teeth 2 apart at a speed of 1/7; the apex of every throw."""
 
 
 class Sizes(NamedTuple):
-    """How much is asked.
+    """Size of the benchmark.
 
     Attributes:
-        sizes: of scenes, by family.
-        scenes: how many of each size.
-        steps: of the programs that take steps.
-        seconds: another's method that took longer is not asked about larger scenes.
-        runs: how often each is asked, if it does not take so long; the fastest counts.
+        sizes: sizes of the scenes, by family.
+        scenes: number of scenes of each size.
+        steps: numbers of time steps, for programs that take steps.
+        seconds: other methods that take longer than this are not run on larger scenes.
+        runs: maximum number of runs of a method; the fastest counts.
     """
 
     sizes: Mapping[str, Sequence[int]]
@@ -116,7 +116,7 @@ FULL: Final = Sizes(
 @final
 @dataclass(slots=True)
 class _Result:
-    """What a method said about the scenes of one size."""
+    """The answers of a method about the scenes of one size."""
 
     seconds: list[float] = field(default_factory=list)
     errors: list[float] = field(default_factory=list)
@@ -134,7 +134,7 @@ class _Result:
 
 
 class _Truth(NamedTuple):
-    """The first contact of a scene, how it is known, and the seconds of the plain search."""
+    """The first contact of a scene, how it is known, and the seconds of the reference search."""
 
     time: AlgebraicNumber | None
     how: str
@@ -142,13 +142,13 @@ class _Truth(NamedTuple):
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
-    """Ask every method about every family, from small to large.
+    """Run every method on every family, from small to large scenes.
 
     Raises:
         AuditError: if an answer of exactpt is wrong.
     """
     methods = [m for m in _methods(sizes.steps) if m.package is None or output.has(m.package)]
-    for method in methods:  # what is imported on first use
+    for method in methods:  # imports on first use are not timed
         method.prepare(crowd(2, Random(seed), radius=60, end=1))()
     rows: list[Row] = []
     for family in sizes.sizes:
@@ -216,7 +216,7 @@ def _ask(
     truths: Sequence[_Truth],
     sizes: Sizes,
 ) -> _Result | None:
-    """The answers about some scenes; None if the method is not for them, or would not end."""
+    """The answers about some scenes; None if the method is unsuitable or too slow."""
     if method is EXACT_SEARCH and _search_seconds(scenes[0]) > sizes.seconds:
         return None
     result = _Result()

@@ -1,9 +1,9 @@
-"""First roots and the order of times: exactpt beside SymPy, FLINT and mpmath.
+"""First roots and the order of times: exactpt in comparison with SymPy, FLINT and mpmath.
 
-Each program is asked for the first root in (0, 2] of the same random polynomials (those
-that have one), then for the order of neighbouring pairs of these roots. A second table
-sets the filters of degree 1 and 2 beside their batch, a third the certificates of three
-moving points beside exact ones.
+Each program computes the first root in (0, 2] of the same random polynomials (those that have
+one), then the order of consecutive pairs of these roots. A second table compares the filters of
+degree 1 and 2 with their vectorized forms, a third the filtered certificates of three moving
+points with exact ones.
 """
 
 from __future__ import annotations
@@ -33,22 +33,22 @@ from exactpt.motion.vertices import Vertices
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 
 NEAR: Final = 1e-9
-"""A value within this of the root, relatively, is right."""
+"""Maximum relative error of a right answer."""
 
 POINTS: Final = 200
 SPAN: Final = 100
-"""The moving points of certificates, and their time."""
+"""Number of moving points for certificates, and the end of their time span."""
 
 
 class Sizes(NamedTuple):
-    """How much is asked.
+    """Size of the benchmark.
 
     Attributes:
-        polynomials: of each degree and coefficient size.
-        degrees: of polynomials.
-        bits: of their coefficients.
-        batches: how many polynomials at once.
-        certificates: of points in motion of each degree.
+        polynomials: number for each degree and coefficient size.
+        degrees: degrees of polynomials.
+        bits: bit lengths of their coefficients.
+        batches: numbers of polynomials in a batch.
+        certificates: number for each degree of motion.
     """
 
     polynomials: int
@@ -63,10 +63,10 @@ FULL: Final = Sizes(40, (1, 2, 4, 6, 12), (32, 64, 256, 2048), (10, 30, 100, 100
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
-    """Ask every program the same.
+    """Give every program the same questions.
 
     Raises:
-        AuditError: if exactpt's answers contradict each other, or SymPy's order.
+        AuditError: if answers of exactpt contradict each other, or SymPy's order of roots.
     """
     rng = Random(f"kernel:{seed}")
     finders = [f for f in FINDERS if f.package is None or output.has(f.package)]
@@ -134,7 +134,7 @@ def _rows(finders: Sequence[Finder], degree: int, bits: int, fs: Sequence[IntPol
 
 
 def _right(finder: Finder, answers: Sequence[Any], truth: Sequence[AlgebraicNumber]) -> int | None:
-    """How many answers are values near the root."""
+    """Number of answers close to the root; None if the program returns no values."""
     value = finder.value
     if value is None:
         return None
@@ -145,7 +145,7 @@ def _right(finder: Finder, answers: Sequence[Any], truth: Sequence[AlgebraicNumb
 
 
 def _order(finder: Finder, polys: Sequence[Any], truth: Sequence[bool]) -> float | None:
-    """Microseconds a comparison of two roots."""
+    """Microseconds per comparison of two roots; None if the program cannot compare them."""
     numbers, before = finder.numbers, finder.before
     if numbers is None or before is None:
         return None
@@ -159,7 +159,7 @@ def _order(finder: Finder, polys: Sequence[Any], truth: Sequence[bool]) -> float
 
 
 def _batch_row(rng: Random, degree: int, count: int) -> Row:
-    """Microseconds a polynomial: the scalar filter, and the batch of so many."""
+    """Microseconds per polynomial, by the scalar filter and by the vectorized one."""
     ask: Callable[..., filters.Answer] = filters.linear if degree == 1 else filters.quadratic
     ask_all: Callable[..., vectorized.Answers] = (
         vectorized.linears if degree == 1 else vectorized.quadratics
@@ -177,7 +177,7 @@ def _batch_row(rng: Random, degree: int, count: int) -> Row:
 
 
 def _certificate_row(rng: Random, degree: int, count: int) -> Row:
-    """Microseconds a certificate of three points in motion of a degree, filtered and exact."""
+    """Microseconds per certificate of three points in motion of a degree, filtered and exact."""
     bodies = [_random_point(rng, i, degree) for i in range(POINTS)]
     triples = [rng.sample(range(POINTS), 3) for _ in range(count)]
     vertices = Vertices.of(bodies, QQ(0), QQ(SPAN), plain=True)
@@ -199,7 +199,7 @@ def _certificate_row(rng: Random, degree: int, count: int) -> Row:
 
 
 def _random_point(rng: Random, i: int, degree: int) -> Body:
-    """A point whose terms of all degrees are of one size at the end of the span."""
+    """A point in polynomial motion whose terms have the same size at the end of the span."""
     sizes = (10**4, 200, 3)[:degree]
     x, y = ([0, *(rng.randint(-size, size) for size in sizes)] for _ in range(2))
     return Body(f"p{i}", [(rng.randint(0, 10**6), rng.randint(0, 10**6))], Translation(x, y))

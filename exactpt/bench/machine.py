@@ -1,4 +1,4 @@
-"""What a benchmark ran on: the machine, and the versions of everything that takes part."""
+"""The machine that a benchmark runs on, and the versions of all software that takes part."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ OWN: Final = ("exactpt", "gmpy2", "numpy")
 
 
 def machine() -> list[str]:
-    """The processor and the system, how exactpt was built, a version a package; a line each."""
+    """One line each: processor, system, build of exactpt, and the version of every package."""
     versions = [f"{name} {_version(name)}" for name in (*OWN, *PEERS)]
     return [
         f"{_processor()}, {os.cpu_count()} processors, {platform.system()} {platform.release()}",
@@ -34,7 +34,7 @@ def _version(package: str) -> str:
 
 
 def _processor() -> str:
-    """The name of the processor, as far as it is known."""
+    """The name of the processor, as far as the system tells."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     except OSError:

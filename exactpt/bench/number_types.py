@@ -1,8 +1,8 @@
-"""Three questions about moving points, answered by different kinds of numbers.
+"""Questions about moving points, answered with different number types.
 
-The sign of an orientation just after now, its first zero later, and which of two first
-zeros is earlier. Rounded numbers answer in closed form, by the same few lines whatever
-their precision; exactpt answers with its filter, and without.
+The questions are the sign of an orientation just after time 0, its first zero later, and which
+of two first zeros is earlier. Rounding types answer in closed form, by the same code for every
+precision; exactpt answers with its filter and without.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ if TYPE_CHECKING:
 __all__ = ["ARITHMETICS", "END", "EXACT", "Arithmetic", "MovingPoint", "Triple", "hull"]
 
 END: Final = QQ(4)
-"""The last time of interest; now is 0."""
+"""End of the time span, which starts at 0."""
 
 Triple: TypeAlias = tuple[int, int, int]
 
 
 class MovingPoint(NamedTuple):
-    """A point in linear motion, given exactly."""
+    """A point in linear motion, with exact coefficients."""
 
     x: QQ
     y: QQ
@@ -43,24 +43,24 @@ class MovingPoint(NamedTuple):
 
 
 class Questions(ABC):
-    """What can be asked about some moving points, by their numbers."""
+    """Questions about moving points, answered with one number type."""
 
     @abstractmethod
     def sign(self, triple: Triple) -> int:
-        """Whether three points turn left (1) or right (-1) just after now."""
+        """The orientation of three points just after time 0: 1 left, -1 right, 0 collinear."""
 
     @abstractmethod
     def order(self, p: Triple, q: Triple) -> int:
-        """-1, 0, 1: whether p is collinear before q is, at the same time, or after it."""
+        """-1, 0 or 1 if p is collinear before, at the same time as, or after q."""
 
 
 class Arithmetic(NamedTuple):
-    """A kind of numbers.
+    """A number type.
 
     Attributes:
-        name: of the kind.
-        load: takes over moving points; not timed.
-        context: in which to load and ask.
+        name: its name in tables.
+        load: converts moving points; not timed.
+        context: context manager in which to convert and ask.
     """
 
     name: str
@@ -70,7 +70,7 @@ class Arithmetic(NamedTuple):
 
 @final
 class _Rounded(Questions):
-    """Closed forms in numbers that round; every input is rounded first."""
+    """Closed forms in a number type that rounds; inputs are rounded first."""
 
     def __init__(
         self,
@@ -119,7 +119,7 @@ class _Rounded(Questions):
 
 @final
 class _Certified(Questions):
-    """exactpt's own certificates and queue."""
+    """The certificates and event times of exactpt."""
 
     def __init__(self, points: Sequence[MovingPoint], *, exact_only: bool) -> None:
         bodies = [
@@ -148,7 +148,7 @@ class _Certified(Questions):
 
 
 def _mpfr(bits: int) -> Arithmetic:
-    """Binary floating point of any precision, correctly rounded."""
+    """Binary floating point of a given precision, correctly rounded."""
 
     @contextmanager
     def precision() -> Iterator[None]:
@@ -168,11 +168,11 @@ ARITHMETICS: Final = (
     Arithmetic("float64, filter", lambda points: _Certified(points, exact_only=False), nullcontext),
     EXACT,
 )
-"""From the cheapest promise to the strongest."""
+"""All number types, from the weakest guarantee to the strongest."""
 
 
 def hull(questions: Questions, order: Sequence[int]) -> tuple[int, ...]:
-    """The convex hull just after now of points that are given from left to right."""
+    """The convex hull just after time 0 of points that are given from left to right."""
     chains: list[int] = []
     for sequence in (order, order[::-1]):
         chain: list[int] = []

@@ -1,4 +1,4 @@
-"""Where the results of a benchmark go: text at once, tables as CSV, plots as SVG."""
+"""Output of a benchmark: printed text, tables as CSV, plots as SVG."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ __all__ = ["Cell", "Output", "Row"]
 
 Cell: TypeAlias = "str | int | float | None"
 Row: TypeAlias = Mapping[str, Cell]
-"""A row of a table: cells by column."""
+"""A row of a table: cells by name of the column."""
 
 
 @final
 class Output:
-    """A folder that results are written to, and a voice that tells them at once.
+    """A folder for results, which are also printed.
 
     Args:
-        folder: made if it is not there.
-        say: takes the lines of results.
-        progress: takes lines that tell what is being done.
+        folder: the folder; created if it does not exist.
+        say: called with each line of results.
+        progress: called with a line about the current step.
 
     Attributes:
         written: the files, in order.
@@ -43,11 +43,11 @@ class Output:
         self.written: list[Path] = []
 
     def begin(self, name: str, shows: str) -> None:
-        """Head the results of a benchmark."""
+        """Print the heading of a benchmark."""
         self.say(f"\n{name}: {shows}")
 
     def has(self, package: str) -> bool:
-        """Whether a peer is installed; if not, it is said once that it is skipped."""
+        """Whether an optional package is installed; if not, this is printed once."""
         if is_installed(package):
             return True
         if package not in self._skipped:
@@ -56,12 +56,12 @@ class Output:
         return False
 
     def table(self, name: str, rows: Sequence[Row], tell: Sequence[Row] = ()) -> None:
-        """Write and tell a table; all rows have the columns of the first.
+        """Write and print a table; all rows have the columns of the first.
 
         Args:
-            name: of the file, without its ending.
-            rows: at least one.
-            tell: the same in a form that reads better, if there is one.
+            name: name of the file, without suffix.
+            rows: the rows, at least one.
+            tell: the rows to print, if these differ.
         """
         columns = list(rows[0])
         text = io.StringIO()
@@ -77,7 +77,7 @@ class Output:
     def lines(
         self, name: str, title: str, axes: tuple[str, str], series: Mapping[str, Series]
     ) -> None:
-        """Draw points joined by lines, a line a name, both axes logarithmic."""
+        """Draw points joined by lines, one line for each name, with logarithmic axes."""
         drawn = {name: points for name, points in series.items() if points}
         if drawn and self.has("matplotlib"):
             self.write(f"{name}.svg", draw_lines(title, axes, drawn))
@@ -86,7 +86,7 @@ class Output:
         self, name: str, title: str, rows: Sequence[str], columns: Sequence[str],
         values: Sequence[Sequence[float | None]],
     ) -> None:  # fmt: skip
-        """Draw a table of shares from 0 to 1 as a field of colours; None: not asked."""
+        """Draw a table of shares from 0 to 1 in colours; None for cells without a value."""
         if self.has("matplotlib"):
             self.write(f"{name}.svg", draw_shares(title, rows, columns, values))
 
@@ -98,7 +98,7 @@ class Output:
 
 
 def _aligned(columns: Sequence[str], rows: Sequence[Row]) -> list[str]:
-    """A table as text: words to the left, numbers to the right."""
+    """A table as text: words flush left, numbers flush right."""
     numeric = [all(not isinstance(row[c], str) for row in rows) for c in columns]
     cells = [list(columns), *([_shown(row[c]) for c in columns] for row in rows)]
     widths = [max(len(line[i]) for line in cells) for i in range(len(columns))]

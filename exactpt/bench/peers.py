@@ -1,4 +1,4 @@
-"""The packages that benchmarks compare with or draw by; all of them optional."""
+"""The optional packages that benchmarks compare with or draw by."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PEERS: Final = {
 
 
 def is_installed(package: str) -> bool:
-    """Whether a peer can be imported."""
+    """Whether a package can be imported."""
     try:
         import_module(PEERS[package])
     except ImportError:

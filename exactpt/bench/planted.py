@@ -1,7 +1,7 @@
-"""Scenes close to degeneracy, with the answer planted: what touches, by how much or not at all.
+"""Scenes close to degeneracy with a known first contact.
 
-Every coordinate but those of the rational grids and the largest offsets is a double, so
-that no program is asked about another scene than exactpt.
+All coordinates are doubles, except those of the rational grids and the largest offsets; so
+other programs are given the same scene as exactpt.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ TINY: Final = power_of_two(-40)
 LEAST: Final = power_of_two(-47)
 """About 10^-14."""
 BITS: Final = 36
-"""Coordinates of polygons are multiples of 2^-36; all that is made of them, of 2^-47."""
+"""Coordinates of polygons are multiples of 2^-36, derived coordinates of 2^-47."""
 
 
 class Planted(NamedTuple):
-    """A scene and the time of its first contact."""
+    """A scene and the time of its first contact; None if there is none."""
 
     scene: Scene
     truth: AlgebraicNumber | None
@@ -42,9 +42,9 @@ PlantedFamily: TypeAlias = Callable[[Random], Planted]
 
 
 def corner_pass(gap: QQ, rng: Random) -> Planted:
-    """Two convex bodies pass; along one line across, a corner of each is the extreme one.
+    """Two convex bodies pass; transversally to their motion one vertex of each is extreme.
 
-    With no gap they touch there at one time, with a negative one they overlap a little.
+    With gap 0 these vertices touch at one time; with a negative gap the bodies overlap slightly.
     """
     while True:
         va, vb = _velocity(rng, 8), _velocity(rng, 8)
@@ -64,12 +64,12 @@ def corner_pass(gap: QQ, rng: Random) -> Planted:
 
 
 def tangential_touch(gap: QQ, rng: Random) -> Planted:
-    """A corner comes down on a parabola to an edge, touches its middle, and leaves again."""
+    """A vertex moves on a parabola to an edge, touches its midpoint, and leaves again."""
     while True:
         a, b = _polygon(rng, BITS), _polygon(rng, BITS)
         i = rng.randrange(len(a))
         u, v = a[i - 1], a[i]
-        normal = (v[1] - u[1], u[0] - v[0])  # out of a: its vertices are counter-clockwise
+        normal = (v[1] - u[1], u[0] - v[0])  # outward: the vertices of a are counter-clockwise
         bottom = _extreme(b, normal, -1)
         if bottom is not None:
             break
@@ -80,7 +80,7 @@ def tangential_touch(gap: QQ, rng: Random) -> Planted:
     va, along = _velocity(rng, 4), QQ(rng.randint(-8, 8), 16)
     bend = QQ(rng.randint(1, 8), 16)
     vb = (va[0] - along * normal[1], va[1] + along * normal[0])
-    # Position minus that at the time: velocity * (t - time) + bend * normal * (t - time)^2.
+    # Position relative to that at the time: velocity * (t - time) + bend * normal * (t - time)^2.
     paths = [
         [c * bend * time * time - w * time, w - 2 * c * bend * time, c * bend]
         for c, w in zip(normal, vb, strict=True)
@@ -105,12 +105,12 @@ def grid(scale: QQ, rng: Random) -> Planted:
 
 
 def rational_grid(rng: Random) -> Planted:
-    """The same, a third or a seventh or ... as large."""
+    """As `grid`, scaled by a third, a seventh, and so on."""
     return grid(QQ(1, rng.choice([3, 7, 11, 49])), rng)
 
 
 def far_away(rng: Random) -> Planted:
-    """Two bodies meet, 2^30 to 2^50 away from the origin."""
+    """Two bodies that meet, 2^30 to 2^50 away from the origin."""
     x = y = power_of_two(rng.randint(30, 50))
     a, b = _polygon(rng, 6), _polygon(rng, 6)
     speed = QQ(rng.randint(12, 20))
@@ -122,7 +122,7 @@ def far_away(rng: Random) -> Planted:
 
 
 def _polygon(rng: Random, bits: int) -> list[Point]:
-    """A convex polygon within 6 of the origin, in multiples of 2^-bits."""
+    """A convex polygon within distance 6 of the origin, in multiples of 2^-bits."""
     outline = convex_polygon(rng, (QQ(0), QQ(0)), 6 << bits, rng.randint(3, 7))
     unit = power_of_two(-bits)
     return [(x * unit, y * unit) for x, y in outline]
@@ -135,20 +135,20 @@ def _velocity(rng: Random, most: int) -> tuple[QQ, QQ]:
 
 
 def _through(velocity: tuple[QQ, QQ], time: QQ) -> Translation:
-    """The motion with this velocity that is at its origin at a time."""
+    """The linear motion with a velocity whose displacement is 0 at a time."""
     x, y = velocity
     return Translation([-x * time, x], [-y * time, y])
 
 
 def _extreme(points: list[Point], normal: Point, sign: int) -> Point | None:
-    """The vertex that is farthest in a direction, if there is just one."""
+    """The vertex that is extreme in a direction, if it is unique."""
     heights = [sign * (normal[0] * x + normal[1] * y) for x, y in points]
     best = max(heights)
     return points[heights.index(best)] if heights.count(best) == 1 else None
 
 
 def _across(normal: Point, gap: QQ) -> Point:
-    """The shift by a gap along the axis that is nearest to a normal."""
+    """The shift by a gap along the coordinate axis nearest to a normal."""
     x, y = normal
     if abs(x) >= abs(y):
         return (gap if x > 0 else -gap, QQ(0))
@@ -177,4 +177,4 @@ FAMILIES: Final[dict[str, PlantedFamily]] = {
     "rational grid": rational_grid,
     "offset 2^30 to 2^50": far_away,
 }
-"""Each makes a scene and its answer from a random generator."""
+"""By name, functions from a random generator to a scene and its first contact."""

@@ -19,7 +19,7 @@ MARKERS: Final = "osD^v<>pPX*h8"
 def series_of(
     rows: Iterable[Mapping[str, object]], line: str, x: str, y: str
 ) -> dict[str, list[tuple[float, float]]]:
-    """The positive points (x, y) of a table, by what stands in another column."""
+    """The positive points (x, y) of a table, grouped by the values of column ``line``."""
     series: dict[str, list[tuple[float, float]]] = {}
     for row in rows:
         points = series.setdefault(str(row[line]), [])
@@ -30,7 +30,7 @@ def series_of(
 
 
 def draw_lines(title: str, axes: tuple[str, str], series: Mapping[str, Series]) -> str:
-    """Points joined by lines, a line a name, both axes logarithmic."""
+    """Points joined by lines, one line for each name, with logarithmic axes."""
     figure, plot = _figure(8.0, 5.0)
     for i, (name, points) in enumerate(series.items()):
         xs, ys = [x for x, _ in points], [y for _, y in points]
@@ -56,7 +56,7 @@ def draw_shares(
     columns: Sequence[str],
     values: Sequence[Sequence[float | None]],
 ) -> str:
-    """A table of shares from 0 to 1 as a field of colours; None: not asked."""
+    """A table of shares from 0 to 1 in colours; None for cells without a value."""
     figure, plot = _figure(2.5 + 0.9 * len(columns), 1.5 + 0.35 * len(rows))
     shades = [[float("nan") if v is None else v for v in line] for line in values]
     plot.imshow(shades, cmap="Reds", vmin=0.0, vmax=1.0, aspect="auto")
@@ -87,7 +87,7 @@ def _svg(figure: Figure) -> str:
     import matplotlib as mpl
 
     text = io.StringIO()
-    # Identifiers come from a hash, and a date would be written: both differ from run to run.
+    # Identifiers come from hashes, and a date is written by default: both vary between runs.
     with mpl.rc_context({"svg.hashsalt": "exactpt", "svg.fonttype": "none"}):
         figure.savefig(text, format="svg", metadata={"Date": None})
     return text.getvalue()

@@ -1,4 +1,4 @@
-"""Scenes of moving points: random ones, and those that make a tiling change often."""
+"""Scenes of moving points: random ones, and ones whose tiling changes often."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def random_linear(n: int, rng: Random) -> Scene:
 
 
 def random_quadratic(n: int, rng: Random) -> Scene:
-    """The same, and each point with an acceleration of its own."""
+    """As `random_linear`, with an acceleration for each point."""
     return Scene([_random_point(rng, i, 200) for i in range(n)], (0, 100))
 
 
@@ -33,7 +33,7 @@ def _random_point(rng: Random, i: int, acceleration: int) -> Body:
 
 
 def crossing_lines(n: int, rng: Random) -> Scene:
-    """Half the points on a line, half on another that passes through it; slightly uneven."""
+    """Half the points on a line, half on another line that crosses it; slightly perturbed."""
     bodies = []
     for i in range(n):
         line, k = i % 2, i // 2
@@ -61,10 +61,10 @@ def parabola_on_line(n: int, rng: Random) -> Scene:
 
 
 def turns_beside_arc(n: int, rng: Random) -> Scene:
-    """Points that are, turn by turn, the first one right of an arc, and see all of it.
+    """Points that take turns in being the first to the right of an arc, each seeing all of it.
 
-    The arc is a parabola at rest. Point k of the others is at far + (k^2 - 2 k t), which is
-    least of all near t = k, above or below the arc in turn.
+    The arc is a parabola at rest. Point k of the others has x = far + (k^2 - 2 k t), the smallest
+    near t = k, and is above or below the arc alternately.
     """
     m = n // 2
     bodies = []
@@ -79,7 +79,7 @@ def turns_beside_arc(n: int, rng: Random) -> Scene:
 
 
 def swaps_beside_arc(n: int, _: Random) -> Scene:
-    """Two points beside a long arc change places 400 times: every time r r' is all the arc."""
+    """Two points beside a long arc swap 400 times; the chain r r' is the whole arc each time."""
     m, swaps = n - 2, 400
     bodies = []
     for i in range(m):
@@ -98,4 +98,4 @@ FAMILIES: Final[dict[str, Callable[[int, Random], Scene]]] = {
     "parabola sweeps a line": parabola_on_line,
     "turns beside an arc": turns_beside_arc,
 }
-"""By the number of points and a random generator."""
+"""By name, functions from the number of points and a random generator to a scene."""

@@ -1,8 +1,8 @@
-"""Changes of the tilings of moving points beside the paper's bounds, and the time of each.
+"""Number of changes of the tilings of moving points, with the paper's bounds, and their time.
 
 The incremental pseudo-triangulation (IPT) changes O(n lambda_s(n)) times (Theorem 3.3), in
 linear motion the fan triangulation O(n^(4/3) lambda_s(n)) times (Theorem 3.4), lambda_s(n)
-being nearly n. Long chains are walked along, or searched: both are measured.
+being nearly n. Long chains are traversed linearly or searched: both are measured.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ CHAINS: Final[tuple[Chains, ...]] = ("linked", "searchable", "auto")
 
 
 class Sizes(NamedTuple):
-    """Numbers of points: of all families, of short and of long chains."""
+    """Numbers of points: for all families, for short chains and for long chains."""
 
     points: Sequence[int]
     short: Sequence[int]
@@ -42,16 +42,16 @@ FULL: Final = Sizes((50, 100, 200, 500), (50, 100, 200, 500), (50, 100, 200, 500
 
 
 class Measured(NamedTuple):
-    """A run up to its end, or its first contact.
+    """Measurements of a run to its end or its first contact.
 
     Attributes:
-        events: changes of the IPT.
-        fan: changes of the fan triangulation, if it is kept.
-        seconds: of processor time.
-        exact: decisions that needed exact arithmetic.
-        steps: vertices of chains passed in searches.
-        start: seconds to build the tiling and certify it.
-        pending: certificates that may fail, at the start.
+        events: number of changes of the IPT.
+        fan: number of changes of the fan triangulation; 0 if it is not kept.
+        seconds: processor time.
+        exact: number of decisions by exact arithmetic.
+        steps: number of vertices of chains passed in searches.
+        start: seconds to build and certify the tiling.
+        pending: number of certificates in the queue at the start.
     """
 
     events: int
@@ -64,12 +64,12 @@ class Measured(NamedTuple):
 
     @property
     def per_event(self) -> float:
-        """Microseconds an event."""
+        """Microseconds per event."""
         return per_event(self.seconds, self.events)
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
-    """Count changes, and take the time of events."""
+    """Count changes, and measure the time of events."""
     rows: list[Row] = []
     fits: list[Row] = []
     for family, make in FAMILIES.items():
@@ -109,7 +109,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
 
 
 def measure(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> Measured:
-    """Run a scene to its end, or its first contact."""
+    """Run a scene to its end or its first contact."""
     tiling, start = timed(lambda: _start(scene, chains=chains, fan=fan))
     pending = len(tiling.queue)
     exact = tiling.vertices.counters.exact
@@ -139,7 +139,7 @@ def _pass(tiling: IncrementalTiling) -> None:
 
 
 def _chains(output: Output, sizes: Sizes, seed: int) -> list[Row]:
-    """Chains walked along, and searched: short ones, and ones that are nearly all points."""
+    """Chains traversed linearly or searched: short ones, and ones of nearly all points."""
     rows: list[Row] = []
     for what, make, of_kind in (
         ("short: random, linear", random_linear, sizes.short),

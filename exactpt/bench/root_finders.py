@@ -17,22 +17,22 @@ __all__ = ["END", "EXACT", "FILTER", "FINDERS", "Finder", "exact_first"]
 END: Final = 2
 
 NEARLY_REAL: Final = 2.0**-30
-"""What mpmath returns has rounding errors in both parts."""
+"""Maximum imaginary part of a real root of mpmath, which rounds both parts."""
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Finder:
-    """A program.
+    """A program that finds roots.
 
     Attributes:
-        name: of it.
-        convert: makes its own polynomial; not timed.
-        first: the first root, of a kind of its own; None if it cannot tell.
-        value: that as a double; not timed. None if it is an interval of any width.
-        numbers: the first root as something that `before` compares; not timed.
-        before: whether one is less than another.
-        package: what must be installed.
+        name: its name in tables.
+        convert: converts an integer polynomial to its own type; not timed.
+        first: the first root, in its own type; None if it cannot tell.
+        value: that root as a double, not timed; None for intervals of arbitrary width.
+        numbers: converts the first root for comparison by `before`; not timed.
+        before: whether one root is less than another.
+        package: the package that must be installed; None if none.
     """
 
     name: str
@@ -45,12 +45,12 @@ class Finder:
 
 
 def exact_first(f: IntPoly) -> AlgebraicNumber:
-    """The exact path, as if the filter had been unsure."""
+    """The first root by exact arithmetic, without the filter."""
     return next(roots_after(f, AlgebraicNumber(0), QQ(END))).time
 
 
 def _made_anew(f: IntPoly) -> tuple[IntPoly, QQ, QQ]:
-    """What a number is made of, so that no refinement is shared."""
+    """The polynomial and interval of a root, so that no refinement is shared between runs."""
     root = exact_first(f)
     return root._polynomial, root._low, root._high
 
@@ -60,7 +60,7 @@ def _exact_before(p: tuple[IntPoly, QQ, QQ], q: tuple[IntPoly, QQ, QQ]) -> bool:
 
 
 def _filter_image(f: IntPoly) -> tuple[list[float], list[float]]:
-    """The polynomial divided by a power of two, in doubles; a unit in the last place for bounds."""
+    """The polynomial divided by a power of two, in doubles, with error bounds of one ulp."""
     shift = max(c.bit_length() for c in f)
     c = [float(QQ(x, ZZ(1) << shift)) for x in f]
     return c, [abs(x) * 2.0**-53 for x in c]
@@ -87,7 +87,7 @@ def _to_sympy(f: IntPoly) -> Any:  # noqa: ANN401 - SymPy is optional
 
 
 def _sympy_first(poly: Any) -> Any:  # noqa: ANN401
-    """The isolating intervals in [0, END], of which the first counts."""
+    """The isolating intervals in [0, END], the first of which counts."""
     return poly.intervals(inf=0, sup=END)[0]
 
 
@@ -108,7 +108,7 @@ def _flint_first(poly: Any) -> Any:  # noqa: ANN401
 
 
 def _mpmath_first(coefficients: list[int]) -> float | None:
-    """All complex roots to double precision; the least that is nearly real counts."""
+    """All complex roots in double precision; the least that is nearly real counts."""
     import mpmath
 
     with mpmath.workprec(max(64, 2 * len(coefficients))):
@@ -149,4 +149,4 @@ FINDERS: Final = (
         package="mpmath",
     ),
 )
-"""Own ones first."""
+"""All programs, those of exactpt first."""

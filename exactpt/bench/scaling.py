@@ -1,8 +1,8 @@
-"""Events, certificates, time and memory of every tiling of bodies against the size of a scene.
+"""Events, certificates, time and memory of every tiling of bodies by the size of a scene.
 
-Crowds of convex bodies grow in number; two combs and two spirals grow in vertices, close
-and a hundred diameters apart. Exponents p are fitted to c n^p by least squares over the
-logarithms, and stand beside what the paper bounds.
+Crowds of convex bodies grow in number; two combs and two spirals grow in vertices, interlocked
+or a hundred diameters apart. Exponents p are fitted to c n^p by least squares over the
+logarithms, and compared with the paper's bounds.
 """
 
 from __future__ import annotations
@@ -29,18 +29,18 @@ BOUNDS: Final = {
     "mixed": "O(kappa log n) certificates",
     "lazy": "4 certificates a bridge edge",
 }
-"""What is proved of k bodies with n vertices; a bridge edge joins two bodies, and kappa is
-the least number of links of a subdivision that separates the bodies."""
+"""Proved bounds for k bodies with n vertices. A bridge edge joins two bodies; kappa is the
+minimum number of links of a subdivision that separates the bodies."""
 
 
 class Sizes(NamedTuple):
-    """How much is measured.
+    """Size of the benchmark.
 
     Attributes:
-        bodies: of crowds.
-        vertices: of each of two interlocked polygons.
-        events: after which a run is left.
-        runs: of which the fastest counts.
+        bodies: numbers of bodies of crowds.
+        vertices: numbers of vertices of each of two interlocked polygons.
+        events: maximum number of events of a run.
+        runs: number of runs, of which the fastest counts.
     """
 
     bodies: Sequence[int]
@@ -54,17 +54,17 @@ FULL: Final = Sizes((10, 20, 50, 100, 200, 500, 1000), (16, 64, 256, 1024, 4096)
 
 
 class Measured(NamedTuple):
-    """A run of a tiling.
+    """Measurements of a run of a tiling.
 
     Attributes:
-        start: seconds to build it and certify it.
-        certificates: made at the start.
-        pending: certificates that may fail, at the start.
-        most: the largest number of these.
-        events: up to the contact, the end, or the bound.
-        seconds: of these events.
-        exact: decisions in a thousand.
-        kilobytes: of everything that the start has made.
+        start: seconds to build and certify it.
+        certificates: number of certificates made at the start.
+        pending: number of certificates in the queue at the start.
+        most: maximum number of certificates in the queue.
+        events: number of events up to the contact, the end, or the bound.
+        seconds: processor time of these events.
+        exact: exact decisions per thousand decisions.
+        kilobytes: memory of everything that the start has made.
     """
 
     start: float
@@ -78,7 +78,7 @@ class Measured(NamedTuple):
 
     @property
     def per_event(self) -> float:
-        """Microseconds an event."""
+        """Microseconds per event."""
         return per_event(self.seconds, self.events)
 
 
@@ -112,8 +112,8 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
 
 
 def measure(scene: Scene, tiling: str, sizes: Sizes) -> Measured:
-    """The fastest of some runs, and the memory of another one."""
-    start_tiling(fresh(scene), tiling, scene._start)  # what is imported on first use
+    """The fastest of several runs, and the memory of a separate one."""
+    start_tiling(fresh(scene), tiling, scene._start)  # imports on first use are not timed
     runs = [_run_once(fresh(scene), tiling, sizes.events) for _ in range(sizes.runs)]
     best = min(runs, key=lambda m: m.start + m.seconds)
     given = fresh(scene)
@@ -139,7 +139,7 @@ def _run_once(scene: Scene, tiling: str, events: int) -> Measured:
 
 
 def _pass(kinetic: Tiling, events: int) -> None:
-    """Let events happen, up to a contact or a number of them."""
+    """Process events up to a contact or a maximum number."""
     try:
         for _ in kinetic.run():
             if kinetic.stats.total >= events:

@@ -31,7 +31,7 @@ __all__ = [
 
 
 class Tangle(NamedTuple):
-    """Two outlines that interlock, and their diameter."""
+    """Two interlocked outlines, and their diameter."""
 
     first: list[Point]
     second: list[Point]
@@ -39,7 +39,7 @@ class Tangle(NamedTuple):
 
 
 def crowd(k: int, rng: Random, *, radius: int, end: int) -> Scene:
-    """Convex bodies in cells of width 1,000, in linear motion; sparse or dense by radius."""
+    """Convex bodies in cells of width 1,000, in linear motion, sparse or dense by the radius."""
     bodies = [
         Body(f"b{i}", convex_polygon(rng, c, radius, rng.randint(3, 9)), velocity(rng, 1000))
         for i, c in enumerate(cells(rng, k, 1000))
@@ -48,7 +48,7 @@ def crowd(k: int, rng: Random, *, radius: int, end: int) -> Scene:
 
 
 def combs(vertices: int) -> Tangle:
-    """Two combs with teeth of width 2, 8 apart."""
+    """Two interlocked combs, with teeth of width 2 at distance 8."""
     teeth = max(1, (vertices - 4) // 4)
     lower: list[tuple[int, int]] = [(-2, -2), (8 * teeth, -2), (8 * teeth, 0)]
     for i in reversed(range(teeth)):
@@ -59,7 +59,7 @@ def combs(vertices: int) -> Tangle:
 
 
 def spirals(vertices: int) -> Tangle:
-    """Two rectilinear spirals of wall 1 in a corridor of 3."""
+    """Two rectilinear spirals, with walls of width 1 in corridors of width 3."""
     steps = max(4, vertices // 2 - 1)
     x = y = 0
     center, length = [(0, 0)], 4
@@ -84,18 +84,18 @@ def spirals(vertices: int) -> Tangle:
 TangleFamily: TypeAlias = Callable[[int], Tangle]
 
 TANGLES: Final[dict[str, TangleFamily]] = {"combs": combs, "spirals": spirals}
-"""Two simple polygons with about so many vertices each."""
+"""By name, functions from the number of vertices of each polygon to two outlines."""
 
 
 def tangle(given: Tangle, *, shift: int = 0) -> Scene:
-    """One of two outlines drifts, along the teeth or across the corridor; or so far away."""
+    """One of two outlines drifts, along the teeth or the corridor; ``shift`` separates them."""
     moved = [(x + shift, y) for x, y in given.second]
     drift = Translation([0, "1/7"], [0, "1/5"])
     return Scene([Body("a", given.first), Body("b", moved, drift)], (0, 41))
 
 
 def clamp(n: int, rng: Random) -> Scene:
-    """A jaw with n teeth a side that closes on itself."""
+    """A jaw with n teeth on each side that closes on itself."""
     bottom = [_vertex([200 * i], [rng.randint(0, 90)]) for i in range(n)]
     top = [
         _vertex([200 * i, rng.randint(-20, 20)], [rng.randint(300, 500), rng.randint(-80, -20)])
@@ -114,7 +114,7 @@ def clamp(n: int, rng: Random) -> Scene:
 
 
 def deforming(k: int, rng: Random) -> Scene:
-    """Star-shaped bodies of 16 vertices, each of which moves on a line of its own."""
+    """Star-shaped bodies of 16 vertices, each vertex in its own linear motion."""
     bodies = []
     for i, c in enumerate(cells(rng, k, 100)):
         outline = [
@@ -137,7 +137,7 @@ def grazing(k: int, rng: Random) -> Scene:
 
 
 def thin_and_fast(k: int, rng: Random) -> Scene:
-    """Small bodies at a speed of 1,000 in lanes, half of which a wall of width 1/100 crosses."""
+    """Small bodies at speed 1,000 in lanes, half of them crossed by a wall of width 1/100."""
     bodies = []
     for i in range(k):
         y = 10 * i

@@ -1,7 +1,7 @@
-"""What is never computed: certificates, polynomials, exact times, comparisons, imports.
+"""Work that is never done: certificates, polynomials, exact times, comparisons, imports.
 
-Each scene is run to its first contact twice: as ever, and with every certificate decided
-by exact arithmetic. Calls are counted by the profiler of the standard library.
+Each scene is run to its first contact twice: as usual, and with every certificate decided by
+exact arithmetic. Calls are counted with the profiler of the standard library.
 """
 
 from __future__ import annotations
@@ -44,11 +44,11 @@ CALLS: Final = {
     "exact times": (IsolatedRoot.__init__, IsolatedRoot.root, IsolatedRoot.surd),
     "comparisons": (AlgebraicNumber.compare,),
 }
-"""What is counted, by the functions that do it; they are plain Python in every build."""
+"""The functions whose calls are counted; they are plain Python in every build."""
 
 
 class Sizes(NamedTuple):
-    """Sizes of the scenes of first-contact, by family; and of a convoy."""
+    """Sizes of the scenes of `first_contact`, by family; and of a convoy."""
 
     sizes: Mapping[str, int]
     convoy: int
@@ -71,7 +71,7 @@ FULL: Final = Sizes(
 
 
 class _Paid(NamedTuple):
-    """What a run has cost: counts by name, and seconds."""
+    """The cost of a run: counts by name, and seconds."""
 
     counts: dict[str, int]
     seconds: float
@@ -79,7 +79,7 @@ class _Paid(NamedTuple):
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
-    """Count what is computed with and without the skipping.
+    """Compare the counts of both runs.
 
     Raises:
         AuditError: if the two find different contacts.
@@ -100,7 +100,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
             raise AuditError(f"skipping, {name}: {paid.contact} is not {full.contact}")
         for what, count in paid.counts.items():
             of = full.counts[what]
-            if what == "certificates":  # those that cannot fail are computed by neither
+            if what == "certificates":  # neither run computes those that cannot fail
                 of = count + paid.counts["certificates that cannot fail"]
             elif what == "certificates that cannot fail":
                 continue
@@ -123,7 +123,7 @@ def _row(scene: str, what: str, paid: float, of: float) -> Row:
 
 
 def _pay(scene: Scene, *, exact_only: bool) -> _Paid:
-    _run(fresh(scene), exact_only=exact_only)  # what is imported on first use
+    _run(fresh(scene), exact_only=exact_only)  # imports on first use are not counted
     given = fresh(scene)
     _, seconds = timed(lambda: _run(given, exact_only=exact_only))
     profile = cProfile.Profile(builtins=False)
@@ -153,7 +153,7 @@ def _whole(count: object) -> int:
 
 
 def _calls(profile: cProfile.Profile) -> dict[str, int]:
-    """How often the counted functions were called."""
+    """Number of calls of the counted functions."""
     made = {entry.code: entry.callcount for entry in profile.getstats()}
     return {
         what: sum(made.get(function.__code__, 0) for function in functions)
@@ -162,7 +162,7 @@ def _calls(profile: cProfile.Profile) -> dict[str, int]:
 
 
 def _modules(scene: Scene, method: str) -> tuple[int, int]:
-    """How many modules of exactpt a first contact imports, and how many there are."""
+    """Number of modules of exactpt that a first contact imports, and number of all modules."""
     package = Path(exactpt.__file__).parent
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scene.json"

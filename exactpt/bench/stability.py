@@ -1,8 +1,8 @@
-"""The same first contact for extreme input, and how the cost of finding it grows.
+"""The same first contact for extreme input, and the cost of finding it.
 
-One scene is scaled, shifted, given by more digits, carried through time by a polynomial of
-higher degree, or set beside its own copy that is a little late. Whatever is done, the
-features that touch must be the same, and the time, exactly.
+One scene is scaled, shifted, given with more digits, reparametrized in time by a polynomial of
+higher degree, or combined with a slightly delayed copy of itself. In each case the features
+that touch must be the same, and the time must agree exactly.
 """
 
 from __future__ import annotations
@@ -36,19 +36,19 @@ TIME: Final = Polynomial([0, 1])
 T = TypeVar("T")
 
 AWAY: Final = 10**5
-"""Farther than anything of the scene goes."""
+"""A distance larger than the extent of the scene at all times."""
 
 
 class Sizes(NamedTuple):
-    """How much is asked.
+    """Size of the benchmark.
 
     Attributes:
-        bodies: of the scene.
+        bodies: number of bodies of the scene.
         scales, shifts: powers of two.
-        digits: of the numerator and denominator of a factor of all coordinates.
-        degrees: of the clock; the motion's is twice that.
-        delays: 10^-e, of a copy.
-        runs: of which the median counts.
+        digits: numbers of digits of numerator and denominator of a factor of all coordinates.
+        degrees: degrees of the clock; the degree of the motion is twice that.
+        delays: e for a copy delayed by 10^-e.
+        runs: number of runs, of which the median counts.
     """
 
     bodies: int
@@ -73,7 +73,7 @@ FULL: Final = Sizes(
 
 
 class _Mover(NamedTuple):
-    """A body of the scene: its outline, and the polynomials that carry it."""
+    """A body of the scene: its outline and its translation."""
 
     name: str
     outline: list[Point]
@@ -82,12 +82,12 @@ class _Mover(NamedTuple):
 
 
 class _Case(NamedTuple):
-    """What is done to the scene.
+    """A modification of the scene.
 
     Attributes:
-        what, by: in words.
-        scene: makes the scene anew, so that nothing has been computed of it.
-        clock: the time of the unchanged scene as a function of the changed one's.
+        what, by: a description and the amount, in words.
+        scene: makes a new copy of the modified scene, without cached values.
+        clock: the time of the original scene as a function of the time of the modified one.
     """
 
     what: str
@@ -97,13 +97,13 @@ class _Case(NamedTuple):
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
-    """Ask for the first contact of every changed scene.
+    """Find the first contact of every modified scene.
 
     Raises:
         AuditError: if an answer differs.
     """
     movers = _movers(sizes.bodies, seed)
-    for method in METHODS:  # what is imported on first use
+    for method in METHODS:  # imports on first use are not timed
         first_contact(_scene(movers), method=method)
     rows: list[Row] = []
     for method in METHODS:
@@ -140,7 +140,7 @@ def _ask(case: _Case, method: str, runs: int) -> tuple[Contact, float]:
 
 
 def _demand_equal(base: Contact, contact: Contact, case: _Case) -> None:
-    """The same features, at a time that the clock carries to the same time."""
+    """Check that the same features touch, at a time that the clock maps to the original one."""
     features = [
         [(p.body, p.vertex, p.other, p.edge, p.other_vertex) for p in found.pairs]
         for found in (base, contact)
@@ -150,7 +150,7 @@ def _demand_equal(base: Contact, contact: Contact, case: _Case) -> None:
 
 
 def _is_image(base: AlgebraicNumber, time: AlgebraicNumber, clock: Polynomial) -> bool:
-    """Whether clock(time) is base, the one root of its polynomial in its interval."""
+    """Whether clock(time) is base, the only root of its polynomial in its interval."""
     image = ZERO
     for c in reversed(base._polynomial):
         image = image * clock + Polynomial([c])
@@ -164,7 +164,7 @@ def _sign(f: Polynomial, time: AlgebraicNumber) -> int:
 
 
 def _movers(count: int, seed: int) -> list[_Mover]:
-    """Convex bodies on parabolas, with a contact between t = 0 and 1 that is irrational."""
+    """Convex bodies on parabolas, with a first contact at an irrational time in (0, 1)."""
     for attempt in range(1000):
         rng = Random(f"stability:{seed}:{attempt}")
         movers = []
@@ -207,7 +207,7 @@ def _changed(
 
 
 def _clock(degree: int) -> Polynomial:
-    """(t^d + t) / 2, which carries [0, 1] to itself and rises."""
+    """The increasing map (t^d + t) / 2 of [0, 1] to itself."""
     return poly(0, 1) if degree == 1 else Polynomial([0, "1/2", *[0] * (degree - 2), "1/2"])
 
 
@@ -228,7 +228,7 @@ def _retimed(movers: Sequence[_Mover], clock: Polynomial) -> list[_Mover]:
 
 
 def _doubled(movers: Sequence[_Mover], late: QQ) -> list[_Mover]:
-    """A copy that is late, far away and listed first; and the scene."""
+    """The scene preceded by a copy of it that is delayed and far away."""
     clock = poly(-late, 1)
     copies = [
         _Mover(f"late {m.name}", [(x + AWAY, y) for x, y in m.outline], m.x, m.y) for m in movers
@@ -237,7 +237,7 @@ def _doubled(movers: Sequence[_Mover], late: QQ) -> list[_Mover]:
 
 
 def _composed(f: Polynomial, clock: Polynomial) -> Polynomial:
-    """f of the clock."""
+    """The composition f(clock(t))."""
     value = ZERO
     for c in reversed(f._coefficients):
         value = value * clock + Polynomial([c])

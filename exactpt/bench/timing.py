@@ -1,4 +1,4 @@
-"""How long something takes, and how that grows."""
+"""Measurement of time and memory, and of their growth."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ Q = TypeVar("Q")
 
 
 def timed(ask: Callable[[], T]) -> tuple[T, float]:
-    """The answer, and the seconds of processor time that it took.
+    """The answer, and the processor time in seconds that it took.
 
-    What is in memory before is left out of garbage collection, so that it costs nothing.
+    Existing objects are excluded from garbage collection, so that they cost nothing.
     """
     gc.freeze()
     try:
@@ -30,19 +30,19 @@ def timed(ask: Callable[[], T]) -> tuple[T, float]:
 
 
 def microseconds(ask: Callable[[Q], T], questions: Sequence[Q]) -> tuple[float, list[T]]:
-    """The median over three passes of the processor time a question, and the answers."""
+    """The median over three passes of the microseconds per question, and the answers."""
     passes = [timed(lambda: [ask(q) for q in questions]) for _ in range(3)]
     middle = sorted(seconds for _, seconds in passes)[1]
     return 1e6 * middle / max(1, len(questions)), passes[-1][0]
 
 
 def per_event(seconds: float, events: int) -> float:
-    """Microseconds an event; 0 without events."""
+    """Microseconds per event; 0 without events."""
     return 1e6 * seconds / events if events else 0.0
 
 
 def memory_of(make: Callable[[], object]) -> float:
-    """The kilobytes that something keeps, and what it has left in what it is made of."""
+    """The kilobytes of a new object, and of what its creation caches in existing objects."""
     tracemalloc.start()
     try:
         kept = make()
@@ -52,7 +52,7 @@ def memory_of(make: Callable[[], object]) -> float:
 
 
 def exponent(sizes: Sequence[float], values: Sequence[float]) -> float:
-    """The p of the best c n^p, by least squares over the logarithms; nan for lack of points."""
+    """The exponent p of the log-log least-squares fit of c n^p; NaN for too few points."""
     points = [(math.log(n), math.log(v)) for n, v in zip(sizes, values, strict=True) if v > 0]
     if len({x for x, _ in points}) < 2:
         return math.nan

@@ -1,4 +1,4 @@
-"""Contacts missed, invented and late, close to degeneracy: why exactness matters."""
+"""Contacts missed, invented and late, close to degeneracy: the case for exactness."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from exactpt.errors import AuditError
 __all__ = ["FULL", "QUICK", "Sizes", "Wrong", "count_wrong", "run"]
 
 OFF: Final = 1e-9
-"""A time farther from the truth is wrong."""
+"""Minimum error of a time that counts as wrong."""
 
 
 class Sizes(NamedTuple):
-    """How much is asked: scenes a family, steps of the programs that take steps."""
+    """Size of the benchmark: scenes per family, steps of the programs that take steps."""
 
     scenes: int
     steps: int
@@ -37,7 +37,7 @@ FULL: Final = Sizes(100, 1000)
 @final
 @dataclass(slots=True)
 class Wrong:
-    """Wrong answers of a method about a family; off: found, but at another time."""
+    """Number of wrong answers of a method about a family; off: found, but at another time."""
 
     scenes: int = 0
     missed: int = 0
@@ -46,12 +46,12 @@ class Wrong:
 
     @property
     def total(self) -> int:
-        """All of them."""
+        """The number of all wrong answers."""
         return self.missed + self.invented + self.off
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
-    """Ask every method about every family.
+    """Run every method on every family.
 
     Raises:
         AuditError: if an answer of exactpt is wrong.
@@ -91,7 +91,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
 
 
 def count_wrong(method: Method, scenes: Sequence[Planted]) -> Wrong:
-    """Compare a method's answers with the truth; scenes that it is not for do not count."""
+    """Compare a method's answers with the truth; scenes that do not suit it do not count."""
     wrong = Wrong()
     for scene, truth in scenes:
         try:

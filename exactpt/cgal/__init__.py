@@ -1,9 +1,9 @@
-"""The client of cgal_check, the independent witness: a separate program, asked over a pipe.
+"""The client of cgal_check, an independent checker: a separate program, reached over a pipe.
 
-The program and the line protocol are described in cgal_check/README.md. This room finds
-the program (`client`), writes requests with exact rationals (`requests`) about `claims`,
-and reads the verdicts; it decides nothing itself. A tiling goes out as the contract's
-``tile`` dictionary has it.
+The program and its line protocol are described in cgal_check/README.md. This package finds the
+program (`client`), writes requests with exact rationals (`requests`) about `claims`, and reads
+the verdicts; it decides nothing itself. Tilings are given as the ``tile`` dictionary of
+docs/format.md.
 """
 
 from exactpt.cgal.claims import BodyShape, IsolatedRoot, RootClaim, Signs, Tile, Verdict

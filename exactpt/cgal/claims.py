@@ -1,4 +1,4 @@
-"""What the witness is asked about, and what it says."""
+"""Claims that cgal_check is asked to verify, and its verdicts."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from exactpt.scene.scene import Scene
 __all__ = ["BodyShape", "IsolatedRoot", "RootClaim", "Signs", "Tile", "Verdict", "exactly"]
 
 Tile: TypeAlias = Mapping[str, object]
-"""The ``tile`` dictionary of docs/format.md, as `json.load` gives it."""
+"""The ``tile`` dictionary of docs/format.md, as `json.load` returns it."""
 
 
 class BodyShape(NamedTuple):
-    """What a tile does not say of a body: how its vertices are joined.
+    """The properties of a body that a tile does not contain.
 
     Attributes:
         name: as in the tile's vertices.
         size: the number of vertices; all must be in the tile.
-        closed: with three vertices or more: a polygon, otherwise an open chain.
-        clockwise: whether a polygon's vertices are numbered clockwise; None: unknown,
-            and either is accepted.
+        closed: for three or more vertices: whether it is a polygon, not an open chain.
+        clockwise: whether a polygon's vertices are numbered clockwise; None if unknown:
+            either order is accepted.
     """
 
     name: str
@@ -52,10 +52,10 @@ class IsolatedRoot(NamedTuple):
 
     @classmethod
     def of_json(cls, time: Mapping[str, object]) -> IsolatedRoot:
-        """The ``time`` object of docs/format.md: its polynomial, low and high.
+        """The root in a ``time`` object of docs/format.md: its polynomial, low and high.
 
         Raises:
-            InputError: if one of these is missing or no number.
+            InputError: if a key is missing or a value is not a number.
         """
         try:
             polynomial = [exactly(c) for c in cast("Iterable[object]", time["polynomial"])]
@@ -68,7 +68,7 @@ class IsolatedRoot(NamedTuple):
 
 
 RootClaim: TypeAlias = "IsolatedRoot | AlgebraicNumber"
-"""A real root as a caller may pass it."""
+"""A real root, in any form that callers may pass."""
 
 
 class Signs(NamedTuple):
@@ -82,11 +82,11 @@ class Signs(NamedTuple):
 @final
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What the witness says of a claim.
+    """The verdict on a claim.
 
     Attributes:
-        ok: whether it holds.
-        reason: why not, in words, with indices of the request; empty if ``ok``.
+        ok: whether the claim holds.
+        reason: why it does not, with indices of the request; empty if ``ok``.
         stats: the figures of the answer, by name; empty if not ``ok``.
     """
 
@@ -96,7 +96,7 @@ class Verdict:
 
 
 def exactly(value: object) -> QQ:
-    """The rational; a float is refused: it says that a number was rounded on its way here."""
+    """The rational value; floats are refused, since they indicate earlier rounding."""
     if isinstance(value, float):
         raise InputError(f"not an exact number: {value!r}")
     return rational(cast("Rational", value))

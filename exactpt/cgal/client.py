@@ -1,4 +1,4 @@
-"""The program cgal_check: found, started, asked over a pipe, and ended."""
+"""The program cgal_check: found, started, queried over a pipe, and ended."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ _GREETING: Final = "exactpt-check 1"
 _ANSWERS: Final = {"ok", "bad", _GREETING.split(" ")[0]}
 _SIGNS: Final = {"-": -1, "0": 0, "+": 1, "<": -1, "=": 0, ">": 1}
 
-# Requests that are under way before an answer is read. A verdict has less than 1,024
-# bytes, so their answers fit an empty pipe (4,096 bytes at the very least): the program
-# never waits for us while we wait for it.
+# Number of requests sent ahead of the answers. A verdict has less than 1,024 bytes, so the
+# answers to these fit into an empty pipe (at least 4,096 bytes): the program never blocks on
+# writing while the client blocks on writing.
 _AHEAD: Final = 3
 
 
@@ -55,15 +55,15 @@ def find_program() -> Path:
 
 @final
 class CgalCheck:
-    """A running cgal_check; started by the first question, ended by `close` or ``with``.
+    """A running cgal_check; started by the first request, ended by `close` or ``with``.
 
     Args:
-        program: the program; `find_program` if not given.
+        program: the path of the program; by default the result of `find_program`.
 
     Raises:
-        InputError: here, if there is no program; by every question, if what was asked is
-            not acceptable. The next question starts the program anew.
-        AuditError: by every question, if the program itself breaks.
+        InputError: on construction, if there is no program; on a request, if the program
+            refuses it. The next request then starts the program anew.
+        AuditError: on a request, if the program itself fails.
     """
 
     __slots__ = ("_errors", "_process", "program")
@@ -87,7 +87,7 @@ class CgalCheck:
         Args:
             tile: the ``tile`` dictionary of docs/format.md.
             bodies: the shape of every body of the scene.
-            deep: ask a second, independent witness too (CGAL's arrangements; slower).
+            deep: whether to use a second, independent method too (CGAL's arrangements; slower).
 
         Raises:
             InputError: if the tile lacks a key or has a value of a wrong type.
@@ -97,16 +97,16 @@ class CgalCheck:
     def check_tilings(
         self, tiles: Iterable[tuple[Tile, Iterable[BodyShape]]], *, deep: bool = False
     ) -> Iterator[Verdict]:
-        """The verdicts of `check_tiling` on many tiles, in order; writes ahead, so faster."""
+        """The verdicts of `check_tiling` on many tiles, in order; faster, by sending ahead."""
         word = "tiling deep" if deep else "tiling"
         return self._verdicts(tiling_request(word, tile, bodies) for tile, bodies in tiles)
 
     def check_triangulation(
         self, tile: Tile, bodies: Iterable[BodyShape], *, deep: bool = False
     ) -> Verdict:
-        """Whether a tile's edges, with its ``fan`` edges, cut the free space into triangles.
+        """Whether a tile's edges, with its ``fan`` edges, triangulate the free space.
 
-        The faces of the tile are not looked at: see `check_tiling`.
+        The faces of the tile are not examined: see `check_tiling`.
         """
         word = "triangulation deep" if deep else "triangulation"
         return next(self._verdicts([tiling_request(word, tile, bodies)]))
@@ -114,14 +114,14 @@ class CgalCheck:
     def check_root(self, polynomial: Sequence[int], low: Rational, high: Rational) -> Verdict:
         """Whether a polynomial has exactly one real root in [low, high].
 
-        The figures are ``roots``, the number of distinct real roots; ``rank``, which of
-        them it is, counted from 1; and ``multiplicity``.
+        The figures are ``roots``, the number of distinct real roots; ``rank``, the position of
+        this one among them, counted from 1; and ``multiplicity``.
         """
         claim = IsolatedRoot(polynomial, rational(low), rational(high))
         return _verdict(self._ask(f"root {root_words(claim)} end\n"))
 
     def compare_roots(self, a: RootClaim, b: RootClaim) -> int:
-        """-1, 0 or 1 as a is smaller than, equal to, or larger than b.
+        """-1, 0 or 1 if a is less than, equal to, or greater than b.
 
         Raises:
             InputError: if an interval does not isolate a root.
@@ -138,21 +138,21 @@ class CgalCheck:
         return Signs(*_signs(answer))
 
     def hull(self, points: Iterable[Sequence[Rational]]) -> list[int]:
-        """The corners of the convex hull of points, as indices, counter-clockwise.
+        """The vertices of the convex hull of points, as indices, counter-clockwise.
 
-        Starts at the smallest point (by x, then y); of equal points, the first; points
-        inside a hull edge are left out.
+        The first is the lexicographically smallest point (by x, then y). Of equal points the first
+        counts; points in the interior of a hull edge are left out.
         """
         words = [point_words(p) for p in points]
         return [int(i) for i in _claimed(self._ask(f"hull {len(words)} {' '.join(words)} end\n"))]
 
     def orientations(self, triples: Iterable[Sequence[Sequence[Rational]]]) -> list[int]:
-        """For each triple of points 1, 0 or -1: a left turn, collinear, a right turn."""
+        """The orientation of each triple: 1 for a left turn, 0 collinear, -1 for a right turn."""
         words = [" ".join(map(point_words, (a, b, c))) for a, b, c in triples]
         return _signs(self._ask(f"orientations {len(words)} {' '.join(words)} end\n"))
 
     def close(self) -> None:
-        """End the program. It may be asked again."""
+        """End the program. Later requests start it again."""
         process, errors = self._process, self._errors
         self._process = self._errors = None
         if process is not None and process.stdin is not None and process.stdout is not None:
@@ -164,7 +164,7 @@ class CgalCheck:
             errors.close()
 
     def _verdicts(self, requests: Iterable[str | Verdict]) -> Iterator[Verdict]:
-        pending: deque[Verdict | None] = deque()  # None: the program's answer is to be read
+        pending: deque[Verdict | None] = deque()  # None: an answer of the program still to read
         try:
             for request in requests:
                 if isinstance(request, Verdict):
@@ -177,7 +177,7 @@ class CgalCheck:
             while pending:
                 yield pending.popleft() or _verdict(self._read())
         finally:
-            if None in pending:  # given up half-way: the answers under way are not for others
+            if None in pending:  # given up half-way: unread answers must not reach later callers
                 self._kill()
 
     def _ask(self, request: str) -> str:
@@ -191,9 +191,9 @@ class CgalCheck:
                 stdin.write(text.encode("ascii"))
                 stdin.flush()
         except BrokenPipeError:
-            pass  # it ended: its last line, which `_read` finds, says why
+            pass  # the program has ended: `_read` finds its last line, which gives the reason
         except BaseException:
-            self._kill()  # half a request was written
+            self._kill()  # the request was sent incompletely
             raise
 
     def _read(self) -> str:
@@ -201,7 +201,7 @@ class CgalCheck:
         try:
             line = b"" if stdout is None else stdout.readline()
         except BaseException:
-            self._kill()  # this answer would be taken for the next one's
+            self._kill()  # the next request would get this answer
             raise
         text = line.decode("ascii", "replace").rstrip("\n")
         if line.endswith(b"\n") and text.split(" ")[0] in _ANSWERS:
@@ -211,8 +211,8 @@ class CgalCheck:
     def _running(self) -> subprocess.Popen[bytes]:
         if self._process is not None:
             return self._process
-        # Whatever CGAL says of a failed assertion goes to a file: a pipe that nobody
-        # reads could fill and block.
+        # Messages of failed CGAL assertions go to a file: a pipe that nobody reads could fill
+        # up and block the program.
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed in `close`
         try:
             self._process = subprocess.Popen(
@@ -237,7 +237,7 @@ class CgalCheck:
         code, said = None, ""
         if process is not None and errors is not None:
             if last_words and not last_words.startswith("error"):
-                process.kill()  # it speaks another language and may never end
+                process.kill()  # it uses another protocol and may never end
             code = process.wait()
             errors.seek(0)
             said = errors.read()[-2000:].decode("utf-8", "replace").strip()

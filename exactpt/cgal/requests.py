@@ -1,4 +1,4 @@
-"""Requests of the protocol (cgal_check/README.md), written from claims."""
+"""Requests of the line protocol (cgal_check/README.md), written from claims."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class _TileFace(TypedDict):
 
 
 class _Tile(TypedDict):
-    # What we read of a tile; a caller's own type may have more.
+    # The keys that are read; a caller's own type may have more.
     vertices: list[_TileVertex]
     edges: list[_TileEdge]
     faces: list[_TileFace]
@@ -43,11 +43,11 @@ class _Tile(TypedDict):
 
 
 class _BadTileError(Exception):
-    """The tile contradicts itself or the bodies: a verdict, found before asking."""
+    """The tile contradicts itself or the bodies: a verdict that needs no request."""
 
 
 def tiling_request(word: str, tile: Tile, bodies: Iterable[BodyShape]) -> str | Verdict:
-    """The text of a request; or the verdict, where the tile does not even fit the bodies."""
+    """The text of a request; or the verdict, if the tile does not match the bodies."""
     parts = cast("_Tile", tile)
     with_faces = word.startswith("tiling")
     try:
@@ -126,7 +126,7 @@ def _indices(vertices: Iterable[int], index: range) -> str:
 
 def _coordinate(value: object) -> str:
     if isinstance(value, str) and _WRITTEN.fullmatch(value):
-        return value  # as the protocol wants it
+        return value  # in the form that the protocol requires
     return _rational_words(exactly(value))
 
 
@@ -141,10 +141,10 @@ def point_words(point: Sequence[Rational]) -> str:
 
 
 def polynomial_words(f: Sequence[int]) -> str:
-    """A polynomial over the integers: how many coefficients, then these, constant first."""
+    """A polynomial over the integers: number of coefficients, then these, constant term first."""
     if f and f[-1] == 0:
         raise InputError("the leading coefficient of a polynomial is zero")
-    # ZZ, because Python refuses to write an int of more than 4,300 digits.
+    # ZZ: Python does not convert an int of more than 4,300 digits to a string.
     return " ".join(map(str, (len(f), *map(ZZ, f))))
 
 

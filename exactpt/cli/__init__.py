@@ -1,4 +1,4 @@
-"""The command line: reads what was typed, calls the library, writes what came back."""
+"""The command line: parses arguments, calls the library, prints answers."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ from exactpt.errors import AuditError, BudgetExceeded, InputError
 __all__ = ["cli", "main"]
 
 OK, BAD_INPUT, BROKEN, SPENT, INTERRUPTED = 0, 2, 3, 4, 130
-"""Exit codes; 1 is a command's own: a contact (collide --exit-code), or a failed check."""
+"""Exit codes; code 1 is set by commands: a contact (collide --exit-code), or a failed check."""
 
 
 class _Commands(click.Group):
-    """The commands; here ends what is no fault of the call."""
+    """The group of commands; reports internal errors."""
 
     def invoke(self, ctx: click.Context) -> object:
-        """Run a command; its exit code, if it has one."""
+        """Run a command and return its exit code, if it has one."""
         try:
             return super().invoke(ctx)
-        except BrokenPipeError:  # who reads the answer has seen enough
+        except BrokenPipeError:  # the reader of the answer has closed the pipe
             drop_standard_output()
             return OK
         except (InputError, BudgetExceeded, OSError):
@@ -58,8 +58,8 @@ def cli() -> None:
       exactpt collide scene.json
       exactpt draw scene.json -o scene.html
 
-    Commands, options and files complete themselves with the tab key after (for bash; zsh and
-    fish likewise):
+    Tab completion of commands, options and files is enabled by (for bash; zsh and fish
+    likewise):
 
     \b
       eval "$(_EXACTPT_COMPLETE=bash_source exactpt)"
@@ -71,7 +71,7 @@ for _command in (demo, collide, simulate, tile, check, draw, convert, generate, 
 
 
 def _report_bug(error: Exception, scene: Path | None) -> None:
-    """Say that an invariant broke, and keep the scene that did it."""
+    """Report a broken invariant, and save the scene that caused it."""
     click.echo(f"exactpt: an invariant broke: {error}", err=True)
     if scene is not None:
         with tempfile.NamedTemporaryFile(

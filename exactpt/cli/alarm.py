@@ -1,4 +1,4 @@
-"""Signals: a budget that is used up, or a request to end, interrupts a run wherever it is."""
+"""Signals: a time limit or a request to end interrupts a run anywhere."""
 
 from __future__ import annotations
 
@@ -14,28 +14,26 @@ from exactpt.errors import BudgetExceeded
 __all__ = ["endings", "time_limit"]
 
 GRACE: Final = 0.25
-"""Seconds that are left to the library, which looks at the clock between events."""
+"""Seconds beyond the limit in which the library may stop by itself, between two events."""
 
 LONGEST: Final = 1e8
-"""Seconds, three years: a timer takes no more."""
+"""Maximum delay of the timer in seconds, about three years."""
 
 AGAIN: Final = 1.0
-"""Seconds to the next ring: Python drops what is raised in a finalizer."""
+"""Seconds between repeated signals: an exception raised in a finalizer is dropped by Python."""
 
 
 @contextmanager
 def time_limit(seconds: float | None) -> Iterator[None]:
-    """Raise `BudgetExceeded` inside when the time, and a moment of grace, is over.
+    """Raise `BudgetExceeded` inside the context when the time limit and a grace period are over.
 
-    The library looks at the clock between events, and tells how far it has come. But to
-    read a scene, to build a tiling and to isolate the roots of polynomials with long
-    coefficients may take any time; a signal reaches them all, at no cost and with no loop
-    that could be forgotten (one that is compiled when it next calls what is not, and exact
-    arithmetic is not). What is interrupted is in no state to go on: a process that
-    ends is the place for this, not the library.
+    The library checks the time between events and then reports how far it has come. Reading a
+    scene, building a tiling, or isolating roots of polynomials with long coefficients may
+    however take any time. A signal interrupts all of these at no cost (compiled code at its next
+    call of code that is not compiled; exact arithmetic is not compiled). An interrupted
+    computation cannot be resumed; so this belongs in a process that ends, not in the library.
 
-    Only for the main thread. Windows has no such signal: there the library's looks at the
-    clock are all.
+    Only for the main thread. Windows has no such signal: only the library's checks apply there.
     """
     if seconds is None or not hasattr(signal, "setitimer"):
         yield
@@ -56,9 +54,9 @@ def time_limit(seconds: float | None) -> Iterator[None]:
 
 @contextmanager
 def endings() -> Iterator[None]:
-    """Have a request to end (SIGTERM, SIGHUP) raise `SystemExit`, so that temporary files go.
+    """Make SIGTERM and SIGHUP raise `SystemExit`, so that temporary files are removed.
 
-    Only in the main thread, and only of signals that nobody else has taken or switched off.
+    Only in the main thread, and only for signals that have their default handler.
     """
     names = [name for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
     taken = [

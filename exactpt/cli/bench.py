@@ -21,7 +21,7 @@ _NAMES = "\n".join(f"      {name:14} {shows}" for name, shows in BENCHMARKS.item
     \b
 {_NAMES}
 
-    Other programs take part where they are installed: pip install 'exactpt[bench]'.
+    Other programs are compared if they are installed: pip install 'exactpt[bench]'.
 
     \b
     Examples:
@@ -33,7 +33,7 @@ _NAMES = "\n".join(f"      {name:14} {shows}" for name, shows in BENCHMARKS.item
 @output("The folder for tables and plots.", default=Path("bench"))
 @click.option("--quick", is_flag=True, help="Small sizes: about a minute in all.")
 @click.option(
-    "--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of the scenes."
+    "--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Seed of the scenes."
 )
 def bench(names: tuple[str, ...], output: Path, quick: bool, seed: int) -> int:
     """Run benchmarks."""

@@ -1,4 +1,4 @@
-"""collide and simulate: when bodies first touch, and what happens until then."""
+"""collide and simulate: the first contact, and the events up to it."""
 
 from __future__ import annotations
 
@@ -30,27 +30,27 @@ __all__ = ["collide", "simulate"]
 @click.command()
 @SCENE
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
-@click.option("--until", type=RATIONAL, help="Look no further than this time.")
+@click.option("--until", type=RATIONAL, help="Search up to this time.")
 @TILING
 @click.option(
     "--method",
     default="kinetic",
     show_default=True,
     type=click.Choice(["kinetic", "pairs", "auto"]),
-    help="By a tiling, by a search over pairs, or whichever is expected to be faster.",
+    help="A tiling, a search over pairs, or whichever is expected to be faster.",
 )
 @click.option(
     "--ignore",
     multiple=True,
     metavar="NAME,NAME...",
-    help="Bodies that may overlap each other; for --method pairs or auto.",
+    help="Bodies whose contacts with each other are ignored; for --method pairs or auto.",
 )
 @click.option(
     "--proof",
     type=click.Path(path_type=Path),
     help="Write a proof of the answer; python -m exactpt.proof_check SCENE PROOF checks it.",
 )
-@click.option("--stats", is_flag=True, help="Print counts of events, certificates, decisions.")
+@click.option("--stats", is_flag=True, help="Print counts of events, certificates and decisions.")
 @click.option("--exit-code", is_flag=True, help="Return 1 if there is a contact.")
 @click.option("--exact-only", is_flag=True, help="Switch the float filters off.")
 @budget
@@ -122,9 +122,9 @@ def collide(
 
 @click.command()
 @SCENE
-@click.option("--events", type=click.Path(path_type=Path), help="Write an event a line (JSON).")
+@click.option("--events", type=click.Path(path_type=Path), help="Write one event per line (JSON).")
 @click.option("--until", type=RATIONAL, help="Stop at this time.")
-@click.option("-v", "--verbose", is_flag=True, help="Print an event a line, in words.")
+@click.option("-v", "--verbose", is_flag=True, help="Print one event per line, in words.")
 @QUIET
 @TILING
 @budget
@@ -171,7 +171,7 @@ def simulate(
 
 
 def _say(line: str, *, go_on: bool) -> None:
-    """Print a line; without a reader go on all the same if there is a file to complete."""
+    """Print a line; if the reader is gone, continue only if there is a file to complete."""
     try:
         click.echo(line)
     except BrokenPipeError:
@@ -190,7 +190,7 @@ def _run(
     max_events: int | None,
     max_seconds: float | None,
 ) -> list[str]:
-    """Simulate, and tell every event; what is to be said at the end."""
+    """Simulate and report every event; the lines to print at the end."""
     from exactpt.simulation.simulation import Simulation
 
     simulation: Simulation | None = None
@@ -214,7 +214,7 @@ def _run(
 def _tell_how_far(
     spent: BudgetExceeded, search: Simulation | PairsSearch | ProvedSearch | None
 ) -> None:
-    """Say up to when there is no contact, if what was interrupted could not."""
+    """Complete an interruption by the time up to which there is provably no contact."""
     if spent.reached is None and search is not None:
         spent.reached = search.passed()
 
@@ -231,7 +231,7 @@ def _search(
     proof: Path | None,
     path: Path,
 ) -> Simulation | PairsSearch | ProvedSearch:
-    """What finds the first contact."""
+    """The search that finds the first contact."""
     from exactpt.collision.detector import check_provable, searches_pairs
 
     if proof is not None:

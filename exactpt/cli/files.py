@@ -1,4 +1,4 @@
-"""convert and generate: scenes from files of shapes, and ready ones of each kind."""
+"""convert and generate: scenes from files of shapes, and scenes of ready families."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 __all__ = ["convert", "generate"]
 
 _FEW = 3
-"""So many pairs of bodies that touch are named."""
+"""Number of touching pairs of bodies that are named."""
 
 
 @click.command()
 @click.argument("source", type=click.Path(path_type=Path), metavar="IN")
 @click.argument("target", type=click.Path(path_type=Path), metavar="OUT")
-@click.option("--at", type=RATIONAL, help="When, if OUT is no scene; by default at the start.")
+@click.option("--at", type=RATIONAL, help="The time, if OUT is not a scene; by default the start.")
 @click.option(
     "--time",
     type=RATIONAL,
@@ -35,14 +35,14 @@ _FEW = 3
     default=("0", "1"),
     show_default=True,
     metavar="START END",
-    help="The time span of a scene that is made.",
+    help="The time span of the new scene.",
 )
 @click.option(
     "--tolerance",
     type=float,
     default=0.1,
     show_default=True,
-    help="SVG: how far chords may be from their curve, in units of the drawing.",
+    help="SVG: maximum distance of a chord from its curve, in units of the drawing.",
 )
 @click.option(
     "--holes",
@@ -51,7 +51,7 @@ _FEW = 3
     show_default=True,
     help="What to do with polygons that have holes.",
 )
-@click.option("--skip-invalid", is_flag=True, help="Leave out what cannot be a body, and say so.")
+@click.option("--skip-invalid", is_flag=True, help="Leave out invalid shapes, with a message.")
 @QUIET
 def convert(
     source: Path,
@@ -65,13 +65,13 @@ def convert(
 ) -> int:
     """Turn shapes into a scene at rest, or a scene at a time into shapes.
 
-    The endings say the formats: .geojson, .wkt (needs: pip install 'exactpt[shapely]'), .svg
-    (needs: pip install 'exactpt[svg]'), and .json for a scene; a .json that is read may be
-    GeoJSON too. Each part of a shape becomes a body, named by the property name or id, or by
+    The suffixes determine the formats: .geojson, .wkt (needs: pip install 'exactpt[shapely]'),
+    .svg (needs: pip install 'exactpt[svg]'), and .json for a scene; a .json file that is read may
+    be GeoJSON too. Each part of a shape becomes a body, named by the property name or id, or by
     the id in an SVG. A line that ends where it began becomes a polygon.
 
-    Numbers in GeoJSON and WKT are read as the decimals that they are. Points of an SVG are
-    computed in doubles, which are taken at their exact value; there, y points up, as in a
+    Numbers in GeoJSON and WKT are read as exact decimals. Points of an SVG are computed in
+    doubles, which are taken at their exact value, and its y-axis is flipped to point up, as in a
     scene. Shapes are written as the doubles nearest to the exact positions.
 
     \b
@@ -108,7 +108,7 @@ def convert(
 
 
 def _typed(*names: str) -> list[str]:
-    """Which of some options were given, as they are typed."""
+    """The options among these that were given on the command line."""
     source = click.get_current_context().get_parameter_source
     given = [name for name in names if source(name) is ParameterSource.COMMANDLINE]
     return [f"--{name.replace('_', '-')}" for name in given]
@@ -130,10 +130,10 @@ def _say_what_touches(scene: Scene) -> None:
 
 
 class _WithFamilies(click.Command):
-    """A command whose help ends with the families, a line each."""
+    """A command whose help ends with a list of the families, one per line."""
 
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """The families, by what moves."""
+        """Write the families, grouped by the kind of bodies."""
         super().format_epilog(ctx, formatter)
         from exactpt.scene.generate import CONVEX, POINTS, SIMPLE
 
@@ -147,13 +147,13 @@ class _WithFamilies(click.Command):
 
 @click.command(cls=_WithFamilies)
 @click.argument("family")
-@click.option("--seed", type=int, default=0, show_default=True, help="Another seed, another scene.")
+@click.option("--seed", type=int, default=0, show_default=True, help="Seed of the scene.")
 @output("The scene file; by default standard output.")
 def generate(family: str, seed: int, output: Path | None) -> int:
-    """Make a ready scene of a family, the same for a seed on every machine.
+    """Make a scene of a family; a seed gives the same scene on every machine.
 
-    Many families lean to the degenerate: bodies that touch, slide along each other, or meet
-    all at one time.
+    Many families are nearly or fully degenerate: bodies that touch, slide along each other, or
+    meet all at one time.
 
     \b
     Examples:

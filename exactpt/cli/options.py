@@ -1,17 +1,18 @@
-"""What several commands accept, and how it is read."""
+"""Options that several commands share, and their types."""
 
 from __future__ import annotations
 
 import math
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal
 
 import click
 
-from exactpt.errors import InputError
+from exactpt.errors import InputError, TimeRangeError
 from exactpt.kernel.numbers import QQ, parse_rational
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ __all__ = [
     "budget",
     "drop_standard_output",
     "load",
+    "naming_at",
     "output",
 ]
 
@@ -43,7 +45,7 @@ class _Rational(_RationalType):
     def convert(
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> QQ:
-        """The exact rational that was typed."""
+        """The exact rational."""
         try:
             return parse_rational(str(value))
         except InputError as error:
@@ -58,19 +60,19 @@ class _Moment(_MomentType):
     def convert(
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> QQ | Literal["contact"]:
-        """The exact rational that was typed, or "contact"."""
+        """The exact rational, or "contact"."""
         return "contact" if value == "contact" else RATIONAL.convert(value, param, ctx)
 
 
 class _Seconds(click.FloatRange):
-    """A time of the clock."""
+    """A time limit in seconds."""
 
     name = "seconds"
 
     def convert(
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> float:
-        """The number; NaN, of which nothing is less, is none."""
+        """The number; NaN, which passes the range check, is refused."""
         seconds = float(super().convert(value, param, ctx))  # type: ignore[arg-type]
         if math.isnan(seconds):
             self.fail(f"{value!r} is not a time", param, ctx)
@@ -78,7 +80,7 @@ class _Seconds(click.FloatRange):
 
 
 SCENE_FILE: Final = "exactpt.scene"
-"""In the context of a command: the scene file that it has read."""
+"""Key in the context of a command under which its scene file is kept."""
 
 RATIONAL = _Rational()
 MOMENT = _Moment()
@@ -88,12 +90,12 @@ TILING = click.option(
     default="auto",
     show_default=True,
     type=click.Choice(["auto", "incremental", "greedy", "mixed", "lazy"]),
-    help="Which tiling to keep.",
+    help="The tiling to maintain.",
 )
 
 
 def budget(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The bounds that every command which simulates accepts."""
+    """Add the options that bound a run to a command."""
     command = click.option(
         "--max-seconds", type=_Seconds(min=0), help="Stop after this time (exit code 4)."
     )(command)
@@ -116,7 +118,7 @@ def output(
 
 
 def load(path: Path, until: QQ | None = None) -> Scene:
-    """The scene of a file, with the end of its time span brought forward to ``until``."""
+    """The scene of a file; ``until`` brings the end of its time span forward."""
     from exactpt.scene.scene import Scene
 
     click.get_current_context().meta[SCENE_FILE] = path
@@ -129,6 +131,15 @@ def load(path: Path, until: QQ | None = None) -> Scene:
         raise InputError(f"--until: {error}") from None
 
 
+@contextmanager
+def naming_at() -> Iterator[None]:
+    """Name the option --at in errors about the time that it gives."""
+    try:
+        yield
+    except TimeRangeError as error:
+        raise InputError(f"--at: {error}") from None
+
+
 def drop_standard_output() -> None:
-    """After a broken pipe: what else is printed goes nowhere."""
+    """Discard further output, after a broken pipe."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

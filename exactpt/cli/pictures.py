@@ -8,7 +8,7 @@ from typing import Literal
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import MOMENT, SCENE, TILING, budget, load, output
+from exactpt.cli.options import MOMENT, SCENE, TILING, budget, load, naming_at, output
 from exactpt.cli.progress import QUIET, progress
 from exactpt.cli.words import answer_in_words
 from exactpt.kernel.numbers import QQ
@@ -22,14 +22,14 @@ __all__ = ["demo", "draw"]
 @click.option(
     "--at",
     type=MOMENT,
-    help='When: a number, or "contact"; by default at the start.',
+    help='The time: a number, or "contact"; by default the start.',
 )
 @click.option(
     "--theme",
     type=click.Choice(["auto", "light", "dark"]),
     default="auto",
     show_default=True,
-    help="Light or dark; auto: as the reader prefers (PNG: light).",
+    help="Light or dark; auto: the preference of the reader (PNG: light).",
 )
 @QUIET
 @TILING
@@ -58,7 +58,7 @@ def draw(
     """
     from exactpt.render.draw import draw as draw_scene
 
-    with time_limit(max_seconds):
+    with time_limit(max_seconds), naming_at():
         given = load(scene)
         with progress(given, "drawing", quiet=quiet) as reached:
             draw_scene(

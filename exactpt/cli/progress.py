@@ -1,4 +1,4 @@
-"""A bar that follows the time of a scene: on a terminal, while the command runs."""
+"""A progress bar on a terminal, which follows the time of a scene."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ __all__ = ["QUIET", "progress"]
 QUIET = click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors.")
 
 _STEPS: Final = 1000
-"""The bar is full after so many."""
+"""Number of steps of the full bar."""
 
 
 @contextmanager
 def progress(
     scene: Scene, label: str, *, quiet: bool = False
 ) -> Iterator[Callable[[AlgebraicNumber], None] | None]:
-    """Give what is to be told the times that a run reaches; None where nobody looks on.
+    """Give the function to call with the times that a run reaches; None if there is no terminal.
 
     Args:
-        scene: what runs; the bar is full at its end.
-        label: what is done.
-        quiet: show no bar.
+        scene: the scene that runs; the bar is full at its end.
+        label: the text beside the bar.
+        quiet: whether to show no bar.
     """
     if quiet or not sys.stderr.isatty():
         yield None

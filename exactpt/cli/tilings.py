@@ -1,4 +1,4 @@
-"""tile and check: the tiling at a time, and CGAL's word on all of them."""
+"""tile and check: the tiling at a time, and the verdict of CGAL on all tilings of a run."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, output
+from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, naming_at, output
 from exactpt.cli.progress import QUIET, progress
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.numbers import QQ, rational
@@ -18,8 +18,8 @@ __all__ = ["check", "tile"]
 
 @click.command()
 @SCENE
-@click.option("--at", type=RATIONAL, help="When; by default at the start.")
-@click.option("--run", "by_running", is_flag=True, help="Simulate up to then.")
+@click.option("--at", type=RATIONAL, help="The time; by default the start.")
+@click.option("--run", "by_running", is_flag=True, help="Simulate from the start up to that time.")
 @TILING
 @output("Write to a file.")
 @budget
@@ -34,8 +34,8 @@ def tile(
 ) -> int:
     """Print the tiling of the free space at a rational time, as JSON.
 
-    It is built at that time, or with --run reached by simulating from the start; for the
-    canonical tilings the two are equal.
+    The tiling is built at that time, or with --run reached by simulating from the start; for
+    the canonical tilings both are equal.
 
     \b
     Examples:
@@ -46,7 +46,7 @@ def tile(
     from exactpt.files import write_atomically
     from exactpt.simulation.tile import tile_at
 
-    with time_limit(max_seconds):
+    with time_limit(max_seconds), naming_at():
         given = load(scene)
         snapshot = tile_at(
             given,
@@ -86,7 +86,7 @@ def check(
       exactpt check scene.json --json
       exactpt check scene.json --quiet && echo "CGAL agrees"
 
-    This needs the program cgal_check, which `make test` builds from a checkout, beside CGAL.
+    This needs the program cgal_check; in a checkout `make test` builds it, with CGAL.
     """
     from exactpt.check import check_scene
 

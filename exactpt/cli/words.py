@@ -15,7 +15,7 @@ __all__ = ["answer_in_words", "event_in_words", "stats_in_words"]
 
 
 def answer_in_words(scene: Scene, contact: Contact | None) -> list[str]:
-    """The first contact: when, of which kind, what touches what and where."""
+    """The first contact in words: time, kind, and all incidences with their points."""
     from exactpt.render.words import polynomial_in_words
 
     if contact is None:
@@ -36,19 +36,19 @@ def answer_in_words(scene: Scene, contact: Contact | None) -> list[str]:
 
 
 def _shown(name: str) -> str:
-    """A name as it is, if that leaves a line a line."""
+    """A name; quoted and escaped if it contains unprintable characters."""
     return name if name.isprintable() else shorten(name)
 
 
 def event_in_words(event: Event) -> str:
-    """An event: when, of which kind, which edges of the tiling went and came."""
+    """An event in words: time, kind, and the edges of the tiling that were removed and added."""
     changes = [f"-{u}~{v}" for u, v in event.removed] + [f"+{u}~{v}" for u, v in event.added]
     words = [f"t = {float(event.time)!r}", event.kind, *map(_shown, changes)]
     return " ".join(words)
 
 
 def stats_in_words(stats: dict[str, object]) -> list[str]:
-    """A count a line."""
+    """One line per count."""
     return [
         f"  {key}: {', '.join(f'{k} {v}' for k, v in value.items()) or 'none'}"
         if isinstance(value, dict)

@@ -1,7 +1,7 @@
-"""The reference: every vertex against every edge, exactly, with no tiling and no filter.
+"""Reference search for the first contact: every vertex against every edge, in exact arithmetic.
 
-Written from the definition of a contact, to be read in one go and believed. It shares
-nothing with the tilings but the kernel.
+It follows the definition of a contact and uses neither a tiling nor a float filter; it shares
+only the kernel and the trajectories with the tilings.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ __all__ = ["first_contact_allpairs"]
 
 
 def first_contact_allpairs(scene: Scene) -> Contact | None:
-    """The first contact in the scene's time span, by trying everything."""
+    """The first contact in the scene's closed time span; None if there is none."""
     start = AlgebraicNumber(scene._start)
     overlaps = _overlapping_at_start(scene)
     if overlaps:
@@ -42,7 +42,7 @@ def first_contact_allpairs(scene: Scene) -> Contact | None:
 
 
 def _first_between(scene: Scene, i: int, j: int, until: QQ) -> AlgebraicNumber | None:
-    """The first time in (start, until] at which bodies i and j (perhaps one body) touch."""
+    """The first time in (start, until] at which bodies i and j touch (i == j: a self-contact)."""
     a, b = scene.bodies[i], scene.bodies[j]
     ends = sorted({t for t in (*a._breakpoints, *b._breakpoints) if scene._start < t < until})
     begin = scene._start
@@ -66,10 +66,11 @@ def _first_between(scene: Scene, i: int, j: int, until: QQ) -> AlgebraicNumber |
 def _vertex_edge_pairs(
     p: tuple[Track, ...], q: tuple[Track, ...], q_edges: list[tuple[int, int]], *, same: bool
 ) -> list[tuple[Track, Track, Track]]:
-    """Each vertex of p with each edge of q; a point is an edge from itself to itself.
+    """All pairs of a vertex of p and an edge (a, b) of q, as triples (vertex, a, b).
 
-    Within one body, a vertex meets the edges that do not end there; and each edge may
-    shrink to a point.
+    A point counts as the edge from itself to itself. Within one body (``same``) a vertex is not
+    paired with its own edges; in addition the two ends of each edge are paired, since a
+    deforming edge may shrink to a point.
     """
     triples = [
         (v, q[a], q[b])
@@ -85,9 +86,9 @@ def _vertex_edge_pairs(
 def _meetings(
     v: Track, a: Track, b: Track, start: AlgebraicNumber, until: QQ
 ) -> Iterator[AlgebraicNumber]:
-    """The times in (start, until] at which v comes to lie on the segment ab, in order.
+    """The times in (start, until] at which v starts to lie on the segment ab, in increasing order.
 
-    Where the three are collinear for ever, v enters the segment at one of its ends.
+    If the three are collinear for all times, v enters the segment at one of its ends.
     """
     f = orientation(a, b, v)
     if f:
@@ -106,7 +107,7 @@ def _meetings(
 def _touches(
     scene: Scene, tracks: list[tuple[Track, ...]], time: AlgebraicNumber
 ) -> Iterator[Touch]:
-    """Every incidence at a time."""
+    """Every incidence of a vertex with a vertex or an edge at a time."""
     bodies = scene.bodies
     for i, p in enumerate(tracks):
         for j, q in enumerate(tracks):

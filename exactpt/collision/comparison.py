@@ -1,4 +1,4 @@
-"""Two answers for the first contact of one scene, compared."""
+"""Comparison of two answers for the first contact of one scene."""
 
 from __future__ import annotations
 
@@ -8,7 +8,11 @@ __all__ = ["contrast", "in_words"]
 
 
 def contrast(expected: Contact | None, found: Contact | None) -> str | None:
-    """What differs between two contacts of one scene; None: nothing."""
+    """The first attribute in which two contacts of one scene differ; None if they agree.
+
+    One of "missed", "found" (only one of the two is a contact), "time", "kind", "pairs" and
+    "overlaps".
+    """
     if expected is None or found is None:
         if (expected is None) == (found is None):
             return None
@@ -22,7 +26,7 @@ def contrast(expected: Contact | None, found: Contact | None) -> str | None:
 
 
 def in_words(contact: Contact | None) -> str:
-    """A contact in a line: when, and the first incidences."""
+    """One line of text: the time, the kind and the first four incidences of a contact."""
     if contact is None:
         return "finds no contact"
     pairs = ", ".join(

@@ -1,4 +1,4 @@
-"""Contacts as users see them: when, what touches what, where, and along which normal."""
+"""Contacts as users see them: time, incident features, point and normal."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ __all__ = ["Contact", "Pair", "contact_of", "nearest_value", "time_to_json", "tr
 @final
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """A vertex that touches an edge or a vertex.
+    """An incidence: a vertex that lies on an edge or on another vertex.
 
     Attributes:
         kind: "vertex-edge" or "vertex-vertex".
-        body, vertex: whose vertex, numbered as in the scene.
-        other: the body that it touches (the same body in a self-contact).
-        edge: the edge of ``other``, from vertex ``edge`` to the next; None for a vertex.
-        other_vertex: the vertex of ``other``; None for an edge.
-        point: where, as the nearest finite doubles.
-        normal: the unit normal of the edge, out of ``other`` (of a body without inside:
-            towards where the vertex came from); None at a vertex.
+        body, vertex: name of the body and number of its vertex, as in the scene.
+        other: name of the body that is touched (``body`` itself in a self-contact).
+        edge: the edge of ``other``, from vertex ``edge`` to the next; None for vertex-vertex.
+        other_vertex: the vertex of ``other``; None for vertex-edge.
+        point: the common point, each coordinate the nearest finite double.
+        normal: the unit normal of the edge that points out of ``other`` (if ``other`` has no
+            interior: to the side from which the vertex came); None for vertex-vertex.
     """
 
     kind: str
@@ -54,7 +54,7 @@ class Pair:
     normal: tuple[float, float] | None
 
     def to_json(self) -> dict[str, object]:
-        """The pair as in docs/format.md."""
+        """The pair as a JSON object, see docs/format.md."""
         if self.edge is None:
             b: dict[str, object] = {"body": self.other, "vertex": self.other_vertex}
         else:
@@ -71,14 +71,14 @@ class Pair:
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Contact:
-    """The first contact of a scene.
+    """A contact of a scene: its time and all incidences at that time.
 
     Attributes:
-        time: exactly when.
-        kind: "initial" at the start of the scene; else "vertex-edge", "vertex-vertex"
-            (if no vertex is on the inside of an edge) or "self" (if only one body is).
+        time: the exact time.
+        kind: "initial" at the start of the scene; "self" if only one body is involved;
+            "vertex-vertex" if every incidence is one of two vertices; otherwise "vertex-edge".
         pairs: every incidence at that time.
-        overlaps: the pairs of bodies that overlap at the start, by name.
+        overlaps: at the start, the names of the pairs of bodies that share a point.
     """
 
     time: AlgebraicNumber
@@ -87,7 +87,7 @@ class Contact:
     overlaps: tuple[tuple[str, str], ...] = ()
 
     def to_json(self) -> dict[str, object]:
-        """The contact as in docs/format.md."""
+        """The contact as a JSON object, see docs/format.md."""
         data: dict[str, object] = {
             "time": time_to_json(self.time),
             "kind": self.kind,
@@ -98,12 +98,12 @@ class Contact:
         return data
 
     def _repr_html_(self) -> str:
-        """When and what touches what, for notebooks."""
+        """An HTML table of the time and the incidences, for notebooks."""
         return str(extension("table of a contact")(self))
 
 
 def time_to_json(time: AlgebraicNumber) -> dict[str, object]:
-    """A time as in docs/format.md; the same on every machine, for one polynomial."""
+    """A time as a JSON object, see docs/format.md; a canonical form of the number."""
     number = time.simplified()
     low, high = number._canonical_interval()
     return {
@@ -115,12 +115,15 @@ def time_to_json(time: AlgebraicNumber) -> dict[str, object]:
 
 
 def _finite(x: float) -> float:
-    """The finite double nearest to what was rounded to x: JSON knows no others."""
+    """x, with infinities replaced by the largest finite double: JSON has no infinity."""
     return min(max(x, -sys.float_info.max), sys.float_info.max)
 
 
 def tracks_before(scene: Scene, time: AlgebraicNumber) -> list[tuple[Track, ...]]:
-    """The tracks of every body in the piece that leads up to a time after the start."""
+    """The trajectories of the vertices of each body, in the piece of motion just before a time.
+
+    The time is later than the start of the scene.
+    """
     return [_tracks_of(body, time, scene._start) for body in scene.bodies]
 
 
@@ -135,13 +138,13 @@ def contact_of(
     touches: Iterable[Touch],
     overlaps: Sequence[tuple[int, int]] = (),
 ) -> Contact:
-    """The contact that these touches are.
+    """The contact with the given incidences.
 
     Args:
         scene: the scene.
-        time: when.
-        touches: every incidence then.
-        overlaps: bodies that overlap, at the start.
+        time: the time of the contact.
+        touches: every incidence at that time.
+        overlaps: pairs of indices of bodies that share a point at the start.
     """
     touches = sorted(touches)
     outward = {i: _outward(scene, i) for i in {touch.other for touch in touches}}
@@ -156,7 +159,7 @@ def contact_of(
 def _as_root(
     time: AlgebraicNumber, tracks: Mapping[int, tuple[Track, ...]], touches: Sequence[Touch]
 ) -> AlgebraicNumber:
-    """The time as a root of the first incidence's polynomial, however it has been found."""
+    """The time as a root of the first incidence's polynomial, whichever search has found it."""
     if time.simplified().is_rational or not touches:
         return time
     touch = touches[0]
@@ -169,7 +172,7 @@ def _as_root(
 
 
 def _coincidence(v: Track, w: Track) -> IntPoly:
-    """A polynomial whose roots are the times at which two vertices coincide."""
+    """A polynomial that vanishes at each time at which two vertices coincide."""
     dx, dy = difference(v.x, v.w, w.x, w.w), difference(v.y, v.w, w.y, w.w)
     return greatest_common_divisor(dx, dy) if dx and dy else dx or dy
 
@@ -209,7 +212,7 @@ def _pair(
 
 
 def _outward(scene: Scene, i: int) -> int:
-    """On which side of its edges the outside of a body is: 1 right, -1 left, 0 both."""
+    """The side of a body's edges on which its exterior lies: 1 right, -1 left, 0 both."""
     body = scene.bodies[i]
     if not body.closed or body.size < 3:
         return 0
@@ -221,20 +224,20 @@ def _normal(
 ) -> tuple[float, float]:
     w = multiply(a.w, b.w)
     dx, dy = difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
-    # The unit vector is the same at any size; at this one nothing is lost.
+    # The unit vector does not depend on the scale; at this scale no double under- or overflows.
     size = max(_exponent(f, w, time) for f in (dx, dy))
     grown, shrunk = ZZ(1) << max(0, -size), ZZ(1) << max(0, size)
     w = scale(w, shrunk)
     x, y = (nearest_value(scale(f, grown), w, time) for f in (dx, dy))
-    # Of a thin body towards the side that the vertex came from; the right one if it came
-    # along the line.
+    # A body without interior: towards the side from which the vertex came; to the right if it
+    # came along the line.
     out = outward or -time.sign_before(orientation(a, b, v)) or 1
     length = math.hypot(x, y)
     return (out * y / length + 0.0, -out * x / length + 0.0)
 
 
 def _exponent(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> int:
-    """About the binary exponent of p / w at a time; of 0, none that counts."""
+    """About the binary exponent of p / w at a time; the least integer if p vanishes there."""
     if time.sign_of(p) == 0:
         return -sys.maxsize
     while True:
@@ -246,7 +249,7 @@ def _exponent(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> int:
 
 
 def nearest_value(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> float:
-    """The double nearest to p / w at a time; w is positive there."""
+    """The double nearest to p / w at a time, at which w is positive."""
     if time.sign_of(p) == 0:
         return 0.0
     while True:
@@ -266,5 +269,5 @@ def _range(p: IntPoly, w: IntPoly, low: QQ, high: QQ) -> tuple[QQ, QQ]:
     a, b = range_on(p, low, high)
     c, d = range_on(w, low, high)
     if c <= 0:
-        c = QQ(1, 1 << 4096)  # not narrow enough yet; w is positive
+        c = QQ(1, 1 << 4096)  # w is positive: any positive bound will do until refinement
     return (a / d if a > 0 else a / c), (b / c if b > 0 else b / d)

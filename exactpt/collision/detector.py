@@ -30,18 +30,18 @@ def first_contact(
     ignoring: Iterable[Collection[str]] = (),
     proof: str | Path | None = None,
 ) -> Contact | None:
-    """The first contact in the closed time span of a scene, or None.
+    """The first contact in the closed time span of a scene; None if there is none.
 
     Args:
-        scene: what moves.
-        method: "kinetic", by a tiling; "pairs", by a search over pairs of features without
-            one; "auto", whichever is expected to be faster: pairs, if no tiling is named.
-        tiling: which tiling to keep, one of `TILINGS`; "auto" is "incremental" for points
-            alone, else "lazy", which has the fewest events.
-        exact_only: decide everything by exact arithmetic, without the float filters.
-        ignoring: groups of names; bodies of one group do not touch each other, whatever they
-            do. A tiling has no place for bodies that overlap: this needs "pairs" or "auto".
-        proof: a file to write, with what an independent program needs to check the answer
+        scene: the bodies, their motions and the time span.
+        method: "kinetic" keeps a tiling; "pairs" searches pairs of features without a tiling;
+            "auto" is "pairs" unless a tiling is named.
+        tiling: the tiling to keep, one of `TILINGS` or `POINT_TILING`; "auto" is "incremental"
+            if all bodies are points, else "lazy", which has the fewest events.
+        exact_only: whether exact arithmetic decides everything, without the float filters.
+        ignoring: groups of body names. Contacts between two bodies of one group are ignored.
+            A tiling cannot hold bodies that overlap, so this needs "pairs" or "auto".
+        proof: file to write, with what an independent program needs to check the answer
             (docs/proofs.md). The scene is written beside it, with ``.scene.json`` after the
             name. This needs a tiling: "kinetic" or "auto".
 
@@ -88,12 +88,12 @@ def check_provable(method: str, groups: Collection[object]) -> None:
 
 
 def searches_pairs(method: str, tiling: str, groups: Collection[object] = ()) -> bool:
-    """Whether a method is a search over pairs: "auto" is, unless a tiling is asked for.
+    """Whether a method searches pairs: "pairs" does, "auto" does unless a tiling is named.
 
-    Measured (`exactpt bench first-contact`): for one first contact from a cold start the
-    search takes a fifth of the time of a tiling to as much, whether bodies deform, change
-    their motion, are entangled, or never touch; in spirals up to 1.7 times as much. In a
-    convoy, bodies in a row along their way at almost the same speed, it takes hundreds of
-    times as much. It is a tiling that goes on from there, and knows the free space.
+    Measured by `exactpt bench first-contact`: for a single first contact from a cold start the
+    search over pairs takes between 0.2 and 1 times as long as a tiling, also for bodies that
+    deform, change their motion, are entangled, drive in a convoy or never touch (spirals: up
+    to 1.7 times). Only a tiling can continue after the contact and answer questions about the
+    free space.
     """
     return method == "pairs" or (method == "auto" and (bool(groups) or tiling == "auto"))

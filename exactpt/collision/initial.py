@@ -1,4 +1,4 @@
-"""Contacts at the start: decided exactly, before anything is tiled."""
+"""Contacts at the start of a scene, decided exactly before any tiling is built."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ __all__ = ["initial_touches"]
 
 
 def initial_touches(scene: Scene) -> tuple[list[Touch], list[tuple[int, int]]]:
-    """All incidences at the start, and the pairs of bodies that share a point then.
+    """All incidences at the start, and the pairs of bodies (as indices) that share a point then.
 
-    The second list is empty if and only if there is no contact at the start. (Within one
-    body there is none: a scene whose polygons are not simple at the start is refused.)
+    The list of pairs is empty if and only if there is no contact at the start. There are no
+    self-contacts: a scene with a polygon that is not simple at the start is refused.
     """
     points = [body._at(scene._start) for body in scene.bodies]
     near = [
@@ -40,7 +40,7 @@ def initial_touches(scene: Scene) -> tuple[list[Touch], list[tuple[int, int]]]:
 
 
 class _Edge(NamedTuple):
-    """An edge of a body, or a point as the edge -1 from itself to itself."""
+    """An edge of a body; a point is the edge -1 from itself to itself."""
 
     body: int
     number: int
@@ -52,7 +52,7 @@ class _Edge(NamedTuple):
 def _near_edges(
     scene: Scene, points: Sequence[Sequence[Point]], bodies: set[int]
 ) -> Iterator[tuple[_Edge, _Edge]]:
-    """The pairs of edges of different bodies whose boxes meet, the first body's first."""
+    """The pairs of edges of different bodies whose bounding boxes meet, ordered by body."""
     found = []
     for i in sorted(bodies):
         body, at = scene.bodies[i], points[i]
@@ -69,18 +69,18 @@ def _near_edges(
 
 
 def _incidences(e: _Edge, f: _Edge) -> Iterator[Touch]:
-    """The ends of edge e on edge f or at its ends."""
+    """The incidences of an end of edge e with edge f or with an end of f."""
     for v, p in zip(e.ends, (e.a, e.b), strict=True):
         meeting = [w for w, q in zip(f.ends, (f.a, f.b), strict=True) if p == q]
         for w in meeting:
-            if e.body < f.body:  # vertex on vertex counts once
+            if e.body < f.body:  # report each vertex-vertex incidence once
                 yield Touch(e.body, v, f.body, -1, w)
         if not meeting and side(f.a, f.b, p) == 0 and between(f.a, f.b, p):
             yield Touch(e.body, v, f.body, f.number, -1)
 
 
 def _one_is_inside(scene: Scene, i: int, j: int, points: Sequence[Sequence[Point]]) -> bool:
-    """Whether one of two bodies whose edges do not meet contains the other."""
+    """Whether one of two bodies with disjoint boundaries contains the other."""
     a, b = scene.bodies[i], scene.bodies[j]
     return (a.closed and a.size > 2 and contains(points[i], points[j][0])) or (
         b.closed and b.size > 2 and contains(points[j], points[i][0])

@@ -1,12 +1,12 @@
-"""The first contact without a tiling: swept boxes over one slab of time after the other.
+"""The first contact without a tiling: a sweep over slabs of time with swept bounding boxes.
 
-In a slab, only a vertex and an edge whose swept boxes meet can touch. The first zero of
-their orientation is asked for by the float filter, exact arithmetic decides what that
-leaves open, and whether the vertex is on the edge then. Slabs grow and shrink with the
-number of pairs, so that little is looked at twice.
+Within a slab only a vertex and an edge whose swept boxes meet can touch. A float filter looks
+for the first zero of their orientation; exact arithmetic decides what the filter leaves open,
+and whether the vertex lies on the edge at that time. The length of a slab adapts to the number
+of candidate pairs, so that few pairs are tested in more than one slab.
 
-No certificate is kept from one slab to the next, and nothing is known of the free space:
-for one first contact in a sparse crowd that is all that is needed.
+No certificate is kept from one slab to the next, and the search knows nothing about the free
+space: for a single first contact in a sparse scene neither is needed.
 """
 
 from __future__ import annotations
@@ -42,9 +42,10 @@ __all__ = ["PairsSearch"]
 Indices: TypeAlias = NDArray[np.int64]
 
 SLABS: Final = 32
-"""Number of first slabs in the time span, where nothing is known of how fast bodies move."""
+"""Number of initial slabs in the time span, if the speeds of the bodies are not known."""
 
 SMALLEST_SLAB: Final = 1 << 40
+"""The shortest slab is the time span divided by this."""
 
 
 @final
@@ -52,14 +53,14 @@ class PairsSearch:
     """A search for the first contact.
 
     Args:
-        scene: what moves.
-        exact_only: decide everything by exact arithmetic, without the float filters.
-        max_seconds: give up after this time.
-        ignoring: groups of names; bodies of one group may overlap each other all the time.
+        scene: the bodies, their motions and the time span.
+        exact_only: whether exact arithmetic decides everything, without the float filters.
+        max_seconds: time limit, in seconds; None for no limit.
+        ignoring: groups of body names; contacts within a group are ignored.
 
     Attributes:
-        name: of the tiling: there is none.
-        certificates: how many orientations have been asked for their first zero.
+        name: the name of the tiling: None.
+        certificates: number of orientations whose first zero has been computed.
     """
 
     name = None
@@ -82,7 +83,7 @@ class PairsSearch:
 
     @property
     def stats(self) -> dict[str, object]:
-        """Counts, as in docs/format.md."""
+        """The counts of the search so far, see docs/format.md."""
         return {
             "bodies": len(self._scene.bodies),
             "vertices": self._scene.vertex_count,
@@ -94,14 +95,15 @@ class PairsSearch:
         }
 
     def passed(self) -> Fraction | None:
-        """A rational time: up to it, no contact has been found; None: nothing is known."""
+        """A rational time up to which there is no contact; None if nothing has been proved."""
         return None if self._passed is None else fraction(self._passed)
 
     def run_to_contact(self) -> Contact | None:
-        """The first contact in the closed time span of the scene, or None.
+        """The first contact in the closed time span of the scene; None if there is none.
 
         Raises:
-            BudgetExceeded: after the given time; it tells up to when there is no contact.
+            BudgetExceeded: when the time limit is reached; its ``reached`` is a time up to which
+                there is no contact.
         """
         scene = self._scene
         initial, overlaps = initial_touches(scene)
@@ -115,7 +117,7 @@ class PairsSearch:
         return self._run()
 
     def _prepare(self) -> None:
-        """Number the vertices and edges, and read the first tracks."""
+        """Number the vertices and edges, and read the trajectories of the first pieces."""
         scene = self._scene
         self._vertices = Vertices.of(scene.bodies, scene._start, scene._end, plain=True)
         self._counters = self._vertices.counters
@@ -132,7 +134,7 @@ class PairsSearch:
         self._read_tracks()
 
     def _read_tracks(self) -> None:
-        """Take over the tracks of the pieces that begin."""
+        """Read the trajectories of the current pieces of motion."""
         all_vertices, bodies = self._vertices.all, self._vertices.bodies
         images = [all_vertices[v].image for v in self._ids]
         self._swept = SweptBoxes(images, self._vertices.frame.errors)
@@ -156,7 +158,7 @@ class PairsSearch:
                 shorter = min(now + step / 4, until)
                 fewer = self._near(now, shorter)
                 if 2 * len(fewer[0]) > len(near[0]):
-                    break  # they are near each other all the time
+                    break  # these pairs stay near each other: a shorter slab is no help
                 step, later, near = step / 4, shorter, fewer
             contact = self._search(now, later, near)
             if contact is not None:
@@ -189,7 +191,7 @@ class PairsSearch:
             self._read_tracks()
 
     def _near(self, now: QQ, later: QQ) -> tuple[Indices, Indices]:
-        """Vertices and edges (numbers) whose boxes meet in a slab, and that may touch."""
+        """Candidate pairs in a slab: numbers of vertices and of edges whose swept boxes meet."""
         frame = self._vertices.frame
         boxes = self._swept.during(frame.time(now)[0], frame.time(later)[1])
         a, b = self._edges[:, 0], self._edges[:, 1]
@@ -206,10 +208,11 @@ class PairsSearch:
         return np.concatenate(vs), np.concatenate(es)
 
     def _may_touch(self, v: Indices, e: Indices, boxes: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Not if they move together; on one body, not an edge that ends there.
+        """For each pair, whether the vertex can start to touch the edge.
 
-        The start of an edge stands for the edge itself, which may shrink to a point: not
-        if the boxes of its ends are apart.
+        It cannot if both have the same motion, belong to one rigid body, or are ignored. A vertex
+        is not paired with its own edges, except with the edge that starts at it if the boxes of
+        that edge's ends meet: the edge may shrink to a point.
         """
         a, b = self._edges[e, 0], self._edges[e, 1]
         motion = self._motion[v]
@@ -256,7 +259,8 @@ class PairsSearch:
         if best is None:
             return None
         certifier.move_to(EventTime(*self._vertices.frame.enclosure(best), -1, -1, -1, best), [])
-        # What touches is near then; what may not touch, together or rigid, does not begin to.
+        # All incidences at that time are among the candidates of this slab: pairs excluded by
+        # `_may_touch` cannot start to touch.
         features = np.unique(np.concatenate((near[0], self._edges[near[1]].ravel())))
         found = touches(certifier, self._vertices, [ids[i] for i in features.tolist()])
         return contact_of(
@@ -265,7 +269,7 @@ class PairsSearch:
 
 
 def _groups(scene: Scene, ignoring: Iterable[Collection[str]]) -> list[int]:
-    """The group of each body, by number; a body in none is one of its own."""
+    """The group number of each body; a body in no group has a number of its own."""
     number = {body.name: i for i, body in enumerate(scene.bodies)}
     group = list(range(len(number)))
     for k, names in enumerate(ignoring, start=len(group)):

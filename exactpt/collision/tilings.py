@@ -1,4 +1,4 @@
-"""Which tiling is kept for a scene."""
+"""Choice of the tiling to keep for a scene."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ __all__ = [
 ]
 
 TILINGS: Final = ("greedy", "mixed", "lazy")
-"""The tilings of any bodies, by name."""
+"""Names of the tilings that accept bodies of any shape."""
 
 POINT_TILING: Final = "incremental"
-"""The tiling of points alone."""
+"""Name of the tiling for scenes in which all bodies are points."""
 
 
 class TilingPlan(NamedTuple):
-    """A tiling chosen, not built yet.
+    """A chosen tiling that has not been built yet.
 
     Attributes:
         name: one of `TILINGS`, or `POINT_TILING`.
-        kind: the class that keeps it.
-        vertices: from a time on.
-        end: of the time span.
+        kind: the class that implements it.
+        vertices: the moving vertices.
+        end: end of the time span.
     """
 
     name: str
@@ -47,16 +47,16 @@ class TilingPlan(NamedTuple):
     end: QQ
 
     def start(self, time: QQ, *, exact_only: bool = False) -> Tiling:
-        """The tiling just after a time at which the bodies are disjoint."""
+        """The kinetic tiling just after a time at which the bodies are disjoint."""
         return self.kind.begin(self.vertices, time, self.end, exact_only=exact_only)
 
     def mesh_at(self, time: QQ) -> Mesh:
-        """The tiling at a time."""
+        """The static tiling at a time."""
         return self.kind.mesh_at(PredicatesAt(self.vertices, time, after=False))
 
 
 def check_tiling(name: str) -> None:
-    """See whether there is such a tiling.
+    """Check that a tiling of this name, or "auto", exists.
 
     Raises:
         InputError: if not.
@@ -67,12 +67,13 @@ def check_tiling(name: str) -> None:
 
 
 def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
-    """Choose the tiling; "auto" by the shapes.
+    """The tiling of a given name; "auto" chooses by the shapes.
 
-    Points alone: incremental; convex for ever: greedy; else mixed.
+    "auto" is "incremental" if all bodies are points, "greedy" if all bodies stay convex until
+    the end, and "mixed" otherwise.
 
     Raises:
-        InputError: if there is no such tiling, or it is not for these bodies.
+        InputError: if there is no such tiling, or it does not support these bodies.
     """
     check_tiling(name)
     points = all(body.size == 1 for body in scene.bodies)
@@ -83,21 +84,21 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
         return TilingPlan(POINT_TILING, IncrementalTiling, vertices, scene._end)
     vertices = Vertices.of(scene.bodies, start, scene._end)
     convex = name in ("auto", "greedy") and PredicatesAt(vertices, start).all_stay_convex()
-    vertices.counters = Counters()  # the choice is no decision of the run
+    vertices.counters = Counters()  # decisions made for the choice are not part of the run
     if name == "auto":
         name = "greedy" if convex else "mixed"
     return TilingPlan(name, tiling_class(name, convex=convex), vertices, scene._end)
 
 
 def tiling_for_contact(scene: Scene, name: str) -> str:
-    """The tiling with the fewest events, if "auto" is asked for."""
+    """The given name; instead of "auto", the tiling with the fewest events."""
     if name != "auto":
         return name
     return POINT_TILING if all(body.size == 1 for body in scene.bodies) else "lazy"
 
 
 def tiling_class(name: str, *, convex: bool) -> type[Tiling]:
-    """The class that keeps a tiling: of the greedy ones, convex bodies have their own."""
+    """The class that implements a tiling; "greedy" has one for convex bodies, one for others."""
     if name == "lazy":
         from exactpt.tiling.lazy import LazyTiling
 
@@ -116,5 +117,5 @@ def tiling_class(name: str, *, convex: bool) -> type[Tiling]:
 
 
 def start_tiling(scene: Scene, name: str, start: QQ, *, exact_only: bool = False) -> Tiling:
-    """The tiling of a scene just after a time at which its bodies are disjoint."""
+    """The kinetic tiling of a scene just after a time at which its bodies are disjoint."""
     return plan_tiling(scene, name, start).start(start, exact_only=exact_only)

@@ -1,1 +1,1 @@
-"""Shapes that others keep in their files and libraries, as bodies at rest, and back."""
+"""Exchange of shapes with files and libraries, as bodies at rest."""

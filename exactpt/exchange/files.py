@@ -1,4 +1,4 @@
-"""Files of shapes: the ending says the format, for a ``.json`` its content."""
+"""Files of shapes; the suffix determines the format, for ``.json`` the content."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ ENDINGS: Final[dict[str, Format]] = {
     ".svg": "svg",
     ".json": "scene",
 }
-"""The format of a file by its ending; a ``.json`` that is read may be GeoJSON too."""
+"""Format by suffix; a ``.json`` file that is read may be GeoJSON too."""
 
 
 def read_shapes(
@@ -39,18 +39,18 @@ def read_shapes(
     holes: Holes = "refuse",
     skipped: Callable[[str], None] | None = None,
 ) -> Scene:
-    """The scene at rest of a GeoJSON, WKT or SVG file: a body for each part of a shape.
+    """The scene at rest of a GeoJSON, WKT or SVG file: one body for each part of a shape.
 
-    Decimals in GeoJSON and WKT are read as the decimals that they are. In SVG, curves become
-    chords, y points up, and coordinates are the exact values of doubles.
+    Decimals in GeoJSON and WKT are read exactly. In SVG, curves become chords, the y-axis is
+    flipped to point up, and coordinates are the exact values of doubles.
 
     Args:
-        path: ends in one of `ENDINGS`. A scene file is read as it is.
-        time: the start and the end of the scene.
-        tolerance: how far chords may be from a curve of an SVG, in units of the drawing.
+        path: a file with a suffix in `ENDINGS`. A scene file is loaded unchanged.
+        time: the start and the end of the time span.
+        tolerance: maximum distance of a chord from its curve, in units of the SVG drawing.
         holes: "refuse" polygons with holes, or "fill" them.
-        skipped: is told of each shape that cannot be a body, which is then left out; without
-            it such a shape is an error.
+        skipped: called with a message for each shape that cannot be a body and is left out;
+            if None, such a shape is an error.
 
     Raises:
         InputError: one line that names the file, the shape and what is wrong with it.
@@ -74,7 +74,7 @@ def read_shapes(
 
 
 def holds_scene(path: Path) -> bool:
-    """Whether a file is a scene, to be read as it is.
+    """Whether a file is a scene file.
 
     Raises:
         InputError: if it cannot be read.
@@ -112,15 +112,15 @@ def _shapes_of(kind: Format, text: str, tolerance: float) -> Iterator[Shape]:
 
 
 def write_shapes(scene: Scene, path: str | Path, at: Rational | None = None) -> None:
-    """Write the bodies at a time, as points, lines and polygons; a scene file as it is.
+    """Write the bodies at a time, as points, lines and polygons; or the scene as a scene file.
 
-    Exact positions are rounded to the nearest doubles. That bodies touch or overlap then is
-    not looked at: the shapes are where their motions put them.
+    Exact positions are rounded to the nearest doubles. Shapes are written wherever their
+    motions put them, even if they touch or overlap at that time.
 
     Args:
         scene: the bodies.
-        path: ends in one of `ENDINGS`; the file is complete or not there.
-        at: when; by default at the start.
+        path: a file with a suffix in `ENDINGS`; it is complete or not there.
+        at: the time; by default the start.
 
     Raises:
         InputError: if the time is outside the time span, or the file cannot be written.

@@ -1,7 +1,7 @@
-"""GeoJSON (RFC 7946): read exactly, each number the decimal that is written; and written.
+"""GeoJSON (RFC 7946): exact decimals are read, nearest doubles are written.
 
-The structure is a tree of lists, so that the package needs no library for it; a library
-would hand the coordinates over as floats. A third coordinate (the height) is dropped.
+The format is parsed here: a library would return coordinates as floats. A third coordinate
+(the height) is dropped.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ TYPES: Final = {
     *_PARTS,
     *(f"Multi{kind}" for kind in _PARTS),
 }
-"""What the key "type" says in a GeoJSON object."""
+"""Possible values of the key "type" of a GeoJSON object."""
 _TYPE_OF: Final = {kind: name for name, kind in _PARTS.items()}
 
 
 def shapes_of(text: str) -> Iterator[Shape]:
-    """The shapes of a GeoJSON text: one for each part, named by its feature.
+    """The shapes of a GeoJSON text: one for each part, named after its feature.
 
-    A feature is named by its property ``name`` or ``id`` (in any case), else by its own
-    ``id``, else by its number.
+    The name of a feature is its property ``name`` or ``id`` (in upper or lower case), else its
+    own ``id``, else its number.
 
     >>> from exactpt.exchange.shapes import scene_of
     >>> text = '{"type": "Polygon", "coordinates": [[[0, 0], [0.1, 0], [0, 2], [0, 0]]]}'
@@ -124,9 +124,9 @@ def _point(data: Json, where: str) -> Point:
 
 
 def geojson_of(shapes: Iterable[Shape]) -> str:
-    """Shapes as a collection of features; coordinates are the nearest doubles.
+    """Shapes as a feature collection; coordinates are the nearest doubles.
 
-    Polygons run counter-clockwise, as GeoJSON wants them.
+    Polygons run counter-clockwise, as GeoJSON requires.
     """
     features = [
         {

@@ -1,7 +1,7 @@
-"""Shapes as files and libraries hold them, and the bodies that they become.
+"""Shapes, the common form of all file formats and libraries, and the bodies they become.
 
-What the formats agree on is here: a ring repeats its first point, names are wanted and not
-always there, a shape may have holes, and not every shape is a body.
+Shared by all formats: a ring may repeat its first point, names may be missing or equal, a shape
+may have holes, and not every shape is a valid body.
 """
 
 from __future__ import annotations
@@ -34,11 +34,11 @@ class Shape(NamedTuple):
     """A point, a line or a polygon of a file.
 
     Attributes:
-        where: the place in the file, for messages: ``feature 3, polygon 2``.
-        name: wanted for the body; several shapes may want the same.
-        kind: a line is open (a segment or a chain), a polygon has an inside.
-        points: in order; the first may come again at the end.
-        holes: rings inside of a polygon, that do not belong to it.
+        where: its place in the file, for messages: ``feature 3, polygon 2``.
+        name: the wanted name of the body; several shapes may want the same.
+        kind: a line is open (a segment or a chain), a polygon has an interior.
+        points: its points in order; the first may be repeated at the end.
+        holes: rings inside a polygon that bound its holes.
     """
 
     where: str
@@ -58,11 +58,11 @@ def scene_of(
     """The scene at rest of some shapes, in their order.
 
     Args:
-        shapes: what becomes a body each; a name that is taken gets a number.
-        time: the start and the end of the scene.
-        holes: refuse a polygon with holes, or fill them.
-        skipped: is told of each shape that cannot be a body, which is then left out; without
-            it such a shape is an error.
+        shapes: the shapes, one for each body; a name that is taken gets a number.
+        time: the start and the end of the time span.
+        holes: "refuse" polygons with holes, or "fill" them.
+        skipped: called with a message for each shape that cannot be a body and is left out;
+            if None, such a shape is an error.
 
     Raises:
         InputError: one line that names the shape and says what to do about it.
@@ -85,11 +85,11 @@ def scene_of(
 def body_of(shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "refuse") -> Body:
     """The body that a shape becomes.
 
-    A point that comes twice in a row counts once. A line that ends where it began is the
-    polygon that it bounds.
+    Repeated consecutive points count once. A line that ends where it began becomes the polygon
+    that it bounds.
 
     Raises:
-        InputError: if the shape has too few points, no area or (``holes="refuse"``) holes.
+        InputError: if the shape has too few points, no area, or (``holes="refuse"``) holes.
     """
     if shape.holes and holes == "refuse":
         count = len(shape.holes)
@@ -113,7 +113,7 @@ def body_of(shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "r
 
 
 def shapes_at(scene: Scene, at: QQ) -> list[Shape]:
-    """The bodies of a scene at a time.
+    """The bodies of a scene at a time, as shapes.
 
     Raises:
         InputError: if the time is outside the time span.
@@ -132,10 +132,10 @@ def _kind(body: Body) -> Kind:
 
 
 def rounded(shape: Shape) -> list[tuple[float, float]]:
-    """The points of a shape, each coordinate the nearest double.
+    """The points of a shape, each coordinate rounded to the nearest double.
 
     Raises:
-        InputError: if one is larger than the largest double.
+        InputError: if a coordinate is larger than the largest double.
     """
     points = [(nearest_float(x), nearest_float(y)) for x, y in shape.points]
     if not all(map(math.isfinite, chain.from_iterable(points))):
@@ -153,9 +153,10 @@ def _check_simple(shape: Shape, body: Body, time: Sequence[Rational]) -> None:
 
 
 def nested(rings: Sequence[Sequence[Point]]) -> list[tuple[int, list[int]]]:
-    """The outer rings among some that do not cross, each with the holes directly inside.
+    """The outer rings among rings that do not cross, each with its holes, all as indices.
 
-    A ring inside an odd number of others is a hole (the even-odd rule).
+    By the even-odd rule, a ring inside an odd number of others is a hole; it belongs to the
+    innermost outer ring around it.
     """
     around = [
         [j for j, other in enumerate(rings) if j != i and _inside(ring, other)]

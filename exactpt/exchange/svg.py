@@ -1,8 +1,8 @@
-"""SVG drawings: outlines of paths and basic shapes in and out; curves become chords.
+"""SVG drawings: outlines of paths and basic shapes are read and written; curves become chords.
 
-svgelements reads the drawing (styles, transforms, copies); y points up from then on. What
-is computed here, points of curves and transformed ones, is rounded to doubles, which are
-taken at their exact value.
+svgelements parses the drawing (styles, transforms, copies); the y-axis is flipped to point up.
+Points of curves and transformed points are computed in doubles, which are taken at their exact
+value.
 """
 
 from __future__ import annotations
@@ -26,21 +26,21 @@ __all__ = ["shapes_of", "svg_of"]
 
 _NAMESPACE: Final = "http://www.w3.org/2000/svg"
 _MOST_CHORDS: Final = 100_000
-"""Of one curve; more are a mistake in the tolerance."""
+"""Maximum number of chords of one curve; more indicate a mistaken tolerance."""
 
 
 def shapes_of(text: str, tolerance: float) -> Iterator[Shape]:
     """The outlines of a drawing, in the units of its ``viewBox``, named by their ``id``.
 
-    A subpath that closes is a polygon, with those inside of it as holes (the even-odd
-    rule); an open one is a line, filled or not. Text and pictures are left out.
+    A closed subpath is a polygon, with the subpaths inside it as holes (even-odd rule); an open
+    one is a line, filled or not. Text and images are left out.
 
     Args:
         text: the drawing.
-        tolerance: how far, in units of the drawing, chords may be from their curve.
+        tolerance: maximum distance of a chord from its curve, in units of the drawing.
 
     Raises:
-        InputError: if it is no drawing, or the tolerance is not positive.
+        InputError: if it is not a drawing, or the tolerance is not positive.
     """
     if not (math.isfinite(tolerance) and tolerance > 0):
         raise InputError(f"the tolerance is a positive number: {tolerance}")
@@ -62,7 +62,7 @@ def _of_subpaths(
     others: list[Shape] = []
     for points, last in subpaths:
         if isinstance(last, svgelements.Move):
-            continue  # a pen that is moved and never put down
+            continue  # a move without anything drawn after it
         if len(set(points)) == 1:
             others.append(Shape(where, name, "point", points[:1]))
         elif isinstance(last, svgelements.Close) or points[0] == points[-1]:
@@ -75,7 +75,7 @@ def _of_subpaths(
 
 
 def _paths(text: str) -> Iterator[tuple[str, svgelements.Path]]:
-    """The outlines that are shown, with the id of each, in user units of the drawing."""
+    """The visible outlines with their ids, in user units of the drawing."""
     try:
         import svgelements
     except ImportError:
@@ -88,7 +88,7 @@ def _paths(text: str) -> Iterator[tuple[str, svgelements.Path]]:
     if root.tag not in ("svg", f"{{{_NAMESPACE}}}svg"):
         raise InputError(f"not a drawing: its first element is {root.tag}")
     box = root.get("viewBox", "").replace(",", " ").split()
-    if len(box) == 4:  # shown at this size, a unit of the drawing is a unit
+    if len(box) == 4:  # drawn at this size, one pixel is one unit of the drawing
         root.set("viewBox", f"0 0 {box[2]} {box[3]}")
         root.set("width", box[2])
         root.set("height", box[3])
@@ -105,7 +105,7 @@ def _paths(text: str) -> Iterator[tuple[str, svgelements.Path]]:
 
 
 def _points(subpath: svgelements.Subpath, tolerance: float) -> list[Point]:
-    """The corners of a subpath and the ends of its chords, y upwards."""
+    """The corners of a subpath and the ends of its chords, with y upwards."""
     import svgelements
 
     first = subpath[0]
@@ -120,9 +120,9 @@ def _points(subpath: svgelements.Subpath, tolerance: float) -> list[Point]:
 
 
 def _chord_count(curve: svgelements.Curve, tolerance: float) -> int:
-    """How many chords, between equally spaced parameters, stay within the tolerance.
+    """The number of equal parameter steps whose chords stay within the tolerance.
 
-    A curve with second derivative at most M is within M / (8 n^2) of its n chords. A Bezier
+    A curve whose second derivative is at most M is within M / (8 n^2) of its n chords. A Bezier
     curve of degree d has M <= d (d - 1) times its largest second difference. An ellipse is
     the unit circle stretched by at most its larger radius r, and a chord over the angle a
     of the unit circle is within 1 - cos(a / 2) of it.
@@ -130,7 +130,7 @@ def _chord_count(curve: svgelements.Curve, tolerance: float) -> int:
     import svgelements
 
     if isinstance(curve, svgelements.Arc):
-        # Half the angle is acos(1 - tolerance / r), without the loss of digits.
+        # Half the angle is acos(1 - tolerance / r), computed without cancellation.
         ratio = min(2.0, tolerance / (max(curve.rx, curve.ry) or tolerance))
         count = abs(curve.sweep) / (4 * math.asin(math.sqrt(ratio / 2)))
     else:

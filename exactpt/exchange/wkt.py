@@ -1,7 +1,7 @@
-"""Well-known text: shapely says what is there, the text how each number is written.
+"""Well-known text: shapely parses the structure, the decimals are read from the text exactly.
 
-Shapely hands coordinates over as doubles, in the order of the text; so each is replaced by
-the decimal at its place.
+Shapely returns coordinates as doubles, in the order of the text; each is replaced by the
+decimal at its position.
 """
 
 from __future__ import annotations
@@ -17,17 +17,17 @@ from exactpt.scene.json_values import exact_number
 __all__ = ["shapes_of", "wkt_of"]
 
 _NEXT: Final = re.compile(r"(?:(?<=\))|(?<=EMPTY))[\s;]+(?=[A-Z])", re.IGNORECASE)
-"""Between two geometries: parts of one have a comma between them."""
+"""The separator between two geometries; parts of one geometry are separated by a comma."""
 _NUMBER: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 
 
 def shapes_of(text: str) -> Iterator[Shape]:
-    """The shapes of a text with one geometry or several, one for each part.
+    """The shapes of a text with one or more geometries, one for each part.
 
     Raises:
         InputError: one line that names the geometry and what is wrong with it.
     """
-    from exactpt.exchange.shapely_door import read_wkt, shapes_of_geometry
+    from exactpt.exchange.shapely_adapter import read_wkt, shapes_of_geometry
 
     for i, part in enumerate(_NEXT.split(text.strip())):
         where = f"geometry {i}"
@@ -41,7 +41,7 @@ def shapes_of(text: str) -> Iterator[Shape]:
 
 
 def wkt_of(shapes: Iterable[Shape]) -> str:
-    """Shapes, one a line, without their names; coordinates are the nearest doubles."""
+    """Shapes, one per line, without names; coordinates are the nearest doubles."""
     return "".join(f"{_text(shape)}\n" for shape in shapes)
 
 

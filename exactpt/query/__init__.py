@@ -1,1 +1,1 @@
-"""Questions about the plane around the bodies at one time: where, what next, which way."""
+"""Queries about the free space at one time: point location, ray shooting, shortest paths."""

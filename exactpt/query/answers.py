@@ -1,4 +1,4 @@
-"""What queries answer."""
+"""The values that queries return."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from exactpt.kernel.numbers import nearest_float
 __all__ = ["Hit", "Path", "Place", "VertexName"]
 
 VertexName: TypeAlias = tuple[str, int]
-"""A body and the number of a vertex of it, as in the scene."""
+"""Name of a body and number of one of its vertices, as in the scene."""
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a point is.
+    """The location of a point.
 
     Attributes:
-        kind: "tile" (inside a tile of free space), "diagonal" (inside a diagonal),
-            "outside" (of the convex hull of all bodies), "body" (inside a body), "edge"
-            (inside an edge of a body), or "vertex" (of a body).
-        body: on or in which body; None in free space.
-        vertex: which vertex of it.
-        edge: which edge of it: from vertex ``edge`` to the next.
-        tile: which face of the tiling (`Snapshot.faces`), for "tile".
-        diagonal: the two ends, for "diagonal".
-        crossed: how many edges and vertices the walk to the point has passed.
+        kind: "tile" (interior of a tile of the free space), "diagonal" (interior of a
+            diagonal), "outside" (outside the convex hull of all bodies), "body" (interior of a
+            body), "edge" (interior of an edge of a body), or "vertex" (of a body).
+        body: name of the body that contains the point; None in free space.
+        vertex: number of the vertex, for "vertex".
+        edge: number of the edge, for "edge": from vertex ``edge`` to the next.
+        tile: index of the face in `Snapshot.faces`, for "tile".
+        diagonal: the two ends of the diagonal, for "diagonal".
+        crossed: number of edges and vertices passed by the walk to the point.
     """
 
     kind: str
@@ -43,23 +43,23 @@ class Place:
 
     @property
     def is_free(self) -> bool:
-        """Whether no (closed) body has the point."""
+        """Whether no (closed) body contains the point."""
         return self.body is None
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Hit:
-    """The first point of a ray that a body has.
+    """The first point of a ray that belongs to a body.
 
     Attributes:
-        body: which one.
-        vertex: the vertex that is hit, if one is.
-        edge: else the edge of which an inner point is hit; neither if the ray starts
-            inside the body.
-        point: where, exactly.
-        at: the parameter: the point is origin + at * direction.
-        crossed: how many edges the ray has crossed before.
+        body: name of the body.
+        vertex: number of the vertex that is hit; None if no vertex is.
+        edge: number of the edge whose interior is hit; None for a vertex. If both are None,
+            the ray starts in the interior of the body.
+        point: the exact point.
+        at: its parameter: the point is origin + at * direction.
+        crossed: number of diagonals that the ray has crossed before.
     """
 
     body: str
@@ -73,12 +73,12 @@ class Hit:
 @final
 @dataclass(frozen=True, slots=True)
 class Path:
-    """A shortest path among those that can be deformed into each other.
+    """The shortest path of a homotopy class.
 
     Attributes:
-        points: from the start by way of the bends to the goal.
-        bends: of each point in between, the vertex that the path bends around.
-        crossed: how many diagonals its sleeve of tiles crosses.
+        points: the start, the bends in order, and the goal; exact.
+        bends: the vertex at each bend.
+        crossed: number of diagonals crossed by the sleeve of tiles.
     """
 
     points: tuple[tuple[Fraction, Fraction], ...]
@@ -87,7 +87,7 @@ class Path:
 
     @property
     def length(self) -> float:
-        """The Euclidean length, in doubles."""
+        """The Euclidean length, rounded to a double."""
         return sum(
             math.hypot(nearest_float(c - a), nearest_float(d - b))
             for (a, b), (c, d) in pairwise(self.points)

@@ -1,4 +1,4 @@
-"""Where a point is, and what a ray hits first: walks from face to face."""
+"""Point location and ray shooting, by walks from face to face."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from exactpt.kernel.numbers import QQ, fraction
 from exactpt.kernel.numbers import place as in_fractions
 from exactpt.query.answers import Hit, Place
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.query.walk import On, Ray, Spot, next_leg
+from exactpt.query.walk import On, Ray, Spot, next_step
 
 __all__ = ["cast", "find", "place_of"]
 
 
 def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
-    """Where a point is, by a walk from the first node.
+    """Point location by a straight walk from the first node.
 
     Returns:
-        The face, edge or node; and how many edges and nodes the walk has passed.
+        The face, edge or node that contains the point; number of edges and nodes passed.
     """
     if not plane.points:
         return Spot(On.FACE, OUTSIDE), 0
@@ -30,16 +30,16 @@ def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
     ray = Ray(plane, start, (p[0] - start[0], p[1] - start[1]))
     spot, at, crossed = Spot(On.NODE, 0), QQ(0), 0
     while True:
-        leg = next_leg(plane, ray, spot, at)
-        if leg.end is None or leg.at > 1:
-            return leg.through, crossed
-        if leg.at == 1:
-            return leg.end, crossed
-        spot, at, crossed = leg.end, leg.at, crossed + 1
+        step = next_step(plane, ray, spot, at)
+        if step.end is None or step.at > 1:
+            return step.through, crossed
+        if step.at == 1:
+            return step.end, crossed
+        spot, at, crossed = step.end, step.at, crossed + 1
 
 
 def place_of(plane: Subdivision, spot: Spot, crossed: int = 0) -> Place:
-    """A spot in terms of the scene."""
+    """The location of a spot in terms of the scene's bodies."""
     handle = spot.handle
     if spot.on is On.NODE:
         body, vertex = plane.node_name(handle)
@@ -61,10 +61,10 @@ def place_of(plane: Subdivision, spot: Spot, crossed: int = 0) -> Place:
 def cast(
     plane: Subdivision, origin: Point, direction: Point, limit: QQ | None = None
 ) -> Hit | None:
-    """The first point of a ray that a body has, up to a parameter (None: no limit).
+    """The first point of a ray that belongs to a body; None if there is none up to ``limit``.
 
-    Every node belongs to a body, so what can be passed without a hit is the inside of a
-    diagonal alone.
+    Every node belongs to a body, so a ray can only cross the interior of a diagonal without
+    hitting a body. ``limit`` is a parameter of the ray; None is no limit.
     """
     spot, _ = find(plane, origin)
     place = place_of(plane, spot)
@@ -73,14 +73,14 @@ def cast(
     if not plane.points:
         return None
     ray = Ray(plane, origin, direction)
-    if OUTSIDE not in plane.door:
+    if OUTSIDE not in plane.edge_of:
         return _cast_at_point(plane, ray, limit)
     at, crossed = QQ(0), 0
     while True:
-        leg = next_leg(plane, ray, spot, at)
-        if leg.end is None or (limit is not None and leg.at > limit):
+        step = next_step(plane, ray, spot, at)
+        if step.end is None or (limit is not None and step.at > limit):
             return None
-        spot, at = leg.end, leg.at
+        spot, at = step.end, step.at
         place = place_of(plane, spot)
         if place.body is not None:
             point = in_fractions(ray.point(at))
@@ -89,7 +89,7 @@ def cast(
 
 
 def _cast_at_point(plane: Subdivision, ray: Ray, limit: QQ | None) -> Hit | None:
-    """The same in a scene of one point."""
+    """`cast` in a scene that consists of a single point."""
     at = ray.reaches(0)
     if ray.side(0) != 0 or at < 0 or (limit is not None and at > limit):
         return None

@@ -1,9 +1,8 @@
-"""The relative hull of a polygon: the tightest loop around it that passes the others by.
+"""The relative hull of a body: the shortest closed curve homotopic to its boundary in free space.
 
-The shortest closed curve in the free space that can be deformed into the boundary. In the
-mixed tiling it is there to be read: the half-edges that carry the label of the cycle
-pinned nowhere (`exactpt.tiling.mixed.labels`). It may pass a vertex of its own body twice,
-where a mouth is pulled shut: what is on its left tells how it goes on.
+The mixed tiling contains it: it consists of the half-edges that carry the label of the unpinned
+cycle (`exactpt.tiling.mixed.labels`). The curve may pass a vertex of its own body twice, where
+it closes a pocket; the free side, on its left, then determines the next half-edge.
 """
 
 from __future__ import annotations
@@ -16,21 +15,25 @@ __all__ = ["relative_hull", "top_nodes"]
 
 
 def top_nodes(mesh: LabelledMesh) -> list[int]:
-    """Of each body, the node whose cycle is its relative hull."""
+    """For each body, the root node of its tree: the node whose cycle is its relative hull."""
     return [tree.nodes[TOP] for tree in mesh.forest.bodies]
 
 
 def relative_hull(mesh: LabelledMesh, top: int) -> list[int]:
-    """The vertex ids along the relative hull of a body, by its node, counter-clockwise.
+    """The vertex ids along the relative hull of a body, counter-clockwise.
+
+    Args:
+        mesh: a mixed tiling.
+        top: the root node of the body, see `top_nodes`.
 
     Raises:
-        AuditError: if the labels are not those of one cycle.
+        AuditError: if the labels do not form a single cycle.
     """
     m = mesh.map
     cycle = [h for h in m.half_edges() if top in mesh.labels[h]]
     ordered = [cycle[0]]
     while True:
-        # The first one to the left: clockwise from where it comes from.
+        # The next half-edge is the first one clockwise from the reversed current one.
         g = m.following[ordered[-1]]
         while top not in mesh.labels[g]:
             g = m.following[g ^ 1]

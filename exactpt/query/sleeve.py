@@ -1,10 +1,10 @@
-"""Shortest paths of a homotopy class: a sleeve of tiles, triangulated, pulled tight.
+"""The shortest path of a homotopy class: a sleeve of triangulated tiles and the funnel algorithm.
 
-A walk through free space is told, up to deformation, by the diagonals that it crosses;
-crossing one forth and back is none. The tiles between are triangulated, the sleeve of
-triangles runs from the one with the start to the one with the goal, and the funnel
-algorithm finds the shortest path in it. The sleeve may run over itself: it is a surface
-glued from triangles along their edges, which is all that the algorithm needs.
+A path through free space is determined, up to homotopy, by the sequence of diagonals that it
+crosses, after crossings back and forth are cancelled. The tiles along it are triangulated; the
+triangles between the start and the goal form the sleeve; the funnel algorithm finds the
+shortest path in it. The sleeve may overlap itself: the algorithm needs no more than a surface
+glued from triangles along their edges.
 
 Source: D. T. Lee, F. P. Preparata, *Euclidean shortest paths in the presence of
 rectilinear barriers*, Networks 14 (1984); J. Hershberger, J. Snoeyink, *Computing minimum
@@ -25,48 +25,51 @@ __all__ = ["Sleeves", "pull_tight", "triangulated"]
 
 Triangle: TypeAlias = tuple[int, int, int]
 Portal: TypeAlias = tuple[int, int]
-"""The nodes at the left and at the right end of an edge that a path crosses."""
+"""The left and the right end, as nodes, of an edge that a path crosses."""
 
 
 @final
 class Sleeves:
-    """The triangulated tiles of a subdivision, each made when it is first needed."""
+    """The triangulated tiles of a subdivision; a tile is triangulated on first use."""
 
     def __init__(self, plane: Subdivision) -> None:
         self._plane = plane
         self._tiles: dict[int, list[Triangle]] = {}
 
-    def doors(self, start: int, goal: int) -> list[int]:
-        """The fewest diagonals to cross from one tile to another.
+    def dual_path(self, start: int, goal: int) -> list[int]:
+        """A shortest path in the dual graph: the fewest diagonals to cross between two tiles.
+
+        Returns:
+            The half-edges of the diagonals in order, each on the side of the tile that is left.
 
         Raises:
-            AuditError: if there is no way.
+            AuditError: if the tiles are not connected.
         """
         plane, m = self._plane, self._plane.map
         came: dict[int, int] = {start: -1}
         queue = deque([start])
         while queue and goal not in came:
             tile = queue.popleft()
-            for h in m.face(plane.door[tile]):
+            for h in m.face(plane.edge_of[tile]):
                 there = plane.face[h ^ 1]
                 if there >= 0 and not plane.boundary[h >> 1] and there not in came:
                     came[there] = h
                     queue.append(there)
         if goal not in came:
             raise AuditError(f"no way leads from tile {start} to tile {goal}")
-        doors = []
+        crossed = []
         tile = goal
         while came[tile] >= 0:
-            doors.append(came[tile])
+            crossed.append(came[tile])
             tile = plane.face[came[tile]]
-        return doors[::-1]
+        return crossed[::-1]
 
-    def portals(self, start: Point, tile: int, doors: Sequence[int], goal: Point) -> list[Portal]:
-        """The edges of triangles between a point of a tile and one beyond the last door."""
+    def portals(self, start: Point, tile: int, crossed: Sequence[int], goal: Point) -> list[Portal]:
+        """The portals from ``start`` in ``tile`` across half-edges ``crossed`` to ``goal``."""
         plane, origin = self._plane, self._plane.map.origin
         portals: list[Portal] = []
         here = self._triangle_of(tile, start)
-        for h in doors:
+        for h in crossed:
             u, v = origin[h], origin[h ^ 1]
             portals += self._between(tile, here, self._triangle_at(tile, u, v))
             portals.append((v, u))
@@ -78,7 +81,7 @@ class Sleeves:
         known = self._tiles.get(tile)
         if known is None:
             m = self._plane.map
-            cycle = [m.origin[h] for h in m.face(self._plane.door[tile])]
+            cycle = [m.origin[h] for h in m.face(self._plane.edge_of[tile])]
             known = self._tiles[tile] = triangulated(cycle, self._plane.points)
         return known
 
@@ -97,7 +100,7 @@ class Sleeves:
         raise AuditError(f"no triangle of tile {tile} has the edge from {u} to {v}")
 
     def _between(self, tile: int, start: int, goal: int) -> list[Portal]:
-        """The portals from one triangle of a tile to another."""
+        """The portals between two triangles of a tile."""
         triangles = self._triangles(tile)
         owner = {
             edge: i for i, (a, b, c) in enumerate(triangles) for edge in ((a, b), (b, c), (c, a))
@@ -120,11 +123,11 @@ class Sleeves:
 
 
 def triangulated(cycle: Sequence[int], points: Sequence[Point]) -> list[Triangle]:
-    """The triangles of a simple polygon (counter-clockwise), by cutting off its ears.
+    """A triangulation of a simple polygon, given counter-clockwise, by ear clipping.
 
-    It may touch itself at vertices and along edges. Vertices with an angle of pi stay
-    vertices: no triangle has one inside an edge.
-    O(n^2) for a tile with n vertices and a bounded number of candidates at a time.
+    The boundary may touch itself at vertices and along edges. Vertices with an angle of pi are
+    kept: no triangle has a vertex in the interior of one of its edges. O(n^2) in a tile of n
+    vertices, if the number of candidate ears tested in a row is bounded.
     """
     nodes = list(cycle)
     triangles: list[Triangle] = []
@@ -160,7 +163,7 @@ def pull_tight(
 ) -> list[int]:
     """The nodes at which the shortest path through portals bends, in order.
 
-    The funnel algorithm. A path that passes a node straight on does not bend there.
+    The funnel algorithm. Nodes that the path passes straight on are left out.
     """
     ends = [(points[l], points[r]) for l, r in portals] + [(goal, goal)]
     nodes = [*portals, (-1, -1)]
@@ -173,7 +176,7 @@ def pull_tight(
         if apex == right or side(apex, right, r) >= 0:
             if apex in (right, left) or _opens(apex, left, r):
                 right, right_at = r, i
-            else:  # the right end has passed the left side: the path bends there
+            else:  # the right end has crossed the left side of the funnel: a bend
                 path.append((left, nodes[left_at][0]))
                 apex = right = left
                 i, right_at = left_at + 1, left_at
@@ -192,9 +195,9 @@ def pull_tight(
 
 
 def _opens(apex: Point, left: Point, right: Point) -> bool:
-    """Whether the right end is right of the left one, seen from the apex.
+    """Whether ``right`` is to the right of ``left`` as seen from the apex.
 
-    Or opposite to it: then the apex is on the portal.
+    Opposite directions count as well: the apex is then on the portal.
     """
     turn = side(apex, left, right)
     return turn < 0 or (turn == 0 and between(left, right, apex))

@@ -1,10 +1,10 @@
-"""The space around the bodies at one time, and what can be asked of it.
+"""The free space at one time, and queries about it.
 
-A point is located by a walk through the tiling along a straight line, a ray is followed
-from tile to tile, and a path is pulled tight in a sleeve of tiles. Making the space takes
-O(n log n), asking O(edges crossed): O(k) of k bodies in a tiling with the fewest faces,
-and O(log n) on the way through the relative hull of a polygon in the mixed one. (Each
-step reads the tile that it passes.)
+A point is located by a straight walk through the tiling, a ray is followed from tile to tile,
+and the shortest path of a homotopy class is found in a sleeve of tiles. Preparation takes
+O(n log n). A query takes O(edges crossed): O(k) for k bodies in a tiling with the minimum number
+of faces, O(log n) across the relative hull of a polygon in the mixed tiling, plus the size of
+the tiles visited.
 
 Source: the paper, sections 4 and 5 (Lemma 5.4 for the number of edges crossed).
 """
@@ -23,11 +23,11 @@ from exactpt.kernel.numbers import QQ, Rational, fraction, rational
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.query.answers import Hit, Path, Place, VertexName
+from exactpt.query.homotopy import ShortestPaths
 from exactpt.query.locate import cast, find, place_of
+from exactpt.query.outer import OuterRectangle, with_outer_triangulation
 from exactpt.query.relative import relative_hull, top_nodes
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.query.surround import Around, surrounded
-from exactpt.query.ways import Ways
 from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.mixed.static import mixed_mesh
 from exactpt.tiling.tiling import Tiling
@@ -35,22 +35,22 @@ from exactpt.tiling.tiling import Tiling
 __all__ = ["FreeSpace", "PointLike"]
 
 PointLike: TypeAlias = "Sequence[Rational]"
-"""A point or direction as a caller may write it: two numbers."""
+"""A point or a direction: a sequence of two numbers."""
 
 
 @final
 class FreeSpace:
-    """The plane at a rational time, tiled.
+    """The plane at a rational time, subdivided into bodies and tiles of the free space.
 
-    Bodies are closed: a ray that grazes one hits it, a segment that touches one is not
-    free. Points are pairs of rationals, exactly what is given.
+    Bodies are closed: a ray that grazes a body hits it, and a segment that touches a body is
+    not free. Coordinates are rational and never rounded.
 
     Args:
-        kinetic: a tiling.
-        at: a rational time, now or before the next event.
+        kinetic: a kinetic tiling.
+        at: a rational time, from now to before the next event.
 
     Attributes:
-        snapshot: the tiling then; `Place.tile` counts its faces.
+        snapshot: the tiling at that time; `Place.tile` is an index into its faces.
     """
 
     def __init__(self, kinetic: Tiling, at: QQ) -> None:
@@ -58,17 +58,17 @@ class FreeSpace:
         self._changes = kinetic.vertices.changes
         self._node = kinetic.vertices.nodes()
         self._mesh: Mesh = kinetic.mesh_now(at)
-        # The trees live on with the run; what they say now is kept.
+        # The trees change as the run goes on; the root nodes are read now.
         self._labelled = (
             (self._mesh, top_nodes(self._mesh)) if isinstance(self._mesh, LabelledMesh) else None
         )
         self._at = at
-        self._wide: dict[int, Ways] = {}
+        self._wide: dict[int, ShortestPaths] = {}
         self.snapshot: Snapshot = snapshot(self._vertices, self._mesh, kinetic.name, at)
 
     @property
     def at(self) -> Fraction:
-        """The time."""
+        """The time of the subdivision."""
         return fraction(self._at)
 
     def __reduce__(self) -> tuple[object, ...]:
@@ -76,7 +76,7 @@ class FreeSpace:
 
     @cached_property
     def _hidden(self) -> set[tuple[int, int]]:
-        """The edges inside bodies, as pairs of nodes."""
+        """The edges inside bodies, as pairs of nodes (u, v) with u < v."""
         mesh, node = self._mesh, self._node
         ends = [mesh.ends(h) for h in mesh.diagonals() if mesh.region[h] == INSIDE]
         return {(min(node[u], node[v]), max(node[u], node[v])) for u, v in ends}
@@ -88,12 +88,12 @@ class FreeSpace:
     # Places and rays
 
     def locate(self, point: PointLike) -> Place:
-        """Where a point is."""
+        """The location of a point: a tile, a diagonal, a body, an edge, a vertex, or outside."""
         spot, crossed = find(self._plane, _point(point))
         return place_of(self._plane, spot, crossed)
 
     def ray_cast(self, origin: PointLike, direction: PointLike) -> Hit | None:
-        """The first point of a ray that a body has; None if it hits nothing.
+        """The first point of a ray that belongs to a body; None if there is none.
 
         Raises:
             InputError: if the direction is (0, 0).
@@ -104,7 +104,7 @@ class FreeSpace:
         return cast(self._plane, start, along)
 
     def is_free(self, p: PointLike, q: PointLike) -> bool:
-        """Whether no body has a point of the closed segment from p to q."""
+        """Whether no body meets the closed segment from p to q."""
         start, end = _point(p), _point(q)
         if start == end:
             return self.locate(start).is_free
@@ -113,73 +113,74 @@ class FreeSpace:
     # Paths
 
     def path(self, start: PointLike, goal: PointLike) -> Path:
-        """The shortest of the paths that cross the fewest diagonals in the same order.
+        """The shortest path homotopic to one that crosses the fewest diagonals.
 
-        Another order of diagonals may have a shorter one. There is always a way between free
-        points, around the convex hull if need be.
+        Another homotopy class may contain a shorter path. Free points are always connected, if
+        need be around the convex hull.
 
         Raises:
             InputError: if one of the points is not free.
         """
         p, q = _point(start), _point(goal)
-        return self._ways((p, q)).path(p, q)
+        return self._paths((p, q)).path(p, q)
 
     def shorten(self, walk: Sequence[PointLike]) -> Path:
-        """The shortest path that a walk can be deformed into, its ends fixed.
+        """The shortest path homotopic to a polyline, with the same ends.
 
         Args:
-            walk: the points of a polyline in free space.
+            walk: the vertices of a polyline in free space, at least one.
 
         Raises:
-            InputError: if a body is in the way.
+            InputError: if the polyline meets a body.
         """
         points = [_point(p) for p in walk]
         if not points:
             raise InputError("a walk has at least one point")
-        return self._ways(points).shorten(points)
+        return self._paths(points).shorten(points)
 
-    def _ways(self, points: Sequence[Point]) -> Ways:
-        """What knows the ways between points: in a rectangle that has them inside."""
+    def _paths(self, points: Sequence[Point]) -> ShortestPaths:
+        """The path finder in the smallest outer rectangle that contains the points."""
         plane = self._plane
         count = self._around.doublings(points) if plane.points else 0
         if count not in self._wide:
             if plane.points:
                 corners = self._around.corners(count)
-                wider = surrounded(self.snapshot, self._hull_nodes(), corners)
+                wider = with_outer_triangulation(self.snapshot, self._hull_nodes(), corners)
                 plane = Subdivision(wider, self._hidden)
-            self._wide[count] = Ways(plane)
+            self._wide[count] = ShortestPaths(plane)
         return self._wide[count]
 
     @cached_property
-    def _around(self) -> Around:
-        return Around.of(self.snapshot)
+    def _around(self) -> OuterRectangle:
+        return OuterRectangle.of(self.snapshot)
 
     # Bodies
 
     def hull(self) -> list[VertexName]:
         """The vertices on the convex hull of all bodies, counter-clockwise.
 
-        Those inside an edge of the hull too. A hull without area is walked there and back.
+        Vertices in the interior of a hull edge are included. A hull without area is traversed in
+        both directions.
         """
         return [self._plane.node_name(v) for v in self._hull_nodes()]
 
     def _hull_nodes(self) -> list[int]:
         plane = self._plane
-        if OUTSIDE not in plane.door:
+        if OUTSIDE not in plane.edge_of:
             return list(range(len(plane.points)))
         m = plane.map
-        cycle = [m.origin[h] for h in m.face(plane.door[OUTSIDE])][::-1]
+        cycle = [m.origin[h] for h in m.face(plane.edge_of[OUTSIDE])][::-1]
         least = cycle.index(min(cycle))
         return cycle[least:] + cycle[:least]
 
     def relative_hull(self, body: str) -> list[VertexName]:
-        """The vertices of the shortest loop around a body and no other, counter-clockwise.
+        """The vertices of the shortest loop around this body and no other, counter-clockwise.
 
-        In the mixed tiling it is known; for others that tiling is built here.
+        The mixed tiling contains it; with any other tiling a mixed tiling is built here.
 
         Raises:
-            InputError: if there is no such body; or if that tiling must be built, and bodies
-                have changed their motions, come or gone since the space was made.
+            InputError: if there is no such body; or if a mixed tiling must be built, and bodies
+                have been added, removed or given new motions since this space was made.
         """
         index, first = self._index(body), self._plane.first
         if first[index + 1] - first[index] == 1:
@@ -201,10 +202,10 @@ class FreeSpace:
         return mesh, top_nodes(mesh)
 
     def neighbours(self, body: str) -> list[str]:
-        """The bodies that a diagonal joins to a body, in the order of the scene.
+        """The bodies connected to a body by a diagonal, in the order of the scene.
 
-        Whatever touches the body next is among them then: a vertex that meets an edge is
-        joined to one of its ends just before.
+        The next body to touch this one is among them at the time of contact: a vertex that is
+        about to meet an edge is joined to an end of it.
 
         Raises:
             InputError: if there is no such body.

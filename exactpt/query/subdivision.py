@@ -1,9 +1,9 @@
-"""The plane at one rational time, cut by the edges of bodies and by diagonals.
+"""The planar subdivision at a rational time, by the edges of bodies and the diagonals.
 
-What a query walks through: a planar map on the vertices of the scene, without copies of
-thin vertices and without faces that have no area (`exactpt.pseudotriangulation.snapshot`), with
-exact coordinates. Its faces are the tiles of free space, the insides of the bodies, and what is
-outside the convex hull.
+Queries walk through it: a planar map on the vertices of the scene, without the infinitesimal
+copies of vertices of degenerate bodies and without faces of area zero
+(`exactpt.pseudotriangulation.snapshot`). Coordinates are exact. The faces are the tiles of the
+free space, the interiors of the bodies, and the exterior of the convex hull.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ OUTSIDE: Final = -1
 
 
 def cross(u: Point, v: Point) -> QQ:
-    """Positive if the direction v is to the left of u."""
+    """The cross product of two vectors: positive if v is to the left of u."""
     return u[0] * v[1] - u[1] * v[0]
 
 
@@ -36,21 +36,21 @@ class Subdivision:
 
     Args:
         snapshot: the tiling.
-        hidden: edges of it, as nodes (u, v) with u < v, that are left out: those inside
-            bodies.
+        hidden: edges of the tiling to leave out, those inside bodies: pairs of nodes (u, v)
+            with u < v.
 
     Attributes:
         snapshot: the tiling.
-        points: of each node, where it is.
-        map: half-edges between nodes; of a node that is all the scene, none.
-        face: of each half-edge, what is on its left: a tile (its number in the snapshot,
-            from 0), `OUTSIDE`, or the inside of body i as ``-2 - i``.
-        boundary: of each edge (half of the handle), whether a body has it.
-        out: of each node, one half-edge that starts there, or -1.
-        door: of each face, one half-edge with the face on its left.
-        names: of the bodies, in the order of the scene.
-        first: of each body, its first node; and at last the number of nodes.
-        body: of each node, its body.
+        points: position of each node.
+        map: half-edges between nodes; none if the scene is a single point.
+        face: face to the left of each half-edge: index of a tile in the snapshot, `OUTSIDE`,
+            or ``-2 - i`` for the interior of body i.
+        boundary: for each edge (half-edge // 2), whether it belongs to a body.
+        out: for each node, one outgoing half-edge, or -1.
+        edge_of: for each face, one half-edge with the face on its left.
+        names: names of the bodies, in the order of the scene.
+        first: first node of each body; the last entry is the number of nodes.
+        body: index of the body of each node.
     """
 
     def __init__(self, snapshot: Snapshot, hidden: Collection[tuple[int, int]] = ()) -> None:
@@ -70,7 +70,7 @@ class Subdivision:
         self.out: list[int] = [-1] * len(self.points)
         self._link(hidden)
         self.face: list[int] = [OUTSIDE] * len(self.map.origin)
-        self.door: dict[int, int] = {}
+        self.edge_of: dict[int, int] = {}
         self._name_faces()
 
     def direction(self, h: int) -> Point:
@@ -79,12 +79,12 @@ class Subdivision:
         return c - a, d - b
 
     def edge_number(self, h: int) -> int:
-        """Of a half-edge of a body, the number of the edge: that of its first vertex."""
+        """The number of the edge of a body that a half-edge belongs to."""
         u, v = sorted((self.map.origin[h], self.map.origin[h ^ 1]))
         return (u if v == u + 1 else v) - self.first[self.body[u]]
 
     def node_name(self, node: int) -> tuple[str, int]:
-        """The body and the vertex of it that a node is."""
+        """The name of the body and the number of the vertex of a node."""
         body = self.body[node]
         return self.names[body], node - self.first[body]
 
@@ -101,11 +101,12 @@ class Subdivision:
                 self.out[node] = edges[0]
                 fan = self._sorted(edges)
                 for h, following in pairwise([*fan, fan[0]]):
-                    # Who comes in against the later one goes on along the earlier one.
+                    # Coming in along the twin of the later half-edge, the face continues
+                    # along the earlier one.
                     self.map.link(following ^ 1, h)
 
     def _sorted(self, edges: list[int]) -> list[int]:
-        """Half-edges out of a node, counter-clockwise from the direction (1, 0)."""
+        """Half-edges out of a node, sorted counter-clockwise from the direction (1, 0)."""
         direction = {h: self.direction(h) for h in edges}
         lower = {h: y < 0 or (y == 0 and x < 0) for h, (x, y) in direction.items()}
 
@@ -127,12 +128,12 @@ class Subdivision:
             face = names.get((origin[h], origin[h ^ 1]))
             if face is not None:
                 self.face[h] = face
-                self.door[face] = h
+                self.edge_of[face] = h
             else:
-                self.door[OUTSIDE] = h
+                self.edge_of[OUTSIDE] = h
 
     def _inner_edges(self, body: int) -> Sequence[tuple[int, int]]:
-        """The edges of a body with an inside, with that on their left."""
+        """The edges of a closed body, directed so that its interior is on their left."""
         nodes = list(range(self.first[body], self.first[body + 1]))
         last = nodes[0], nodes[-1]
         if len(nodes) < 3 or not self._has_edge(*last):
@@ -142,6 +143,6 @@ class Subdivision:
         return list(pairwise([*nodes, nodes[0]]))
 
     def _has_edge(self, u: int, v: int) -> bool:
-        """Whether a body has the edge between two nodes."""
+        """Whether two nodes are joined by an edge of a body."""
         m = self.map
         return any(self.boundary[h >> 1] and m.target(h) == v for h in m.fan(self.out[u]))

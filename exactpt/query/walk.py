@@ -1,8 +1,8 @@
-"""A ray through a subdivision, from face to face, exactly.
+"""A ray through a subdivision, from face to face, in exact arithmetic.
 
-Every decision is the sign of a rational, so rays through vertices, along edges and along
-straight chains need no special treatment: a ray is in a face, on an edge, or at a node,
-and each knows where the ray goes on.
+A point of the ray is in a face, on an edge or at a node, and each of the three cases determines
+how the ray continues. Rays through vertices, along edges and along straight chains are thus no
+exceptions; every decision is the sign of a rational.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, sign
 from exactpt.query.subdivision import Subdivision, cross
 
-__all__ = ["Leg", "On", "Ray", "Spot", "next_leg"]
+__all__ = ["On", "Ray", "RayStep", "Spot", "next_step"]
 
 
 class On(Enum):
-    """What kind of thing a point is on."""
+    """The type of cell that contains a point."""
 
     FACE = "face"
     EDGE = "edge"
@@ -26,25 +26,25 @@ class On(Enum):
 
 
 class Spot(NamedTuple):
-    """Where a point is.
+    """The cell of the subdivision that contains a point.
 
     Attributes:
-        on: inside a face, inside an edge, or on a node.
-        handle: the face; a half-edge of the edge; the node.
+        on: the interior of a face, the interior of an edge, or a node.
+        handle: the face; a half-edge of the edge; or the node.
     """
 
     on: On
     handle: int
 
 
-class Leg(NamedTuple):
-    """A part of a ray.
+class RayStep(NamedTuple):
+    """A maximal part of a ray within one face or along one edge.
 
     Attributes:
-        through: the face, or the half-edge in the direction of the ray, that the open leg
-            is in.
-        end: where it ends, or None if it never does.
-        at: the parameter of the end: it is origin + at * direction.
+        through: the face, or the half-edge in the direction of the ray, that contains the
+            interior of the step.
+        end: the cell that contains its end; None if the step is unbounded.
+        at: the parameter of its end, which is origin + at * direction.
     """
 
     through: Spot
@@ -66,7 +66,7 @@ class Ray:
         self._sides: dict[int, int] = {}
 
     def side(self, node: int) -> int:
-        """1, 0 or -1 as a node is left of, on, or right of the line of the ray."""
+        """1, 0 or -1 if a node is to the left of, on, or to the right of the line of the ray."""
         known = self._sides.get(node)
         if known is None:
             (x, y), (ox, oy), (dx, dy) = self._points[node], self.origin, self.direction
@@ -87,17 +87,17 @@ class Ray:
         )
 
     def point(self, at: QQ) -> Point:
-        """The point with a parameter."""
+        """The point with parameter ``at``."""
         return (
             self.origin[0] + at * self.direction[0],
             self.origin[1] + at * self.direction[1],
         )
 
 
-def next_leg(plane: Subdivision, ray: Ray, spot: Spot, at: QQ) -> Leg:
-    """The leg of a ray that begins on a spot, at a parameter."""
+def next_step(plane: Subdivision, ray: Ray, spot: Spot, at: QQ) -> RayStep:
+    """The step of a ray that starts at a spot with parameter ``at``."""
     if spot.on is On.FACE:
-        return _through_face(plane, ray, spot.handle, plane.door[spot.handle], at)
+        return _through_face(plane, ray, spot.handle, plane.edge_of[spot.handle], at)
     if spot.on is On.EDGE:
         h = spot.handle
         turn = sign(cross(plane.direction(h), ray.direction))
@@ -112,20 +112,20 @@ def next_leg(plane: Subdivision, ray: Ray, spot: Spot, at: QQ) -> Leg:
 
 
 def _ahead(plane: Subdivision, ray: Ray, h: int) -> bool:
-    """Whether a half-edge on the line of the ray leads in its direction."""
+    """Whether a half-edge on the line of the ray has the direction of the ray."""
     (x, y), (dx, dy) = plane.direction(h), ray.direction
     return x * dx + y * dy > 0
 
 
-def _along(plane: Subdivision, ray: Ray, h: int) -> Leg:
+def _along(plane: Subdivision, ray: Ray, h: int) -> RayStep:
     end = plane.map.target(h)
-    return Leg(Spot(On.EDGE, h), Spot(On.NODE, end), ray.reaches(end))
+    return RayStep(Spot(On.EDGE, h), Spot(On.NODE, end), ray.reaches(end))
 
 
 def _sector(plane: Subdivision, ray: Ray, node: int) -> tuple[int, bool]:
-    """The half-edge out of a node whose sector the ray leaves in; whether along it.
+    """The half-edge out of a node whose sector contains the direction; whether it is along it.
 
-    The sector of h is between h and the next one counter-clockwise: the corner of the
+    The sector of h lies between h and the next half-edge counter-clockwise: the corner of the
     face on the left of h.
     """
     fan = plane.map.fan(plane.out[node])
@@ -135,7 +135,7 @@ def _sector(plane: Subdivision, ray: Ray, node: int) -> tuple[int, bool]:
         if turn == 0 and _ahead(plane, ray, h):
             return h, True
     for i, h in enumerate(fan):
-        # The ray is left of this one and right of the next, or the sector is above pi.
+        # The direction is left of h and right of g, or the sector is wider than pi.
         g, after = fan[(i + 1) % len(fan)], turns[(i + 1) % len(fan)]
         wide = len(fan) == 1 or not _is_below_pi(plane, h, g)
         inside = (turns[i] > 0 or after < 0) if wide else (turns[i] > 0 and after < 0)
@@ -148,12 +148,12 @@ def _is_below_pi(plane: Subdivision, h: int, g: int) -> bool:
     return cross(plane.direction(h), plane.direction(g)) > 0
 
 
-def _through_face(plane: Subdivision, ray: Ray, face: int, door: int, at: QQ) -> Leg:
-    """The leg through a face, given by one of its half-edges: to where its boundary is next."""
+def _through_face(plane: Subdivision, ray: Ray, face: int, start: int, at: QQ) -> RayStep:
+    """The step through a face from a parameter on; ``start`` is any half-edge of the face."""
     m = plane.map
     best: QQ | None = None
     end: Spot | None = None
-    h = door
+    h = start
     while True:
         u, v = m.origin[h], m.origin[h ^ 1]
         s, t = ray.side(u), ray.side(v)
@@ -166,5 +166,5 @@ def _through_face(plane: Subdivision, ray: Ray, face: int, door: int, at: QQ) ->
             if when > at and (best is None or when < best):
                 best, end = when, Spot(On.EDGE, h)
         h = m.following[h]
-        if h == door:
-            return Leg(Spot(On.FACE, face), end, at if best is None else best)
+        if h == start:
+            return RayStep(Spot(On.FACE, face), end, at if best is None else best)

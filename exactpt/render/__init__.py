@@ -1,1 +1,1 @@
-"""Pictures: a scene and its tiling as SVG, PNG, or an animation in one HTML file."""
+"""Pictures of a scene and its tiling: SVG, PNG, or an animation in one HTML file."""

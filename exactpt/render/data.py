@@ -1,8 +1,8 @@
-"""A film as JSON data for its page: exact tracks, exact times, and what lives between steps.
+"""JSON data of an animation: exact trajectories, exact times, and the lifetimes of edges and tiles.
 
-Times and places are fixed-point integers (`exactpt.render.fixed`): times in units of
-2**(timeUnit - 192), places in units of 2**(lengthUnit - 192). Tracks are the polynomials
-that the engine runs on, whole.
+Times and coordinates are fixed-point integers (`exactpt.render.fixed`): times in units of
+2**(timeUnit - 192), coordinates in units of 2**(lengthUnit - 192). Trajectories are the
+polynomials of the engine, with all coefficients.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ __all__ = ["data_of"]
 
 _SAFE: Final = 2**53
 _LONGEST: Final = 1200
-"""The most digits of a polynomial whose root a time is that are sent with it."""
+"""Maximum number of digits of the polynomial of a time; longer polynomials are left out."""
 
 
 def data_of(film: Film, *, at: AlgebraicNumber | QQ | None = None) -> dict[str, object]:
-    """What the page needs, as JSON data; ``at`` is the time that is shown first."""
+    """The JSON data that the page needs; ``at`` is the time shown first."""
     scene = film.scene
     time_unit = exponent_above(scene._end - scene._start)
     time_bits = BITS - time_unit
@@ -60,12 +60,12 @@ def data_of(film: Film, *, at: AlgebraicNumber | QQ | None = None) -> dict[str, 
 
 
 def _integer(value: int) -> int | str:
-    """A JSON number if a double holds it, else its digits."""
+    """A JSON number if a double holds the value, otherwise its decimal digits as a string."""
     return int(value) if -_SAFE < value < _SAFE else str(value)
 
 
 def _extent(film: Film) -> tuple[int, tuple[QQ, QQ]]:
-    """The exponent of a power of two above the size of the scene, and a place in it."""
+    """The exponent of a power of two not below the size of the scene, and a point in the scene."""
     scene = film.scene
     last = film.end.simplified()._canonical_interval()[0]
     times = (scene._start, (scene._start + last) / 2, last)

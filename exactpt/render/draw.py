@@ -1,10 +1,10 @@
-"""Drawings: the ending of a file says what, a picture (SVG, PNG) or an animation (HTML)."""
+"""Drawings: a picture (SVG, PNG) or an animation (HTML), by the suffix of the file."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, Literal
 
-from exactpt.errors import InputError
+from exactpt.errors import InputError, TimeRangeError
 from exactpt.files import write_atomically
 from exactpt.kernel.numbers import show
 from exactpt.render.film import film_of
@@ -39,21 +39,22 @@ def draw(
     max_seconds: float | None = None,
     reached: Callable[[AlgebraicNumber], None] | None = None,
 ) -> None:
-    """Draw a scene into a file, whose ending says what: a picture or an animation.
+    """Draw a scene into a file, as a picture or an animation by the suffix of the file.
 
     Args:
-        scene: what moves.
-        path: the file; it is complete or not there.
-        at: when, by default at the start; an animation is shown at that time first.
-        tiling: which tiling to draw.
-        theme: "light", "dark" or "auto" (as the reader prefers; PNG: light).
+        scene: the bodies, their motions and the time span.
+        path: the file, with a suffix in `ENDINGS`; it is complete or not there.
+        at: the time, by default the start; an animation shows that time first.
+        tiling: the name of the tiling, or "auto".
+        theme: "light", "dark" or "auto" (the reader's preference; PNG: light).
         max_events: see `Simulation`.
         max_seconds: see `Simulation`.
-        reached: is told of the times that the run of an animation reaches.
+        reached: called with the times that the run of an animation reaches.
 
     Raises:
-        InputError: if the ending is none of `ENDINGS`, or there is nothing to draw then.
-        BudgetExceeded: if the bounds are reached.
+        InputError: if the suffix is not in `ENDINGS`, or there is no contact to draw.
+        TimeRangeError: if there is nothing to draw at that time.
+        BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
     ending = path.suffix.lower()
     if ending not in ENDINGS:
@@ -87,8 +88,8 @@ def _shown_first(film: Film, at: QQ | Literal["contact"] | None) -> AlgebraicNum
             )
         return film.end
     if at is not None and (at < film.scene._start or film.end.compare_rational(at) < 0):
-        raise InputError(
-            f"--at: nothing to show at t = {show(at)}: the animation runs from "
+        raise TimeRangeError(
+            f"nothing to show at t = {show(at)}: the animation runs from "
             f"t = {show(film.scene._start)} to t = {float(film.end)!r}"
         )
     return at

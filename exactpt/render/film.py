@@ -1,4 +1,4 @@
-"""Films: a run to its end or its first contact, as steps and what lives between them."""
+"""Films: a run as a list of steps, with the lifetimes of edges and tiles between them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Pairs: TypeAlias = "tuple[tuple[int, int], ...]"
 
 
 class Change(NamedTuple):
-    """One event: its kind, and the edges of the tiling that went and came."""
+    """One event: its kind, and the edges of the tiling that were removed and added."""
 
     kind: str
     removed: Pairs
@@ -31,13 +31,13 @@ class Change(NamedTuple):
 
 
 class Step(NamedTuple):
-    """The events of one time.
+    """The events at one time.
 
     Attributes:
-        time: exactly when.
-        changes: in order; one of kind "contact" at the first contact.
-        certificate: the vertices whose certificate fails: three that become collinear, or
-            two that come to lie above one another; none if a motion changes.
+        time: the exact time.
+        changes: the events in order; the last one is of kind "contact" at the first contact.
+        certificate: the vertices of the certificate that fails: three that become collinear, or
+            two whose x-coordinates become equal; empty if only a motion changes.
     """
 
     time: AlgebraicNumber
@@ -48,15 +48,15 @@ class Step(NamedTuple):
 @final
 @dataclass(frozen=True, slots=True)
 class Film:
-    """A run. Vertices are counted through all bodies, in the order of the scene.
+    """A recorded run. Vertices are numbered through all bodies, in the order of the scene.
 
     Attributes:
-        scene: what moved.
+        scene: the scene.
         tiling: the name of the tiling.
-        steps: the times at which something happened; counted from 1, 0 is the start.
-        edges: of the tiling, each with its steps.
-        tiles: likewise.
-        contact: the first contact; the last step is its time.
+        steps: the times with events; step i is ``steps[i - 1]``, step 0 is the start.
+        edges: the edges of the tiling, each with its first and last step.
+        tiles: the tiles, likewise.
+        contact: the first contact, at the last step; None if there is none.
     """
 
     scene: Scene
@@ -68,7 +68,7 @@ class Film:
 
     @property
     def end(self) -> AlgebraicNumber:
-        """The last time."""
+        """The last time of the run."""
         if self.contact is not None:
             return self.contact.time
         return AlgebraicNumber(self.scene._end)
@@ -82,17 +82,17 @@ def film_of(
     max_seconds: float | None = None,
     reached: Callable[[AlgebraicNumber], None] | None = None,
 ) -> Film:
-    """Run a scene, and keep what its animation needs.
+    """Run a scene and record what its animation needs.
 
     Args:
-        scene: what moves.
-        tiling: which tiling to keep.
+        scene: the bodies, their motions and the time span.
+        tiling: the name of the tiling, or "auto".
         max_events: see `Simulation`.
         max_seconds: see `Simulation`.
-        reached: is told of the times that the run reaches.
+        reached: called with the times that the run reaches.
 
     Raises:
-        BudgetExceeded: if the bounds are reached.
+        BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
     simulation = Simulation(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
     kinetic = simulation.kinetic

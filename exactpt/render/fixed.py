@@ -1,7 +1,7 @@
-"""Fixed point: exact numbers as integers in units of a power of two, rounded down.
+"""Fixed-point numbers: exact numbers as integer multiples of a power of two, rounded down.
 
-What is drawn is shifted and scaled exactly before it becomes a double, so a scene far from
-the origin, or very large or small, is drawn as well as any other.
+Coordinates are translated and scaled exactly before they become doubles, so that a scene far
+from the origin, very large or very small, is drawn with the same precision as any other.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from exactpt.kernel.numbers import QQ, floor, power_of_two
 __all__ = ["BITS", "exponent_above", "fixed", "near"]
 
 BITS: Final = 192
-"""How fine pictures are: a time is known to 2**-192 of the time span, a place of the scene."""
+"""Precision in bits: 2**-192 of the time span for times, of the size of the scene for points."""
 
 
 def exponent_above(extent: QQ) -> int:
-    """The least e with ``extent <= 2**e``; 0 if the extent is 0."""
+    """The least integer e with ``extent <= 2**e``; 0 if the extent is 0."""
     if extent == 0:
         return 0
     e = int(extent.numerator).bit_length() - int(extent.denominator).bit_length()
@@ -30,8 +30,8 @@ def fixed(value: AlgebraicNumber | QQ, bits: int) -> int:
     scale = power_of_two(bits)
     if not isinstance(value, AlgebraicNumber):
         return int(floor(value * scale))
-    # Once a rational number is known to be one, the ends meet; an irrational one is inside
-    # a unit, and the ends get there too.
+    # Refinement ends: a rational number gets an interval with equal ends, an irrational one
+    # lies strictly between two consecutive multiples.
     number = value.simplified()
     while (n := floor(number._low * scale)) != floor(number._high * scale):
         number.refine()
@@ -41,7 +41,7 @@ def fixed(value: AlgebraicNumber | QQ, bits: int) -> int:
 def near(value: AlgebraicNumber, span: QQ) -> QQ:
     """A rational at most 2**-192 of the span (rounded up to a power of two) below a number.
 
-    A rational number is itself.
+    A rational number is returned unchanged.
     """
     number = value.simplified()
     if number.is_rational:

@@ -1,4 +1,4 @@
-"""Frames: a still as drawing primitives. Here exact numbers become doubles, in pixels."""
+"""Frames: the drawing primitives of a still. Exact coordinates become doubles, in pixels."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ __all__ = ["Frame", "Line", "Mark", "Pixel", "Shape", "Tile", "frame_of", "tints
 Pixel: TypeAlias = tuple[float, float]
 
 NAMED: Final = 40
-"""The most bodies that are still labelled with their names."""
+"""Maximum number of bodies that are labelled with their names."""
 _LETTER: Final = 8.0
-"""Pixels that a letter of the news takes, on average or more."""
+"""Estimated width in pixels of a letter of `Frame.news`, rounded up."""
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A body: one pixel, two, a polygon (``closed``) or an open chain.
+    """A body: one point, two, a polygon (``closed``) or an open chain, in pixels.
 
-    Its name is written around the pixel ``label``; None if there are too many names.
+    Its name is centred at the pixel ``label``; None if there are too many bodies for labels.
     """
 
     name: str
@@ -43,13 +43,13 @@ class Shape:
 @final
 @dataclass(frozen=True, slots=True)
 class Tile:
-    """A face of the tiling, in a tint (from 0), or in the colour of the body that it belongs to.
+    """A face of the tiling, filled with a tint or with the colour of the body it belongs to.
 
     Attributes:
-        pixels: around it.
-        tint: its tint.
-        colour: in F1, of its body; else None.
-        level: in F1, of its geodesic.
+        pixels: its vertices in order.
+        tint: index of its tint, from 0.
+        colour: colour of the body, for a face of F1; else None.
+        level: level of its geodesic in the tree, for a face of F1.
     """
 
     pixels: tuple[Pixel, ...]
@@ -81,13 +81,13 @@ class Mark:
 @final
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """A picture; its parts are painted in the order: tiles, shapes, lines, marks.
+    """A picture; its parts are painted in the order tiles, shapes, lines, marks.
 
     Attributes:
-        window: what of the plane is shown.
-        caption: the time.
+        window: the part of the plane that is shown.
+        caption: the time, in words.
         news: the contact in words, if this is its time.
-        note: what is drawn, in words.
+        note: a description of the picture.
         tiles, shapes, lines, marks: the parts.
     """
 
@@ -102,7 +102,7 @@ class Frame:
 
 
 def frame_of(still: Still) -> Frame:
-    """The primitives of a still."""
+    """The drawing primitives of a still."""
     scene = still.scene
     places = {body.name: body._at(still.at) for body in scene.bodies}
     window = window_of([place for body in places.values() for place in body])
@@ -136,7 +136,7 @@ def frame_of(still: Still) -> Frame:
 
 
 def _label(pixels: Sequence[Pixel], *, closed: bool) -> Pixel:
-    """Where a name stands: in the middle of a body; of a bent one, where it is widest."""
+    """The position of a name: in the middle of a body; of a non-convex one, where it is widest."""
     x, y = (sum(c) / len(pixels) for c in zip(*pixels, strict=True))
     if len(pixels) < 3 or not closed:
         return x, y - 13.0
@@ -150,7 +150,7 @@ def _label(pixels: Sequence[Pixel], *, closed: bool) -> Pixel:
 
 
 def _inside_at(pixels: Sequence[Pixel], y: float) -> list[tuple[float, float]]:
-    """Where a horizontal line runs inside a polygon."""
+    """The intervals in which the horizontal line at height y is inside a polygon."""
     crossings = sorted(
         px + (y - py) * (qx - px) / (qy - py)
         for (px, py), (qx, qy) in zip(pixels, [*pixels[1:], pixels[0]], strict=True)
@@ -181,7 +181,7 @@ def _tiling(
 
 
 def tints(faces: Sequence[Face]) -> list[int]:
-    """A tint for each face, different across an edge wherever a greedy choice allows it."""
+    """A tint for each face, by a greedy colouring: adjacent faces differ where possible."""
     at_edge: dict[frozenset[int], list[int]] = {}
     chosen: list[int] = []
     for i, face in enumerate(faces):

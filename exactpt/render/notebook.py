@@ -1,4 +1,4 @@
-"""What values show of themselves in a notebook: pictures and words."""
+"""Representations of values in notebooks: pictures and tables."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ __all__ = ["contact_html", "scene_svg", "simulation_svg"]
 
 
 def scene_svg(scene: Scene) -> str:
-    """The bodies of a scene at its start."""
+    """An SVG picture of the bodies of a scene at its start."""
     return svg_of(frame_of(Still(scene, scene._start, None, None)))
 
 
 def simulation_svg(simulation: Simulation) -> str:
-    """The bodies and the tiling at the current time, or the contact."""
+    """An SVG picture of the bodies and the tiling at the current time, or of the contact."""
     return svg_of(frame_of(still_of(simulation)))
 
 
 def contact_html(contact: Contact) -> str:
-    """When, exactly, and what touches what."""
+    """An HTML table of the exact time and of the incidences."""
     number = contact.time.simplified()
     heading = f"First contact at {time_in_words(number)} ({contact.kind})"
     lines = incidences_in_words(contact)

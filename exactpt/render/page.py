@@ -1,4 +1,4 @@
-"""Pages: an animation in one HTML file that needs nothing else, the same in every run."""
+"""Pages: an animation as one self-contained HTML file, the same in every run."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ SCRIPTS: Final = (
     "controls",
     "main",
 )
-"""The parts of the page's script; each needs only those before it, and `main` starts it."""
+"""The parts of the page's script, in order of dependency; `main` starts it."""
 
 
 def page_of(
@@ -47,10 +47,10 @@ def page_of(
     """The animation of a film as an HTML document.
 
     Args:
-        film: what happened.
-        title: of the page.
-        at: the time that is shown first; by default the start.
-        theme: "light", "dark" or "auto" (as the reader prefers).
+        film: the recorded run.
+        title: the title of the page.
+        at: the time shown first; by default the start.
+        theme: "light", "dark" or "auto" (the reader's preference).
     """
     data = json.dumps(data_of(film, at=at), separators=(",", ":"))
     parts = {
@@ -58,11 +58,11 @@ def page_of(
         "summary": escape(_summary(film)),
         "theme": "" if theme == "auto" else f' data-theme="{theme}"',
         "style": _variables() + _asset("page.css"),
-        # Inside a script element nothing but its end is special.
+        # Inside a script element only its closing tag has to be escaped.
         "data": data.replace("<", "\\u003c"),
         "script": "\n".join(_asset(f"{name}.js") for name in SCRIPTS),
     }
-    # Split first: what is filled in may hold what looks like a place to fill.
+    # Split first: inserted text may itself contain a placeholder.
     pieces = _asset("page.html").split("@@")
     return "".join(parts[piece] if i % 2 else piece for i, piece in enumerate(pieces))
 

@@ -1,4 +1,4 @@
-"""Colours: one a body, a few tints for tiles, and two themes; the same in every picture."""
+"""Colours: one per body, tints for tiles, and two themes; the same in every picture."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Final
 __all__ = ["DARK", "LIGHT", "TINTS", "body_colour"]
 
 TINTS: Final = 6
-"""How many tints there are for tiles."""
+"""Number of tints for tiles."""
 
 # No reds: red is for contacts.
 _FIRST: Final = (
@@ -72,10 +72,10 @@ DARK: Final[dict[str, str]] = {
 
 
 def body_colour(index: int) -> str:
-    """The colour of the body at this place in its scene, on light and on dark paper."""
+    """The colour of the body with a given index, legible on light and on dark paper."""
     if index < len(_FIRST):
         return _FIRST[index]
-    # By the golden ratio through the hues from yellow to pink, three degrees of lightness.
+    # Golden-ratio steps through the hues from yellow to pink, in three degrees of lightness.
     step = index - len(_FIRST)
     hue = 0.09 + 0.80 * (step * 0.6180339887498949 % 1.0)
     rgb = colorsys.hls_to_rgb(hue, (0.52, 0.60, 0.46)[step % 3], 0.46)

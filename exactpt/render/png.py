@@ -8,7 +8,7 @@ __all__ = ["png_of"]
 
 
 def png_of(svg: str, *, zoom: int = 2) -> bytes:
-    """The pixels of an SVG document, ``zoom`` times as many in each direction.
+    """The PNG image of an SVG document, with ``zoom`` pixels per unit in each direction.
 
     Raises:
         InputError: if resvg is not installed; the message says how to install it.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, final
 
-from exactpt.errors import InputError
+from exactpt.errors import InputError, TimeRangeError
 from exactpt.kernel.numbers import show
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.render.fixed import near
@@ -26,9 +26,9 @@ class Still:
 
     Attributes:
         scene: the scene.
-        at: the time; of one that is not rational, a rational just before it.
-        tiling: the tiling then (at a contact: the one that ends there); None if the bodies
-            touch at the start, and there is none.
+        at: the time; a rational just before it if the time is irrational.
+        tiling: the tiling at that time (at a contact: the one just before); None if the bodies
+            touch at the start and there is no tiling.
         contact: the contact, if this is its time.
     """
 
@@ -46,16 +46,16 @@ def still(
     max_events: int | None = None,
     max_seconds: float | None = None,
 ) -> Still:
-    """The scene at a rational time, or (None) at its first contact.
+    """The scene at a rational time, or at its first contact if ``at`` is None.
 
     Raises:
-        InputError: if the time is outside the span or after the first contact, or there is
-            no contact.
-        BudgetExceeded: if the bounds are reached.
+        InputError: if there is no contact, but it is asked for.
+        TimeRangeError: if the time is outside the span or after the first contact.
+        BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
     if at is not None and not scene._start <= at <= scene._end:
-        raise InputError(
-            f"--at: t = {show(at)} is outside the time span "
+        raise TimeRangeError(
+            f"t = {show(at)} is outside the time span "
             f"from {show(scene._start)} to {show(scene._end)}"
         )
     simulation = Simulation(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
@@ -67,8 +67,8 @@ def still(
             f"no contact to draw from t = {show(scene._start)} to t = {show(scene._end)}"
         )
     if at is not None and contact is not None and contact.time.compare_rational(at) != 0:
-        raise InputError(
-            f"--at: nothing to draw at t = {show(at)}: "
+        raise TimeRangeError(
+            f"nothing to draw at t = {show(at)}: "
             f"the first contact is at t = {float(contact.time)!r}"
         )
     return still_of(simulation)
@@ -81,6 +81,6 @@ def still_of(simulation: Simulation) -> Still:
     at = near(now, scene._end - scene._start)
     if kinetic is None:
         return Still(scene, at, None, contact)
-    # Where it is not defined, the tiling is the one that ends or has just begun then.
+    # At an event time the tiling may be undefined: draw the one that ends or begins there.
     mesh = kinetic.mesh_now(at) if contact is None and now.is_rational else kinetic.mesh_after()
     return Still(scene, at, snapshot(kinetic.vertices, mesh, simulation.name, at), contact)

@@ -1,4 +1,4 @@
-"""SVG: the primitives of a frame as text, for light and for dark paper."""
+"""SVG: the primitives of a frame as a document, for light and for dark paper."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["THEMES", "svg_of"]
 
 THEMES: Final = ("auto", "light", "dark")
-"""``auto`` follows the reader's preference where the picture is shown."""
+"""Names of the themes; ``auto`` follows the reader's preference."""
 
 _HEADER: Final = 60
 _ARROW: Final = 46.0
@@ -26,8 +26,8 @@ _FONT: Final = "ui-sans-serif, system-ui, 'DejaVu Sans', Arial, sans-serif"
 def svg_of(frame: Frame, *, theme: str = "auto") -> str:
     """The picture as an SVG document.
 
-    Strokes keep their width when the picture is scaled. Pixel (0, 0) of the frame's window
-    is at (0, 60), below the caption.
+    Strokes keep their width when the picture is scaled. Pixel (0, 0) of the frame's window is
+    at (0, 60), below the caption.
     """
     width, height = frame.window.width, frame.window.height + _HEADER
     size = f'width="{width}" height="{height}"'
@@ -53,7 +53,7 @@ def svg_of(frame: Frame, *, theme: str = "auto") -> str:
 
 
 def _style(theme: str) -> str:
-    """The rules of a theme; they begin with its class, since documents may hold many pictures."""
+    """The style rules of a theme, prefixed by its class: a page may hold many pictures."""
     if theme == "auto":
         dark = _rules(DARK, theme)
         return f"{_rules(LIGHT, theme)}@media (prefers-color-scheme:dark){{{dark}}}"
@@ -95,7 +95,7 @@ def _group(name: str, parts: Iterable[str]) -> Iterator[str]:
 def _tile(tile: Tile) -> str:
     if tile.colour is None:
         return f'<polygon class="t{tile.tint}" points="{_points(tile.pixels)}"/>'
-    # By level, from the relative hull inwards, in three strengths.
+    # Three opacities by level, from the relative hull inwards.
     opacity = (0.16, 0.28, 0.4)[tile.level % 3]
     fill = f'fill="{tile.colour}" fill-opacity="{opacity}"'
     return f'<polygon {fill} points="{_points(tile.pixels)}"/>'
@@ -145,7 +145,7 @@ def _mark(mark: Mark) -> Iterator[str]:
 
 
 def _arrow(tail: Pixel, direction: Pixel) -> str:
-    """A line from just outside the ring, with a head at its end."""
+    """A line from just outside the ring, with an arrowhead at its end."""
     (x, y), (dx, dy) = tail, direction
     length = math.hypot(dx, dy)
     dx, dy = dx / length, dy / length
@@ -169,7 +169,7 @@ def _pair(pixel: Pixel) -> str:
 
 
 def _number(value: float) -> str:
-    """A thousandth of a pixel is fine enough, and reads well."""
+    """A coordinate rounded to a thousandth of a pixel."""
     text = f"{value:.3f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text
 

@@ -1,8 +1,8 @@
-"""Trackers: what of a tiling is there from which step of a run to which.
+"""Lifetimes of the tiles and edges of a tiling during a run, in numbers of steps.
 
-A tiling that flexes keeps its combinatorics between two steps, so a tile or an edge is
-recorded once, with the steps between which it lives. After a step only what has changed is
-looked at. A tile that changes passes its tint on to the tile that has most of its edges.
+A tiling that flexes keeps its combinatorial structure between two steps, so a tile or an edge is
+recorded once, with its first and last step. After a step only the parts that changed are
+examined. A tile that changes passes its tint on to the tile that shares most of its edges.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class EdgeSpan(NamedTuple):
     """An edge ``u < v`` after step ``first`` until step ``last`` (None: to the end).
 
     ``kind`` is "diagonal", "hull" (a diagonal on the convex hull) or "rim" (an edge of a
-    body there).
+    body on the convex hull).
     """
 
     u: int
@@ -42,9 +42,9 @@ class EdgeSpan(NamedTuple):
 class TileSpan(NamedTuple):
     """A tile after step ``first`` until step ``last`` (None: to the end).
 
-    ``nodes`` run counter-clockwise; ``corners`` are the three of them with angles below pi;
-    ``inside`` tells whether it is part of a body; ``place`` whose relative hull it is in, and
-    at which level.
+    ``nodes`` are in counter-clockwise order; ``corners`` are the three convex ones; ``inside``
+    tells whether the tile is part of a body; ``place`` gives the body whose relative hull
+    contains it, and its level in the tree.
     """
 
     nodes: tuple[int, ...]
@@ -67,7 +67,7 @@ class _Tile:
     since: int
 
     def span(self, last: int | None) -> TileSpan:
-        """The tile until a step."""
+        """The lifetime of the tile, up to a step."""
         return TileSpan(
             self.nodes, self.corners, self.tint, self.inside, self.place, self.since, last
         )
@@ -75,11 +75,11 @@ class _Tile:
 
 @final
 class Tracker:
-    """Watches the mesh of a kinetic tiling.
+    """Observes the mesh of a kinetic tiling.
 
     Args:
-        kinetic: the tiling; `update` tells after which step it is.
-        node: of every moving vertex, the vertex of the scene that it is.
+        kinetic: the tiling; to be reported by `update` after each step.
+        node: for every moving vertex, the vertex of the scene that it is or copies.
     """
 
     def __init__(self, kinetic: Tiling, node: list[int]) -> None:
@@ -105,13 +105,13 @@ class Tracker:
 
     @property
     def edges(self) -> list[EdgeSpan]:
-        """All edges so far: the diagonals, and the edges of bodies on the hull."""
+        """All edges so far: the diagonals, and the edges of bodies on the convex hull."""
         return self._gone_edges + [
             EdgeSpan(*key, kind, since, None) for key, (kind, since) in self._edges.items()
         ]
 
     def update(self, step: int) -> None:
-        """Note what has changed; from this step on it is as it is now."""
+        """Record the changes since the last call; the present state holds from ``step`` on."""
         mesh = self._kinetic.mesh_after()
         now = [mesh.map.origin, mesh.map.following, mesh.region, [*map(int, mesh.corner)]]
         changed: set[int] = set()
@@ -175,7 +175,7 @@ class Tracker:
             self._gone_tiles.append(tile.span(step))
 
     def _new_tint(self, name: int, cycle: list[int]) -> int:
-        """A tint that no tile next to it has, if there is one."""
+        """A tint that no neighbouring tile has, if there is one."""
         nearby = (self._tiles.get(self._tile_of[h ^ 1]) for h in cycle)
         taken = {tile.tint for tile in nearby if tile is not None}
         free = [tint for tint in range(TINTS) if tint not in taken]
@@ -206,7 +206,7 @@ class Tracker:
                 self._edges[key] = (kind, step)
 
     def _kind(self, members: Iterable[int]) -> str | None:
-        """What copies of an edge are together; None for an edge or the inside of a body."""
+        """The kind of an edge, given its copies; None for an edge of a body or inside one."""
         mesh = self._kinetic.mesh_after()
         edges = [e for e in members if mesh.boundary[e] or mesh.region[2 * e] != INSIDE]
         boundary = any(mesh.boundary[e] for e in edges)
@@ -216,7 +216,7 @@ class Tracker:
 
 
 def _differences(old: Sequence[object], new: Sequence[object]) -> list[int]:
-    """Where two lists differ. Chunks are compared first: nearly all of them are equal."""
+    """The indices at which two lists differ. Equal chunks are skipped at once."""
     return [
         i
         for start in range(0, max(len(old), len(new)), _CHUNK)
@@ -229,7 +229,7 @@ def _differences(old: Sequence[object], new: Sequence[object]) -> list[int]:
 
 
 def _heirs(cycles: list[list[int]], old: dict[int, int]) -> list[int]:
-    """Which tile each cycle continues: the one that had most of its half-edges; -1 for none."""
+    """For each cycle the tile that it continues, the one that had most of its half-edges; or -1."""
     votes = sorted(
         (-count, i, tile)
         for i, cycle in enumerate(cycles)

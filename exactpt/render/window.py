@@ -1,4 +1,4 @@
-"""Windows: which part of the plane a picture shows; scaled exactly, then rounded to doubles."""
+"""Windows: the part of the plane that a picture shows, and its exact scaling to pixels."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ class Window:
     """A rectangle of the plane, ``width`` by ``height`` pixels.
 
     Attributes:
-        left, top: the place of the plane at pixel (0, 0); pixels count downwards from it.
-        scale: pixels for a unit of length, the same in both directions.
+        left, top: the point of the plane at pixel (0, 0); pixel rows count downwards.
+        scale: pixels per unit of length, the same in both directions.
     """
 
     left: QQ
@@ -33,13 +33,13 @@ class Window:
     height: int
 
     def pixel(self, x: QQ, y: QQ) -> tuple[float, float]:
-        """Where a point of the plane is in the picture."""
+        """The pixel of a point of the plane."""
         across, down = (x - self.left) * self.scale, (self.top - y) * self.scale
         return nearest_float(across), nearest_float(down)
 
 
 def window_of(points: Sequence[tuple[QQ, QQ]]) -> Window:
-    """The window around some points: as large as fits, with a margin, never distorted."""
+    """The window around some points: as large as fits, with a margin, without distortion."""
     xs = [x for x, _ in points] or [QQ(0)]
     ys = [y for _, y in points] or [QQ(0)]
     across, up = max(xs) - min(xs), max(ys) - min(ys)

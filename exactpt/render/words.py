@@ -22,7 +22,7 @@ __all__ = [
 
 
 def clean(text: str) -> str:
-    """The text without characters that XML cannot hold (they become U+FFFD)."""
+    """The text with each character that XML does not allow replaced by U+FFFD."""
     return "".join(c if _is_xml(ord(c)) else "\ufffd" for c in text)
 
 
@@ -31,7 +31,7 @@ def _is_xml(c: int) -> bool:
 
 
 def short(text: str, limit: int = 24) -> str:
-    """The text, cut in the middle so that a label stays a label."""
+    """The text, shortened in the middle to ``limit`` characters."""
     if len(text) <= limit:
         return text
     half = (limit - 1) // 2
@@ -39,7 +39,7 @@ def short(text: str, limit: int = 24) -> str:
 
 
 def time_in_words(time: AlgebraicNumber | QQ) -> str:
-    """``t = 5/2``, or ``t ≈ 3.1415926`` for a number that is not rational or long."""
+    """``t = 5/2``, or ``t ≈ 3.1415926`` for an irrational number or a long fraction."""
     low = getattr(time, "low", time)
     exact = str(low)
     if low == getattr(time, "high", time) and len(exact) <= 16:
@@ -48,7 +48,7 @@ def time_in_words(time: AlgebraicNumber | QQ) -> str:
 
 
 def pair_in_words(pair: Pair) -> str:
-    """Which feature touches which: ``vertex 2 of tip on edge 4 of box``."""
+    """The two features of an incidence: ``vertex 2 of tip on edge 4 of box``."""
     mine = f"vertex {pair.vertex} of {short(pair.body)}"
     if pair.edge is None:
         return f"{mine} on vertex {pair.other_vertex} of {short(pair.other)}"
@@ -56,7 +56,7 @@ def pair_in_words(pair: Pair) -> str:
 
 
 def polynomial_in_words(coefficients: Sequence[object]) -> str:
-    """An integer polynomial in t, given with the constant first: ``3 t^2 - t + 1``."""
+    """An integer polynomial in t, given with the constant term first: ``3 t^2 - t + 1``."""
     terms = []
     for power, coefficient in enumerate(map(str, coefficients)):
         size = coefficient.lstrip("-")
@@ -69,14 +69,14 @@ def polynomial_in_words(coefficients: Sequence[object]) -> str:
 
 
 def incidences_in_words(contact: Contact) -> list[str]:
-    """Every vertex that touches something, and every two bodies that share a point."""
+    """One line for every incidence, and for every two bodies that share a point."""
     return [pair_in_words(pair) for pair in contact.pairs] + [
         f"{short(a)} and {short(b)} share a point" for a, b in contact.overlaps
     ]
 
 
 def contact_in_words(contact: Contact, *, limit: int = 2) -> str:
-    """One line: what touches what; of more than ``limit`` incidences only how many more."""
+    """One line: the first ``limit`` incidences and the number of others."""
     found = incidences_in_words(contact)
     more = [f"{len(found) - limit} more"] if len(found) > limit else []
     return ", ".join(found[:limit] + more)

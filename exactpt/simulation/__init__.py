@@ -1,1 +1,1 @@
-"""A scene that runs: events as they happen, the tiling at any time, the first contact."""
+"""A running scene: its events, its tiling at any time, its contacts."""

@@ -14,10 +14,10 @@ __all__ = ["Event"]
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Event:
-    """A change of the tiling, or the first contact.
+    """A change of the tiling, or a contact.
 
     Attributes:
-        time: exactly when.
+        time: the exact time.
         kind: "corner", "reflex", "hull", "diagonal", "x-order", "motion" or "contact".
         removed, added: edges of the tiling, as pairs of names "body:vertex".
     """
@@ -28,7 +28,7 @@ class Event:
     added: tuple[tuple[str, str], ...] = ()
 
     def to_json(self) -> dict[str, object]:
-        """The event as in docs/format.md (a line of ``simulate --events``)."""
+        """The event as a JSON object, see docs/format.md (a line of ``simulate --events``)."""
         return {
             "time": time_to_json(self.time),
             "kind": self.kind,

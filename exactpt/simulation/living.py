@@ -1,4 +1,4 @@
-"""Bodies and the tiling that is kept of them, both of which may change on the way."""
+"""A scene and its tiling, both of which may change during a run."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ __all__ = ["LivingScene"]
 
 @final
 class LivingScene:
-    """A scene with its tiling, in which bodies get new plans, come and go.
+    """A scene with its tiling; bodies are added, removed and given new motions.
 
     Attributes:
-        asked: the tiling that was asked for: "auto" or one of `TILINGS`.
-        exact_only: whether the float filters are switched off.
-        kinetic: the tiling that is kept.
-        changes: how many plans have been set, and bodies added and removed.
+        asked: the requested tiling: "auto" or one of `TILINGS`.
+        exact_only: whether the float filters are off.
+        kinetic: the current tiling.
+        changes: number of new motions, added bodies and removed bodies.
     """
 
     def __init__(
@@ -62,13 +62,13 @@ class LivingScene:
 
     @property
     def scene(self) -> Scene:
-        """The bodies with their present plans, from the last change on; made when asked for."""
+        """The bodies with their current motions, from the last change on; built on first use."""
         if self._scene is None:
             self._scene = self._end.going_on(self._bodies, self._since)
         return self._scene
 
     def body(self, name: str) -> Body:
-        """The body with a name, with its present plan.
+        """The body of a given name, with its current motion.
 
         Raises:
             InputError: if there is none.
@@ -81,11 +81,11 @@ class LivingScene:
         return self._number[name]
 
     def named(self, event: TilingEvent, gone: Mapping[int, str] | None = None) -> Event:
-        """An event of the tiling, in terms of the scene.
+        """An event of the tiling, with vertices named as in the scene.
 
         Args:
             event: the event.
-            gone: the names of vertices that are no more.
+            gone: the names of vertices that have been removed, by id.
         """
         time = event.time.exact or self.kinetic.certifier.resolve(event.time)
 
@@ -100,10 +100,10 @@ class LivingScene:
         )
 
     def rational_now(self) -> QQ:
-        """The current time, at which something is to be changed.
+        """The current time, as a time at which bodies may change.
 
         Raises:
-            InputError: if it is not rational, or the end of the time span.
+            InputError: if it is not rational, or is the end of the time span.
         """
         now = self.kinetic.now.simplified()
         if not now.is_rational:
@@ -116,7 +116,7 @@ class LivingScene:
         return now._low
 
     def set_motions(self, plans: Mapping[str, Motion | Body]) -> list[Event]:
-        """See `Simulation.set_motions`; what changes at once."""
+        """Changes motions, see `Simulation.set_motions`; returns the events caused at once."""
         t = self.rational_now()
         new = {self._index(name): planned(self.body(name), plan, t) for name, plan in plans.items()}
         bodies = self._bodies[:]
@@ -132,11 +132,11 @@ class LivingScene:
         return [self.named(event) for event in events]
 
     def add(self, body: Body) -> list[Event]:
-        """See `Simulation.add`; what changes at once."""
+        """Adds a body, see `Simulation.add`; returns the events caused at once."""
         t = self.rational_now()
         if body.name in self._number:
             raise InputError(f"body {body.name!r}: the name is taken by another body")
-        alone = Scene([body], (t, self._end._end))  # its shape is checked here
+        alone = Scene([body], (t, self._end._end))  # checks its shape
         kinetic = self.kinetic
         if not isinstance(kinetic, PopulatedTiling) or not kinetic.takes(body, t):
             bodies = [*self._bodies, body]
@@ -153,7 +153,7 @@ class LivingScene:
         return [self.named(event) for event in events]
 
     def remove(self, name: str) -> list[Event]:
-        """See `Simulation.remove`; what changes at once."""
+        """Removes a body, see `Simulation.remove`; returns the events caused at once."""
         t = self.rational_now()
         i, kinetic = self._index(name), self.kinetic
         last = self._bodies.pop()
@@ -170,7 +170,7 @@ class LivingScene:
         return [self.named(event, gone) for event in events]
 
     def _restart(self, bodies: Sequence[Body], t: QQ, changes: int) -> list[Event]:
-        """Build the tiling anew, with these bodies; one event tells the difference."""
+        """Rebuild the tiling for these bodies; a single event lists the difference in edges."""
         before = self._diagonals()
         scene = self._end.going_on(bodies, t)
         kinetic = plan_tiling(scene, self.asked, t).start(t, exact_only=self.exact_only)

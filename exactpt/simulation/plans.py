@@ -1,16 +1,15 @@
-"""New plans for bodies: what is accepted, and how to write plans that stay small.
+"""New motions for bodies: the conditions, and motions whose coefficients do not grow.
 
-A plan is taken over at a rational time t, at which it must put every vertex where it is.
-All coordinates are exact, so a plan that is made from positions, which are made from
-earlier plans, may have ever longer numbers. `onward` makes plans whose numbers do not
-grow: a translation with a velocity that is rounded to a grid, of step 2^-g say. Its
-constant term is
+A new motion starts at a rational time t, at which it must leave every vertex in place. All
+coordinates are exact; so if each motion were computed from positions that result from earlier
+motions, its coefficients could become ever longer. `onward` avoids this by a translation whose
+velocity is rounded to a grid of step 2^-g, say. Its constant term is
 
     position(t) - velocity * t = (old constant) + (old velocity - velocity) * t,
 
-so if t is a multiple of 2^-m, all constants of all such plans are multiples of 2^-(g + m)
-plus the rest position. It is only the plan that is rounded: the body is where it was,
-exactly, and all decisions are about the plan as it is.
+so if t is a multiple of 2^-m, the constant terms of all such translations are multiples of
+2^-(g + m), plus the rest position. Only the new velocity is rounded: the position at time t is
+exact, and all decisions refer to the motion as given.
 """
 
 from __future__ import annotations
@@ -26,16 +25,16 @@ from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, SimpleMotion, 
 __all__ = ["GRID", "moved", "onward", "planned", "rounded", "translation_at"]
 
 GRID = power_of_two(-20)
-"""The grid of velocities, if no other is asked for."""
+"""Default grid of velocities."""
 
 
 def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
-    """A body with a new plan from a time on.
+    """A body with a new motion from a time on.
 
     Args:
-        body: as it has been.
-        plan: a motion of its shape (its vertices or keyframes), or another body of the
-            same name with as many vertices.
+        body: the body with its current motion.
+        plan: a motion of the same shape (vertices or keyframes), or another body of the same
+            name and number of vertices.
         t: the time.
 
     Raises:
@@ -57,14 +56,14 @@ def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
 
 
 def moved(body: Body, motion: Motion) -> Body:
-    """The shape of a body with another motion; it may be at another place."""
+    """A body of the same shape with another motion; its position may differ."""
     if body._keyframes:
         return Body(body.name, motion=motion, closed=body.closed, keyframes=body._keyframes)
     return Body(body.name, body.vertices, motion, closed=body.closed)
 
 
 def rounded(value: Rational, grid: Rational = GRID) -> QQ:
-    """The multiple of a grid that is nearest to a number (of two, the larger).
+    """The multiple of ``grid`` nearest to a number; the larger of two.
 
     Raises:
         InputError: if the grid is not positive.
@@ -78,19 +77,19 @@ def rounded(value: Rational, grid: Rational = GRID) -> QQ:
 def onward(
     body: Body, t: Rational, velocity: Sequence[Rational], *, grid: Rational = GRID
 ) -> Motion:
-    """The motion by which a body goes on from where it is, with a new velocity.
+    """The motion by which a body continues from its position with a new velocity.
 
-    Its translation is replaced by a linear one; a turn or an affine change of its shape
-    goes on as it is. Of a motion in pieces, this holds for all pieces from t on.
+    The translation becomes linear; rotation or affine deformation continues unchanged. For a
+    motion in pieces this applies to all pieces from t on.
 
     Args:
-        body: whose motion is replaced.
-        t: when, rational; dyadic, if numbers are to stay small.
-        velocity: (x, y); rounded to the grid.
-        grid: a positive rational; a power of two, if numbers are to stay small.
+        body: the body whose motion is replaced.
+        t: the rational time; dyadic if coefficients are to stay short.
+        velocity: the velocity (x, y), rounded to the grid.
+        grid: a positive rational; a power of two if coefficients are to stay short.
 
     Raises:
-        InputError: if the motion is a caller's own, which has no translation to replace.
+        InputError: if the motion is of a user-defined class, whose translation is unknown.
     """
     now = rational(t)
     vx, vy = rationals(velocity, 2, "a velocity has two coordinates")
@@ -107,7 +106,7 @@ def onward(
 
 
 def translation_at(body: Body, t: QQ) -> tuple[Polynomial, Polynomial]:
-    """The translation that is part of a body's motion just after a time."""
+    """The translational part of a body's motion just after a time."""
     motion = body.motion
     if isinstance(motion, Pieces):
         ends = [*motion._until, None]
@@ -130,7 +129,7 @@ def _translation(motion: SimpleMotion) -> tuple[Polynomial, Polynomial]:
 
 
 def _translated(motion: SimpleMotion, x: Polynomial, y: Polynomial) -> SimpleMotion:
-    """A motion with another translation."""
+    """The same motion with another translation."""
     if isinstance(motion, Rigid):
         return Rigid(motion.half_turn, pivot=motion._pivot, x=x, y=y)
     if isinstance(motion, Affine):

@@ -1,4 +1,4 @@
-"""The questions that a simulation answers about the free space now."""
+"""Queries that a simulation answers about the free space at its current time."""
 
 from __future__ import annotations
 
@@ -19,31 +19,31 @@ __all__ = ["Questions"]
 
 
 class Questions(ABC):
-    """What can be asked of anything that has a space around bodies."""
+    """Base of classes that answer queries about the free space of a tiling."""
 
     _space: FreeSpace | None
 
     @abstractmethod
     def _asked(self) -> Tiling:
-        """The tiling that knows.
+        """The tiling to query.
 
         Raises:
             InputError: if there is none.
         """
 
     def _forget_space(self) -> None:
-        """Time has passed, or something has changed."""
+        """Discard the cached space, after time has passed or bodies have changed."""
         self._space = None
 
     def space(self, at: Rational | None = None) -> FreeSpace:
-        """The space around the bodies, for any number of questions; made in O(n log n).
+        """The free space at a time, for any number of queries; built in O(n log n).
 
         Args:
             at: a rational time, from now to before the next event; by default now.
 
         Raises:
-            InputError: if now is not rational and no time is given, the time is not
-                between now and the next event, or the run has ended with a contact.
+            InputError: if no time is given and now is not rational, if the time is not between
+                now and the next event, or if the run has ended with a contact.
         """
         kinetic = self._asked()
         if at is None:
@@ -70,39 +70,39 @@ class Questions(ABC):
 
     @property
     def tiling(self) -> Snapshot:
-        """The same: ``simulation.tiling.faces``, ``simulation.tiling.diagonals``."""
+        """Same as `snapshot`: ``simulation.tiling.faces``, ``simulation.tiling.diagonals``."""
         return self.snapshot()
 
     def locate(self, point: PointLike) -> Place:
-        """Where a point is now: see `FreeSpace.locate`."""
+        """The location of a point now, see `FreeSpace.locate`."""
         return self.space().locate(point)
 
     def ray_cast(self, origin: PointLike, direction: PointLike) -> Hit | None:
-        """What a ray hits first now: see `FreeSpace.ray_cast`."""
+        """The first point of a ray that belongs to a body now, see `FreeSpace.ray_cast`."""
         return self.space().ray_cast(origin, direction)
 
     def is_free(self, p: PointLike, q: PointLike) -> bool:
-        """Whether a segment meets no body now: see `FreeSpace.is_free`."""
+        """Whether no body meets a segment now, see `FreeSpace.is_free`."""
         return self.space().is_free(p, q)
 
     def path(self, start: PointLike, goal: PointLike) -> Path:
-        """A shortest path of its kind now: see `FreeSpace.path`."""
+        """A shortest path of its homotopy class now, see `FreeSpace.path`."""
         return self.space().path(start, goal)
 
     def shorten(self, walk: Sequence[PointLike]) -> Path:
-        """The shortest path that a walk can be deformed into now: see `FreeSpace.shorten`."""
+        """The shortest path homotopic to a polyline now, see `FreeSpace.shorten`."""
         return self.space().shorten(walk)
 
     def hull(self) -> list[VertexName]:
-        """The convex hull of all bodies now: see `FreeSpace.hull`."""
+        """The vertices on the convex hull of all bodies now, see `FreeSpace.hull`."""
         return self.space().hull()
 
     def relative_hull(self, body: str) -> list[VertexName]:
-        """The shortest loop around a body now: see `FreeSpace.relative_hull`."""
+        """The shortest loop around a body now, see `FreeSpace.relative_hull`."""
         return self.space().relative_hull(body)
 
     def neighbours(self, body: str) -> list[str]:
-        """The bodies next to a body now: see `FreeSpace.neighbours`."""
+        """The bodies connected to a body by a diagonal now, see `FreeSpace.neighbours`."""
         return self.space().neighbours(body)
 
 

@@ -1,4 +1,4 @@
-"""The figures of a run: as in docs/format.md, and the measures of a kinetic data structure."""
+"""Statistics of a run: those of docs/format.md, and the measures of a kinetic data structure."""
 
 from __future__ import annotations
 
@@ -13,24 +13,26 @@ __all__ = ["report"]
 def report(scene: Scene, kinetic: Tiling | None, counts: Counts) -> dict[str, object]:
     """The counts of a run so far.
 
-    Keys, besides those of docs/format.md:
+    Keys, in addition to those of docs/format.md:
 
-    * ``by_kind``: events by kind. ``external``: those that change the tiling as others see
-      it; ``internal``: the rest (new motions, copies of thin vertices, extremes).
-    * ``pending``, ``most_pending``: certificates that may fail, now and at most.
-    * ``locality``: how many of them involve one body now, at most and on average.
-    * ``responsiveness``: certificates computed or skipped an event.
-    * ``efficiency``: all events to external ones.
-    * ``batches``: times at which several certificates failed; ``rebuilds``: how often the
-      tiling was built anew; ``flips``: repair flips.
-    * ``zeros``: certificates that were decided exactly because they vanish, now or for
-      ever.
-    * ``reasons``: the exact decisions, by ``"what: why"``. What: "certificate" (a sign, and
-      when it may change), "sign" (in repairs and constructions), "time" (which of two
-      events is first), "place" (the order along a line, coincidence), "contact" (a vertex
-      on an edge). Why: "zero" (the answer is zero: collinear, level, at one time, touching),
-      "close" (it is not, but floats cannot tell), "copies" (of a vertex of a thin body),
-      "range" (numbers too large or too small for the filters), "asked" (filters off).
+    * ``by_kind``: number of events by kind. ``external``: number of events that change the
+      tiling as users see it; ``internal``: all others (new motions, infinitesimal copies of
+      vertices, extreme vertices).
+    * ``pending``, ``most_pending``: number of certificates in the queue, now and at most.
+    * ``locality``: number of pending certificates that involve one body, maximum and mean.
+    * ``responsiveness``: certificates computed or skipped per event.
+    * ``efficiency``: ratio of all events to external events.
+    * ``batches``: number of times at which several certificates failed; ``rebuilds``: number
+      of times that the tiling was rebuilt; ``flips``: number of flips in repairs.
+    * ``zeros``: number of certificates decided exactly because they vanish, now or
+      identically.
+    * ``reasons``: number of exact decisions by ``"what: why"``. What: "certificate" (a sign,
+      and when it may change), "sign" (in repairs and constructions), "time" (the order of two
+      events), "place" (the order along a line, coincidence), "contact" (a vertex on an edge).
+      Why: "zero" (the sign is zero: collinear, equal in x or y, simultaneous, touching), "close"
+      (it is not zero, but too small for the filter), "copies" (infinitesimal copies of a vertex
+      of a degenerate body), "range" (numbers out of the range of the filters), "asked" (filters
+      off).
     """
     data: dict[str, object] = {
         "bodies": len(scene.bodies),
@@ -70,12 +72,12 @@ def report(scene: Scene, kinetic: Tiling | None, counts: Counts) -> dict[str, ob
 
 
 def _locality(kinetic: Tiling) -> tuple[int, float]:
-    """The largest and the mean number of pending certificates that involve one body."""
+    """Maximum and mean over all bodies of the number of pending certificates that involve it."""
     vertices, queue = kinetic.vertices, kinetic.queue
     counts = [0] * len(vertices.bodies)
     for slot in queue.slots():
         time = queue.pending(slot)
-        if time is None or time.a < 0:  # the end of a piece of motion
+        if time is None or time.a < 0:  # no certificate: the end of a piece of motion
             continue
         ids = (time.a, time.b) if time.c == X_ORDER else (time.a, time.b, time.c)
         for body in {vertices.all[v].body for v in ids if v >= 0}:

@@ -1,8 +1,9 @@
-"""What bodies may do when they touch: bounce, or stop. For `Simulation.run(on_contact=...)`.
+"""Responses to contacts, for `Simulation.run(on_contact=...)`: bounce or stop.
 
-The contact is exact, the response is a choice: new velocities are computed from the
-exact ones, with the normal in doubles, and rounded to a grid (`exactpt.simulation.plans`).
-Whether the bodies then part, and when they meet again, the simulation decides exactly.
+The contact is exact; the response is a modelling choice. New velocities are computed from the
+exact ones with the contact normal in doubles, and are rounded to a grid
+(`exactpt.simulation.plans`). Whether the bodies separate and when they meet again is decided
+exactly by the simulation.
 """
 
 from __future__ import annotations
@@ -26,10 +27,11 @@ if TYPE_CHECKING:
 __all__ = ["Bounce", "stop"]
 
 ROUNDS: Final = 8
+"""Maximum number of passes over the incidences of a contact."""
 
 
 def stop(simulation: Simulation, contact: Contact) -> None:
-    """Let all bodies of a contact stay where they are, in the shape they have."""
+    """Stop all bodies of a contact, in their current position and shape."""
     t = simulation.now._low
     names = sorted({name for pair in contact.pairs for name in (pair.body, pair.other)})
     plans = {}
@@ -41,18 +43,18 @@ def stop(simulation: Simulation, contact: Contact) -> None:
 
 @final
 class Bounce:
-    """Elastic bounces of bodies of equal mass, and off bodies that never move.
+    """Elastic collisions between bodies of equal mass, and with bodies that never move.
 
-    Turns and changes of shape go on as they are; translations become linear.
+    Rotations and deformations continue unchanged; translations become linear.
 
     Args:
-        fixed: names of bodies that stay as they are.
-        slowest: the least speed at which what touches parts, positive.
-        fastest: no coordinate of a velocity becomes larger; None for no limit.
-        grid: of the velocities, positive.
+        fixed: names of bodies that never change their motion.
+        slowest: minimum normal speed, positive, at which touching features separate.
+        fastest: maximum absolute value of each velocity coordinate; None for no limit.
+        grid: positive step to whose multiples velocities are rounded.
 
     Raises:
-        InputError: if ``fixed`` is a text, or a number is not positive.
+        InputError: if ``fixed`` is a string, or a number is not positive.
     """
 
     def __init__(
@@ -74,13 +76,13 @@ class Bounce:
         self._grid = rational(grid)
 
     def __call__(self, simulation: Simulation, contact: Contact) -> None:
-        """Give the bodies of a contact velocities with which they part."""
+        """Give the bodies of a contact velocities with which they separate."""
         t = simulation.now._low
         names = sorted({name for pair in contact.pairs for name in (pair.body, pair.other)})
         bodies = {name: simulation.body(name) for name in names}
         change = {name: [0.0, 0.0] for name in names}
         for _ in range(ROUNDS):
-            # One pair after the other, until all part: a vertex may touch several edges.
+            # Incidence by incidence until all separate: a vertex may touch several edges.
             pushed = [self._push(pair, bodies, change, t) for pair in contact.pairs]
             if not any(pushed):
                 break
@@ -98,7 +100,11 @@ class Bounce:
     def _push(
         self, pair: Pair, bodies: dict[str, Body], change: dict[str, list[float]], t: QQ
     ) -> bool:
-        """Let one pair part, if it does not: equal and opposite pushes along the normal."""
+        """Push one pair apart, by equal and opposite impulses along the normal, if needed.
+
+        Returns:
+            Whether an impulse was applied: not to a pair that separates, nor to fixed bodies.
+        """
         free = [name for name in (pair.body, pair.other) if name not in self._fixed]
         if pair.body == pair.other or not free:
             return False
@@ -131,7 +137,7 @@ class Bounce:
 
 
 def _velocity(body: Body, vertex: int, t: QQ) -> tuple[float, float]:
-    """The velocity of a vertex."""
+    """The velocity of a vertex just after a time, in doubles."""
     track = body._piece_after(t).tracks[vertex]
     w, dw = evaluate(track.w, t), evaluate(derivative(track.w), t)
     x, y = (
@@ -142,7 +148,7 @@ def _velocity(body: Body, vertex: int, t: QQ) -> tuple[float, float]:
 
 
 def _velocity_beside(body: Body, edge: int, place: Point, t: QQ) -> tuple[float, float]:
-    """The velocity of the point of an edge that is nearest to a place."""
+    """The velocity of the point of an edge that is nearest to a given point."""
     points = body._at(t)
     a, b = points[edge], points[(edge + 1) % len(points)]
     dx, dy = b[0] - a[0], b[1] - a[1]
@@ -159,7 +165,7 @@ def _translation_speed(body: Body, t: QQ) -> tuple[float, float]:
 
 
 def _between_centers(a: Body, b: Body, t: QQ) -> tuple[float, float]:
-    """The direction from the middle of the vertices of b to that of a."""
+    """The direction from the centroid of the vertices of b to that of a."""
     (ax, ay), (bx, by) = (
         [sum((p[k] for p in body._at(t)), QQ(0)) / body.size for k in (0, 1)] for body in (a, b)
     )

@@ -1,4 +1,4 @@
-"""Running a scene: time that moves forward, from event to event, up to contacts and on."""
+"""The run of a scene: from event to event, up to the first contact or beyond."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ __all__ = ["Running"]
 
 
 class Running(Questions):
-    """What `exactpt.Simulation` is, without changes of plans and files.
+    """`exactpt.Simulation` without changes of bodies and without files.
 
     Args and attributes: see there.
     """
@@ -75,7 +75,7 @@ class Running(Questions):
 
     @property
     def scene(self) -> Scene:
-        """The bodies with their present plans; it starts at the last change of plans."""
+        """The bodies with their current motions; the scene starts at the last change of motion."""
         return self._given[0] if self._living is None else self._living.scene
 
     @property
@@ -92,21 +92,21 @@ class Running(Questions):
 
     @property
     def kinetic(self) -> Tiling | None:
-        """The tiling that is kept (None if bodies touch at the start); for `exactpt.render`.
+        """The kinetic tiling, for `exactpt.render`; None if bodies touch at the start.
 
-        At a contact it is the one just before.
+        At a contact it is the tiling just before.
         """
         return None if self._living is None else self._living.kinetic
 
     @property
     def stats(self) -> dict[str, object]:
-        """The figures of the run so far; see `exactpt.simulation.report`."""
+        """The counts of the run so far, see `exactpt.simulation.report`."""
         changes = 0 if self._living is None else self._living.changes
         data = report(self.scene, self.kinetic, self._counts())
         return data | {"contacts": self.contacts, "plans": changes}
 
     def _counts(self) -> Counts:
-        """The decisions of the run so far."""
+        """The counts of decisions of the run so far."""
         if self._living is None:
             return Counts(0, 0, {})
         return self._living.kinetic.vertices.counters.now()
@@ -122,23 +122,22 @@ class Running(Questions):
     ) -> Iterator[Event]:
         """Process the events up to and including a time, by default the end of the span.
 
-        Yields every event as it has been processed. The first contact is the last of them,
-        unless ``on_contact`` is given: then the simulation goes back to a rational time
-        just before each contact and calls it with itself and the `Contact`. If it changes
-        anything (`set_motion`, `set_motions`, `add`, `remove`), the run goes on, and ends at
-        that contact only if it comes again while its bodies have the same plans; else it
-        ends there.
+        Yields every event after it has been processed. Without ``on_contact`` the first contact is
+        the last event. With it, the simulation returns to a rational time just before each contact
+        and calls ``on_contact`` with itself and the `Contact`. If that changes anything
+        (`set_motion`, `set_motions`, `add`, `remove`), the run continues, until the same contact
+        recurs while its bodies still have the same motions; otherwise it ends at the contact.
 
         Args:
-            until: the last time.
-            on_contact: lets what touches bounce, stop or slide.
-            margin: how far before a contact that time is, at most; by default about 2^-80
-                of the time span. The time is the last multiple of the margin before the
-                contact, so that its numbers stay small; or one nearer to the contact if
-                something else happens in between.
+            until: the last time, rational.
+            on_contact: the response, which may change motions: bounce, stop or slide.
+            margin: maximum distance in time between the callback and the contact; by default
+                about 2^-80 of the time span. The callback happens at the last multiple of the
+                margin before the contact, whose numbers are short; or later, if another event
+                happens between that time and the contact.
 
         Raises:
-            BudgetExceeded: if the bounds of the simulation are reached.
+            BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
             InputError: if the margin is not positive, or ``until`` is before now.
         """
         end = self.scene._end if until is None else min(rational(until), self.scene._end)
@@ -160,10 +159,10 @@ class Running(Questions):
         """Process the events of the next time at which there are any.
 
         Returns:
-            The events; none if there are no more, and then now is the end.
+            The events; an empty list if there are no more, and then the current time is the end.
 
         Raises:
-            BudgetExceeded: if the bounds of the simulation are reached.
+            BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
         """
         while not self._pending and self.contact is None:
             self._check_time()
@@ -175,10 +174,10 @@ class Running(Questions):
         return events
 
     def run_to_contact(self) -> Contact | None:
-        """The first contact in the time span, or None; the fastest way to it.
+        """The first contact in the time span, or None; the fastest way to find it.
 
         Raises:
-            BudgetExceeded: if the bounds of the simulation are reached.
+            BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
         """
         if self.contact is None:
             kinetic = self._alive().kinetic
@@ -195,7 +194,7 @@ class Running(Questions):
     def _advance(
         self, end: QQ, on_contact: Callable[[Self, Contact], object] | None, grid: QQ
     ) -> bool:
-        """Let the next time with events come; False if there is none up to the end."""
+        """Advance to the next time with events; False if there is none up to the end."""
         living = self._alive()
         self._forget_space()
         try:
@@ -218,7 +217,7 @@ class Running(Questions):
     def _meet(
         self, contact: Contact, on_contact: Callable[[Self, Contact], object], grid: QQ
     ) -> None:
-        """Call back just before a contact; without new plans, let it happen."""
+        """Call back just before a contact; unless something is changed, the contact takes place."""
         living = self._alive()
         kinetic = living.kinetic
         kinetic.retreat(grid)
@@ -237,7 +236,7 @@ class Running(Questions):
         return {name: self._alive().body(name) for name in names}
 
     def _is_met(self, contact: Contact) -> bool:
-        """Whether the last contact comes again: then nothing has been done about it."""
+        """Whether this is the last contact again, with the same motions of its bodies."""
         if self._met is None or self._met[0].compare(contact.time) != 0:
             return False
         now, then = self._plans_in(contact), self._met[1]
@@ -249,7 +248,7 @@ class Running(Questions):
         self._pending.append(Event(contact.time, "contact"))
 
     def _count(self, events: int) -> None:
-        """Count events that are to be told; a contact is told in any case."""
+        """Count events that are to be reported; a contact is reported in any case."""
         self._events += events
         most = self._max_events
         if most is not None and self._events > most and self.contact is None:
@@ -260,21 +259,21 @@ class Running(Questions):
             raise BudgetExceeded("the time is used up", self.reached())
 
     def reached(self) -> Fraction:
-        """A rational time at most now: up to it there is provably no contact."""
+        """A rational time, at most now, up to which there is provably no contact."""
         now = self.now
         return now.low if now.is_rational else now.canonical_interval()[0]
 
     def passed(self) -> Fraction:
-        """As `reached`, but at once, and right in the middle of an event too."""
+        """As `reached`, but computed at once, even in the middle of an event."""
         if self._living is None or self._passed is None:
             return fraction(self._proved)
         frame = self._living.kinetic.vertices.frame
         return fraction(max(self._proved, frame.exact_time(self._passed.low)))
 
     def _change(self, events: Iterable[Event]) -> None:
-        """Take over what a change of plans or bodies at a rational time has caused."""
+        """Report the events that a change of motions or bodies at a rational time has caused."""
         self._pending.extend(events)
-        self._proved, self._passed = self.now._low, None  # a new tiling may have a new frame
+        self._proved, self._passed = self.now._low, None  # times refer to the previous tiling
 
     def _alive(self) -> LivingScene:
         if self._living is None:

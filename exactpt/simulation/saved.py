@@ -1,11 +1,11 @@
-"""A running tiling as JSON data, exactly, and back.
+"""The state of a running tiling as JSON data, exactly, and back.
 
-All that decides what happens next is kept as it is: the half-edges with their handles, the
-pending failures with their enclosures, the exact numbers as far as they have been refined.
-So a run that is restored does just what the saved one would have done.
+Everything that influences later decisions is saved: half-edges with their handles, pending
+failures with their enclosures, and exact numbers with their current isolating intervals. A
+restored run therefore takes the same steps as the saved one would have.
 
 Rationals are texts ``"p/q"``; doubles are JSON numbers (which Python writes and reads
-exactly); a time that is exact is ``{"polynomial", "low", "high"}``.
+exactly); exact times are ``{"polynomial", "low", "high"}``.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ __all__ = [
 ]
 
 Data: TypeAlias = "dict[str, Any]"
-"""A JSON object that has been read; what is wrong with it shows where it is used."""
+"""A JSON object that has been read; defects are detected where it is used."""
 
 _STATS = ("batches", "rebuilds", "flips", "most")
 _CELLS = ("vertex", "left", "right", "left_up", "left_down", "right_up", "right_down")
@@ -92,7 +92,7 @@ def tiling_to_json(kinetic: Tiling) -> Data:
 
 
 def tiling_from_json(data: Data, bodies: Sequence[Body], *, exact_only: bool) -> Tiling:
-    """The tiling with that state, of bodies with their plans."""
+    """The tiling with a saved state, for bodies with their motions."""
     vertices = Vertices(
         bodies,
         [[(v, index) for v, index in body["ring"]] for body in data["bodies"]],
@@ -118,7 +118,7 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], *, exact_only: bool) ->
 
 
 def _kept(data: Data, certifier: Certifier, vertices: Vertices, stats: Stats) -> Tiling:
-    """The tiling, with nothing pending."""
+    """The tiling of the saved class, without pending certificates."""
     if data["kind"] == POINT_TILING:
         structure, chains = _structure_from_json(data["structure"]), Chains(*data["chains"])
         return IncrementalTiling(vertices, certifier, stats, structure, chains)
@@ -138,7 +138,7 @@ def _kept(data: Data, certifier: Certifier, vertices: Vertices, stats: Stats) ->
 
 
 def number_to_json(number: AlgebraicNumber) -> Data:
-    """A number as it is, as far as it has been refined."""
+    """An algebraic number with its current isolating interval."""
     return {
         "polynomial": [str(c) for c in number._polynomial],
         "low": str(number._low),
@@ -147,7 +147,7 @@ def number_to_json(number: AlgebraicNumber) -> Data:
 
 
 def number_from_json(data: Data) -> AlgebraicNumber:
-    """That number."""
+    """The number that `number_to_json` has written."""
     low, high = parse_rational(data["low"]), parse_rational(data["high"])
     return AlgebraicNumber.root(tuple(ZZ(c) for c in data["polynomial"]), low, high)
 

@@ -25,10 +25,10 @@ __all__ = ["Simulation"]
 
 @final
 class Simulation(Running):
-    """Runs a scene from its start towards its end or its first contact.
+    """The run of a scene from its start to its end or its first contact.
 
-    It lives: at rational times, bodies get new motions, come and go, and the free space
-    can be asked about; and with ``on_contact`` it runs on after contacts.
+    At rational times bodies may be given new motions, added and removed, and the free space may
+    be queried; with ``on_contact`` the run continues after contacts.
 
     >>> import exactpt
     >>> ball = exactpt.Body("ball", [(0, 0), (1, 0), (0, 1)], exactpt.Translation([0, 1]))
@@ -42,25 +42,25 @@ class Simulation(Running):
     [('motion', 2.0), ('contact', 6.0), ('motion', 6.0)]
 
     Args:
-        scene: what moves.
-        tiling: which tiling to keep: "auto" or one of `TILINGS`.
-        exact_only: decide everything by exact arithmetic, without the float filters.
-        max_events: raise `BudgetExceeded` instead of telling one more event than these.
-        max_seconds: raise `BudgetExceeded` after so many seconds of the clock.
+        scene: the bodies, their motions and the time span.
+        tiling: the tiling to keep: "auto" or one of `TILINGS`.
+        exact_only: whether exact arithmetic decides everything, without the float filters.
+        max_events: maximum number of reported events; None for no limit.
+        max_seconds: time limit in seconds of wall-clock time; None for no limit.
 
     Raises:
-        InputError: if there is no such tiling, it is not for these bodies, or a bound is
-            no number from 0 on.
+        InputError: if there is no such tiling, it does not support these bodies, or a bound
+            is not a number >= 0.
 
     Attributes:
-        contact: the contact that has ended the run, if one has; no time passes after it.
-        contacts: how many contacts have been met.
+        contact: the contact that has ended the run, or None; no time passes after it.
+        contacts: number of contacts so far.
     """
 
     # Plans
 
     def body(self, name: str) -> Body:
-        """The body with a name, with its present plan.
+        """The body of a given name, with its current motion.
 
         Raises:
             InputError: if there is none.
@@ -68,49 +68,50 @@ class Simulation(Running):
         return self._given[0].body(name) if self._living is None else self._living.body(name)
 
     def set_motion(self, body: str, plan: Motion | Body) -> None:
-        """Let a body go on by another motion from now on; see `set_motions`."""
+        """Give a body another motion from now on, see `set_motions`."""
         self.set_motions({body: plan})
 
     def set_motions(self, plans: Mapping[str, Motion | Body]) -> None:
-        """Let bodies go on by other motions from now on; now must be rational.
+        """Give bodies other motions from now on; the current time must be rational.
 
-        The work is for the certificates of these bodies, not for the scene. (Another kind of
-        tiling is built, once, if it is that of convex bodies and one need not stay convex.)
-        The events that this causes come first in the next `run`.
+        Only certificates that involve these bodies are recomputed. (The tiling is rebuilt once if
+        it is the one for convex bodies and a body need not stay convex.) The events caused are the
+        first ones of the next `run`.
 
         Args:
-            plans: by name, a motion of the body's shape; or a body of that name with as
-                many vertices, for a shape that changes in another way.
+            plans: by name of the body, a motion of its shape; or a body of the same name and
+                number of vertices, if its shape changes in another way.
 
         Raises:
-            InputError: if there is no such body, a vertex would jump (with the two
-                positions), now is not rational or is the end of the time span.
+            InputError: if there is no such body, a vertex would jump (the message names both
+                positions), or now is not rational or is the end of the time span.
         """
         self._change(self._changeable().set_motions(plans))
 
     def add(self, body: Body) -> None:
-        """Add a body now, which must be rational, as the last one.
+        """Add a body at the current time, which must be rational; it becomes the last one.
 
-        The work is for the faces of the tiling that it meets, after a walk to them; in the
-        mixed tiling, for the geodesics of the bodies in whose relative hulls it comes to
-        lie, too. The tiling of points is built anew, O(n log n); so is, once, that of
-        convex bodies when one comes that need not stay convex.
+        Only the faces of the tiling that it meets are changed, after a walk to them; in the mixed
+        tiling also the geodesics of bodies in whose relative hulls it lies. The tiling of points is
+        rebuilt in O(n log n); so is the one for convex bodies, once, if the new body need not stay
+        convex.
 
         Raises:
-            InputError: if its name is taken, it is not simple, it touches another body,
-                now is not rational or is the end of the time span.
+            InputError: if its name is taken, it is not simple, it touches another body, or now is
+                not rational or is the end of the time span.
         """
         self._change(self._changeable().add(body))
 
     def remove(self, body: str) -> None:
-        """Remove a body now, which must be rational; the last one takes its place in the scene.
+        """Remove a body at the current time, which must be rational.
 
-        The work is for the faces of the tiling that it touches, and for the convex hull if
-        it is there; in the mixed tiling, for the geodesics that have bent around it, too.
-        The tiling of points is built anew, O(n log n).
+        The last body of the scene takes its index. Only the faces incident to it are changed, and
+        the convex hull if the body is on it; in the mixed tiling also the geodesics that bend
+        around it. The tiling of points is rebuilt in O(n log n).
 
         Raises:
-            InputError: if there is no such body, now is not rational or is the end.
+            InputError: if there is no such body, or now is not rational or is the end of the time
+                span.
         """
         self._change(self._changeable().remove(body))
 
@@ -123,20 +124,20 @@ class Simulation(Running):
         return self._alive()
 
     def _repr_svg_(self) -> str:
-        """The tiling at the current time, or the contact, for notebooks."""
+        """A picture of the tiling at the current time, or of the contact, for notebooks."""
         return str(extension("picture of a simulation")(self))
 
-    # A run that is interrupted
+    # Saving and copying
 
     def save(self, path: str | Path) -> None:
         """Write the simulation as JSON, exactly; the file is complete or not there.
 
-        `restore` goes on with it: the events that come are the same, byte by byte, as
-        without the interruption. Bounds on events and seconds are not saved.
+        After `restore` the same events follow, byte for byte, as without the interruption. Bounds
+        on events and seconds are not saved.
 
         Raises:
-            InputError: if the file cannot be written, or the scene has what no scene file has
-                (`Scene.save`).
+            InputError: if the file cannot be written, or the scene contains what no scene file can
+                hold (see `Scene.save`).
         """
         from exactpt.simulation.store import json_text
 
@@ -153,13 +154,12 @@ class Simulation(Running):
         """The simulation that `save` has written.
 
         Args:
-            path: of the file.
-            max_events: raise `BudgetExceeded` instead of telling one more event than these,
-                from now on.
-            max_seconds: raise `BudgetExceeded` after so many seconds of the clock.
+            path: the file.
+            max_events: maximum number of events reported from now on; None for no limit.
+            max_seconds: time limit in seconds of wall-clock time; None for no limit.
 
         Raises:
-            InputError: if the file is none, or of another version.
+            InputError: if it is not a saved simulation, or one of another version.
         """
         from exactpt.simulation.store import reading, scene_from_json
 
@@ -167,10 +167,10 @@ class Simulation(Running):
             return _resumed(data, scene_from_json(data["scene"]), max_events, max_seconds)
 
     def copy(self) -> Simulation:
-        """The simulation as it is now, in memory: what happens to one does not to the other.
+        """An independent copy of the simulation, in memory.
 
-        The same events come in both. What is left of bounds on events and seconds is taken
-        along; so it is by `copy.copy`, `copy.deepcopy` and `pickle`, which work too.
+        The same events follow in both. The rest of the bounds on events and seconds is copied too.
+        `copy.copy`, `copy.deepcopy` and `pickle` give the same result.
         """
         return copy(self)
 
@@ -180,7 +180,7 @@ class Simulation(Running):
         return _resumed, (self._data(None), self.scene, events, seconds)
 
     def _met_to_json(self) -> dict[str, object] | None:
-        """The last contact that was met, if none of its bodies has another plan since."""
+        """The last contact, if all of its bodies still have the same motions; else None."""
         from exactpt.simulation.saved import number_to_json
 
         if self._met is None or self._living is None:
@@ -192,11 +192,11 @@ class Simulation(Running):
         return {"time": number_to_json(time), "bodies": sorted(then)}
 
     def to_json(self) -> dict[str, object]:
-        """What `save` writes."""
+        """The JSON data that `save` writes."""
         return self._data(scene_to_json(self.scene))
 
     def _data(self, scene: object) -> dict[str, object]:
-        """The state of the run, with the scene in a form of its own."""
+        """The state of the run, with a given representation of the scene."""
         from exactpt.simulation.saved import tiling_to_json
         from exactpt.simulation.store import VERSION
 
@@ -225,7 +225,7 @@ class Simulation(Running):
 def _resumed(
     data: Mapping[str, Any], scene: Scene, max_events: int | None, max_seconds: float | None
 ) -> Simulation:
-    """The simulation with the state that `Simulation.to_json` tells, of a scene."""
+    """The simulation of a scene, with the state that `Simulation.to_json` has written."""
     from exactpt.simulation.saved import (
         contact_from_json,
         event_from_json,

@@ -1,4 +1,4 @@
-"""The file of a saved simulation: JSON that people can read, an entry a line."""
+"""The file of a saved simulation: readable JSON, one entry per line."""
 
 from __future__ import annotations
 
@@ -15,11 +15,13 @@ from exactpt.scene.scene import Scene
 __all__ = ["VERSION", "json_text", "reading", "scene_from_json"]
 
 VERSION: Final = 4
+"""Version of the file format; files of other versions are refused."""
 WIDTH: Final = 100
+"""Maximum number of characters of a value on one line."""
 
 
 def json_text(data: Mapping[str, object]) -> str:
-    """JSON with what fits a line on one line."""
+    """JSON text in which every value that fits on one line is on one line."""
     return _text(data, "") + "\n"
 
 
@@ -40,13 +42,13 @@ def _text(value: object, indent: str) -> str:
 
 
 def scene_from_json(data: Mapping[str, Any]) -> Scene:
-    """The scene that is part of the file."""
+    """The scene in the data of a file."""
     return loads(json.dumps(data))
 
 
 @contextmanager
 def reading(path: Path) -> Iterator[dict[str, Any]]:
-    """The data of a file; what is missing or wrong in it is an input error.
+    """The data of a file; an error in using it inside the context is an input error.
 
     Raises:
         InputError: if the file cannot be read, is of another version, or damaged.

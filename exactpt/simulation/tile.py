@@ -1,9 +1,9 @@
-"""The tiling of a scene at a rational time, built there or reached by running."""
+"""The tiling of a scene at a rational time, built there or reached by a run."""
 
 from __future__ import annotations
 
 from exactpt.collision.tilings import plan_tiling
-from exactpt.errors import InputError
+from exactpt.errors import TimeRangeError
 from exactpt.kernel.numbers import QQ, show
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.scene.scene import Scene
@@ -25,19 +25,20 @@ def tile_at(
 
     Args:
         scene: the scene.
-        at: when.
-        tiling: which one.
-        by_running: simulate from the start up to then; else the tiling is built then.
+        at: the rational time.
+        tiling: the name of the tiling, or "auto".
+        by_running: whether to run from the start to that time; otherwise it is built then.
         max_events: see `Simulation`.
         max_seconds: see `Simulation`.
 
     Raises:
-        InputError: if the time is outside the span, or not before the first contact.
-        BudgetExceeded: if the bounds are reached.
+        InputError: if there is no such tiling, or it does not support these bodies.
+        TimeRangeError: if the time is outside the span, or not before the first contact.
+        BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
     if not scene._start <= at <= scene._end:
-        raise InputError(
-            f"--at: t = {show(at)} is outside the time span "
+        raise TimeRangeError(
+            f"t = {show(at)} is outside the time span "
             f"from {show(scene._start)} to {show(scene._end)}"
         )
     plan = plan_tiling(scene, plan_tiling(scene, tiling, scene._start).name, at)
@@ -50,8 +51,8 @@ def tile_at(
     for _ in simulation.run(at):
         pass
     if simulation.contact is not None:
-        raise InputError(
-            f"--at: no tiling at t = {show(at)}: the first contact is at "
+        raise TimeRangeError(
+            f"no tiling at t = {show(at)}: the first contact is at "
             f"t = {float(simulation.contact.time)!r}"
         )
     if by_running:

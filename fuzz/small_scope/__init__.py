@@ -1,5 +1,5 @@
-"""Small scope: every placement of small shapes with every order of contact, by number.
+"""Small scope: every placement of small shapes with every order of contact, numbered.
 
-The rest of the fuzzer is random. Here two bodies of few vertices on a small grid are taken
-all, up to symmetry, wherever they touch; what is larger is an evenly spread sample.
+The rest of the fuzzer is random. Here all placements of two touching bodies with few vertices
+on a small grid are enumerated, up to symmetry; larger ones are sampled evenly.
 """

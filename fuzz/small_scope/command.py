@@ -23,18 +23,20 @@ FAILED, INTERRUPTED = 1, 130
 
 
 @click.command("small-scope", context_settings={"help_option_names": ["-h", "--help"]})
-@click.option("--count", type=click.IntRange(min=1), help="How many scenes; by default a round.")
-@click.option("--seconds", type=click.FloatRange(min=0), help="For how long.")
+@click.option("--count", type=click.IntRange(min=1), help="Number of scenes; by default a round.")
+@click.option("--seconds", type=click.FloatRange(min=0), help="Time limit.")
 @click.option("--start", type=click.IntRange(min=0), help="The number of the first scene.")
-@click.option("--today", is_flag=True, help="Start where it is the turn of this day.")
+@click.option("--today", is_flag=True, help="Start with the scene of this day.")
 @click.option(
     "--state",
     type=click.Path(dir_okay=False, path_type=Path),
-    help="Go on from this file if it is there, and keep it up to date.",
+    help="Continue from this file if it exists, and update it.",
 )
-@click.option("--jobs", type=click.IntRange(min=1), default=1, help="How many processes.")
-@click.option("--shrink", default=20.0, show_default=True, help="Seconds for each kind of failure.")
-@click.option("--show", type=click.IntRange(min=0), help="Print the scene with a number, no more.")
+@click.option("--jobs", type=click.IntRange(min=1), default=1, help="Number of processes.")
+@click.option("--shrink", default=20.0, show_default=True, help="Seconds for shrinking a fault.")
+@click.option(
+    "--show", type=click.IntRange(min=0), help="Print the scene with this number and stop."
+)
 def small_scope(
     count: int | None,
     seconds: float | None,
@@ -74,7 +76,7 @@ def small_scope(
 
 
 def _progress(start: int | None, *, today: bool, state: Path | None) -> Progress:
-    """Where to begin, or to go on."""
+    """Where to begin, or to continue."""
     if start is not None and today:
         raise InputError("either --start or --today")
     if state is not None and state.exists():
@@ -86,7 +88,7 @@ def _progress(start: int | None, *, today: bool, state: Path | None) -> Progress
 
 
 class _Reporter:
-    """Prints faults as they come, saves the first of each kind, and where the run is."""
+    """Prints new faults and the progress of the run; saves the first scene of each fault."""
 
     def __init__(self, progress: Progress, state: Path | None, shrink: float) -> None:
         self._progress = progress
@@ -95,7 +97,7 @@ class _Reporter:
         self._met = {(f.method, f.what) for f in progress.tally.faults}
 
     def new_faults(self, faults: list[tuple[Fault, int]]) -> None:
-        """Report faults that were not met before."""
+        """Report faults that have not been reported before."""
         if self._state is not None:
             self._progress.save(self._state)
         for fault, number in faults:

@@ -1,4 +1,4 @@
-"""A look at a scene of the scope: all methods beside the reference, and now and then a tiling."""
+"""The check of a scene of the scope: all methods against the reference, sometimes a tiling."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ from fuzz.witnesses import contact_by, tilings_of
 __all__ = ["AUDITED", "Answer", "Look", "look"]
 
 AUDITED: Final = 16
-"""Of so many scenes in one a tiling is compared with the static one between events, and in
-one a simulation goes on after the contact."""
+"""One in this many scenes gets an audit of a tiling between events, and another one a simulation
+that continues after the contact."""
 
 PATIENCE: Final = 20.0
-"""A method that takes more seconds than this, of processor time, hangs."""
+"""Seconds of processor time after which a method counts as hanging."""
 
 
 class Answer(NamedTuple):
-    """What a method says of a scene.
+    """The answer of a method about a scene.
 
     Attributes:
-        method: "pairs", the name of a tiling, or "static" or "going on" and that.
-        seconds: of processor time.
-        fault: what is wrong with it; None: nothing.
+        method: "pairs", the name of a tiling, or "static" or "going on" and such a name.
+        seconds: processor time.
+        fault: what is wrong with the answer; None if it is right.
     """
 
     method: str
@@ -43,13 +43,13 @@ class Answer(NamedTuple):
 
 
 class Look(NamedTuple):
-    """What was seen in a scene.
+    """The result of a scene.
 
     Attributes:
         planned: the scene.
         contact: whether there is a contact.
         as_planned: whether it is at the planned time.
-        answers: of all methods.
+        answers: the answers of all methods.
     """
 
     planned: Planned
@@ -63,7 +63,7 @@ def look(planned: Planned) -> Look:
     scene = planned.scene
     try:
         expected = first_contact_allpairs(scene)
-    except Exception as error:  # whatever breaks is a finding
+    except Exception as error:  # any exception is a finding
         broken = Answer("reference", 0.0, type(error).__name__)
         return Look(planned, contact=False, as_planned=False, answers=[broken])
 
@@ -97,13 +97,13 @@ def _answer(method: str, judge: Callable[[str], str | None], name: str) -> Answe
     try:
         with limit(PATIENCE):
             fault = judge(name)
-    except Exception as error:  # whatever breaks is a finding
+    except Exception as error:  # any exception is a finding
         fault = type(error).__name__
     return Answer(method, clock.process_time() - began, fault)
 
 
 def _before_going_on(scene: Scene, tiling: str) -> Contact | None:
-    """The first contact of a simulation in which bodies stop where they touch."""
+    """The first contact of a simulation in which bodies stop when they touch."""
     met: list[Contact] = []
 
     def respond(simulation: Simulation, contact: Contact) -> None:

@@ -1,6 +1,6 @@
 """Motions with a contact of a given order at a given time.
 
-A motion is written in a local time s that is 0 at the contact: t - 1, t^2 - 2, ...
+A motion is a function of a local time s that vanishes at the contact: t - 1, t^2 - 2, ...
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ __all__ = [
     "ORDERS",
     "SLOTS",
     "TIMES",
+    "Approach",
     "Clock",
     "Path",
     "Points",
-    "Way",
+    "approaches",
     "deforming",
     "drifting",
     "motion_of",
-    "ways",
 ]
 
 Points: TypeAlias = list[tuple[QQ, QQ]]
@@ -41,18 +41,18 @@ COMPANIONS: Final = {
     "cube": ("linear", "square"),
     "fourth": ("linear", "square"),
 }
-"""What the other coordinate does; a linear one with a square is a square with a linear one."""
+"""Possible motions in the other coordinate; linear with a square equals a square with linear."""
 
 ORDERS: Final = ("rest", *POWERS, "turn", "deform")
-"""How bodies come into contact: at rest, by a power of the time, by a turn, by a vertex."""
+"""How bodies come into contact: at rest, by a power of the time, a rotation, a moving vertex."""
 
 
 class Clock(NamedTuple):
-    """When the planned contact is.
+    """The time of the planned contact.
 
     Attributes:
         time: its name.
-        local: the local time; with two entries the second one holds from t = 1 on.
+        local: the local time; of two entries the second one holds from t = 1 on.
         span: the time span of the scene.
     """
 
@@ -69,7 +69,7 @@ SLOTS: Final = (
     Clock("end", (MIDDLE,), (0, 1)),
     Clock("start", (Polynomial([0, 1]),), (0, 2)),
 )
-"""The times of contacts in turn. At a break bodies touch, and part the way they came."""
+"""Times of contact, used in turn. At a break bodies touch, and separate as they came."""
 
 TIMES: Final = ("start", "middle", "root", "break", "end")
 
@@ -79,18 +79,18 @@ DRIFTS: Final[tuple[Path, ...]] = (
     (Polynomial([0, 1]), Polynomial([0, "-1/2"])),
     (Polynomial([0, -1]), Polynomial([1, 0, 1])),
 )
-"""Motions that all bodies have in common."""
+"""Motions shared by all bodies."""
 
 
-class Way(NamedTuple):
-    """A motion up to its time.
+class Approach(NamedTuple):
+    """A motion of a given order of contact.
 
     Attributes:
-        companion: what the other coordinate does: "alone" if the motion is along a line, else
-            it is "linear" or the "square" of that. Of a turn and of a vertex: "alone" if the
-            motion goes on, "square" if it turns back.
+        companion: the motion in the other coordinate: "alone" for motion along a line, otherwise
+            "linear" or "square". For a rotation or a moving vertex: "alone" if the motion
+            continues, "square" if it turns back.
         direction: the index of the direction in which the body is before the contact.
-        part: of a turn, on which side the pivot is; of a deforming body, which vertex.
+        part: for a rotation, the side of the pivot; for a deforming body, the vertex.
     """
 
     companion: str
@@ -98,30 +98,33 @@ class Way(NamedTuple):
     part: int = 0
 
 
-def ways(order: str, free: int, parts: Sequence[int]) -> list[Way]:
-    """The ways to come into contact with an order from the free directions.
+def approaches(order: str, free: int, parts: Sequence[int]) -> list[Approach]:
+    """The motions with an order of contact that arrive from the free directions.
 
-    There is one for each free direction at least; ``parts`` are the vertices that may deform.
+    There is at least one for each free direction; ``parts`` are the vertices that may deform.
     """
-    open_ways = [i for i in range(len(DIRECTIONS)) if free >> i & 1]
+    open_directions = [i for i in range(len(DIRECTIONS)) if free >> i & 1]
     if order == "rest":
-        return [Way("alone", 0)]
+        return [Approach("alone", 0)]
     if order in POWERS:
         curved = [
-            Way(c, i) for i in open_ways if _is_curved(DIRECTIONS[i]) for c in COMPANIONS[order]
+            Approach(c, i)
+            for i in open_directions
+            if _is_curved(DIRECTIONS[i])
+            for c in COMPANIONS[order]
         ]
-        return [Way("alone", i) for i in open_ways] + curved
+        return [Approach("alone", i) for i in open_directions] + curved
     chosen = (0, 1) if order == "turn" else parts
-    return [Way(c, i, k) for i in open_ways for c in ("alone", "square") for k in chosen]
+    return [Approach(c, i, k) for i in open_directions for c in ("alone", "square") for k in chosen]
 
 
 def _is_curved(step: Vector) -> bool:
-    """Whether it stands for the directions next to an axis: there parabolas begin."""
+    """Whether it represents directions next to an axis, where parabolas begin."""
     return 8 in map(abs, step)
 
 
 def _unit(step: Vector) -> tuple[QQ, QQ]:
-    """A direction at about the length of an edge."""
+    """A direction scaled to about the length of an edge."""
     size = max(map(abs, step))
     scale = 4 if size == 8 else 2 if size == 3 else 1
     return QQ(step[0], scale), QQ(step[1], scale)
@@ -129,7 +132,7 @@ def _unit(step: Vector) -> tuple[QQ, QQ]:
 
 @cache
 def _path(power: int, companion: str, step: Vector, local: Polynomial) -> Path:
-    """A displacement that is 0 at local time 0, and in the direction of a step before it."""
+    """A displacement that vanishes at local time 0, and is in direction ``step`` before it."""
     f = _power(local, power)
     f = -f if power % 2 else f
     if companion == "alone":
@@ -154,59 +157,61 @@ def _in_pieces(motions: Sequence[SimpleMotion]) -> Motion:
 
 
 def drifting(drift: Path) -> Motion:
-    """The motion of a body that only has the common one."""
+    """The motion of a body that has only the shared motion."""
     return Translation(*drift) if drift != (ZERO, ZERO) else REST
 
 
 def motion_of(
-    order: str, way: Way, step: Vector, clock: Clock, drift: Path, pivot: tuple[QQ, QQ]
+    order: str, approach: Approach, step: Vector, clock: Clock, drift: Path, pivot: tuple[QQ, QQ]
 ) -> Motion:
-    """The motion of a body that keeps its shape; at the contact it is where it rests.
+    """The motion of a rigid body; at the contact it is in its rest position.
 
     Args:
-        order: of contact.
-        way: the motion.
-        step: its direction, as the scene is turned.
+        order: the order of contact.
+        approach: the motion.
+        step: its direction, after the symmetry of the presentation.
         clock: the time of contact.
-        drift: what is added to the motion.
-        pivot: a point of contact; a turn is about a point beside it.
+        drift: the shared motion.
+        pivot: a point of contact; a rotation is about a point beside it.
     """
     if order == "rest":
         return drifting(drift)
     if order == "turn":
-        return _in_pieces([_turn(way, step, local, drift, pivot) for local in clock.local])
-    paths = [_path(POWERS[order], way.companion, step, local) for local in clock.local]
+        return _in_pieces([_turn(approach, step, local, drift, pivot) for local in clock.local])
+    paths = [_path(POWERS[order], approach.companion, step, local) for local in clock.local]
     return _in_pieces([Translation(drift[0] + x, drift[1] + y) for x, y in paths])
 
 
-def _turn(way: Way, step: Vector, local: Polynomial, drift: Path, touched: tuple[QQ, QQ]) -> Rigid:
-    """A quarter turn in a unit of local time, by which the point of contact moves sideways."""
-    half_turn = local * local if way.companion == "square" else -local
+def _turn(
+    approach: Approach, step: Vector, local: Polynomial, drift: Path, touched: tuple[QQ, QQ]
+) -> Rigid:
+    """A quarter turn in a unit of local time, which moves the point of contact sideways."""
+    half_turn = local * local if approach.companion == "square" else -local
     x, y = _unit(step)
-    side = -2 if way.part else 2
+    side = -2 if approach.part else 2
     pivot = (touched[0] - side * y, touched[1] + side * x)
     half_turn = _times(half_turn, QQ(side, 2))
     return Rigid(half_turn, pivot=pivot, x=drift[0], y=drift[1])
 
 
 def deforming(
-    name: str, points: Points, vertex: int, way: Way, step: Vector, clock: Clock, drift: Path,
-    factor: QQ, *, closed: bool,
+    name: str, points: Points, vertex: int, approach: Approach, step: Vector, clock: Clock,
+    drift: Path, factor: QQ, *, closed: bool,
 ) -> Body:  # fmt: skip
-    """A body of which a vertex moves, and has its place in the shape at the contact.
+    """A body with one moving vertex, in its given shape at the contact.
 
     Args:
-        name: of the body.
+        name: the name of the body.
         points: its vertices at the contact.
-        vertex: the index of the one that moves.
-        way: its motion.
-        step: the direction of that, as the scene is turned.
+        vertex: the index of the moving one.
+        approach: its motion.
+        step: the direction of that, after the symmetry of the presentation.
         clock: the time of contact.
-        drift: what is added to the motion of all vertices.
-        factor: how far the vertex moves.
+        drift: the shared motion.
+        factor: scale of the motion of the vertex.
         closed: whether the body is a polygon.
     """
-    power = 2 if way.companion == "square" else 1
+    power = 2 if approach.companion == "square" else 1
     path = _path(power, "alone", step, clock.local[0])
 
     def place(displacement: tuple[Polynomial, Polynomial]) -> Path:

@@ -1,6 +1,6 @@
-"""Placements: two shapes that touch without overlapping, and ways to take them apart.
+"""Placements: two shapes that touch without overlapping, and the directions that separate them.
 
-Lengths are in half units of the grid: the middle of an edge is a place, too.
+Lengths are in half units of the grid, so that midpoints of edges are integral.
 """
 
 from __future__ import annotations
@@ -41,14 +41,14 @@ DIRECTIONS: Final[tuple[Vector, ...]] = tuple(
 )
 """The slopes of edges on a 3 x 3 grid, and one direction between any two of these.
 
-Whether two shapes that touch come apart by a small translation depends on its direction only
-by the signs of cross products with edges: these 32 stand for all directions.
+Whether a small translation separates two touching shapes depends on its direction only by
+the signs of cross products with edges: these 32 represent all directions.
 """
 
 FINE: Final = 256
-"""A small translation is a direction divided by this. A cross product of a direction and an
-edge is less in size (at most 9 times 6), and of lattice vectors an integer: so a translation
-changes no sign but that of 0."""
+"""A small translation is a direction divided by this. The cross product of a direction with an
+edge is at most 9 times 6 in absolute value, and that of lattice vectors is an integer: so a small
+translation changes no sign except 0."""
 
 TOUCH, EDGE, ALONG = (1 << (len(DIRECTIONS) + k) for k in range(3))
 ALL: Final = TOUCH - 1
@@ -59,10 +59,10 @@ class Placement(NamedTuple):
 
     Attributes:
         a, b: the shapes.
-        offset: where the corner of a is, if that of b is at 0, in half units.
-        free: bit i is set if a small translation of a in direction i takes them apart.
-        place: what touches: "vertex" on vertices only, "edge" if a vertex is inside an
-            edge, "along" if edges have more than a point in common.
+        offset: position of the corner of a relative to that of b, in half units.
+        free: bit i is set if a small translation of a in direction i separates them.
+        place: what touches: "vertex" if only vertices coincide, "edge" if a vertex is in the
+            interior of an edge, "along" if edges share more than a point.
     """
 
     a: Shape
@@ -73,14 +73,14 @@ class Placement(NamedTuple):
 
     @property
     def kinds(self) -> str:
-        """What the shapes are, in the same order for both orders of the shapes."""
+        """The kinds of the shapes, independent of the order of the shapes."""
         ranked = sorted((self.a, self.b), key=lambda s: (len(s.vertices), s.closed))
         return " and ".join(shape.kind for shape in ranked)
 
 
 @lru_cache(1 << 18)
 def _blocked(v: Vector, w: Vector, r: Vector) -> int:
-    """How the edge from r to r + v meets that from 0 to w.
+    """How the edge from r to r + v meets the edge from 0 to w.
 
     Returns:
         `TOUCH` if it does, with `EDGE` and `ALONG` as in `Placement.place`; and the bits of
@@ -109,7 +109,7 @@ def _doubled(shape: Shape) -> Shape:
 
 
 def _meeting(a: Shape, b: Shape, offset: Vector) -> int:
-    """The bits of `_blocked` for any edges of two doubled shapes, or for an overlap."""
+    """The union of the bits of `_blocked` over all pairs of edges, and those of an overlap."""
     found = 0
     for p, q in edges(a):
         v = (q[0] - p[0], q[1] - p[1])
@@ -128,9 +128,9 @@ def _meeting(a: Shape, b: Shape, offset: Vector) -> int:
 
 @lru_cache(1 << 16)
 def _covered(polygon: Shape, p: Vector, sense: int) -> int:
-    """The bits of the directions (or opposite ones) in which p, moved a little, is inside.
+    """The bits of the directions (or opposite ones) in which p, moved slightly, is inside.
 
-    Right where p is not on the boundary then; of others `_blocked` knows.
+    Correct if p is then not on the boundary; the other cases are covered by `_blocked`.
     """
     fine = [(FINE * x, FINE * y) for x, y in polygon.vertices]
     return sum(
@@ -146,10 +146,10 @@ def disjoint(a: Shape, b: Shape, offset: Vector) -> bool:
 
 
 def placements(a: Shape, b: Shape) -> Iterator[Placement]:
-    """All ways to let a touch b so that they come apart in some direction.
+    """All placements in which a touches b and can be separated from it in some direction.
 
-    With vertices on vertices, on the lattice points inside edges, and, of an edge that has
-    none, on its middle. (Edges along edges of lattices have a vertex on such a point.)
+    Vertices are placed on vertices, on lattice points inside edges and, if an edge has none, on
+    its midpoint. (Overlapping lattice edges have a vertex at such a point.)
     """
     p, q = _doubled(a), _doubled(b)
     offsets = {(u[0] - v[0], u[1] - v[1]) for u in _points(q) for v in p.vertices}
@@ -162,7 +162,7 @@ def placements(a: Shape, b: Shape) -> Iterator[Placement]:
 
 
 def _points(shape: Shape) -> set[Vector]:
-    """The vertices of a doubled shape, and the lattice points or else the middles of edges."""
+    """The vertices of a doubled shape, and lattice points or else midpoints of its edges."""
     found = set(shape.vertices)
     for p, q in edges(shape):
         v = (q[0] - p[0], q[1] - p[1])
@@ -173,7 +173,7 @@ def _points(shape: Shape) -> set[Vector]:
 
 
 def small_shapes(least: int, most: int, grid: int = 3) -> list[Shape]:
-    """The shapes of so many vertices."""
+    """The shapes with ``least`` to ``most`` vertices."""
     sizes = range(least, most + 1)
     return [
         shape
@@ -185,7 +185,7 @@ def small_shapes(least: int, most: int, grid: int = 3) -> list[Shape]:
 
 @cache
 def complete() -> tuple[Placement, ...]:
-    """Every placement of two shapes of up to 3 vertices, or of 4 and up to 2, up to symmetry."""
+    """Every placement of two shapes with up to 3 vertices, or 4 and up to 2, up to symmetry."""
     small = small_shapes(1, 3)
     pairs = [(a, b) for a in small for b in small if _key(b) <= _key(a)]
     pairs += product(small_shapes(4, 4), small_shapes(1, 2))
@@ -206,9 +206,9 @@ def _key(shape: Shape) -> tuple[int, bool, Shape]:
 
 
 def _stabilizer(a: Shape, b: Shape) -> list[Callable[[Vector], Vector]] | None:
-    """What symmetries of a pair of shapes do to the offset; None if the pair has a lesser image.
+    """The actions on the offset of the symmetries of a pair of shapes; None if it is not canonical.
 
-    A symmetry may exchange the shapes.
+    A pair is canonical if no symmetry maps it to a lesser one. Symmetries may exchange the shapes.
     """
     own = (_key(a), _key(b))
     moves: list[Callable[[Vector], Vector]] = []
@@ -226,7 +226,7 @@ def _stabilizer(a: Shape, b: Shape) -> list[Callable[[Vector], Vector]] | None:
 
 
 def move_offset(matrix: Matrix, a: Shape, b: Shape, offset: Vector, *, exchanged: bool) -> Vector:
-    """The offset of the images of two shapes, or with ``exchanged`` that of the other one."""
+    """The offset of the images of two shapes; with ``exchanged``, that of the other shape."""
     x, y = turned(matrix, offset)
     left, low = corner([turned(matrix, v) for v in a.vertices])
     other_left, other_low = corner([turned(matrix, v) for v in b.vertices])

@@ -1,4 +1,4 @@
-"""Runs through the scope: in processes, up to a number or a time, resumed by a small file."""
+"""Runs through the scope: in processes, up to a number or a time, resumable from a small file."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ from fuzz.small_scope.tally import Fault, Tally
 __all__ = ["Progress", "count", "failure_in", "run", "start_of"]
 
 CHUNK: Final = 50
-"""So many scenes are looked at between two looks at the clock."""
+"""Number of scenes between two checks of the time limit."""
 
 A_DAY: Final = 4000
-"""How far the start of a day is from that of the day before."""
+"""Distance of the starts of two consecutive days."""
 
 
 @dataclass(slots=True)
 class Progress:
-    """How far a run through the scope has come.
+    """The progress of a run through the scope.
 
     Attributes:
-        start: the number of its first scene.
-        next: the number of the first scene that has not been looked at.
-        tally: of the others.
+        start: number of its first scene.
+        next: number of the first scene that has not been checked.
+        tally: tally of the checked scenes.
         finished: whether it was not interrupted.
     """
 
@@ -48,7 +48,7 @@ class Progress:
     finished: bool = True
 
     def save(self, path: Path) -> None:
-        """Write it to a file, to go on from there."""
+        """Write it to a file, from which a run can continue."""
         data = {"round": sizes(), "start": self.start, "next": self.next, **self.tally.to_json()}
         write_atomically(path, json.dumps(data) + "\n")
 
@@ -57,7 +57,7 @@ class Progress:
         """Read it from a file.
 
         Raises:
-            InputError: if there is another scope in it, or none.
+            InputError: if the file is not a progress, or one of another scope.
         """
         try:
             data = json.loads(path.read_text())
@@ -69,12 +69,12 @@ class Progress:
 
 
 def start_of(day: datetime.date) -> int:
-    """The first scene of a day; what a day leaves out comes in later rounds."""
+    """The first scene of a day; scenes that a day leaves out come in later rounds."""
     return day.toordinal() * A_DAY
 
 
 def count(numbers: range) -> Tally:
-    """Look at the scenes with these numbers."""
+    """The tally of the scenes with these numbers."""
     began = clock.process_time()
     tally = Tally()
     for number in numbers:
@@ -91,14 +91,14 @@ def run(
     seconds: float | None = None,
     jobs: int = 1,
 ) -> None:
-    """Go on through the scope.
+    """Continue a run through the scope.
 
     Args:
-        progress: how far it has come; changed after every few scenes.
+        progress: its progress; updated after every few scenes.
         report: called then, with the new faults and the first scene of each.
-        most: how many scenes more; None for as many as there is time for.
-        seconds: stop after this time; None for never.
-        jobs: how many processes.
+        most: maximum number of scenes to check; None for no limit.
+        seconds: time limit in seconds; None for no limit.
+        jobs: number of processes.
     """
     deadline = None if seconds is None else clock.monotonic() + seconds
     todo = _chunks(progress.next, most, deadline)
@@ -121,7 +121,7 @@ def _chunks(start: int, most: int | None, deadline: float | None) -> Iterator[ra
 
 
 def _on_cores(todo: Iterator[range], jobs: int) -> Iterator[tuple[range, Tally]]:
-    """The tallies in order; a few chunks are ahead of those at work."""
+    """The tallies in order; a few chunks are queued ahead of the running ones."""
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
         pending: deque[tuple[range, Future[Tally]]] = deque()
         try:
@@ -137,9 +137,9 @@ def _on_cores(todo: Iterator[range], jobs: int) -> Iterator[tuple[range, Tally]]
 
 
 def failure_in(number: int, fault: Fault, seconds: float) -> Failure:
-    """The failure of a scene as a campaign has it, shrunk for so long.
+    """The failure of a scene in the form of a campaign, shrunk for at most ``seconds``.
 
-    What no witness of campaigns objects to is left as it is.
+    A fault that no witness of campaigns finds is not shrunk.
     """
     scene, turn = planned(number).scene, number // AUDITED
     witness = "static" if fault.method.startswith("static") else "reference"

@@ -1,4 +1,4 @@
-"""Scenes with a planned contact, from a placement and a way to come there."""
+"""Scenes with a planned contact, made from a placement and a motion."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from exactpt.motion.motions import Motion
 from exactpt.scene.scene import Scene
 from fuzz.small_scope.motions import (
     DRIFTS,
+    Approach,
     Clock,
     Path,
     Points,
-    Way,
     deforming,
     drifting,
     motion_of,
@@ -26,18 +26,18 @@ from fuzz.small_scope.shapes import SYMMETRIES, Matrix, Shape, Vector, edges, on
 __all__ = ["Plan", "Presentation", "scene_of", "touching"]
 
 SMALLEST = 8
-"""A deforming vertex moves by 2 to the power of minus this at least."""
+"""A deforming vertex moves by at least 2 to the power of minus this."""
 
 
 class Plan(NamedTuple):
-    """A contact as it is planned.
+    """A planned contact.
 
     Attributes:
         placement: the two bodies at the contact.
         third: another body, or None.
-        order: of contact.
-        clock: when it is.
-        way: how it comes about.
+        order: the order of contact.
+        clock: the time of contact.
+        approach: the motion.
         mover: which of the two bodies moves or deforms.
     """
 
@@ -45,17 +45,17 @@ class Plan(NamedTuple):
     third: Third | None
     order: str
     clock: Clock
-    way: Way
+    approach: Approach
     mover: int
 
 
 class Presentation(NamedTuple):
-    """How a scene is shown: what makes no difference to the contact.
+    """The presentation of a scene, which is irrelevant for the contact.
 
     Attributes:
-        matrix: how the scene is turned or reflected.
-        drift: a motion that all bodies have in common.
-        listing: a number by which bodies and vertices are put in order.
+        matrix: a symmetry applied to the scene.
+        drift: a motion shared by all bodies.
+        listing: a number that determines the order of bodies and vertices.
     """
 
     matrix: Matrix
@@ -64,18 +64,18 @@ class Presentation(NamedTuple):
 
     @classmethod
     def numbered(cls, code: int) -> Presentation:
-        """The one that the digits of a number stand for."""
+        """The presentation encoded by the digits of a number."""
         code, i = divmod(code, len(SYMMETRIES))
         listing, k = divmod(code, len(DRIFTS))
         return cls(SYMMETRIES[i], DRIFTS[k], listing)
 
     def point(self, place: Vector) -> tuple[QQ, QQ]:
-        """The image of a place in half units."""
+        """The image of a point in half units."""
         x, y = turned(self.matrix, place)
         return QQ(x, 2), QQ(y, 2)
 
     def listed(self, shape: Shape) -> list[int]:
-        """The vertices in the order of their list: a chain or ring from either end or anywhere."""
+        """The order of the vertices: a chain or polygon from either end or from any vertex."""
         order = list(range(len(shape.vertices)))
         if shape.closed:
             first = self.listing // 2 % len(order)
@@ -112,8 +112,8 @@ def _edges(shape: Shape, corners: list[Vector]) -> list[tuple[Vector, Vector]]:
 
 
 def scene_of(plan: Plan, shown: Presentation) -> Scene:
-    """The scene in which a contact is planned."""
-    x, y = turned(shown.matrix, DIRECTIONS[plan.way.direction])
+    """The scene with a planned contact."""
+    x, y = turned(shown.matrix, DIRECTIONS[plan.approach.direction])
     step = (-x, -y) if plan.mover else (x, y)
     touched = shown.point(touching(plan.placement, plan.mover)[1])
     rest = drifting(shown.drift)
@@ -121,7 +121,7 @@ def scene_of(plan: Plan, shown: Presentation) -> Scene:
         movers = [_deformed(plan, shown, step, QQ(1, 1 << k)) for k in range(SMALLEST + 1)]
         carried = rest
     else:
-        carried = motion_of(plan.order, plan.way, step, plan.clock, shown.drift, touched)
+        carried = motion_of(plan.order, plan.approach, step, plan.clock, shown.drift, touched)
         movers = [_body("a", plan, shown, plan.mover, carried)]
     others = [_body("b", plan, shown, 1 - plan.mover, rest)]
     if plan.third is not None:
@@ -160,7 +160,15 @@ def _deformed(plan: Plan, shown: Presentation, step: Vector, factor: QQ) -> Body
     shape = (plan.placement.a, plan.placement.b)[plan.mover]
     order, corners = shown.listed(shape), _corners(plan.placement, plan.mover)
     points: Points = [shown.point(corners[i]) for i in order]
-    vertex = order.index(plan.way.part)
+    vertex = order.index(plan.approach.part)
     return deforming(
-        "a", points, vertex, plan.way, step, plan.clock, shown.drift, factor, closed=shape.closed
+        "a",
+        points,
+        vertex,
+        plan.approach,
+        step,
+        plan.clock,
+        shown.drift,
+        factor,
+        closed=shape.closed,
     )

@@ -1,9 +1,9 @@
 """The scope: its scenes by number, those of the complete part and those of the sample.
 
-A round has `TOTAL` scenes: each placement of the complete part with each order of contact,
-and the sample. What is left of a scene (the time of contact, the direction, what the other
-coordinate does, which body moves, how the scene is turned and listed) takes turns, from
-placement to placement and from round to round.
+A round consists of each placement of the complete part with each order of contact, and of the
+sample. The other properties of a scene (time of contact, direction, motion in the other
+coordinate, moving body, symmetry, order of bodies and vertices) vary from placement to
+placement and from round to round.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from functools import cache
 from typing import Final, NamedTuple
 
 from exactpt.scene.scene import Scene
-from fuzz.small_scope.motions import ORDERS, SLOTS, Clock, Way, ways
+from fuzz.small_scope.motions import ORDERS, SLOTS, Approach, Clock, approaches
 from fuzz.small_scope.numbering import mixed, spread
 from fuzz.small_scope.placements import Placement, complete
 from fuzz.small_scope.sample import SAMPLES, Third, sampled
@@ -25,14 +25,14 @@ COMPLETE: Final = "complete"
 
 
 class Cell(NamedTuple):
-    """What scenes have in common.
+    """The common properties of a group of scenes.
 
     Attributes:
-        part: "complete", or of which sample.
-        kinds: the two shapes.
-        order: of contact.
+        part: "complete", or the part of the sample.
+        kinds: the kinds of the two shapes.
+        order: the order of contact.
         place: what touches.
-        time: when.
+        time: the time of contact, by name.
     """
 
     part: str
@@ -43,12 +43,12 @@ class Cell(NamedTuple):
 
 
 class Planned(NamedTuple):
-    """A scene and the contact that is planned in it.
+    """A scene with a planned contact.
 
     Attributes:
-        number: of the scene.
-        cell: where it belongs.
-        clock: the planned contact is where the first local time is 0.
+        number: number of the scene.
+        cell: its group.
+        clock: the planned contact is at the zero of its first local time.
         scene: the scene.
     """
 
@@ -59,8 +59,8 @@ class Planned(NamedTuple):
 
 
 LEAST: Final = 200
-"""Scenes of a round with the same kinds of shapes, order and place, at least: where there are
-fewer placements, each comes more than once."""
+"""Minimum number of scenes in a round with the same kinds of shapes, order and place; if there are
+fewer placements, each is repeated."""
 
 
 class Entry(NamedTuple):
@@ -68,8 +68,8 @@ class Entry(NamedTuple):
 
     Attributes:
         placement: the placement.
-        copy: which one it is of the times that it comes in a round.
-        copies: how often it comes.
+        copy: index of this repetition within a round.
+        copies: number of repetitions within a round.
     """
 
     placement: Placement
@@ -79,7 +79,7 @@ class Entry(NamedTuple):
 
 @cache
 def entries() -> tuple[Entry, ...]:
-    """The placements of the complete part, those of rare kinds more than once."""
+    """The placements of the complete part, those of rare kinds repeated."""
     counts = Counter((p.kinds, p.place) for p in complete())
     times = {key: -(-LEAST // count) for key, count in counts.items()}
     return tuple(
@@ -91,14 +91,14 @@ def entries() -> tuple[Entry, ...]:
 
 @cache
 def sizes() -> dict[str, int]:
-    """How many scenes each part of a round has."""
+    """The number of scenes of each part of a round."""
     return {COMPLETE: len(entries()) * len(ORDERS), **SAMPLES}
 
 
 def planned(number: int) -> Planned:
     """The scene with a number.
 
-    In a round the parts come evenly mixed; of each part all scenes come once.
+    In a round the parts are evenly mixed; each part contributes all of its scenes once.
     """
     turn, place = divmod(number, sum(sizes().values()))
     index = spread(place, sum(sizes().values()))
@@ -110,7 +110,7 @@ def planned(number: int) -> Planned:
 
 
 def in_part(number: int, part: str, index: int, turn: int) -> Planned:
-    """The scene with an index in a part of a round, to be shown as its number wants it."""
+    """The scene with an index in a part of a round, in the presentation given by its number."""
     if part == COMPLETE:
         place, k = divmod(index, len(ORDERS))
         placement, copy, copies = entries()[place]
@@ -127,10 +127,10 @@ def in_part(number: int, part: str, index: int, turn: int) -> Planned:
 
 
 def _plan(placement: Placement, third: Third | None, order: str, place: int, turn: int) -> Plan:
-    """The plan whose turn it is: in enough rounds all come."""
+    """The plan for a turn; after enough rounds all plans have been used."""
     if order == "rest":
-        return Plan(placement, third, order, SLOTS[-1], Way("alone", 0), 0)
-    both = [ways(order, placement.free, touching(placement, mover)[0]) for mover in (0, 1)]
+        return Plan(placement, third, order, SLOTS[-1], Approach("alone", 0), 0)
+    both = [approaches(order, placement.free, touching(placement, mover)[0]) for mover in (0, 1)]
     count = len(SLOTS) * (len(both[0]) + len(both[1]))
     first = mixed(place * len(ORDERS) + ORDERS.index(order))
     k, slot = divmod((first + spread(turn, count)) % count, len(SLOTS))

@@ -1,6 +1,6 @@
 """Shapes with few vertices on a small grid, up to translation; and the symmetries of the grid.
 
-Integer geometry of its own: it shares nothing with the package that is looked at.
+Integer geometry that shares no code with the package under test.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ Matrix: TypeAlias = tuple[int, int, int, int]
 SYMMETRIES: Final[tuple[Matrix, ...]] = tuple(
     matrix for u, v in product((1, -1), repeat=2) for matrix in ((u, 0, 0, v), (0, u, v, 0))
 )
-"""The eight symmetries of the grid, as matrices by rows; the identity is the first."""
+"""The eight symmetries of the grid, as row-major matrices; the identity is the first."""
 
 
 class Shape(NamedTuple):
     """A point, a segment, an open chain or a simple polygon.
 
     Attributes:
-        vertices: with least x and least y 0; of all ways to list them the first one.
+        vertices: vertices with minimum x and minimum y 0; the lexicographically first listing.
         closed: whether it is a polygon.
     """
 
@@ -48,7 +48,7 @@ class Shape(NamedTuple):
 
     @property
     def kind(self) -> str:
-        """What it is, in a word and the number of vertices if there may be more."""
+        """The kind of shape in one word, with the number of vertices if that varies."""
         size = len(self.vertices)
         if size < 3:
             return ("point", "segment")[size - 1]
@@ -64,12 +64,12 @@ def turned(matrix: Matrix, v: Vector) -> Vector:
 
 
 def corner(vertices: Sequence[Vector]) -> Vector:
-    """The least x and the least y."""
+    """The minimum x and the minimum y."""
     return min(x for x, _ in vertices), min(y for _, y in vertices)
 
 
 def shape_of(vertices: tuple[Vector, ...], *, closed: bool) -> Shape:
-    """The shape with these vertices, moved to the corner and listed as shapes are."""
+    """The shape with these vertices, translated to the corner and listed canonically."""
     left, low = corner(vertices)
     moved = tuple((x - left, y - low) for x, y in vertices)
     listings = [moved, moved[::-1]]
@@ -86,9 +86,9 @@ def image(matrix: Matrix, shape: Shape) -> Shape:
 
 @cache
 def shapes(size: int, *, closed: bool, grid: int = 3) -> tuple[Shape, ...]:
-    """All simple shapes with so many vertices that fit on a square grid, up to translation.
+    """All simple shapes of ``size`` vertices that fit on a square grid, up to translation.
 
-    Vertices that go straight on are vertices; a polygon has an area.
+    Straight angles are allowed at vertices; polygons have positive area.
     """
     places = [(x, y) for x in range(grid) for y in range(grid)]
     found = {
@@ -147,7 +147,7 @@ def meet(a: Vector, b: Vector, c: Vector, d: Vector) -> bool:
 
 
 def contains(vertices: Sequence[Vector], p: Vector) -> bool:
-    """Whether p is inside a simple polygon; not for points of its boundary."""
+    """Whether p is inside a simple polygon; undefined for points of its boundary."""
     inside = False
     for a, b in _around(vertices):
         if (a[1] > p[1]) != (b[1] > p[1]) and (_side(a, b, p) > 0) == (b[1] > a[1]):

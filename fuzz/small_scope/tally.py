@@ -1,4 +1,4 @@
-"""Tallies: what was seen in the scenes of a scope, by cell and by method; as a table, as JSON."""
+"""Tallies of the scenes of a scope, by cell and by method; as a table and as JSON."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ SCENES, CONTACTS, PLANNED, DISAGREEMENTS = range(4)
 
 
 class Fault(NamedTuple):
-    """What is wrong with some scenes, as far as one fault can be told from another.
+    """A fault, as far as faults can be told apart.
 
     Attributes:
-        method: that is wrong.
-        what: its answer differs in.
-        kinds: of shapes.
-        order: of contact.
+        method: the method that is wrong.
+        what: the attribute in which its answer differs.
+        kinds: the kinds of the shapes.
+        order: the order of contact.
     """
 
     method: str
@@ -34,13 +34,13 @@ class Fault(NamedTuple):
 
 @dataclass(slots=True)
 class Tally:
-    """Counts.
+    """Counts of scenes.
 
     Attributes:
-        cells: scenes, contacts, contacts as planned, and scenes with a disagreement.
-        methods: answers, disagreements, and processor time, by method.
-        faults: the number of the first scene, and how many scenes.
-        seconds: of processor time for everything.
+        cells: for each cell the scenes, contacts, contacts as planned, and disagreements.
+        methods: for each method the answers, disagreements and processor time.
+        faults: for each fault the number of the first scene, and the number of scenes.
+        seconds: processor time of everything.
     """
 
     cells: dict[Cell, list[int]] = field(default_factory=dict)
@@ -60,7 +60,7 @@ class Tally:
                 self.faults.setdefault(key, [seen.planned.number, 0])[1] += 1
 
     def add(self, other: Tally) -> list[tuple[Fault, int]]:
-        """Add the counts of later scenes; the new faults, and the first scene of each."""
+        """Add the counts of later scenes; returns the new faults, with the first scene of each."""
         for cell, counts in other.cells.items():
             _add(self.cells.setdefault(cell, [0] * 4), counts)
         for method, figures in other.methods.items():
@@ -73,16 +73,16 @@ class Tally:
 
     @property
     def scenes(self) -> int:
-        """How many scenes there were."""
+        """Number of scenes."""
         return sum(counts[SCENES] for counts in self.cells.values())
 
     @property
     def disagreements(self) -> int:
-        """In how many of them not all methods agreed."""
+        """Number of scenes on which some methods disagree."""
         return sum(counts[DISAGREEMENTS] for counts in self.cells.values())
 
     def to_json(self) -> dict[str, Any]:
-        """As JSON data."""
+        """The tally as JSON data."""
         return {
             "seconds": self.seconds,
             "cells": [[*cell, *counts] for cell, counts in self.cells.items()],
@@ -92,7 +92,7 @@ class Tally:
 
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Self:
-        """From JSON data."""
+        """The tally from JSON data."""
         return cls(
             {Cell(*row[:5]): row[5:] for row in data["cells"]},
             data["methods"],
@@ -101,7 +101,7 @@ class Tally:
         )
 
     def table(self) -> list[str]:
-        """By part, shapes, order, place and time; then by method."""
+        """Lines by part, shapes, order, place and time; then by method."""
         return [*self._by_cell(), "", *self._by_method(), "", *self._summary()]
 
     def _by_cell(self) -> Iterator[str]:
@@ -138,7 +138,7 @@ def _add(sums: list[Any], values: list[Any]) -> None:
 
 
 def _rank(value: str) -> tuple[int, str]:
-    """Orders and times in their own order, all else by name."""
+    """Sort key: orders and times in their own order, everything else by name."""
     ranked = (*sizes(), *ORDERS, *TIMES)
     return (ranked.index(value) if value in ranked else -1, value)
 
@@ -150,6 +150,6 @@ def _line(name: str, rows: list[list[int]], indent: int = 2) -> str:
 
 
 def _cells_in_all() -> int:
-    """How many cells the complete part has: at rest there is a contact at the start alone."""
+    """Number of cells of the complete part; at rest the only contact is at the start."""
     kinds = {(placement.kinds, placement.place) for placement in complete()}
     return len(kinds) * ((len(ORDERS) - 1) * len(TIMES) + 1)

@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from docs.draw_gallery import blocks, run
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+ARCHITECTURE = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("block", blocks())
@@ -40,19 +42,47 @@ def test_the_code_of_the_readme_runs(capsys):
     assert capsys.readouterr().out.startswith("5.798402006228018 (")
 
 
-@pytest.mark.parametrize("page", [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))])
+@pytest.mark.parametrize(
+    "page", [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").glob("*.md"))]
+)
 def test_links_lead_somewhere(page):
     for target in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")):
         if "://" not in target:
             assert (page.parent / target).exists(), target
 
 
-def test_the_rooms_of_the_readme_are_the_rooms():
-    rooms = {p.parent.name for p in (ROOT / "exactpt").glob("*/__init__.py")}
+def test_the_packages_of_the_architecture_are_the_packages():
+    packages = {p.parent.name for p in (ROOT / "exactpt").glob("*/__init__.py")}
 
-    named = set(re.findall(r"^\| `exactpt/(\w+)` \|", README, re.MULTILINE))
+    named = set(re.findall(r"^\| `exactpt/(\w+)` \|", ARCHITECTURE, re.MULTILINE))
 
-    assert named == rooms
+    assert named == packages
+
+
+def test_the_module_graph_is_that_of_the_linter():
+    contracts = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    layers = contracts["tool"]["importlinter"]["contracts"][0]["layers"]
+    (graph,) = re.findall(r"```\n(.*?)```", ARCHITECTURE, re.DOTALL)
+
+    drawn = [set(line.split()) for line in graph.splitlines()]
+
+    assert drawn == [set(re.findall(r"exactpt\.(\w+)", layer)) for layer in layers]
+
+
+def test_what_the_architecture_names_is_there():
+    """Every path is in the repository, every function, class and constant in some module."""
+    path = r"`([\w/]+\.(?:py|md|toml)|(?:exactpt|fuzz|tests)/[\w/]+)`"
+    paths = re.findall(path, ARCHITECTURE)
+    rest = re.sub(path, "", ARCHITECTURE)
+    names = set(re.findall(r"`(?:\w+\.)?(_?[a-zA-Z]\w*)`", rest))
+    modules = [*(ROOT / "exactpt").rglob("*.py"), *(ROOT / "fuzz").rglob("*.py")]
+    source = "\n".join(module.read_text(encoding="utf-8") for module in modules)
+
+    assert len(paths) > 40
+    assert [path for path in paths if not (ROOT / path).exists()] == []
+    defined = set(re.findall(r"(?:def |class |^|self\.)(\w+)(?=[(:]| *[:=])", source, re.MULTILINE))
+    folders = {p.name for p in [*ROOT.iterdir(), *(ROOT / "exactpt").iterdir()]}
+    assert sorted(names - defined - folders) == []
 
 
 def test_the_api_pages_have_every_public_name(tmp_path):

@@ -22,7 +22,7 @@ from fuzz import corpus
 from fuzz.planted import PLANTED
 from fuzz.small_scope.command import small_scope
 from fuzz.small_scope.look import look
-from fuzz.small_scope.motions import ORDERS, SLOTS, TIMES, ways
+from fuzz.small_scope.motions import ORDERS, SLOTS, TIMES, approaches
 from fuzz.small_scope.numbering import spread
 from fuzz.small_scope.placements import (
     DIRECTIONS,
@@ -217,13 +217,13 @@ def images(a, b, offset, step):
 
 
 def members(found, order, companion, touch):
-    """The placements that are a touch, turned, with a way of this kind into it."""
+    """The placements that are a touch, turned, with an approach of this kind to it."""
     wanted = {(a, b, offset): step for a, b, offset, step in images(*touch)}
     for placement in found:
         step = wanted.get(placement[:3])
         if step is not None:
-            for way in ways(order, placement.free, [0]):
-                if (way.companion, DIRECTIONS[way.direction]) == (companion, step):
+            for approach in approaches(order, placement.free, [0]):
+                if (approach.companion, DIRECTIONS[approach.direction]) == (companion, step):
                     yield placement
 
 
@@ -300,7 +300,7 @@ def test_in_enough_rounds_all_that_is_left_open_comes():
     index = next(i for i, e in enumerate(entries()) if e.placement.kinds == "segment and 3-chain")
     placement, _, copies = entries()[index]
     order = ORDERS.index("square")
-    both = [ways("square", placement.free, touching(placement, k)[0]) for k in (0, 1)]
+    both = [approaches("square", placement.free, touching(placement, k)[0]) for k in (0, 1)]
     rounds = len(SLOTS) * sum(map(len, both)) // copies + 1
 
     plans = {

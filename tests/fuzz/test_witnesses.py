@@ -5,8 +5,8 @@ import pytest
 from exactpt.collision.tilings import TILINGS
 from exactpt.scene.generate import FAMILIES, POINTS
 from fuzz.cases import failure_of
-from fuzz.excerpt import scene_of
 from fuzz.statics import run_and_audit
+from fuzz.subscene import scene_of
 from fuzz.witnesses import WITNESSES
 
 GENERIC = ("convex", "mixed_shapes", "ballistic", "turning", "deforming", "pieces", "keyframed")

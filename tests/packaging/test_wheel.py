@@ -112,9 +112,9 @@ def test_everything_but_the_optional_can_be_imported(empty):
     code = (
         "import exactpt, pkgutil, importlib\n"
         "for name in exactpt.__all__: getattr(exactpt, name)\n"
-        "doors = {'exactpt.kernel.sympy_door', 'exactpt.exchange.shapely_door'}\n"
+        "adapters = {'exactpt.kernel.sympy_door', 'exactpt.exchange.shapely_adapter'}\n"
         "for m in pkgutil.walk_packages(exactpt.__path__, 'exactpt.'):\n"
-        "    if m.name not in doors | {'exactpt.__main__'}: importlib.import_module(m.name)\n"
+        "    if m.name not in adapters | {'exactpt.__main__'}: importlib.import_module(m.name)\n"
     )
     done = empty("python", "-c", code)
 

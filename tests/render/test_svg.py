@@ -143,6 +143,23 @@ def test_no_picture_of_what_is_not_known(at, message):
         still(apart(), None)
 
 
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda _: tile_at(small(), QQ(11)),
+        lambda _: tile_at(small(), QQ(4)),
+        lambda _: still(small(), QQ(11)),
+        lambda _: still(small(), QQ(4)),
+        lambda folder: draw(small(), folder / "film.html", at=QQ(11)),
+    ],
+)
+def test_the_library_names_no_option_of_a_command(ask, tmp_path):
+    with pytest.raises(InputError, match=r"t = \d+") as refused:
+        ask(tmp_path)
+
+    assert "--" not in str(refused.value)
+
+
 def test_the_picture_in_the_docs_is_that_of_the_demo():
     kept = Path(__file__).parents[2] / "docs" / "first-contact.svg"
     fresh = svg_of(frame_of(still(demo(), None)))

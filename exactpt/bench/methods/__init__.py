@@ -1,1 +1,1 @@
-"""Ways to find a first contact: those of exactpt, and what a user would pick instead."""
+"""Methods that find a first contact: those of exactpt, and those of other programs."""

@@ -1,6 +1,6 @@
-"""All pairs of a vertex and an edge in doubles: the roots of a quadratic in closed form.
+"""All pairs of a vertex and an edge in doubles: roots of quadratics in closed form.
 
-What is written first when speed is asked for: no tolerance, no proof, in numpy.
+The obvious fast implementation in numpy, without tolerances and without guarantees.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from exactpt.scene.scene import Scene
 __all__ = ["CLOSED_FORM"]
 
 BLOCK: Final = 1 << 18
-"""So many pairs at once."""
+"""Maximum number of pairs processed at once."""
 
 
 def _prepare(scene: Scene) -> Callable[[], Answer]:
@@ -51,7 +51,7 @@ def _first_of(moving: Moving, some: NDArray[np.int32]) -> float:
         raise UnsuitableScene("orientations of degree above 2")
     best = np.inf
     for t in _roots(f):
-        # A comparison with nan, where there is no root, is false.
+        # Comparisons with NaN, where there is no root, are false.
         span = (t >= moving.start) & (t <= moving.end)
         px, py = _value(to_x, t), _value(to_y, t)
         qx, qy = _value(edge_x, t), _value(edge_y, t)
@@ -71,7 +71,7 @@ def _product(p: Floats, q: Floats) -> Floats:
 
 @np.errstate(all="ignore")
 def _roots(f: Floats) -> tuple[Floats, Floats]:
-    """Both roots of each quadratic, without cancellation; of a linear one, one of them."""
+    """Both roots of each quadratic, without cancellation; of a linear polynomial its root."""
     c0, c1 = f[:, 0], f[:, 1] if f.shape[1] > 1 else np.zeros(len(f))
     c2 = f[:, 2] if f.shape[1] > 2 else np.zeros(len(f))
     root = np.sqrt(c1 * c1 - 4.0 * c2 * c0)
@@ -88,4 +88,4 @@ def _value(f: Floats, t: Floats) -> Floats:
 
 
 CLOSED_FORM = Method("all pairs, doubles", "closed form", _prepare)
-"""Exact arithmetic replaced by doubles."""
+"""The exact search with doubles in place of exact arithmetic."""

@@ -1,4 +1,4 @@
-"""What every way to find a first contact is: a preparation, and then a question."""
+"""The interface of methods that find a first contact: a preparation, then a question."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from exactpt.scene.scene import Scene
 __all__ = ["Answer", "Method", "UnsuitableScene", "error_of"]
 
 Answer: TypeAlias = "AlgebraicNumber | float | None"
-"""The time of the first contact, as far as it is known; None: there is none."""
+"""The time of the first contact as the method returns it; None if there is none."""
 
 
 class UnsuitableScene(Exception):  # noqa: N818 - an outcome: the method is for other scenes
-    """A method cannot be asked about a scene; the message says why."""
+    """The method does not support a scene; the message says why."""
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Method:
-    """A way to find a first contact.
+    """A method that finds a first contact.
 
     Attributes:
-        name: what finds it.
-        setting: how it is tuned.
-        prepare: turns a scene into the method's own input and returns the question, whose
-            time is taken; raises `UnsuitableScene`.
-        package: what must be installed.
+        name: the program.
+        setting: its parameters.
+        prepare: converts a scene to the method's own input and returns the question, whose time
+            is measured; raises `UnsuitableScene`.
+        package: the package that must be installed; None if none.
     """
 
     name: str
@@ -39,7 +39,7 @@ class Method:
 
 
 def error_of(answer: Answer, truth: AlgebraicNumber) -> float:
-    """How far an answer is from the truth; 0 if it is equal, or the nearest double."""
+    """The error of an answer; 0 if it is the truth or the double nearest to it."""
     if answer is None:
         raise ValueError("no time was answered")
     if isinstance(answer, AlgebraicNumber):

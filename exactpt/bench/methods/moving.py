@@ -1,4 +1,4 @@
-"""A scene in doubles: what programs that know no exact numbers are given."""
+"""A scene in doubles, as input for programs without exact numbers."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class Shape:
     """One body.
 
     Attributes:
-        first, size: its vertices, by number.
-        closed: whether it has an inside.
-        deforms: whether it does more than to translate.
+        first, size: number of its first vertex, and number of vertices.
+        closed: whether it has an interior.
+        deforms: whether its motion is more than a translation.
     """
 
     __slots__ = ("closed", "deforms", "first", "size")
@@ -40,23 +40,23 @@ class Shape:
 
     @property
     def range(self) -> slice:
-        """Its vertices."""
+        """The numbers of its vertices, as a slice."""
         return slice(self.first, self.first + self.size)
 
 
 @final
 class Moving:
-    """All vertices as polynomials with the nearest doubles for coefficients.
+    """All vertices in polynomial motion, with coefficients rounded to the nearest doubles.
 
     Attributes:
-        shapes: one a body.
-        body: the body of each vertex.
+        shapes: one for each body.
+        body: index of the body of each vertex.
         edges: pairs of vertices.
-        x, y: coefficients, a row a vertex, the constant first.
+        x, y: coefficients, one row for each vertex, constant term first.
         start, end: the time span.
 
     Raises:
-        UnsuitableScene: if motions come in pieces, or bodies turn.
+        UnsuitableScene: if motions are in pieces, or bodies rotate.
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -88,11 +88,11 @@ class Moving:
 
     @property
     def degree(self) -> int:
-        """The degree of the motion."""
+        """The maximum degree of the motions."""
         return int(self.x.shape[1]) - 1
 
     def at(self, t: float, vertices: slice | Sequence[int] = slice(None)) -> Floats:
-        """The positions at a time, a row a vertex."""
+        """The positions at a time, one row for each vertex."""
         positions = np.stack((self.x[vertices, -1], self.y[vertices, -1]), axis=1)
         for i in range(self.degree - 1, -1, -1):
             positions *= t

@@ -1,4 +1,4 @@
-"""exactpt's own ways: by a tiling, by pairs, and the plain exact search over all pairs."""
+"""The methods of exactpt: by a tiling, by pairs, and the exact reference search."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["EXACT_SEARCH", "OWN", "fresh"]
 
 
 def fresh(scene: Scene) -> Scene:
-    """The scene as if just loaded: nothing has been computed of it."""
+    """A copy of the scene as if just loaded, without cached values."""
     return loads(json.dumps(to_json(scene)))
 
 
@@ -36,7 +36,7 @@ OWN: Final = (
     Method("exactpt", "kinetic", partial(_prepare, partial(first_contact, method="kinetic"))),
     Method("exactpt", "pairs", partial(_prepare, partial(first_contact, method="pairs"))),
 )
-"""What exactpt offers."""
+"""The methods that users call."""
 
 EXACT_SEARCH: Final = Method("all pairs, exact", "", partial(_prepare, first_contact_allpairs))
-"""The reference."""
+"""The exact reference search over all pairs."""

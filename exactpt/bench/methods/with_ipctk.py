@@ -1,8 +1,8 @@
 """ipctk: conservative continuous collision detection of vertices and edges, in linear pieces.
 
-Its sweep-and-prune finds candidates a piece, its narrow phase the step that is free of
-collisions. Vertices of one rigid body are filtered out, and one thread is used, so that
-processor times compare.
+In each piece its sweep-and-prune finds candidates and its narrow phase a collision-free step.
+Pairs of vertices of one rigid body are filtered out, and one thread is used, so that processor
+times can be compared.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ ITERATIONS: Final = 1_000_000
 
 
 def with_tight_inclusion(tolerance: float, pieces: int) -> Method:
-    """Tight-Inclusion, which comes to within a tolerance of the contact."""
+    """Tight-Inclusion, which stops within a tolerance of the contact."""
 
     def phase() -> ipctk.NarrowPhaseCCD:
         import ipctk
@@ -36,7 +36,7 @@ def with_tight_inclusion(tolerance: float, pieces: int) -> Method:
 
 
 def with_additive(rescaling: float, pieces: int) -> Method:
-    """Additive CCD, which goes a part of the way to the contact."""
+    """Additive CCD, which covers a given share of the distance to the contact."""
 
     def phase() -> ipctk.NarrowPhaseCCD:
         import ipctk

@@ -1,8 +1,8 @@
 """pymunk (Chipmunk) in time steps: bodies with velocities, until a collision begins.
 
-Chipmunk asks for convex shapes: other polygons are cut into triangles by Shapely (its own
-decomposition covers more than the polygon where vertices are collinear). A velocity that
-changes is set before every step, so that each step ends where the motion does.
+Chipmunk requires convex shapes: other polygons are triangulated by Shapely (its own
+decomposition covers more than the polygon where vertices are collinear). Velocities that change
+are set before every step, so that each step ends at the exact position of the motion.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ __all__ = ["with_pymunk"]
 Vertex: TypeAlias = tuple[float, float]
 
 KIND: Final = 1
-"""The collision type of everything."""
+"""The collision type of all shapes."""
 
 
 def with_pymunk(steps: int) -> Method:
-    """Chipmunk in so many steps."""
+    """Chipmunk with a number of steps."""
 
     def prepare(scene: Scene) -> Callable[[], Answer]:
         moving = Moving(scene)

@@ -1,8 +1,8 @@
-"""Shapely in time steps: which geometries of an STRtree intersect now?
+"""Shapely in time steps: at each step an STRtree finds the geometries that intersect.
 
-Geometries are made by its array functions, pairs come from one query of the tree, and
-bodies that deform are asked whether they are still simple. With bisection, the step in
-which bodies are first found to intersect is halved until doubles end, for these alone.
+Geometries are made by its array functions, pairs come from one query of the tree, and bodies
+that deform are tested for simplicity. With bisection, the first step with an intersection is
+halved down to the resolution of doubles, for the bodies involved alone.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class _Stepper:
         self._deforming = [i for i in self._all if moving.shapes[i].deforms]
 
     def geometries(self, t: float, bodies: Sequence[int]) -> list[Any]:
-        """One a body."""
+        """The geometries at a time, one for each body."""
         shapes = [self._moving.shapes[i] for i in bodies]
         if len(bodies) == len(self._all):
             at = self._moving.at(t)
@@ -51,7 +51,7 @@ class _Stepper:
         return made
 
     def touching(self, t: float, bodies: Sequence[int] | None = None) -> list[int]:
-        """The bodies that touch another, or themselves, at a time."""
+        """The bodies that touch another body, or themselves, at a time."""
         import shapely
 
         numbers = self._all if bodies is None else bodies
@@ -64,7 +64,7 @@ class _Stepper:
         return sorted(found)
 
     def first(self, steps: int, *, bisect: bool) -> float | None:
-        """The first time at which a step finds a contact."""
+        """The first time step with a contact, bisected on demand; None if there is none."""
         start, end = self._moving.start, self._moving.end
         before = start
         for i in range(1, steps + 1):
@@ -124,7 +124,7 @@ def _is_simple(geometry: Any) -> bool:  # noqa: ANN401 - shapely is optional
 
 
 def with_shapely(steps: int, *, bisect: bool) -> Method:
-    """Shapely in so many steps."""
+    """Shapely with a number of steps."""
 
     def prepare(scene: Scene) -> Callable[[], Answer]:
         stepper = _Stepper(scene)

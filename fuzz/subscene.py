@@ -1,7 +1,7 @@
-"""Excerpts: a few of the bodies of a scene, so that a campaign sees many more scenes.
+"""Sub-scenes: a few of the bodies of a scene, so that a campaign covers many more scenes.
 
-What goes wrong goes wrong among a few bodies (see the corpus), and a scene of a few costs
-a hundredth of a whole one. Whole scenes still come, now and then.
+Failures involve few bodies (see the corpus), and a scene of a few bodies takes a hundredth of
+the time of a whole one. Every `WHOLE`-th scene is taken as it is.
 """
 
 from __future__ import annotations
@@ -16,32 +16,35 @@ from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from fuzz.thin import SUFFIX, thinned
 
-__all__ = ["excerpt", "scene_of"]
+__all__ = ["scene_of", "subscene"]
 
 WHOLE: Final = 64
-"""Of so many scenes of a family one is left whole."""
+"""One in this many scenes of a family is left whole."""
 
 FEWEST, MOST = 4, 24
-"""Vertices of an excerpt; one more body is taken while there are fewer. (A point counts as
-three, a segment too: what has no inside has copies, which move apart from each other.)"""
+"""Range of the target number of vertices of a sub-scene: bodies are added until it is reached.
+
+A body counts as three vertices at least: points and segments have infinitesimal copies of
+their vertices."""
 
 
 def scene_of(family: str, seed: int) -> Scene:
-    """The scene that a campaign looks at: mostly an excerpt of the family's.
+    """The scene that a campaign checks: usually a sub-scene of the family's.
 
     Args:
-        family: its name; with `fuzz.thin.SUFFIX`, half of the bodies are thinned.
-        seed: of the scene.
+        family: the name of a family; with `fuzz.thin.SUFFIX`, half of the bodies are replaced by
+            parts of their boundaries.
+        seed: seed of the scene.
     """
     name = family.removesuffix(SUFFIX)
     scene = generate(name, seed)
     if seed % WHOLE:
-        scene = excerpt(scene, Random(f"excerpt of {name}:{seed}"))
+        scene = subscene(scene, Random(f"excerpt of {name}:{seed}"))
     return scene if name == family else thinned(scene, Random(f"{family}:{seed}"))
 
 
 def _gap(p: Sequence[Point], q: Sequence[Point]) -> QQ:
-    """How far the boxes of two bodies are apart, in x or in y."""
+    """The gap of the bounding boxes of two bodies, in the maximum norm."""
     gap = QQ(0)
     for k in (0, 1):
         a, b = [v[k] for v in p], [v[k] for v in q]
@@ -49,10 +52,10 @@ def _gap(p: Sequence[Point], q: Sequence[Point]) -> QQ:
     return gap
 
 
-def excerpt(scene: Scene, rng: Random) -> Scene:
-    """Some bodies of a scene, in its order: at random, or one and those near it at some time.
+def subscene(scene: Scene, rng: Random) -> Scene:
+    """Some bodies of a scene, in its order: random ones, or one and its nearest at a random time.
 
-    At least two, if there are so many; few vertices are more likely than many.
+    At least two, if the scene has two; small sub-scenes are more likely than large ones.
     """
     enough = FEWEST + int((MOST - FEWEST) * rng.random() ** 3)
     order = list(range(len(scene.bodies)))

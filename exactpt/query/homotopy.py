@@ -1,4 +1,4 @@
-"""Ways through free space: which tiles a walk passes, and the shortest path of its kind."""
+"""Homotopy classes of paths: the diagonals that a path crosses, and its shortest representative."""
 
 from __future__ import annotations
 
@@ -14,40 +14,40 @@ from exactpt.query.answers import Path, VertexName
 from exactpt.query.locate import find, place_of
 from exactpt.query.sleeve import Sleeves, pull_tight
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.query.walk import On, Ray, next_leg
+from exactpt.query.walk import On, Ray, next_step
 
-__all__ = ["Ways"]
+__all__ = ["ShortestPaths"]
 
 
 @final
-class Ways:
-    """Paths inside the convex hull of a subdivision."""
+class ShortestPaths:
+    """Shortest paths within the convex hull of a subdivision."""
 
     def __init__(self, plane: Subdivision) -> None:
         self._plane = plane
         self._sleeves = Sleeves(plane)
 
     def path(self, p: Point, q: Point) -> Path:
-        """The shortest of the paths that cross the fewest diagonals in the same order."""
+        """The shortest path homotopic to one that crosses the fewest diagonals."""
         if not self._plane.points:
             return _path((p, q), (), 0)
         first = self._tile(p)
-        return self._tight(p, first, self._sleeves.doors(first, self._tile(q)), q)
+        return self._tight(p, first, self._sleeves.dual_path(first, self._tile(q)), q)
 
     def shorten(self, points: Sequence[Point]) -> Path:
-        """The shortest path that a polyline can be deformed into."""
+        """The shortest path homotopic to a polyline."""
         if not self._plane.points:
             return _path((points[0], points[-1]), (), 0)
         first = tile = self._tile(points[0])
-        doors: list[int] = []
+        crossed: list[int] = []
         for p, q in pairwise(points):
-            part = self._doors_along(p, tile, q)
-            doors += part
+            part = self._crossed_along(p, tile, q)
+            crossed += part
             tile = self._plane.face[part[-1] ^ 1] if part else tile
-        return self._tight(points[0], first, without_steps_back(doors), points[-1])
+        return self._tight(points[0], first, without_steps_back(crossed), points[-1])
 
     def _tile(self, p: Point) -> int:
-        """A tile that has a free point."""
+        """A tile that contains a free point, in its interior or on its boundary."""
         plane = self._plane
         spot, _ = find(plane, p)
         place = place_of(plane, spot)
@@ -57,38 +57,38 @@ class Ways:
             return max(plane.face[spot.handle], plane.face[spot.handle ^ 1])
         return spot.handle
 
-    def _doors_along(self, p: Point, tile: int, q: Point) -> list[int]:
-        """The half-edges that a free segment crosses, from a tile with p to one with q."""
+    def _crossed_along(self, p: Point, tile: int, q: Point) -> list[int]:
+        """The half-edges crossed by a free segment from a point p of ``tile`` to q, in order."""
         plane = self._plane
         if p == q:
             return []
         ray = Ray(plane, p, (q[0] - p[0], q[1] - p[1]))
         spot, _ = find(plane, p)
         at, here = QQ(0), tile
-        doors: list[int] = []
+        crossed: list[int] = []
         while True:
-            leg = next_leg(plane, ray, spot, at)
-            there = leg.through.handle if leg.through.on is On.FACE else here
+            step = next_step(plane, ray, spot, at)
+            there = step.through.handle if step.through.on is On.FACE else here
             if spot.on is On.EDGE and there not in (here, OUTSIDE):
-                doors.append(spot.handle if plane.face[spot.handle] == here else spot.handle ^ 1)
+                crossed.append(spot.handle if plane.face[spot.handle] == here else spot.handle ^ 1)
                 here = there
-            if leg.end is None or leg.at >= 1:
-                self._tile(q)  # refuses what is not free
-                return doors
-            place = place_of(plane, leg.end)
+            if step.end is None or step.at >= 1:
+                self._tile(q)  # raises if q is not free
+                return crossed
+            place = place_of(plane, step.end)
             if place.body is not None:
-                x, y = ray.point(leg.at)
+                x, y = ray.point(step.at)
                 raise InputError(f"the walk meets body {place.body!r} at ({x}, {y})")
-            spot, at = leg.end, leg.at
+            spot, at = step.end, step.at
 
-    def _tight(self, start: Point, tile: int, doors: Sequence[int], goal: Point) -> Path:
+    def _tight(self, start: Point, tile: int, crossed: Sequence[int], goal: Point) -> Path:
         plane = self._plane
-        portals = self._sleeves.portals(start, tile, doors, goal)
+        portals = self._sleeves.portals(start, tile, crossed, goal)
         bends = pull_tight(start, goal, portals, plane.points)
         points = (start, *(plane.points[v] for v in bends), goal)
-        return _path(points, tuple(plane.node_name(v) for v in bends), len(doors))
+        return _path(points, tuple(plane.node_name(v) for v in bends), len(crossed))
 
 
 def _path(points: Iterable[Point], bends: tuple[VertexName, ...], crossed: int) -> Path:
-    """A path in numbers of Python's own."""
+    """A path with coordinates as `Fraction`."""
     return Path(tuple(map(place, points)), bends, crossed)

@@ -6,7 +6,7 @@ import pytest
 
 import exactpt
 from exactpt.collision.allpairs import first_contact_allpairs
-from exactpt.collision.nearing import first_within
+from exactpt.collision.proximity import first_within
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body

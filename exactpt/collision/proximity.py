@@ -1,11 +1,12 @@
-"""When two bodies first come within a distance: along an axis, or in the maximum norm.
+"""The first time at which two bodies are within a distance, along an axis or in the maximum norm.
 
-In the maximum norm two sets are within d if one of them meets the other with a square of
-half-side d around each of its points. Where they first do, a vertex of one is on an edge of
-the other that is moved by a corner of the square, or two vertices are exactly d apart in x
-or y, and at most d in the other. These are roots of polynomials, like contacts.
+In the maximum norm two sets are within distance d if and only if one of them meets the
+Minkowski sum of the other with a square of half-side d. At the first such time either a vertex
+of one body lies on an edge of the other translated by a corner of the square, or two vertices
+differ by exactly d in one coordinate and by at most d in the other. Both are roots of
+polynomials in time, as contacts are.
 
-Everything is tried: it is a question about two bodies, not about a scene.
+All pairs of features are tested: the question concerns two bodies, not a whole scene.
 """
 
 from __future__ import annotations
@@ -30,10 +31,10 @@ __all__ = ["NORMS", "Norm", "first_within"]
 
 Norm: TypeAlias = Literal["max", "x", "y"]
 NORMS: Final = ("max", "x", "y")
-"""The larger of the distances in x and in y; or the gap between the shadows on one axis."""
+"""Supported norms: "max" is the larger of the distances in x and y; "x", "y" use one axis."""
 
 Candidate: TypeAlias = "tuple[IntPoly, Callable[[AlgebraicNumber], bool]]"
-"""A polynomial, and whether a root of it counts."""
+"""A polynomial, and the predicate that tells which of its roots count."""
 
 
 def first_within(
@@ -48,15 +49,15 @@ def first_within(
     AlgebraicNumber('7/2')
 
     Args:
-        scene: what moves; other bodies do not matter.
+        scene: the bodies and the time span; bodies other than a and b are irrelevant.
         a: the name of a body.
-        b: the name of another.
-        distance: at least 0, which asks for a contact.
-        norm: "max": the larger of the distances in x and in y (a square between them); "x"
-            or "y": the gap between the bodies' shadows on that axis.
+        b: the name of another body.
+        distance: a number >= 0; 0 asks for the first contact.
+        norm: "max": the larger of the distances in x and in y; "x" or "y": the gap between the
+            projections of the bodies on that axis.
 
     Returns:
-        The time, exactly; None if they never come so near.
+        The exact time; None if the bodies stay farther apart.
 
     Raises:
         InputError: if there is no such body or norm, or the distance is negative.
@@ -89,11 +90,11 @@ def first_within(
 def _earliest(
     candidates: Iterator[Candidate], begin: AlgebraicNumber, end: QQ
 ) -> AlgebraicNumber | None:
-    """The first root in (begin, end] that counts."""
+    """The earliest root in (begin, end] that satisfies the predicate of its candidate."""
     best: AlgebraicNumber | None = None
     for f, counts in candidates:
         limit = end if best is None else best._high
-        # Where f vanishes for ever, another candidate tells when the distance is reached.
+        # If f vanishes identically, another candidate yields the time.
         for root in roots_after(f, begin, limit) if f else ():
             if counts(root.time):
                 if best is None or root.time.compare(best) < 0:
@@ -105,7 +106,7 @@ def _earliest(
 def _on_axis(
     p: tuple[Track, ...], q: tuple[Track, ...], d: QQ, axis: Literal["x", "y"]
 ) -> Iterator[Candidate]:
-    """Any two vertices that are d apart: before the first such time all are farther."""
+    """Candidates for "x" and "y": two vertices d apart; at the first such time none are nearer."""
     for u, v in product(p, q):
         for side in (d, -d):
             yield _offset(u, v, side, axis), lambda _: True
@@ -114,7 +115,7 @@ def _on_axis(
 def _in_both(
     a: Body, b: Body, p: tuple[Track, ...], q: tuple[Track, ...], d: QQ
 ) -> Iterator[Candidate]:
-    """A vertex on an edge moved by a corner; two vertices d apart in x or y."""
+    """Candidates for "max": a vertex on a translated edge, or two vertices d apart in x or y."""
     corners: list[Point] = [(x, y) for x in (d, -d) for y in (d, -d)]
     pairs = chain(
         product(p, ((q[i], q[j]) for i, j in edges(b.size, closed=b.closed))),
@@ -130,7 +131,7 @@ def _in_both(
 
 
 def _offset(u: Track, v: Track, d: QQ, axis: Literal["x", "y"]) -> IntPoly:
-    """A positive multiple of v - u - d in one coordinate."""
+    """A positive multiple of the polynomial v - u - d in one coordinate."""
     along = (u.x, v.x) if axis == "x" else (u.y, v.y)
     gap = scale(difference(along[0], u.w, along[1], v.w), ZZ(d.denominator))
     return subtract(gap, scale(multiply(u.w, v.w), ZZ(d.numerator)))
@@ -151,7 +152,7 @@ def _on_edge(v: Track, a: Track, b: Track) -> Callable[[AlgebraicNumber], bool]:
 
 
 def _moved(v: Track, by: Point) -> Track:
-    """A vertex that stays at a fixed offset from another."""
+    """The trajectory of a vertex translated by a constant vector."""
     m = ZZ(by[0].denominator * by[1].denominator)
     x, y = (add(scale(f, m), scale(v.w, ZZ(c * m))) for f, c in zip((v.x, v.y), by, strict=True))
     return Track(x, y, scale(v.w, m), None)
@@ -177,7 +178,7 @@ def _is_within(a: Body, b: Body, t: QQ, d: QQ, norm: Norm) -> bool:
 
 
 def _is_near(v: Point, a: Point, b: Point, d: QQ) -> bool:
-    """Whether the segment ab meets the square of half-side d around v."""
+    """Whether the closed segment ab meets the square of half-side d around v."""
     low, high = QQ(0), QQ(1)
     for at, start, end in zip(v, a, b, strict=True):
         if start == end:

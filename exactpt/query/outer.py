@@ -1,10 +1,9 @@
-"""Tiles outside the convex hull as well, for paths that leave it.
+"""The outer triangulation: tiles outside the convex hull, for paths that leave it.
 
-Four corners of a large rectangle are added, and the ring between them and the convex hull
-is cut into triangles. A shortest path between points in the rectangle never bends at its
-corners. But of two ways, it may depend on the rectangle which one crosses fewer diagonals:
-so it is the least of a series that has the points of a question inside, and an answer does
-not depend on what has been asked before.
+The region between the convex hull and a large rectangle is triangulated. A shortest path
+between points inside the rectangle never bends at its corners. The rectangle may however
+influence which homotopy class crosses the fewest diagonals; so it is the smallest of a fixed
+series that contains the points of the query, and no answer depends on earlier queries.
 """
 
 from __future__ import annotations
@@ -19,11 +18,11 @@ from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.pseudotriangulation.snapshot import Edge, Face, Node, Snapshot
 from exactpt.query.sleeve import triangulated
 
-__all__ = ["Around", "surrounded"]
+__all__ = ["OuterRectangle", "with_outer_triangulation"]
 
 
-class Around(NamedTuple):
-    """Rectangles around the bodies: a box, and a margin that is doubled again and again."""
+class OuterRectangle(NamedTuple):
+    """A series of rectangles around the bodies: their bounding box, with a margin that doubles."""
 
     left: QQ
     right: QQ
@@ -31,20 +30,20 @@ class Around(NamedTuple):
     high: QQ
 
     @classmethod
-    def of(cls, snapshot: Snapshot) -> Around:
-        """The box of a tiling of at least one body."""
+    def of(cls, snapshot: Snapshot) -> OuterRectangle:
+        """The series for a tiling of at least one body."""
         xs, ys = [node._x for node in snapshot.nodes], [node._y for node in snapshot.nodes]
         return cls(min(xs), max(xs), min(ys), max(ys))
 
     def corners(self, count: int) -> list[Point]:
-        """The corners after so many doublings, counter-clockwise from the lower left."""
+        """The corners after ``count`` doublings, counter-clockwise from the lower left."""
         left, right, low, high = self
         margin = (right - left + high - low + 1) * power_of_two(count)
         left, right, low, high = left - margin, right + margin, low - margin, high + margin
         return [(left, low), (right, low), (right, high), (left, high)]
 
     def doublings(self, points: Sequence[Point]) -> int:
-        """How often the margin is doubled until points are inside."""
+        """The number of doublings after which all points are strictly inside."""
         count = 0
         while True:
             (left, low), _, (right, high), _ = self.corners(count)
@@ -53,19 +52,21 @@ class Around(NamedTuple):
             count += 1
 
 
-def surrounded(snapshot: Snapshot, hull: Sequence[int], corners: Sequence[Point]) -> Snapshot:
-    """The tiling with tiles around it, in a rectangle.
+def with_outer_triangulation(
+    snapshot: Snapshot, hull: Sequence[int], corners: Sequence[Point]
+) -> Snapshot:
+    """The tiling with the region between its convex hull and a rectangle triangulated.
 
     Args:
         snapshot: a tiling of at least one body.
         hull: the nodes on its convex hull, counter-clockwise.
-        corners: of the rectangle, see `Around`.
+        corners: the corners of the rectangle, see `OuterRectangle.corners`.
     """
     places = [(node._x, node._y) for node in snapshot.nodes]
     first = len(places)
     nodes = [Node("", 0, x, y) for x, y in corners]
-    # One polygon: around the corners, over to the hull, clockwise around it, and back.
-    # The way over is to the leftmost node: everything else is on the right of it.
+    # One polygon: the corners, a bridge to the hull, clockwise around it, and back. The bridge
+    # ends at the leftmost node: all other nodes are to the right of it.
     least = min(range(len(hull)), key=lambda i: places[hull[i]])
     around = (
         [hull[(least - i) % len(hull)] for i in range(len(hull) + 1)] if len(hull) > 1 else hull

@@ -7,14 +7,14 @@ import pytest
 from exactpt.scene.format import to_json
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 from exactpt.scene.scene import Scene
-from fuzz.excerpt import MOST, WHOLE, excerpt, scene_of
+from fuzz.subscene import MOST, WHOLE, scene_of, subscene
 from fuzz.thin import SUFFIX
 
 ALL = [*FAMILIES, *POINTS]
 
 
 @pytest.mark.parametrize("family", ALL)
-def test_an_excerpt_is_a_part_of_the_scene(family):
+def test_a_subscene_is_a_part_of_the_scene(family):
     for seed in range(1, 6):
         whole, part = to_json(generate(family, seed)), to_json(scene_of(family, seed))
 
@@ -28,11 +28,11 @@ def test_now_and_then_a_scene_is_whole(family):
     assert to_json(scene_of(family, 5 * WHOLE)) == to_json(generate(family, 5 * WHOLE))
 
 
-def test_excerpts_are_small_and_of_every_size():
+def test_subscenes_are_small_and_of_every_size():
     """Bodies are added while they are too few: never more than one body too many."""
     sizes = set()
     for seed in range(200):
-        scene = excerpt(generate("convex", 7), Random(seed))
+        scene = subscene(generate("convex", 7), Random(seed))
         smaller = scene.vertex_count - min(body.size for body in scene.bodies)
         assert len(scene.bodies) == 2 or smaller < MOST
         sizes.add(len(scene.bodies))
@@ -47,14 +47,14 @@ def test_neighbours_are_more_likely_than_strangers():
     names = [row.bodies[i].name for i in by_x]
     adjacent = 0
     for seed in range(100):
-        found = sorted(names.index(b.name) for b in excerpt(row, Random(seed)).bodies)
+        found = sorted(names.index(b.name) for b in subscene(row, Random(seed)).bodies)
         adjacent += found[1] - found[0] == 1
 
     assert adjacent > 60
 
 
-def test_a_scene_without_bodies_is_its_own_excerpt():
-    assert excerpt(Scene([], (0, 1)), Random(0)).bodies == ()
+def test_a_scene_without_bodies_is_its_own_subscene():
+    assert subscene(Scene([], (0, 1)), Random(0)).bodies == ()
 
 
 @pytest.mark.parametrize("family", FAMILIES)

@@ -1,6 +1,6 @@
-"""To and from shapely: the one module that imports it, itself imported only when called.
+"""Conversion from and to shapely: the only module that imports it, itself imported on demand.
 
-A coordinate of shapely is a double, and is taken at its exact value.
+A coordinate of shapely is a double and is taken at its exact value.
 """
 
 from __future__ import annotations
@@ -46,13 +46,13 @@ _KINDS: Final[dict[str, Kind]] = {
 
 
 def read_wkt(text: str, where: str) -> tuple[BaseGeometry, int, int]:
-    """The geometry of a text, the number of its points, and that of coordinates of each.
+    """The geometry of a text, its number of points, and the number of coordinates of each.
 
     Raises:
         InputError: if it is not well-known text, or of a kind that shapely cannot read.
     """
     try:
-        with errstate(over="ignore"):  # the text keeps numbers that no double can
+        with errstate(over="ignore"):  # the text may hold numbers beyond the range of doubles
             geometry = shapely.from_wkt(text)
     except shapely.errors.ShapelyError as error:
         reason = shorten(str(error).split("Exception: ")[-1].strip())
@@ -67,16 +67,17 @@ def read_wkt(text: str, where: str) -> tuple[BaseGeometry, int, int]:
 def shapes_of_geometry(
     geometry: object, where: str, name: str, points: Sequence[Point] | None = None
 ) -> Iterator[Shape]:
-    """The shapes of a geometry, one for each part; a collection's may be of several kinds.
+    """The shapes of a geometry, one for each part; a collection may mix kinds.
 
     Args:
-        geometry: any of shapely's.
-        where: for messages.
-        name: that every part wants.
-        points: exactly what the geometry's coordinates stand for, in its order.
+        geometry: a geometry of shapely.
+        where: its place in the input, for messages.
+        name: the wanted name of every part.
+        points: the exact points of the geometry, in the order of its coordinates; if None, the
+            doubles are taken at their exact value.
 
     Raises:
-        InputError: if it is no geometry, or empty.
+        InputError: if it is not a geometry, or empty.
     """
     if not isinstance(geometry, BaseGeometry):
         raise InputError(f"{where}: not a shapely geometry: {shorten(geometry)}")
@@ -93,7 +94,7 @@ def shapes_of_geometry(
 
 
 def _parts(geometry: BaseGeometry) -> Iterator[BaseGeometry]:
-    """The geometry's parts, parts of parts too, in the order of its coordinates."""
+    """The parts of a geometry, recursively, in the order of its coordinates."""
     if geometry.geom_type in _KINDS:
         yield geometry
     else:
@@ -102,7 +103,7 @@ def _parts(geometry: BaseGeometry) -> Iterator[BaseGeometry]:
 
 
 def body_from(geometry: object, name: str, motion: Motion, holes: Holes) -> Body:
-    """The body of a geometry of one part; see `Body.from_shapely`."""
+    """The body of a geometry with one part, see `Body.from_shapely`."""
     shapes = list(shapes_of_geometry(geometry, "geometry", name))
     if len(shapes) != 1:
         raise InputError(
@@ -114,7 +115,7 @@ def body_from(geometry: object, name: str, motion: Motion, holes: Holes) -> Body
 def scene_from(
     geometries: Iterable[object] | Mapping[str, object], time: Sequence[Rational], holes: Holes
 ) -> Scene:
-    """The scene at rest of geometries; see `Scene.from_shapely`."""
+    """The scene at rest of geometries, see `Scene.from_shapely`."""
     if isinstance(geometries, Mapping):
         named = [(str(name), geometry) for name, geometry in geometries.items()]
     else:
@@ -128,7 +129,7 @@ def scene_from(
 
 
 def geometries_of(scene: Scene, at: QQ) -> dict[str, BaseGeometry]:
-    """The bodies at a time, by name; see `Scene.to_shapely`."""
+    """The bodies at a time, by name, see `Scene.to_shapely`."""
     return {shape.name: _geometry(shape) for shape in shapes_at(scene, at)}
 
 
