@@ -39,6 +39,7 @@ def scene_of(family: str, seed: int) -> Scene:
     name = family.removesuffix(SUFFIX)
     scene = generate(name, seed)
     if seed % WHOLE:
+        # The text of the seed stays, so that a seed gives the same scene in every version.
         scene = subscene(scene, Random(f"excerpt of {name}:{seed}"))
     return scene if name == family else thinned(scene, Random(f"{family}:{seed}"))
 

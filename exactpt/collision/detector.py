@@ -19,6 +19,7 @@ __all__ = ["METHODS", "check_provable", "first_contact", "searches_pairs"]
 
 
 METHODS: Final = ("kinetic", "pairs", "auto")
+"""Names of the methods of `first_contact`."""
 
 
 def first_contact(

@@ -1,4 +1,4 @@
-"""Excerpts: a few bodies of a scene, the same in every run, and a whole scene now and then."""
+"""Sub-scenes: a few bodies of a scene, the same in every run; one in `WHOLE` scenes is whole."""
 
 from random import Random
 

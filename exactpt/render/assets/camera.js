@@ -1,6 +1,6 @@
-// The camera: the place in the middle of the picture, exactly, and pixels for a unit of length.
+// The camera: the exact point at the centre of the picture, and the scale in pixels per unit.
 
-/** The room that the clock takes above the picture, in pixels. */
+/** Height in pixels of the clock above the picture. */
 const CLOCK = 64;
 
 class Camera {
@@ -12,7 +12,7 @@ class Camera {
     this.fitted = 100;
   }
 
-  /** Where the place of a chart is, seen from the camera; in units of length, y upwards. */
+  /** The position of a chart's origin relative to the camera; in units of length, y upwards. */
   offset(chart) {
     return this.place.map((c, i) => toDouble(chart.place[i] - c, -BITS));
   }
@@ -23,7 +23,7 @@ class Camera {
     this.place[1] += fromDouble(dy / this.scale, BITS);
   }
 
-  /** Zoom so that what is at a pixel stays there. */
+  /** Zoom and keep the point at a pixel fixed. */
   zoom(factor, px, py) {
     const scale = Math.min(Math.max(this.scale * factor, this.fitted / 256), this.fitted * 2 ** 120);
     const moved = 1 / this.scale - 1 / scale;
@@ -32,7 +32,7 @@ class Camera {
     this.scale = scale;
   }
 
-  /** The camera that shows a box [left, bottom, right, top], seen from a chart's place. */
+  /** The camera that shows a box [left, bottom, right, top], relative to a chart's origin. */
   framing(chart, [left, bottom, right, top]) {
     const margin = Math.min(this.width, this.height) * 0.08;
     const room = (pixels, extent) => pixels / Math.max(extent, 1e-300);
@@ -48,13 +48,13 @@ class Camera {
     };
   }
 
-  /** How many times as large as a picture of everything. */
+  /** The magnification relative to a picture of everything. */
   get magnification() {
     return this.scale / this.fitted;
   }
 }
 
-/** The box of all vertices of a chart as it is evaluated. */
+/** The bounding box of all vertices of an evaluated chart. */
 function boxOf(chart) {
   const box = [Infinity, Infinity, -Infinity, -Infinity];
   chart.x.forEach((x, v) => {
@@ -71,12 +71,12 @@ function union(a, b) {
   return [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];
 }
 
-/** A path for the camera from where it is to another place and scale; t runs from 0 to 1. */
+/** A path of the camera to another point and scale; t runs from 0 to 1. */
 function flight(camera, target) {
   const from = { place: camera.place.slice(), scale: camera.scale };
   const way = from.place.map((c, i) => toDouble(target.place[i] - c, -BITS));
   const growth = Math.log(target.scale / from.scale);
-  // On the screen, the nearer of the two places (the one shown larger) moves evenly.
+  // On the screen, the point that is shown at the larger scale moves uniformly.
   const [anchor, larger] = growth >= 0 ? [target.place, from.scale] : [from.place, target.scale];
   return (t) => {
     if (t >= 1) {

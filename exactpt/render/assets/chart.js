@@ -1,7 +1,7 @@
-// A chart: where all vertices are near one time and one place, in doubles.
+// A chart: the positions of all vertices near one time and one point, in doubles.
 //
-// The tracks are expanded exactly around a time and a place before they are rounded, so what
-// is close to that place at about that time is true to its last bit, however far one zooms.
+// Trajectories are expanded exactly around a time and a point before they are rounded, so that
+// positions close to that point at about that time are accurate at every magnification.
 // Lengths are in units of 2^lengthUnit, times in units of 2^timeUnit.
 
 class Chart {
@@ -18,7 +18,7 @@ class Chart {
     this.moveTo(film.start, film.origin);
   }
 
-  /** Expand around a time and a place. */
+  /** Expand around a time and a point. */
   moveTo(time, [x, y]) {
     this.time = time;
     this.place = [x, y];
@@ -29,7 +29,7 @@ class Chart {
     this.evaluate(time);
   }
 
-  /** Take the tracks of a body from one of its pieces. */
+  /** Read the trajectories of a body in one of its pieces. */
   enter(b, piece) {
     const body = this.film.bodies[b];
     this.piece[b] = piece;
@@ -53,7 +53,7 @@ class Chart {
     return Math.min(0, -this.film.lengthBits);
   }
 
-  /** The numerators (relative to the place) and the denominator around the time, exactly. */
+  /** The numerators (relative to the point) and the denominator around the time, exactly. */
   expanded(b, i) {
     const { timeBits: q, lengthBits: p, bodies } = this.film;
     const track = bodies[b].pieces[this.piece[b]].rows[i];
@@ -65,7 +65,7 @@ class Chart {
     return [relative(x, this.place[0]), relative(y, this.place[1]), w];
   }
 
-  /** Put all vertices where they are at a time. */
+  /** Evaluate the positions of all vertices at a time. */
   evaluate(time) {
     this.film.bodies.forEach((body, b) => {
       const piece = pieceAt(body, time);
@@ -80,21 +80,21 @@ class Chart {
     }
   }
 
-  /** Whether doubles of this chart are too coarse for a camera at a time. */
+  /** Whether the doubles of this chart are too coarse for a camera at a time. */
   isTooCoarse(time, camera) {
     const s = Math.abs(toDouble(time - this.time, -BITS));
     const sum = (bounds) => bounds.reduce((total, c, k) => (k ? total + c * s ** k : total), 0);
     if (sum(this.turns) > 1000) return true;
     const drift = sum(this.bounds) * camera.scale;
     if ((this.bounds[0] * camera.scale + drift) * 2 ** -46 < 1) return false;
-    // What is in view is fine as long as it was less than 2^38 pixels away then and there.
+    // Positions in view are accurate if they were less than 2^38 pixels away at the expansion.
     const [dx, dy] = camera.offset(this);
     return Math.max(drift, Math.hypot(dx, dy) * camera.scale) > 2 ** 38;
   }
 
   /**
-   * The cross product of vertices u and v as seen from the place, now; exact before it is
-   * rounded. Divided by their distance it is how far their line is from the place.
+   * The cross product of vertices u and v relative to the chart's point, now; exact before it is
+   * rounded. Divided by their distance it is the distance of their line from the point.
    */
   cross(u, v) {
     const key = u * this.rows.length + v;
@@ -114,7 +114,7 @@ class Chart {
     return horner(f, this.s) / (w * z);
   }
 
-  /** Where a vertex is at a time, as fixed-point numbers. */
+  /** The position of a vertex at a time, in fixed-point numbers. */
   placeOf(node, time) {
     const { body, index } = this.film.nodes[node];
     const owner = this.film.bodies[body];

@@ -1,4 +1,4 @@
-// The controls: buttons, the scrubber, the keyboard, the theme, and what they read out.
+// The controls: buttons, the scrubber, the keyboard, the theme, and their displays.
 
 class Controls {
   /** @param changed called when the picture is to be painted again */
@@ -59,7 +59,7 @@ class Controls {
     });
   }
 
-  /** A share of the time span, as a time. */
+  /** The time at a share of the time span. */
   share(x) {
     const span = this.film.end - this.film.start;
     return x >= 1 ? span : shifted(span * BigInt(Math.round(x * 2 ** 52)), -52);
@@ -101,7 +101,7 @@ class Controls {
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey || byId("keys").open) return;
     const { tagName } = event.target;
-    // Keys that mean something where the focus is keep that meaning.
+    // Keys with a meaning of their own in the focused element keep it.
     if (tagName === "SELECT" || (tagName === "BUTTON" && [" ", "Enter"].includes(event.key))) return;
     const { player, stage } = this;
     const little = (sign) => {
@@ -143,7 +143,7 @@ class Controls {
     this.changed();
   }
 
-  /** Write the time, the step, the ruler and the state of the buttons. */
+  /** Update the time, the step, the ruler and the state of the buttons. */
   write() {
     const { film, player, stage, panel } = this;
     const { camera } = stage;

@@ -1,4 +1,4 @@
-// Exact numbers: integers times powers of two. They become doubles only at the very end.
+// Exact numbers: integers times powers of two. They are rounded to doubles only at the end.
 
 /** n * 2^bits, rounded down. */
 function shifted(n, bits) {
@@ -25,20 +25,20 @@ function parts(n) {
   return [m, e];
 }
 
-/** The double next to n * 2^bits. */
+/** The double nearest to n * 2^bits. */
 function toDouble(n, bits) {
   const [m, e] = parts(n);
   return scaled(m, e + bits);
 }
 
-/** The double next to n / d * 2^bits. */
+/** The double nearest to n / d * 2^bits. */
 function quotient(n, d, bits) {
   const [m, e] = parts(n);
   const [k, f] = parts(d);
   return scaled(m / k, e - f + bits);
 }
 
-/** The integer next to x * 2^bits. */
+/** The integer nearest to x * 2^bits. */
 function fromDouble(x, bits) {
   if (x === 0) return 0n;
   const e = 60 - Math.floor(Math.log2(Math.abs(x)));
@@ -65,7 +65,7 @@ function product(f, g) {
   return result;
 }
 
-/** n / d * 2^bits in decimals, with so many significant digits. */
+/** n / d * 2^bits in decimals, with a number of significant digits. */
 function decimal(n, d, bits, digits) {
   if (n === 0n) return "0";
   const minus = n < 0n !== d < 0n ? "−" : "";
@@ -86,7 +86,7 @@ function decimal(n, d, bits, digits) {
   return minus + placed(text, exponent);
 }
 
-/** The digits with a point, the first of them being worth 10^exponent. */
+/** The digits with a decimal point, the first of them being worth 10^exponent. */
 function placed(digits, exponent) {
   if (exponent < -7 || exponent >= Math.max(17, digits.length)) {
     const rest = digits.slice(1).replace(/0+$/, "");

@@ -1,10 +1,10 @@
-// The film: bodies on exact tracks, steps, and which edges and tiles live between them.
+// The film: bodies with exact trajectories, steps, and the lifetimes of edges and tiles.
 
-/** How fine fixed-point times and places are, in bits of the time span and of the scene. */
+/** Precision of fixed-point times and coordinates, in bits of the time span and of the scene. */
 const BITS = 192;
 
 class Film {
-  /** @param data what `exactpt.render.data` wrote */
+  /** @param data the output of `exactpt.render.data` */
   constructor(data) {
     Object.assign(this, data);
     this.timeBits = BITS - data.timeUnit;
@@ -29,7 +29,7 @@ class Film {
     this.state = { step: -1, edges: [], tiles: [] };
   }
 
-  /** How many steps have happened at a time. */
+  /** The number of steps up to a time. */
   stepAt(time) {
     let [low, high] = [0, this.steps.length];
     while (low < high) {
@@ -45,7 +45,7 @@ class Film {
     return step > 0 ? this.steps[step - 1].time : this.start;
   }
 
-  /** The edges and tiles after so many steps. */
+  /** The edges and tiles after a number of steps. */
   after(step) {
     if (this.state.step !== step) {
       const here = (span) => span.from <= step && (span.until === null || step < span.until);
@@ -54,7 +54,7 @@ class Film {
     return this.state;
   }
 
-  /** The free tiles after so many steps, each by its edges "from,to", itself on their left. */
+  /** The free tiles after a number of steps, each by its edges "from,to" with the tile on the left. */
   leftOf(step) {
     const state = this.after(step);
     state.leftOf ??= new Map(state.tiles.filter((tile) => !tile.inside).flatMap((tile) =>
@@ -83,7 +83,7 @@ class Film {
     return decimal(time, 1n, -this.timeBits, digits);
   }
 
-  /** The time of a step in words, exactly where that is short. */
+  /** The time of a step in words, exactly if that is short. */
   stepText(step) {
     if (step === 0) return `t = ${this.startText}`;
     const { exact } = this.steps[step - 1];
@@ -91,7 +91,7 @@ class Film {
     return `t ≈ ${this.timeText(this.timeOf(step), 12)}`;
   }
 
-  /** What is known of the time of a step: a fraction, or whose root it is. */
+  /** The exact time of a step: a fraction, or the polynomial of which it is a root. */
   exactText(step) {
     if (step === 0) return this.startText;
     const { exact, degree } = this.steps[step - 1];
@@ -109,7 +109,7 @@ function readBody([name, colour, closed, pieces]) {
   return { name, colour, closed, size: tracks[0].rows.length, pieces: tracks };
 }
 
-/** An integer polynomial, constant first, as people write it. */
+/** An integer polynomial, constant term first, as a formula. */
 function polynomialText(coefficients) {
   const powers = "⁰¹²³⁴⁵⁶⁷⁸⁹";
   const terms = coefficients.map((text, i) => {

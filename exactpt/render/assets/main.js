@@ -1,4 +1,4 @@
-// The page: everything put together, and a small interface for scripts.
+// The page: all parts together, and a small interface for scripts.
 
 const film = new Film(JSON.parse(byId("data").textContent));
 const player = new Player(film);
@@ -28,7 +28,7 @@ const panel = new Panel(film, {
 const controls = new Controls(film, player, stage, panel, changed);
 const pointer = new Pointer(stage, byId("tip"), changed);
 
-/** Keep to the size of the window. */
+/** Follow the size of the window. */
 function resized() {
   const isFitted = stage.camera.magnification === 1 && stage.flight === null;
   stage.painter.resize(stage.camera);
@@ -45,7 +45,7 @@ else if (film.end === film.start) player.goTo(film.steps.length);
 new ResizeObserver(resized).observe(byId("canvas"));
 changed();
 
-/** For scripts: seek and step, and see what is shown, in plain numbers. */
+/** For scripts: seek and step, and read what is shown as plain numbers. */
 window.exactpt = {
   film,
   /** Show a time, "p/q". */
@@ -58,14 +58,14 @@ window.exactpt = {
     player.goTo(step);
     changed();
   },
-  /** Move the camera to a place ["p/q", "p/q"], magnified so many times. */
+  /** Move the camera to a point ["p/q", "p/q"], with a magnification. */
   look(place, magnification) {
     Object.assign(stage, { follow: false, flight: null });
     stage.camera.place = place.map((text) => fixed(text, film.lengthBits));
     stage.camera.scale = stage.camera.fitted * magnification;
     changed();
   },
-  /** Paint now, and say what is painted. */
+  /** Paint now, and return what is painted. */
   state() {
     stage.paint(performance.now());
     controls.write();
@@ -77,7 +77,7 @@ window.exactpt = {
       isPlaying: player.isPlaying,
       edges: edges.map(({ u, v, kind }) => [u, v, kind]),
       tiles: tiles.map(({ nodes }) => nodes),
-      // From the place of the chart, in units of 2^lengthUnit.
+      // Relative to the origin of the chart, in units of 2^lengthUnit.
       place: chart.place.map(String),
       places: Array.from(chart.x, (x, v) => [x, chart.y[v]]),
       pixels: Array.from(pen.x, (_, v) => pen.pixel(v)),
@@ -95,7 +95,7 @@ window.exactpt = {
     const edge = film.after(player.step).edges.find((e) => e.u === u && e.v === v);
     return shadowOf(edge, film.leftOf(player.step), stage.painter.pen);
   },
-  /** How long it takes to paint so many frames, in milliseconds each. */
+  /** Milliseconds per frame for painting a number of frames. */
   timing(frames) {
     const start = performance.now();
     for (let k = 0; k < frames; k += 1) {

@@ -1,6 +1,6 @@
-// The painter: tiles, bodies, edges, what has just changed, what fails next, the contact.
+// The painter: tiles, bodies, edges, the last changes, the next failure, the contact.
 
-/** How strong the tiles in a relative hull have the colour of its body, from outside inwards. */
+/** Opacity of the body's colour in tiles of its relative hull, by level from outside inwards. */
 const LEVELS = [0.16, 0.28, 0.4];
 
 class Painter {
@@ -73,7 +73,7 @@ class Painter {
   tiles(tiles, alpha) {
     const { context, colours, pen } = this;
     context.globalAlpha = alpha;
-    // One path a tile: a canvas fills many small paths faster than few of many polygons.
+    // One path per tile: a canvas fills many small paths faster than few of many polygons.
     for (const tile of tiles) {
       context.beginPath();
       pen.polygon(tile.nodes);
@@ -142,7 +142,7 @@ class Painter {
     this.stroke(this.colours.accent, 2.2);
   }
 
-  /** Of each edge that can be flipped, the one that would take its place. */
+  /** For each edge that can be flipped, its shadow. */
   shadows(edges, step) {
     const { context, colours, film, pen } = this;
     context.beginPath();
@@ -153,7 +153,7 @@ class Painter {
     this.stroke(colours.soft, 1.4, [6, 4]);
   }
 
-  /** What has just gone is dashed, what has come is thick. */
+  /** Removed edges are dashed, added ones thick. */
   flash({ removed, added, strength }) {
     const { context, colours, pen } = this;
     context.globalAlpha = strength;
@@ -166,7 +166,7 @@ class Painter {
     context.globalAlpha = 1;
   }
 
-  /** The vertices that come to lie on a line next: the outer two joined, all ringed. */
+  /** The vertices that become collinear next: the outer two joined, all ringed. */
   certificate(nodes) {
     const { context, colours, pen } = this;
     if (!nodes.length) return;
@@ -271,7 +271,7 @@ function ring(body) {
   return Array.from({ length: body.size }, (_, i) => body.first + i);
 }
 
-/** Where a name stands: in the middle of a body; of a bent one, where it is widest. */
+/** The position of a name: in the middle of a body; of a non-convex one, where it is widest. */
 function label(pixels, isClosed) {
   const [x, y] = [0, 1].map((i) => pixels.reduce((sum, p) => sum + p[i], 0) / pixels.length);
   if (pixels.length < 3 || !isClosed) return [x, y - 13];
@@ -288,7 +288,7 @@ function label(pixels, isClosed) {
   return place;
 }
 
-/** Where a horizontal line runs inside a polygon. */
+/** The intervals in which a horizontal line is inside a polygon. */
 function insideAt(pixels, y) {
   const crossings = pixels.flatMap(([px, py], i) => {
     const [qx, qy] = pixels[(i + 1) % pixels.length];
@@ -297,7 +297,7 @@ function insideAt(pixels, y) {
   return crossings.flatMap((left, i) => (i % 2 ? [] : [[left, crossings[i + 1]]]));
 }
 
-/** The two of some vertices that are farthest from one another. */
+/** The two vertices with the largest distance. */
 function farthest(pen, nodes) {
   const pairs = nodes.flatMap((u, i) => nodes.slice(i).map((v) => [u, v]));
   const length = ([u, v]) => Math.hypot(pen.x[u] - pen.x[v], pen.y[u] - pen.y[v]);

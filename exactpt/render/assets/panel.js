@@ -1,9 +1,9 @@
-// The panel: the contact, what fails next, and the list of events.
+// The panel: the contact, the next failure, and the list of events.
 
 const ROW = 44;
 
 class Panel {
-  /** @param act what the buttons and rows do: `goTo`, `visit`, `approach` */
+  /** @param act the actions of buttons and rows: `goTo`, `visit`, `approach` */
   constructor(film, act) {
     this.film = film;
     this.act = act;
@@ -48,7 +48,7 @@ class Panel {
       exactly, actions);
   }
 
-  /** Show which step it is. */
+  /** Mark the current step. */
   update(step) {
     if (step === this.step) return;
     this.step = step;
@@ -83,7 +83,7 @@ class Panel {
     if (what) card.append(made("p", what, "soft"));
   }
 
-  /** Make the rows that are in view. */
+  /** Create the rows that are in view. */
   fill() {
     const { film, list, shown } = this;
     const first = Math.max(Math.floor(list.scrollTop / ROW) - 4, 0);

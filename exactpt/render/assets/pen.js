@@ -1,7 +1,7 @@
-// The pen: what is drawn is cut to the neighbourhood of the view first, in doubles that are
-// true there. Beyond some magnification most vertices are far outside, where doubles (and the
-// canvas, which has singles) place them only roughly; the parts of their edges that run
-// through the view are then found from exact cross products.
+// The pen: shapes are clipped to a neighbourhood of the view before they are drawn, where doubles
+// are accurate. At high magnification most vertices are far outside, where doubles (and the
+// canvas, which uses singles) are inaccurate; the parts of their edges inside the view are then
+// computed from exact cross products.
 
 /** Half the side of the square that is drawn, and how far edges are followed; in pixels. */
 const NEAR = 8192;
@@ -12,7 +12,7 @@ class Pen {
     this.context = context;
   }
 
-  /** Look through a camera at a chart as it is evaluated. */
+  /** Look through a camera at an evaluated chart. */
   aim(chart, camera) {
     this.chart = chart;
     this.camera = camera;
@@ -21,7 +21,7 @@ class Pen {
       this.x = new Float64Array(count);
       this.y = new Float64Array(count);
     }
-    // Pixels from the middle of the view, y upwards.
+    // Pixels from the centre of the view, y upwards.
     [this.dx, this.dy] = camera.offset(chart);
     let most = 0;
     for (let v = 0; v < count; v += 1) {
@@ -32,7 +32,7 @@ class Pen {
     this.plain = most < NEAR;
   }
 
-  /** Where a vertex is on the canvas. */
+  /** The position of a vertex on the canvas. */
   pixel(v) {
     return [this.camera.width / 2 + this.x[v], this.camera.height / 2 - this.y[v]];
   }
@@ -77,7 +77,7 @@ class Pen {
         vIsNear ? [vx, vy] : [ux + r * tx, uy + r * ty],
       ];
     }
-    // The foot of the perpendicular from the middle of the view is at (d ty, -d tx).
+    // The foot of the perpendicular from the centre of the view is at (d ty, -d tx).
     const d = this.distance(u, v, length);
     if (Math.abs(d) > REACH) return [];
     const [from, to] = [Math.max(ux * tx + uy * ty, -REACH), Math.min(vx * tx + vy * ty, REACH)];
@@ -85,21 +85,21 @@ class Pen {
     return [from, to].map((k) => [d * ty + k * tx, k * ty - d * tx]);
   }
 
-  /** How far the line of two far vertices is from the middle of the view; to its left > 0. */
+  /** Signed distance of the centre of the view from the line of two far vertices; left is > 0. */
   distance(u, v, length) {
     const [ux, uy, vx, vy] = [this.x[u], this.y[u], this.x[v], this.y[v]];
     const d = (ux * vy - uy * vx) / length;
     const size = Math.abs(ux) + Math.abs(uy) + Math.abs(vx) + Math.abs(vy);
     const error = size * 2 ** -48;
     if (error < 0.02 || Math.abs(d) > REACH + error) return d;
-    // Exactly from the place of the chart, then seen from the middle of the view.
+    // Exact relative to the origin of the chart, then relative to the centre of the view.
     const { scale } = this.camera;
     const cross = this.chart.cross(u, v) * scale;
     const [dx, dy] = [(vx - ux) / length, (vy - uy) / length];
     return cross * (scale / length) + (this.dx * dy - this.dy * dx) * scale;
   }
 
-  /** A polygon cut to the neighbourhood of the view. */
+  /** A polygon clipped to the neighbourhood of the view. */
   cut(nodes) {
     let [left, right, low, high] = [Infinity, -Infinity, Infinity, -Infinity];
     for (const v of nodes) {
@@ -114,7 +114,7 @@ class Pen {
       const v = nodes[(i + 1) % nodes.length];
       points.push([this.x[u], this.y[u]]);
       if (this.isNear(u) && this.isNear(v)) return;
-      // What is left of the edge beyond these points is outside the square.
+      // The rest of the edge beyond these points is outside the square.
       points.push(...this.visible(u, v));
     });
     return [[1, 0], [-1, 0], [0, 1], [0, -1]].reduce(clipped, points);

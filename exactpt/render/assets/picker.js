@@ -1,8 +1,8 @@
-// The picker: what is under the pointer, and its names and exact times in words.
+// The picker: the item under the pointer, with its names and exact times in words.
 
 const REACHES = { node: 11, edge: 6 };
 
-/** What is at a pixel: a vertex, an edge of the tiling, a body or a tile; null for nothing. */
+/** The item at a pixel: a vertex, an edge of the tiling, a body or a tile; null for none. */
 function pick(pen, film, step, x, y, layers) {
   const [px, py] = [x - pen.camera.width / 2, pen.camera.height / 2 - y];
   let [node, nearest] = [undefined, REACHES.node];
@@ -43,7 +43,7 @@ function contains(points, x, y) {
   return inside;
 }
 
-/** Lines about what was picked; the first is its name. */
+/** Lines about the picked item; the first is its name. */
 function described(film, chart, picked, time, digits) {
   if (picked.node !== undefined) {
     const [x, y] = chart.coordinates(picked.node, time, digits);

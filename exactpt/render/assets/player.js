@@ -1,4 +1,4 @@
-// The player: the time that is shown, as an exact number, and how fast it moves on.
+// The player: the time that is shown, as an exact number, and its speed.
 
 const SPEEDS = [8, 4, 2, 1, 1 / 2, 1 / 4, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-9, 1e-12, 1e-15];
 const FLASH = 1100;
@@ -15,14 +15,14 @@ class Player {
     this.step = film.stepAt(film.start);
   }
 
-  /** Time units a second at speed 1: one, if that lasts from 6 to 60 seconds; else a 20th. */
+  /** Time units per second at speed 1: one, if the film then lasts 6 to 60 seconds; else 1/20 of it. */
   get pace() {
     const span = toDouble(this.film.end - this.film.start, -BITS);
     const one = scaled(1, -this.film.timeUnit);
     return span >= 6 * one && span <= 60 * one ? one : span / 20;
   }
 
-  /** Show a time; what has happened by then has happened. */
+  /** Show a time, after its events. */
   seek(time) {
     const { film } = this;
     this.time = time < film.start ? film.start : time > film.end ? film.end : time;
@@ -48,7 +48,7 @@ class Player {
     }
   }
 
-  /** The event before; from between two events the one that was last. */
+  /** The previous event; between two events the last one. */
   back() {
     const isThere = this.time === this.film.timeOf(this.step);
     this.goTo(isThere ? this.step - 1 : this.step);
@@ -74,10 +74,10 @@ class Player {
     this.approach = null;
   }
 
-  /** Move on to the time of a frame. */
+  /** Advance to the time of a frame. */
   tick(now) {
     if (!this.isPlaying) return;
-    // After a pause of the page the film goes on from where it was.
+    // After a pause of the page the film continues from where it was.
     const seconds = this.last === null ? 0 : Math.min((now - this.last) / 1000, 0.1);
     this.last = now;
     const pace = this.approach ?? this.pace * this.speed;
@@ -85,7 +85,7 @@ class Player {
     if (this.time >= this.film.end) this.pause();
   }
 
-  /** The edges that changed last, and how strongly to show them. */
+  /** The edges that changed last, and their opacity. */
   flash(now) {
     const [from, to] = this.changed;
     if (to - from < 1 || to - from > 12 || to !== this.step || from < 0) return null;

@@ -49,7 +49,7 @@ class Pointer {
   release(event) {
     this.down.delete(event.pointerId);
     this.stage.canvas.classList.toggle("dragging", this.down.size > 0);
-    // A tap shows what hovering shows.
+    // A tap has the effect of hovering.
     if (event.pointerType !== "mouse" && this.moved < 6) this.hover(...this.at(event));
   }
 
@@ -92,7 +92,7 @@ class Pointer {
     if (isNew) this.changed();
   }
 
-  /** Write the words about what is hovered over. */
+  /** Write the description of the hovered item. */
   write() {
     const [name, ...lines] = this.stage.words();
     this.tip.replaceChildren(made("b", name), ...lines.map((line) => made("span", line)));

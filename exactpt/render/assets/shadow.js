@@ -1,16 +1,16 @@
-// Shadow edges: an edge between two tiles, taken away, leaves a quadrangle of four concave
-// chains; its shadow is the one other diagonal there, an edge of the shortest path between
-// the corners that face each other across it. The steps of `exactpt.pseudotriangulation.flip`,
-// in doubles: to be looked at, nothing is decided by it.
+// Shadow edges: removing an edge between two tiles leaves a quadrangle of four concave chains;
+// its shadow is the only other diagonal there, an edge of the shortest path between the corners
+// that face each other across it. As in `exactpt.pseudotriangulation.flip`, but in doubles: only
+// for display.
 
-/** The ends of the shadow of an edge at the place of the pen; null if it has none. */
+/** The ends of the shadow of an edge in the chart of the pen; null if it has none. */
 function shadowOf({ u, v, kind }, leftOf, pen) {
   const [left, right] = [leftOf.get(`${u},${v}`), leftOf.get(`${v},${u}`)];
   if (kind !== "diagonal" || !left || !right || left.body >= 0 || right.body >= 0) return null;
   const turn = (a, b, c) => (pen.x[b] - pen.x[a]) * (pen.y[c] - pen.y[a])
     - (pen.y[b] - pen.y[a]) * (pen.x[c] - pen.x[a]);
   const [first, second] = [from(left, u, v), from(right, v, u)];
-  // Both tiles from the corner that faces the edge in the one, counter-clockwise.
+  // Both tiles, starting at the corner that faces the edge, counter-clockwise.
   const [start, goal] = [facing(first, turn), facing(second, turn)];
   if (start < 0 || goal < 0) return null;
   const cycle = [...first.slice(start), ...second.slice(1), ...first.slice(1, start)];
@@ -23,7 +23,7 @@ function from({ nodes }, u, v) {
   return nodes.map((_, k) => nodes[(i + k) % nodes.length]);
 }
 
-/** Where the corner is that is at neither end of the chain with the edge; -1 if nowhere. */
+/** The index of the corner at neither end of the chain with the edge; -1 if there is none. */
 function facing(nodes, turn) {
   const n = nodes.length;
   const corners = nodes.flatMap((node, k) =>
@@ -31,7 +31,7 @@ function facing(nodes, turn) {
   return corners.length === 3 ? corners[1] : -1;
 }
 
-/** The segment of the shortest path from the first vertex to that at `goal` which is inside. */
+/** The segment in the interior of the shortest path from the first vertex to that at `goal`. */
 function tangent(cycle, goal, turn) {
   const n = cycle.length;
   const at = (k) => cycle[(k + 2 * n) % n];

@@ -1,4 +1,4 @@
-// The stage: chart, camera and painter together; what is shown, and flights of the camera.
+// The stage: chart, camera and painter together; the view, and flights of the camera.
 
 const FLIGHT = 900;
 
@@ -20,7 +20,7 @@ class Stage {
     this.whole = this.survey();
   }
 
-  /** A box around where everything is during the film, seen from its origin. */
+  /** The bounding box of everything during the film, relative to its origin. */
   survey() {
     const { film, chart } = this;
     let [all, largest] = [null, 0];
@@ -30,13 +30,13 @@ class Stage {
       all = all === null ? box : union(all, box);
       largest = Math.max(largest, box[2] - box[0], box[3] - box[1]);
     }
-    // Where everything travels far together, only following it shows anything.
+    // If everything travels far together, the camera has to follow.
     this.follow = Math.max(all[2] - all[0], all[3] - all[1]) > 2.5 * largest;
     this.home = chart.place.slice();
     return all;
   }
 
-  /** Show everything: all that the film comes to, or what is there now. */
+  /** Show everything: the extent of the whole film, or the current one. */
   fit({ now = this.follow, isFlying = true } = {}) {
     const target = this.camera.framing(
       now ? this.evaluated() : { place: this.home }, now ? boxOf(this.chart) : this.whole);
@@ -44,7 +44,7 @@ class Stage {
     this.flyTo(target, isFlying);
   }
 
-  /** The chart with all vertices at the current time, true at the current magnification. */
+  /** The chart with all vertices at the current time, accurate at the current magnification. */
   evaluated() {
     const { chart, camera, player } = this;
     if (chart.isTooCoarse(player.time, camera)) chart.moveTo(player.time, camera.place);
@@ -59,7 +59,7 @@ class Stage {
     if (this.flight === null) path(1);
   }
 
-  /** Go to the contact; from there, to a thousand times the magnification. */
+  /** Go to the contact; if already there, magnify a thousand times. */
   visitContact() {
     const { film, player, camera, chart } = this;
     const node = film.contact?.pairs[0]?.node;
@@ -73,7 +73,7 @@ class Stage {
     this.flyTo({ place, scale: Math.min(scale, camera.fitted * 2 ** 118) });
   }
 
-  /** Play the last moments before the contact, as long as they fill the view. */
+  /** Play the last moments before the contact, for as long as they fill the view. */
   replayApproach() {
     const { film, player, camera } = this;
     const pair = film.contact?.pairs[0];
@@ -90,11 +90,11 @@ class Stage {
     player.approach = toDouble(left, -BITS) / 4;
   }
 
-  /** How many pixels are between the features of a contact, at the current time. */
+  /** The distance in pixels of the features of a contact at the current time. */
   gap({ node, edge, other }) {
     const { camera, film } = this;
     const chart = this.evaluated();
-    // Seen from the vertex, so that the difference is exact before it is rounded.
+    // Relative to the vertex, so that the difference is exact before it is rounded.
     chart.moveTo(this.player.time, chart.placeOf(node, this.player.time));
     if (!edge) return Math.hypot(chart.x[other], chart.y[other]) * camera.scale;
     const [u, v] = edge;
@@ -102,7 +102,7 @@ class Stage {
     return Math.abs(chart.cross(u, v) / length) * camera.scale;
   }
 
-  /** Paint the picture of a moment; whether more is to come without anyone's doing. */
+  /** Paint the picture of a moment; returns whether the animation continues by itself. */
   paint(now) {
     const { chart, camera, player, painter, film, layers } = this;
     if (this.flight !== null) {
@@ -129,7 +129,7 @@ class Stage {
       || (isContact && now - player.since < 700);
   }
 
-  /** Note what is at a pixel; whether that is something else than before. */
+  /** Note the item at a pixel; returns whether it has changed. */
   hover(x, y) {
     const { film, player, painter, layers } = this;
     const before = JSON.stringify(this.hovered);
@@ -138,7 +138,7 @@ class Stage {
     return JSON.stringify(this.hovered) !== before;
   }
 
-  /** What is hovered over, in words. */
+  /** The description of the hovered item. */
   words() {
     const digits = 9 + Math.max(Math.ceil(Math.log10(this.camera.magnification)), 0);
     return described(this.film, this.chart, this.hovered, this.player.time, digits);
