@@ -23,7 +23,6 @@ __all__ = [
     "add",
     "derivative",
     "evaluate",
-    "from_rationals",
     "greatest_common_divisor",
     "multiply",
     "negate",
@@ -51,15 +50,6 @@ def trimmed(coefficients: Iterable[ZZ]) -> IntPoly:
     while f and f[-1] == 0:
         f.pop()
     return tuple(f)
-
-
-def from_rationals(coefficients: Iterable[QQ]) -> IntPoly:
-    """A positive multiple with integer coefficients: the primitive one."""
-    f = list(coefficients)
-    denominator = ZZ(1)
-    for c in f:
-        denominator *= ZZ(c.denominator) // gcd(denominator, ZZ(c.denominator))
-    return primitive(trimmed(ZZ(c.numerator) * (denominator // ZZ(c.denominator)) for c in f))
 
 
 def add(f: IntPoly, g: IntPoly) -> IntPoly:
