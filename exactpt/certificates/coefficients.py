@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 
 from exactpt.certificates import cubics
 from exactpt.kernel import filters
+from exactpt.kernel.rounding import U
 from exactpt.kernel.vectorized import Answers, quadratics
 from exactpt.motion.image import Image
 
 __all__ = ["linear_orientations", "linear_parts", "orientation", "x_difference"]
 
-U: Final = 2.0**-53
+
 K: Final = 8.0 * U
 """Bounds the rounding of the linear and quadratic coefficients formed here.
 

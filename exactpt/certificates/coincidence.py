@@ -7,13 +7,14 @@ which vertex is between which, and whether there is a contact.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from exactpt.certificates.reasons import reason
 from exactpt.geometry.boxes import Boxes, widen_unknown
 from exactpt.kernel.integer_polynomial import add, multiply, subtract
+from exactpt.kernel.rounding import U
 from exactpt.motion import incidence
 from exactpt.motion.incidence import difference
 
@@ -30,8 +31,6 @@ __all__ = [
     "nearer_copy",
     "strictly_between",
 ]
-
-U: Final = 2.0**-53
 
 
 def coordinate_order(certifier: Certifier, a: Vertex, b: Vertex, axis: int) -> int:

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple, final
 
 from exactpt.errors import AuditError, InputError
-from exactpt.geometry.polygon import contains, edges, segments_meet
+from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.geometry.predicates import Point, side
 from exactpt.pseudotriangulation.mesh import INSIDE, OUTER, SOLID, Mesh
 
@@ -62,7 +62,7 @@ class _Search:
         self.body = body
         self.t = t
         self.points: Sequence[Point] = body._at(t)
-        pairs = edges(body.size, closed=body.closed) or [(0, 0)]
+        pairs = body.edges or [(0, 0)]
         self.edges = [(self.points[u], self.points[v]) for u, v in pairs]
         self.low = min(p[0] for p in self.points), min(p[1] for p in self.points)
         self.high = max(p[0] for p in self.points), max(p[1] for p in self.points)
@@ -164,5 +164,4 @@ class _Search:
 
     def _swallows(self, h: int) -> bool:
         """Whether the origin of a half-edge is in the body."""
-        is_polygon = self.body.closed and self.body.size > 2
-        return is_polygon and contains(self.points, self._at(self.mesh.map.origin[h]))
+        return self.body.has_interior and contains(self.points, self._at(self.mesh.map.origin[h]))

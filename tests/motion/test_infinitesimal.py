@@ -12,8 +12,8 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference
+from exactpt.motion.infinitesimal import displacements, ring_of_copies
 from exactpt.motion.motions import Rigid, Translation
-from exactpt.motion.thin import thin_offsets, thin_ring
 
 START, END = QQ(0), QQ(3)
 paths = st.lists(fractions, max_size=3)
@@ -67,8 +67,8 @@ def first_contact(edges):
 @given(chains())
 def test_offsets_are_on_their_side_of_both_edges(tracks):
     n = len(tracks)
-    offsets = thin_offsets(tracks, START, END)
-    ring = thin_ring(n)
+    offsets = displacements(tracks, START, END)
+    ring = ring_of_copies(n)
     edges = [direction(p, q) for p, q in pairwise(tracks)]
     until = END if offsets.until is None else offsets.until
     assert len(ring) == len(offsets.directions)
@@ -84,14 +84,14 @@ def test_offsets_are_on_their_side_of_both_edges(tracks):
 
 
 def test_a_ring_goes_out_on_the_right_and_back_on_the_left():
-    assert thin_ring(1) == [0, 0, 0]
-    assert thin_ring(2) == [0, 0, 1, 1]
-    assert thin_ring(4) == [0, 0, 1, 2, 3, 3, 2, 1]
+    assert ring_of_copies(1) == [0, 0, 0]
+    assert ring_of_copies(2) == [0, 0, 1, 1]
+    assert ring_of_copies(4) == [0, 0, 1, 2, 3, 3, 2, 1]
 
 
 def test_a_point_becomes_a_triangle_around_it():
     track = Body("a", [(3, 4)])._piece_after(START).tracks
-    offsets, until = thin_offsets(track, START, END)
+    offsets, until = displacements(track, START, END)
 
     assert until is None
     turns = [cross_sign(offsets[i], offsets[(i + 1) % 3], START) for i in range(3)]
@@ -100,7 +100,7 @@ def test_a_point_becomes_a_triangle_around_it():
 
 def test_the_ends_of_a_segment_have_a_left_and_a_right_copy():
     tracks = Body("a", [(0, 0), (2, 1)], Rigid([0, 1]))._piece_after(START).tracks
-    offsets, until = thin_offsets(tracks, START, END)
+    offsets, until = displacements(tracks, START, END)
     along = direction(*tracks)
 
     assert until is None
@@ -113,7 +113,7 @@ def test_offsets_at_the_start_of_a_chain_with_a_right_angle_then():
     tracks = Body("a", [[0, 0], [2, 0], {"x": [2, 1], "y": [2, -1]}], closed=False)._piece_after(
         START
     )
-    left = thin_offsets(tracks.tracks, START, END).directions[5]
+    left = displacements(tracks.tracks, START, END).directions[5]
 
     for p, q in pairwise(tracks.tracks):
         assert cross_sign(direction(p, q), left, START) == 1
@@ -125,4 +125,4 @@ def test_offsets_end_where_the_chain_has_bent_too_far():
         "a", [[0, 0], {"x": [2], "y": [0]}, {"x": [2, 2, -1], "y": [2, -2]}], closed=False
     )._piece_after(START).tracks  # fmt: skip
 
-    assert thin_offsets(tracks, START, END).until is not None
+    assert displacements(tracks, START, END).until is not None

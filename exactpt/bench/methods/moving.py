@@ -70,7 +70,7 @@ class Moving:
             tracks = body._piece_after(scene._start).tracks
             if any(len(track.w) > 1 for track in tracks):
                 raise UnsuitableScene("bodies that turn")
-            rigid = all(t.frame is not None and t.frame == tracks[0].frame for t in tracks)
+            rigid = all(t.motion is not None and t.motion == tracks[0].motion for t in tracks)
             first = len(xs)
             closed = body.closed and body.size > 2
             self.shapes.append(Shape(first, body.size, closed=closed, deforms=not rigid))
