@@ -45,7 +45,7 @@ Coefficients: TypeAlias = "Polynomial | Rational | Iterable[Rational]"
 """A polynomial as a caller may write it: coefficients (constant first), or a number."""
 
 Position: TypeAlias = tuple[Polynomial, Polynomial]
-"""The coordinates of a vertex in its body's frame; constants unless the body deforms."""
+"""The coordinates of a vertex in its body's rest frame; constants unless the body deforms."""
 
 
 def made(kind: Callable[..., T], values: tuple[object, ...], options: dict[str, object]) -> T:
@@ -79,7 +79,7 @@ class SimpleMotion(Protocol):
     """A motion given by one formula for all time."""
 
     def track(self, position: Position) -> Track:
-        """The track of the vertex with this position in the body's frame."""
+        """The trajectory of the vertex with this position in the rest frame."""
         ...
 
 
@@ -94,7 +94,7 @@ class Translation(_Given):
         self.y = polynomial(y)
 
     def track(self, position: Position) -> Track:
-        """The track of the vertex with this position in the body's frame."""
+        """The trajectory of the vertex with this position in the rest frame."""
         return track(position[0] + self.x, position[1] + self.y, None, None)
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
@@ -137,7 +137,7 @@ class Rigid(_Given):
         return place(self._pivot)
 
     def track(self, position: Position) -> Track:
-        """The track of the vertex with this position in the body's frame."""
+        """The trajectory of the vertex with this position in the rest frame."""
         px, py = Polynomial([self._pivot[0]]), Polynomial([self._pivot[1]])
         h = self.half_turn
         w, cosine, sine = ONE + h * h, ONE - h * h, h + h
@@ -182,7 +182,7 @@ class Affine(_Given):
         self.y = polynomial(y)
 
     def track(self, position: Position) -> Track:
-        """The track of the vertex with this position in the body's frame."""
+        """The trajectory of the vertex with this position in the rest frame."""
         (a, b), (c, d) = self.matrix
         u, v = position
         return track(a * u + b * v + self.x, c * u + d * v + self.y, None, None)
