@@ -49,7 +49,7 @@ class Nodes:
         """The rings of the rigid closed bodies, counter-clockwise."""
         rings = []
         for first, body, rigid in zip(self.first, self.scene.bodies, self.rigid, strict=False):
-            if rigid and body.closed and body.size > 2:
+            if rigid and body.has_interior:
                 ring = list(range(first, first + body.size))
                 turns_left = is_counter_clockwise(body._at(self.scene._start))
                 rings.append(ring if turns_left else ring[::-1])

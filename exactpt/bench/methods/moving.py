@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exactpt.bench.methods.method import UnsuitableScene
-from exactpt.geometry.polygon import edges
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.scene.scene import Scene
@@ -72,9 +71,9 @@ class Moving:
                 raise UnsuitableScene("bodies that turn")
             rigid = all(t.motion is not None and t.motion == tracks[0].motion for t in tracks)
             first = len(xs)
-            closed = body.closed and body.size > 2
+            closed = body.has_interior
             self.shapes.append(Shape(first, body.size, closed=closed, deforms=not rigid))
-            pairs += [(first + a, first + b) for a, b in edges(body.size, closed=body.closed)]
+            pairs += [(first + a, first + b) for a, b in body.edges]
             xs += [_doubles(track.x, track.w) for track in tracks]
             ys += [_doubles(track.y, track.w) for track in tracks]
         width = max(map(len, (*xs, *ys)), default=1)
