@@ -23,6 +23,7 @@ FAR: Final = 2.0**20
 """Ratio of distance from the origin to extent above which boxes are relative to a point."""
 
 _CHUNK: Final = 1 << 21
+"""Maximum number of candidate pairs in a chunk, unless a single box has more."""
 
 
 def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:

@@ -31,6 +31,7 @@ MOST_STEPS: Final = 60
 SETTLED: Final = 2.0**-30
 """Relative length of the last Newton step: the error left is about its square."""
 ROUNDING: Final = 2.0**-54
+"""First galloping step, relative to the size of the terms."""
 
 
 def nearest_double(x: IsolatedRoot) -> float:

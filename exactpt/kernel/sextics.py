@@ -43,8 +43,11 @@ Six: TypeAlias = tuple[float, float, float, float, float, float]
 Seven: TypeAlias = tuple[float, float, float, float, float, float, float]
 
 UNIT: Final = 32.0 * U
+"""Relative rounding error of the terms, as shown above."""
 SHORTEST: Final = 2.0**-150
+"""Minimum length h of a window."""
 FARTHEST: Final = 2.0**66
+"""Upper bound on T."""
 SIXTH: Final = 1.0 / 6.0
 FIFTEENTH: Final = 1.0 / 15.0
 TWENTIETH: Final = 1.0 / 20.0

@@ -24,6 +24,7 @@ __all__ = ["Frame", "frame_for"]
 
 SMALLEST: Final = 2.0**-100
 LARGEST: Final = 2.0**100
+"""Range of the size of nonzero coefficients that the filters accept."""
 INTEGERS: Final = 2.0**53
 """All integers of smaller absolute value are doubles."""
 

@@ -1,4 +1,4 @@
-"""Offsets of thin bodies: on the left and right of both edges at every vertex, while they hold."""
+"""Displacements of infinitesimal copies: on one side of both edges at every vertex."""
 
 from itertools import pairwise
 
@@ -24,7 +24,7 @@ motions = st.one_of(
 
 @st.composite
 def chains(draw, least=2):
-    """The tracks of an open chain whose vertices may move by polynomials of their own."""
+    """The trajectories of an open chain whose vertices may move by polynomials of their own."""
     n = draw(st.integers(least, 5))
     if draw(st.booleans()):
         steps = draw(st.lists(st.tuples(fractions, fractions), min_size=n, max_size=n))
@@ -65,7 +65,7 @@ def first_contact(edges):
 
 
 @given(chains())
-def test_offsets_are_on_their_side_of_both_edges(tracks):
+def test_displacements_are_on_their_side_of_both_edges(tracks):
     n = len(tracks)
     offsets = displacements(tracks, START, END)
     ring = ring_of_copies(n)
@@ -108,7 +108,7 @@ def test_the_ends_of_a_segment_have_a_left_and_a_right_copy():
         assert [cross_sign(along, offset, t) for offset in offsets] == [1, -1, -1, 1]
 
 
-def test_offsets_at_the_start_of_a_chain_with_a_right_angle_then():
+def test_displacements_at_the_start_of_a_chain_with_a_right_angle_then():
     """It becomes obtuse: the left of the first edge, good from then on, is along the other."""
     tracks = Body("a", [[0, 0], [2, 0], {"x": [2, 1], "y": [2, -1]}], closed=False)._piece_after(
         START
@@ -119,7 +119,7 @@ def test_offsets_at_the_start_of_a_chain_with_a_right_angle_then():
         assert cross_sign(direction(p, q), left, START) == 1
 
 
-def test_offsets_end_where_the_chain_has_bent_too_far():
+def test_displacements_end_where_the_chain_has_bent_too_far():
     """A right angle, then straight, then the other way round: one direction is not enough."""
     tracks = Body(
         "a", [[0, 0], {"x": [2], "y": [0]}, {"x": [2, 2, -1], "y": [2, -2]}], closed=False
