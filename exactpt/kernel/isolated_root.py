@@ -150,7 +150,7 @@ class IsolatedRoot:
 
     @property
     def is_rational(self) -> bool:
-        """Whether the number is known to be rational; of degree 3 or more it may be unrecognised."""
+        """Whether it is known to be rational; a number of degree 3 or more may be unrecognised."""
         return self._low == self._high
 
     def refine(self) -> None:
