@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from math import lcm
 
 import flint
 from hypothesis import strategies as st
 from oracles import RealRoot, real_roots, separate
 
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.integer_polynomial import primitive, trimmed
 from exactpt.kernel.numbers import QQ, ZZ
 
 __all__ = [
     "algebraics",
     "as_int_poly",
+    "as_primitive",
     "as_rational",
     "body_data",
     "doubles",
@@ -39,6 +42,12 @@ def as_rational(q):
 def as_int_poly(coefficients):
     """The kernel's integer polynomial for a list of integers."""
     return tuple(ZZ(int(c)) for c in coefficients)
+
+
+def as_primitive(coefficients):
+    """The kernel's primitive positive multiple of a polynomial over the rationals."""
+    denominator = ZZ(lcm(*(int(c.denominator) for c in coefficients)))
+    return primitive(trimmed(ZZ(c * denominator) for c in coefficients))
 
 
 # Numbers

@@ -1,1 +1,1 @@
-"""Certificates of moving vertices: signs just after now, and when they may fail. No mesh."""
+"""Certificates of moving vertices: signs just after now and times of failure. No mesh."""

@@ -1,9 +1,9 @@
 """Predicates at one rational time, for the static constructions.
 
-Two ways to ask: for the signs just after the time (a scene that starts on an event is
-kept as it is right after), or for those at the time itself (a tiling that is shown at the
-very time of an event). The two differ only for what vanishes at that time. A float filter
-decides where it can.
+They give either the signs just after the time (for a scene that starts at an event: its
+tiling is the one right after), or the signs at the time itself (for a tiling shown at the
+time of an event). The two differ only where a function vanishes at that time. A float
+filter decides where it can.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ from exactpt.motion.vertices import Vertex, Vertices
 __all__ = ["PredicatesAt", "sorted_by_x"]
 
 STEPS: Final = 2.0**30
-"""How finely slopes are told apart at first."""
+"""Number of units per unit of slope, as slopes are first compared in floats."""
 
 
 def sorted_by_x(predicates: Predicates, ids: Iterable[int]) -> list[int]:
-    """Different vertices from left to right."""
+    """Distinct vertices from left to right."""
     if isinstance(predicates, PredicatesAt):
         return predicates.sorted_by_x(ids)
     return _sorted_exactly(predicates, ids)
@@ -55,7 +55,7 @@ class PredicatesAt(Predicates):
 
     Attributes:
         time: the time.
-        after: whether signs are those just after it; else, those at it.
+        after: whether the signs are those just after the time, or else those at it.
     """
 
     def __init__(
@@ -68,12 +68,12 @@ class PredicatesAt(Predicates):
         self._number = AlgebraicNumber(time)
         self._exact_only: bool = exact_only
         self._exact: dict[int, Point] = {}
-        # Differences of coordinates are off by at most d, besides their own rounding.
+        # The error of a difference of coordinates is at most d plus its own rounding.
         self._xs, self._ys, error = positions_at(vertices, *vertices.frame.time(time))
         self._x: list[float] = self._xs.tolist()
         self._y: list[float] = self._ys.tolist()
         d = self._d = 2.0 * error
-        # The bound of `cross_sign` for differences as large as any here.
+        # The bound of `cross_sign` for the largest differences among these positions.
         width, height = _extent(self._xs), _extent(self._ys)
         self._largest_bound: float = (
             K * 2.0 * width * height + d * 2.0 * (width + height + d)
@@ -112,7 +112,7 @@ class PredicatesAt(Predicates):
 
     @np.errstate(all="ignore")
     def signs(self, triples: Sequence[tuple[int, int, int]]) -> list[int]:
-        """As `sign` of each triple, in numpy."""
+        """The `sign` of each triple, in numpy."""
         if not triples:
             return []
         count = 3 * len(triples)
@@ -153,7 +153,7 @@ class PredicatesAt(Predicates):
         self._counters.count_exact("sign", why)
 
     def _sign_of_copies(self, u: Vertex, v: Vertex, w: Vertex) -> int:
-        """The sign of `copy_orientation` at the time itself."""
+        """The sign of `exactpt.certificates.perturbation.copy_orientation` at the time itself."""
         a, b, c = copies_first(u, v, w)
         (ax, ay), (bx, by) = self.offset(a.id), self.offset(b.id)
         (px, py), (qx, qy) = (
@@ -162,9 +162,10 @@ class PredicatesAt(Predicates):
         return sign((bx - ax) * (qy - py) - (by - ay) * (qx - px))
 
     def all_stay_convex(self) -> bool:
-        """Whether all bodies are convex and stay so; at a vertex, an angle of pi will do.
+        """Whether all bodies are convex and stay so; angles of pi are allowed.
 
-        Not so an open chain of more than two vertices, straight as it may be: it may bend.
+        False if there is an open chain of more than two vertices, even a straight one: it
+        may bend later.
         """
         v, bodies = self.vertices.all, self.vertices.bodies
         if any(b.is_tiled or (b.body.size > 2 and not b.body.closed) for b in bodies):
@@ -177,7 +178,7 @@ class PredicatesAt(Predicates):
         )
 
     def first_sign(self, terms: Iterable[IntPoly]) -> int:
-        """The sign of the first term that is not zero: for ever, or at the time."""
+        """The sign of the first term that is not zero: just after the time, or at it."""
         for f in terms:
             s = self._number.sign_after(f) if self.after else sign_at(f, self.time)
             if s:
@@ -185,7 +186,7 @@ class PredicatesAt(Predicates):
         return 0
 
     def left_of(self, a: int, b: int) -> bool:
-        """Whether a comes before b from left to right (of equal x the upper one first)."""
+        """Whether a is left of b; of equal x, the upper one counts as left."""
         difference = self._x[b] - self._x[a]
         bound = self._d + K * abs(difference)
         if not self._exact_only:
@@ -203,10 +204,10 @@ class PredicatesAt(Predicates):
         return self.first_sign(x_order_terms(u, v)) > 0
 
     def sorted_by_x(self, ids: Iterable[int]) -> list[int]:
-        """Vertices from left to right: by doubles, and exactly where these are close.
+        """Vertices from left to right: sorted by doubles, and exactly where these are close.
 
-        In the order of the doubles every vertex before a gap wider than the bound is
-        certainly left of every one after it.
+        In the order of the doubles, every vertex before a gap wider than the error bound is
+        certainly left of every vertex after the gap.
         """
         x, d = self._x, self._d
         order = sorted(ids, key=x.__getitem__)
@@ -224,12 +225,12 @@ class PredicatesAt(Predicates):
         return order
 
     def descent(self, a: int, b: int) -> float:
-        """-slope of the line from a to b, a left of b, rounded down; monotone in the slope.
+        """Minus the slope of the line from a to b, a left of b, rounded down to 1 / `STEPS`.
 
-        In units of 1 / `STEPS`. Rounding down is monotone, so where it is the same for both
-        ends of an enclosure it is that of the slope. The quotient is off as in
-        `exactpt.certificates.positions`. A line that is vertical at the time is steeper than any
-        other: downwards, or upwards.
+        In units of 1 / `STEPS`. Rounding down is monotone, so if both ends of an enclosure
+        are rounded to one number, so is the slope. The error of the quotient is bounded as in
+        `exactpt.certificates.positions`. A line that is vertical at the time is steeper than
+        any other, downwards or upwards.
         """
         dx, dy = self._x[b] - self._x[a], self._y[b] - self._y[a]
         ex, ey = self._d + K * abs(dx), self._d + K * abs(dy)
@@ -255,7 +256,7 @@ class PredicatesAt(Predicates):
         return self._number.sign_after(cross(p, q, r, s))
 
     def turn_now(self, a: int, b: int, c: int, d: int) -> int:
-        """The same at the time itself; 0 if the directions are parallel then."""
+        """The `turn` at the time itself; 0 if the directions are parallel then."""
         if not self._exact_only:
             x, y, off = self._x, self._y, self._d
             now = cross_sign(x[b] - x[a], y[b] - y[a], off, x[d] - x[c], y[d] - y[c], off)
@@ -268,13 +269,13 @@ class PredicatesAt(Predicates):
         return now
 
     def middle(self, a: int, b: int, c: int) -> int:
-        """Of three collinear vertices, the one between the others."""
+        """The middle one of three collinear vertices."""
         if self.nearer(a, b, c):
             return b if self.nearer(c, b, a) else a
         return c if self.nearer(b, c, a) else a
 
     def nearer(self, p: int, a: int, b: int) -> bool:
-        """Whether a is nearer to p than b is, for a and b in one direction from p."""
+        """Whether a is nearer to p than b is, for a and b in the same direction from p."""
         origin, u, v = self.position(p), self.position(a), self.position(b)
         if u == v:
             return self._copy_is_nearer(p, a, b)
@@ -282,13 +283,13 @@ class PredicatesAt(Predicates):
         return abs(u[axis] - origin[axis]) < abs(v[axis] - origin[axis])
 
     def _copy_is_nearer(self, p: int, a: int, b: int) -> bool:
-        """Of two copies of a thin vertex, the one whose offset points towards p."""
+        """Whether copy a of a vertex is displaced further towards p than its copy b."""
         (ax, ay), (bx, by) = self.offset(a), self.offset(b)
         (px, py), (x, y) = self.position(p), self.position(a)
         return (ax - bx) * (px - x) + (ay - by) * (py - y) > 0
 
     def offset(self, vertex_id: int) -> Point:
-        """The direction of a vertex's infinitesimal offset; (0, 0) unless its body is thin."""
+        """The direction of a vertex's infinitesimal displacement; (0, 0) if it has none."""
         offset = self.vertices.all[vertex_id].offset
         if offset is None:
             return QQ(0), QQ(0)
@@ -296,6 +297,6 @@ class PredicatesAt(Predicates):
 
 
 def _extent(values: NDArray[np.float64]) -> float:
-    """How far apart any two of the numbers are; what is NaN is none."""
+    """The largest difference of two of the numbers, NaN ignored."""
     known = values[~np.isnan(values)]
     return float(np.ptp(known)) if len(known) else 0.0

@@ -1,8 +1,8 @@
 """Certificates: the sign of an orientation or x-order just after now, and when it may fail.
 
-A small door: the tilings ask here and never learn which path answered. Floats with
-proven bounds are asked first (`exactpt.certificates.coefficients`); what they leave open is
-decided exactly.
+The tilings ask only here. Floats with proven bounds are tried first
+(`exactpt.certificates.coefficients`); exact arithmetic decides what they leave open, and
+the answer is the same.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ __all__ = ["X_ORDER", "Certifier"]
 INFINITY: Final = float("inf")
 
 BATCH: Final = 50
-"""From so many on, numpy is faster."""
+"""Minimum batch size for which numpy is faster."""
 
 X_ORDER: Final = -1
 """The third vertex of an event time that is a root of an x-order."""
@@ -52,12 +52,12 @@ class Certifier:
         roots_now: triples of vertices whose function vanishes now.
         end: the last time of interest.
         exact_only: whether the float filters are switched off.
-        made: how many certificates have been computed.
-        skipped: how many have not, since they cannot fail.
-        zeros: how many of those made anew were found to vanish now, or for ever.
-        counters: of the run.
-        errors: bounds on the coefficients of the images, see `Frame`.
-        positions: of the vertices now, in doubles.
+        made: the number of certificates computed.
+        skipped: the number of certificates not computed, since they cannot fail.
+        zeros: the number of computed certificates that vanish now, or for ever.
+        counters: the counts of decisions of the run.
+        errors: bounds on the coefficients of the float enclosures, see `Frame`.
+        positions: the positions of the vertices now, in doubles.
     """
 
     def __init__(self, vertices: Vertices, start: QQ, end: QQ, *, exact_only: bool) -> None:
@@ -80,7 +80,7 @@ class Certifier:
         self.positions.move_to(low, high)
 
     def move_to(self, time: EventTime, roots: list[tuple[int, int, int]]) -> None:
-        """Make this time the current one; ``roots``: triples whose orientation vanishes then."""
+        """Make this the current time; ``roots`` are the triples whose function vanishes then."""
         self.now = time
         self.now_low = time.low
         self.now_high = time.high
@@ -93,7 +93,7 @@ class Certifier:
         return self.now.exact or self.resolve(self.now)
 
     def resolve(self, time: EventTime) -> AlgebraicNumber:
-        """The exact time of an event; its enclosure becomes as narrow as doubles."""
+        """The exact time of an event; its enclosure is narrowed as far as doubles allow."""
         vertices, frame = self.all, self._vertices.frame
         if time.c == X_ORDER:
             f = x_order(vertices[time.a], vertices[time.b])
@@ -114,10 +114,10 @@ class Certifier:
     def rigid(self, a: int, b: int, c: int) -> bool:
         """Whether three vertices keep their orientation for ever, so that no zero is lost.
 
-        Three that share a motion keep their distances, and the copies of one vertex their
-        offsets, unless these turn apart from the motion. The copies of a point or a segment
-        alone turn with it: their orientation is 0 only where the segment shrinks to a point,
-        which has an event of its own (`KineticTiling._schedule_piece`).
+        Three vertices of one motion keep their distances, and the copies of one vertex their
+        displacements, unless these turn independently of the motion. The copies of a point
+        or a segment alone turn with it: their orientation is 0 only where the segment shrinks
+        to a point, which has an event of its own (`KineticTiling._schedule_piece`).
         """
         va, vb, vc = self.all[a], self.all[b], self.all[c]
         motion = va.image.motion
@@ -135,9 +135,10 @@ class Certifier:
         )
 
     def _turns_apart(self, copy: Vertex) -> bool:
-        """Whether the offsets of a vertex's copies turn, or not, unlike its motion.
+        """Whether the displacements of a vertex's copies do not turn with its motion.
 
-        Those of a point never turn; those of a segment or chain that deforms do.
+        Those of a point never turn, even if the point does; those of a segment or chain
+        that deforms may turn.
         """
         moving = self._vertices.bodies[copy.body]
         return bool(copy.image.ws) if moving.body.size == 1 else moving.deforms
@@ -147,15 +148,15 @@ class Certifier:
         va, vb = self.all[a], self.all[b]
         p, q = va.image, vb.image
         if va.offset is not None and self._vertices.bodies[va.body].deforms:
-            return False  # its offsets turn
+            return False  # its displacements turn
         return p.motion == q.motion and p.motion >= 0 and not p.ws
 
     def orientation(self, a: int, b: int, c: int) -> tuple[int, EventTime | None]:
         """The sign of the orientation just after now, and its first zero later.
 
         The sign is 0 if the orientation is zero for ever; then the time is the first at
-        which two of the vertices coincide. A zero without change of sign counts, of copies
-        too: it may be a touch (`exactpt.certificates.incidences`).
+        which two of the vertices coincide. A zero without change of sign counts, even one of
+        infinitesimal copies: it may be a contact (`exactpt.certificates.incidences`).
         """
         self.made += 1
         va, vb, vc = self.all[a], self.all[b], self.all[c]
@@ -182,7 +183,7 @@ class Certifier:
     def orientations(
         self, triples: Sequence[tuple[int, int, int]]
     ) -> list[tuple[int, EventTime | None]]:
-        """As `orientation` of each triple; those in linear motion in numpy, all at once."""
+        """The `orientation` of each triple, in numpy for those in linear motion."""
         answers: list[tuple[int, EventTime | None]] = []
         if len(triples) < BATCH or self.exact_only or self.roots_now:
             for a, b, c in triples:
@@ -201,7 +202,7 @@ class Certifier:
         return answers
 
     def _linear_orientations(self, triples: Sequence[tuple[int, int, int]]) -> Answers:
-        """What the filter can tell of three different linear motions; unsure of others."""
+        """The filter's answers for three different linear trajectories; unsure for others."""
         vertices = self.all
         bodies = [min(self._end_high, body.horizon) for body in self._vertices.bodies]
         horizons = np.array([bodies[v.body] for v in vertices])
@@ -222,16 +223,16 @@ class Certifier:
         return Answers(np.where(are_linear, signs, 0), lows, highs)
 
     def vanishes_now(self, a: int, b: int, c: int) -> bool:
-        """Whether the function of these vertices is known to be zero now."""
+        """Whether the function of these vertices is known to vanish now."""
         for i, j, k in self.roots_now:
             if a in (i, j, k) and b in (i, j, k) and c in (i, j, k):
                 return True
         return False
 
     def _horizon(self, a: Vertex, b: Vertex) -> float:
-        """A double at least the time until which the motions of two vertices are known."""
+        """An upper bound of the time until which the motions of two vertices are known."""
         bodies = self._vertices.bodies
-        # The least of two compiles to a comparison, that of three to a call.
+        # The minimum of two compiles to a comparison, that of three to a call.
         of_both = min(bodies[a.body].horizon, bodies[b.body].horizon)
         return min(self._end_high, of_both)
 
@@ -269,7 +270,7 @@ class Certifier:
         return self._event_time(root.time, (a, b, c), crossing=root.crossing)
 
     def first_coincidence(self, *ids: int) -> EventTime | None:
-        """The first time at which two of some vertices, always on one line, coincide.
+        """The first time at which two of these vertices, collinear for ever, coincide.
 
         Two that share a motion keep their distance; it is not 0, or the scene would begin
         with a contact.
@@ -297,10 +298,10 @@ class Certifier:
         return EventTime(low, high, *key, number, crossing)
 
     def x_order(self, a: int, b: int, *, touching: bool = False) -> tuple[int, EventTime | None]:
-        """Whether a is left of b just after now (1, else -1), and when that ends.
+        """1 if a is left of b just after now, else -1; and the time at which that ends.
 
-        With ``touching``, a time at which the two are level without passing counts too.
-        Without, such a time is none: the tiling is the same just before and just after it
+        With ``touching``, a time at which the two have equal x without passing counts too.
+        Otherwise it does not: the tiling is the same just before and just after it
         (`exactpt.certificates.perturbation`), and contacts are found by angles alone
         (`exactpt.certificates.incidences`).
         """
@@ -343,7 +344,7 @@ class Certifier:
 
 
 def _earlier(s: EventTime | None, t: EventTime | None) -> EventTime | None:
-    """The earlier of two exact times; None is later than any."""
+    """The earlier of two exact times; None counts as infinity."""
     if s is None or t is None or s.exact is None or t.exact is None:
         return s or t
     return t if t.exact.compare(s.exact) < 0 else s

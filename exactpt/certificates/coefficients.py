@@ -1,9 +1,9 @@
-"""The polynomials that certificates watch, as doubles with error bounds.
+"""The polynomials of certificates, as doubles with error bounds.
 
-Notation: unit u = 2^-53. Coefficient i of the image of a translating track is off by at
-most ``errors[i]`` (0 while all are exact doubles), so a difference of two by
-d[i] = 2 errors[i], besides its own rounding. Tracks of one translation differ by a
-constant, exactly: their higher coefficients are not formed at all.
+Notation: unit u = 2^-53. The error of coefficient i of the enclosure of a translating
+trajectory is at most ``errors[i]`` (0 while all are exact doubles), so that of a difference
+of two is at most d[i] = 2 errors[i] plus its own rounding. Trajectories of one translation
+differ by an exact constant: their higher coefficients are not formed at all.
 """
 
 from __future__ import annotations
@@ -16,17 +16,19 @@ from numpy.typing import NDArray
 
 from exactpt.certificates import cubics
 from exactpt.kernel import filters
+from exactpt.kernel.rounding import U
 from exactpt.kernel.vectorized import Answers, quadratics
 from exactpt.motion.image import Image
 
 __all__ = ["linear_orientations", "linear_parts", "orientation", "x_difference"]
 
-U: Final = 2.0**-53
-K: Final = 8.0 * U
-"""Bounds the rounding of the linear and quadratic coefficients formed here.
 
-A difference of doubles is right to one unit, a product of two of them to three, a sum
-of up to four products to six; two more units cover the rounding of the bound itself.
+K: Final = 8.0 * U
+"""Relative bound on the rounding of the linear and quadratic coefficients formed here.
+
+The relative error of a difference of doubles is at most one unit, of a product of two of
+them three, of a sum of up to four products six; two more units cover the rounding of the
+bound itself.
 """
 ONE: Final = [1.0]
 
@@ -41,10 +43,10 @@ def orientation(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> filters.Answer:
-    """The filter's answer for the orientation of three images."""
+    """The filter's answer for the orientation of three vertices."""
     if a.ws or b.ws or c.ws:
         return _turning(a, b, c, now_low, now_high, horizon, at_root)
-    # The orientation is the same for (a, b, c), (b, c, a), (c, a, b): let a and b
+    # The orientation is invariant under rotation of (a, b, c): rotate so that a and b
     # translate together, if any two do.
     if not (a.motion == b.motion and a.motion >= 0):
         if b.motion == c.motion and b.motion >= 0:
@@ -74,7 +76,7 @@ def _pair(
     horizon: float,
     at_root: bool,  # noqa: FBT001
 ) -> filters.Answer:
-    """Linear motions, a and b together: (b - a) x (c - a) is linear in t.
+    """The answer for linear motions, a and b together: (b - a) x (c - a) is linear in t.
 
     For exact u + du, v + dv: |(u + du)(v + dv) - u v| <= |u| dv + |v| du + du dv.
     """
@@ -103,7 +105,7 @@ def _three(
     horizon: float,
     at_root: bool,  # noqa: FBT001
 ) -> filters.Answer:
-    """Three linear motions: (b - a) x (c - a) is quadratic in t."""
+    """The answer for three linear motions: (b - a) x (c - a) is quadratic in t."""
     ux0, uy0, ux1, uy1 = b.x0 - a.x0, b.y0 - a.y0, b.x1 - a.x1, b.y1 - a.y1
     vx0, vy0, vx1, vy1 = c.x0 - a.x0, c.y0 - a.y0, c.x1 - a.x1, c.y1 - a.y1
     p, q = ux0 * vy0, uy0 * vx0
@@ -123,7 +125,7 @@ def _three(
 
 
 def linear_parts(images: Sequence[Image]) -> NDArray[np.float64]:
-    """x0, y0, x1, y1 of each image, a row each."""
+    """The coefficients x0, y0, x1, y1 of each enclosure, one row each."""
     columns = (
         [i.x0 for i in images],
         [i.y0 for i in images],
@@ -142,12 +144,13 @@ def linear_orientations(
     now_high: float,
     horizon: NDArray[np.float64],
 ) -> Answers:
-    """The filter's answers for many triples (rows of positions), none at a root now.
+    """The filter's answers for many triples (rows of indices), none at a root now.
 
-    Only those of linear motions mean anything.
+    Only the answers for linear motions are valid.
 
-    As `_three`; where two of a triple translate together they are made a and b, and the
-    higher coefficient of their difference is 0 without error, as in `_pair`.
+    They are computed as in `_three`; if two vertices of a triple translate together they
+    become a and b, and the higher coefficient of their difference is 0 without error, as in
+    `_pair`.
     """
     motions = np.array([i.motion for i in images])[triples]
     values = linear_parts(images)[triples]
@@ -185,9 +188,9 @@ def _any_degree(
     horizon: float,
     at_root: bool,  # noqa: FBT001
 ) -> filters.Answer:
-    """Translations of any degree.
+    """The answer for translations of any degree.
 
-    A coefficient is a sum of at most 2n products, each right to three units: 2n + 3
+    A coefficient is a sum of at most 2n products, each with an error of three units: 2n + 3
     units, and 4n + 8 cover the rounding of the bound.
     """
     ux, uy = _differences(a.xs, b.xs, a, b), _differences(a.ys, b.ys, a, b)
@@ -218,10 +221,10 @@ def _turning(
     horizon: float,
     at_root: bool,  # noqa: FBT001
 ) -> filters.Answer:
-    """The determinant of the rows (x, y, w), whatever turns.
+    """The answer for any motions, by the determinant of the rows (x, y, w).
 
-    Every coefficient of an image is right to one unit of itself, so a product of three
-    is right to five, and a sum of at most 6 n^2 of them to 6 n^2 more.
+    The relative error of every coefficient of an enclosure is at most one unit, so that of a
+    product of three is at most five, and a sum of at most 6 n^2 products adds 6 n^2.
     """
     aw, bw, cw = a.ws or ONE, b.ws or ONE, c.ws or ONE
     n = len(a.xs) + len(b.xs) + len(c.xs) - 2
@@ -242,7 +245,7 @@ def _add_products(
     values: list[float],
     sizes: list[float],
 ) -> None:
-    """Add x (y1 w1 - y2 w2) to the values, and the absolute products to the sizes."""
+    """Add x (y1 w1 - y2 w2) to ``values``, and the absolute products to ``sizes``."""
     minor, size = _minor(y1, w1, y2, w2)
     for i in range(len(x)):
         p = x[i]
@@ -256,7 +259,7 @@ def _add_products(
 def _minor(
     y1: list[float], w1: list[float], y2: list[float], w2: list[float]
 ) -> tuple[list[float], list[float]]:
-    """y1 w1 - y2 w2, and the same with absolute values and a plus."""
+    """y1 w1 - y2 w2, and |y1| |w1| + |y2| |w2|."""
     n = max(len(y1) + len(w1), len(y2) + len(w2)) - 1
     values, sizes = [0.0] * n, [0.0] * n
     for i in range(len(y1)):
@@ -301,7 +304,7 @@ def x_difference(
 
 
 def _differences(p: list[float], q: list[float], a: Image, b: Image) -> list[float]:
-    """q - p; of coordinates of one translation, only the constant."""
+    """The coefficients of q - p; for vertices of one translation, the constant alone."""
     if a.motion == b.motion and a.motion >= 0:
         return [q[0] - p[0]]
     if len(p) == len(q):

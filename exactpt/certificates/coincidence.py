@@ -1,19 +1,20 @@
-"""Where vertices are at the current time itself: order along a line, coincidence.
+"""Positions at the current time itself: order along a line, coincidence.
 
-Unperturbed and at the very time of an event (not just after it): this is what decides
-which vertex is between which, and whether there is a contact.
+They are unperturbed, and those at the time of an event, not just after it: they decide
+which vertex lies between which, and whether there is a contact.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from exactpt.certificates.reasons import reason
 from exactpt.geometry.boxes import Boxes, widen_unknown
 from exactpt.kernel.integer_polynomial import add, multiply, subtract
+from exactpt.kernel.rounding import U
 from exactpt.motion import incidence
 from exactpt.motion.incidence import difference
 
@@ -30,8 +31,6 @@ __all__ = [
     "nearer_copy",
     "strictly_between",
 ]
-
-U: Final = 2.0**-53
 
 
 def coordinate_order(certifier: Certifier, a: Vertex, b: Vertex, axis: int) -> int:
@@ -52,44 +51,44 @@ def coordinate_order(certifier: Certifier, a: Vertex, b: Vertex, axis: int) -> i
 
 
 def boxes_now(certifier: Certifier, vertices: Sequence[Vertex]) -> Boxes:
-    """Boxes that contain the positions now, in the frame."""
+    """Boxes that contain the positions now, normalised."""
     boxes = np.empty((len(vertices), 4))
     for i, vertex in enumerate(vertices):
         certifier.positions.find(vertex)
         x, y, error = vertex.x, vertex.y, vertex.error
         dx, dy = error + 4.0 * U * abs(x), error + 4.0 * U * abs(y)
         boxes[i] = (x - dx, x + dx, y - dy, y + dy)
-    widen_unknown(boxes)  # of what doubles cannot hold
+    widen_unknown(boxes)  # those of positions out of the range of doubles
     return boxes
 
 
 def coincide(certifier: Certifier, a: Vertex, b: Vertex) -> bool:
-    """Whether two vertices are at one place now."""
+    """Whether two vertices coincide now."""
     return coordinate_order(certifier, a, b, 0) == 0 and coordinate_order(certifier, a, b, 1) == 0
 
 
 def nearer(certifier: Certifier, p: Vertex, a: Vertex, b: Vertex) -> int:
-    """For a and b in one direction from p: 1 if a is nearer, -1 if b is, 0 if they coincide.
+    """For a and b in the same direction from p: 1 if a is nearer, -1 if b is, 0 if they coincide.
 
-    The copies of a thin vertex coincide here, with p too.
+    Infinitesimal copies of one vertex coincide here, p included.
     """
     for axis in (0, 1):
         pa = coordinate_order(certifier, p, a, axis)
         ab = coordinate_order(certifier, a, b, axis)
         if pa and ab:
             return 1 if pa == ab else -1
-        if ab:  # a is at p: the nearest there can be
+        if ab:  # a coincides with p: nothing is nearer
             return 1
     return 0
 
 
 def nearer_copy(certifier: Certifier, p: Vertex, a: Vertex, b: Vertex) -> int:
-    """As `nearer`, for two copies a and b of one thin vertex: by their offsets."""
+    """The order of `nearer` for two infinitesimal copies a and b of one vertex."""
     if a.offset is None or b.offset is None or a.track is not b.track:
         return 0
     (ax, ay), (bx, by) = a.offset, b.offset
     t, o = a.track, p.track
-    # (a - b) . (p - a) > 0: the offset of a points more towards p.
+    # (a - b) . (p - a) > 0: a is displaced further towards p.
     f = add(
         multiply(subtract(ax, bx), difference(t.x, t.w, o.x, o.w)),
         multiply(subtract(ay, by), difference(t.y, t.w, o.y, o.w)),
@@ -98,9 +97,10 @@ def nearer_copy(certifier: Certifier, p: Vertex, a: Vertex, b: Vertex) -> int:
 
 
 def strictly_between(certifier: Certifier, a: Vertex, p: Vertex, b: Vertex) -> bool:
-    """For three vertices on one line: whether p is between a and b, at neither of them.
+    """Whether p lies strictly between a and b, for three collinear vertices.
 
-    Of two copies of a thin vertex, the one whose offset points towards the third is.
+    Of two infinitesimal copies of one vertex, the one displaced towards the third vertex
+    lies between.
     """
     if a.track is p.track:
         return nearer_copy(certifier, b, p, a) > 0
@@ -114,7 +114,7 @@ def strictly_between(certifier: Certifier, a: Vertex, p: Vertex, b: Vertex) -> b
 
 
 def lies_on(certifier: Certifier, v: Vertex, a: Vertex, b: Vertex) -> bool:
-    """Whether v is in the closed segment ab now."""
+    """Whether v lies in the closed segment ab now."""
     for axis in (0, 1):
         if coordinate_order(certifier, a, v, axis) * coordinate_order(certifier, v, b, axis) < 0:
             return False

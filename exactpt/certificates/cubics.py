@@ -1,12 +1,13 @@
-"""As `exactpt.certificates.coefficients`, for motions of degree 2 and 3.
+"""The polynomials of certificates for motions of degree 2 and 3, as doubles with error bounds.
 
-Every number has a variable of its own; a motion of degree 2 is a cubic one with zeros.
+As `exactpt.certificates.coefficients`, but with every number in a variable of its own; a
+motion of degree 2 is a cubic one with zeros.
 
-A coefficient of an orientation is a sum of at most eight products of differences: a
-difference of doubles is right to one unit, a product of two of them to three, the
-difference of two products to four, a sum of four of these to seven. `K` is eight units,
-and covers the rounding of the bound itself. Images are 0 or at least 2^-100: nothing
-underflows, and a bound is 0 only if its coefficient is.
+A coefficient of an orientation is a sum of at most eight products of differences: the
+relative error of a difference of doubles is at most one unit, of a product of two of them
+three, of the difference of two products four, of a sum of four of these seven. `K` is eight
+units, and covers the rounding of the bound itself. Coefficients of enclosures are 0 or of
+size at least 2^-100: nothing underflows, and a bound is 0 only if its coefficient is.
 """
 
 from __future__ import annotations
@@ -33,10 +34,10 @@ def three(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """Three cubic motions: (b - a) x (c - a) is of degree 6 in t.
+    """The answer for three cubic motions: (b - a) x (c - a) is of degree 6 in t.
 
     With X[i] = |ux[i]| + |vx[i]| and Y likewise, the products of coefficient k have sizes
-    that add up to at most the sum of X[i] Y[k - i], and the errors of the images add
+    that add up to at most the sum of X[i] Y[k - i], and the errors of the enclosures add
         sum(X[i] d[k - i] + d[i] Y[k - i] + 2 d[i] d[k - i]).
     """
     ux0, ux1, ux2, ux3 = b.x0 - a.x0, b.x1 - a.x1, b.x2 - a.x2, b.x3 - a.x3
@@ -91,7 +92,7 @@ def three(
         e5 = x2 * f3 + x3 * f2
         e6 = x3 * f3
     if e3 == 0.0 and e4 == 0.0 and e5 == 0.0 and e6 == 0.0:
-        # No cubic terms and one and the same acceleration, such as gravity.
+        # There are no cubic terms, and all accelerations are equal, as under gravity.
         return filters.quadratic(c0, c1, c2, e0, e1, e2, now_low, now_high, horizon, at_root)
     return sextic(
         c0, c1, c2, c3, c4, c5, c6, e0, e1, e2, e3, e4, e5, e6, now_low, now_high, horizon, at_root
@@ -108,7 +109,7 @@ def pair(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """Cubic motions, a and b together: (b - a) x (c - a) is of degree 3 in t."""
+    """The answer for cubic motions, a and b together: (b - a) x (c - a) is of degree 3 in t."""
     ux, uy = b.x0 - a.x0, b.y0 - a.y0
     vx0, vx1, vx2, vx3 = c.x0 - a.x0, c.x1 - a.x1, c.x2 - a.x2, c.x3 - a.x3
     vy0, vy1, vy2, vy3 = c.y0 - a.y0, c.y1 - a.y1, c.y2 - a.y2, c.y3 - a.y3
@@ -138,7 +139,7 @@ def x_difference(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """Two different cubic motions: x(b) - x(a) is of degree 3 in t."""
+    """The answer for two different cubic motions: x(b) - x(a) is of degree 3 in t."""
     c0, c1, c2, c3 = b.x0 - a.x0, b.x1 - a.x1, b.x2 - a.x2, b.x3 - a.x3
     e0, e1 = K * abs(c0) + 2.0 * errors[0], K * abs(c1) + 2.0 * errors[1]
     e2 = K * abs(c2) + 2.0 * errors[2]

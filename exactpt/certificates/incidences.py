@@ -1,39 +1,40 @@
-"""Which vertices touch which edges at the current time: the decision that a contact is one.
+"""The vertices and edges that touch at the current time: these decide whether it is a contact.
 
-Proof that nothing is missed. Let t be the first contact. Look at the tiling just before t,
-in the limit towards t, with the copies of a vertex (`exactpt.motion.thin`) drawn together
-to the vertex: its faces are pseudo-triangles, but for those that have lost all area, which
-are edges.
+Proof that no contact is missed. Let t be the first contact. Consider the tiling just before
+t, in the limit towards t, with the infinitesimal copies of a vertex
+(`exactpt.motion.infinitesimal`) contracted to the vertex: its faces are pseudo-triangles,
+except for those that have lost all area, which are edges.
 
 *Which angles vanish.* Let vertex v meet a body edge e, or a vertex. Just before t, a short
 segment from v to e leaves v through a face, crosses diagonals, and ends in a face at e; it
-shrinks to a point z. Each of these faces is squeezed at z and falls into two loops. Its
-three corners share out, so one loop has at most one corner besides z. The turns along a
-closed loop add up to 2 pi; z and a corner turn by at most pi, everything else by at most 0.
-So either there is no corner, and an edge has shrunk to a point: two neighbours coincide. Or
-there is one, q, with an angle of 0, and every other angle of the loop is straight. So the
-vertices of the loop, v and both ends of e included, belong to angles (previous, here, next)
-whose orientation vanishes at t.
+shrinks to a point z. Each of these faces is pinched at z into two loops. Its three corners
+are divided between them, so one loop has at most one corner besides z. The turning angles
+along a closed loop add up to 2 pi; those at z and at a corner are at most pi, all others at
+most 0. So either there is no corner, and an edge has shrunk to a point: two neighbours
+coincide. Or there is one, q, with an angle of 0, and every other angle of the loop is
+straight. So the vertices of the loop, v and both ends of e included, belong to angles
+(previous, here, next) whose orientation vanishes at t.
 
-*Copies vanish with their vertex.* Let a face turn at a vertex by the sum of the turns at
-its copies. At most one of these is a corner: a face with two at one vertex has at most two
-real corners, and no area. A corner turns by less than pi, the others by at most 0. So if the
-angle at the vertex becomes 0 (a turn of pi), the corner among the copies becomes pi and the
-others 0; and if a reflex angle becomes straight (a turn of 0), all of them become 0: there
-is no corner among them, or the face would have two real corners only. So each of these
-copies has an orientation that vanishes at t, or is zero for ever.
+*Copies vanish with their vertex.* Let the turning angle of a face at a vertex be the sum of
+those at its copies. At most one copy is a corner: a face with two at one vertex has at most
+two real corners, and no area. The turning angle at a corner is less than pi, at the other
+copies at most 0. So if the angle at the vertex becomes 0 (a turning angle of pi), the turning
+angle at the corner among the copies becomes pi and the others become 0; and if a reflex
+angle becomes straight (a turning angle of 0), all of them become 0: there is no corner among
+them, or the face would have two real corners only. So each of these copies has an
+orientation that vanishes at t, or is zero for ever.
 
 *Each has an event.* An orientation that vanishes at t has an event at t, whether it changes
-its sign or only touches 0, at the end of a piece of motion too (`Certifier.orientation`);
-and if it is zero for ever, there is one when two of its vertices coincide. A corner that is
-zero for ever is never left standing (`exactpt.certificates.perturbation`), so q has an event, and
-the angles beside it that are straight for ever are found by following the chain. Hence testing
-the vertices of all angles with an event at t, extended along straight angles, finds every
-contact. (Where more than two features meet at z, consecutive ones do so as above, and all
-pairs of what is found are tested.)
+sign or only touches 0, also at the end of a piece of motion (`Certifier.orientation`);
+and if it is zero for ever, there is one when two of its vertices coincide. No corner whose
+angle is zero for ever remains in the tiling (`exactpt.certificates.perturbation`), so q has an
+event, and the angles beside it that are straight for ever are found by following the chain.
+Hence testing the vertices of all angles with an event at t, extended along straight angles,
+finds every contact. (Where more than two features meet at z, consecutive ones do so as
+above, and all pairs among the vertices and edges found are tested.)
 
-The faces are those of the free space, and of the insides that are tiled. A deforming
-body without a diagonal, a segment or a triangle, may lose its inside too: then all its
+The faces are those of the free space, and of the interiors that are tiled. A deforming
+body without a diagonal, a segment or a triangle, may lose its interior too: then all its
 vertices are tested (`KineticTiling._schedule_piece`).
 """
 
@@ -56,7 +57,7 @@ if TYPE_CHECKING:
 __all__ = ["touches"]
 
 FEW: Final = 24
-"""With so many points or fewer, all pairs are faster than boxes."""
+"""Maximum number of points for which testing all pairs is faster than boxes."""
 
 _Edge: TypeAlias = "tuple[Vertex, int, Vertex]"
 
@@ -64,7 +65,7 @@ _Edge: TypeAlias = "tuple[Vertex, int, Vertex]"
 def touches(certifier: Certifier, vertices: Vertices, candidates: Iterable[int]) -> list[Touch]:
     """All touches now among these vertices and the body edges between them, in order.
 
-    Vertex on vertex counts once, and not as a vertex on the edges that end there.
+    Two coinciding vertices count once, and not also as vertices on the edges that end there.
     Neighbours on one body touch only if their edge has shrunk to a point.
     """
     chosen: dict[tuple[int, int], Vertex] = {}
@@ -94,7 +95,7 @@ def touches(certifier: Certifier, vertices: Vertices, candidates: Iterable[int])
 
 
 def _pairs(points: list[Vertex], boxes: Boxes | None) -> Iterator[tuple[Vertex, Vertex]]:
-    """The pairs of points, in order; with boxes, only those that may coincide."""
+    """The pairs of points, in order; with boxes, only those whose boxes overlap."""
     if boxes is None:
         yield from combinations(points, 2)
     else:
@@ -106,7 +107,7 @@ def _pairs(points: list[Vertex], boxes: Boxes | None) -> Iterator[tuple[Vertex, 
 def _near(
     points: list[Vertex], edges: list[_Edge], boxes: Boxes | None
 ) -> Iterator[tuple[Vertex, _Edge]]:
-    """Points and edges; with boxes, only those that may touch."""
+    """The pairs of a point and an edge; with boxes, only those whose boxes overlap."""
     if boxes is None or not edges:
         yield from product(points, edges)
         return
@@ -124,7 +125,7 @@ def _near(
 def _edges(
     vertices: Vertices, chosen: dict[tuple[int, int], Vertex], a: Vertex
 ) -> list[tuple[int, Vertex]]:
-    """The body edge that starts at a, as (number, other end), if its end is chosen too."""
+    """The body edge that starts at a, as (number, other end), if that end is chosen too."""
     body = vertices.bodies[a.body].body
     size = body.size
     if size == 1 or (a.index == size - 1 and (size == 2 or not body.closed)):

@@ -21,7 +21,7 @@ __all__ = ["OneSided"]
 
 @final
 class OneSided(Predicates):
-    """Signs just after now, or just before it; they differ only for what vanishes now."""
+    """Signs just after now (t+) or just before it (t-); they differ only at zeros now."""
 
     def __init__(self, certifier: Certifier, *, before: bool) -> None:
         self._certifier = certifier
@@ -29,7 +29,7 @@ class OneSided(Predicates):
         self._before: bool = before
 
     def sign(self, a: int, b: int, c: int) -> int:
-        """1 if a, b, c turn left, -1 if right, 0 if collinear for ever (counts as right)."""
+        """1 if a, b, c turn left, -1 if they turn right, 0 if collinear for ever (counts as -1)."""
         certifier, v = self._certifier, self._all
         va, vb, vc = v[a], v[b], v[c]
         if not certifier.exact_only:
@@ -56,7 +56,7 @@ class OneSided(Predicates):
         return self._exact(orientation(va, vb, vc), va, vb, vc)
 
     def left_of(self, a: int, b: int) -> bool:
-        """Whether a comes before b from left to right."""
+        """Whether a is left of b."""
         certifier = self._certifier
         va, vb = self._all[a], self._all[b]
         if not certifier.exact_only:
@@ -94,13 +94,13 @@ class OneSided(Predicates):
         return self._exact(cross(p.track, q.track, r.track, t.track), p, q, r, t)
 
     def nearer(self, p: int, a: int, b: int) -> bool:
-        """Whether a is nearer to p than b is, for a and b in one direction from p."""
+        """Whether a is nearer to p than b is, for a and b in the same direction from p."""
         certifier = self._certifier
         o, u, v = (certifier.all[i] for i in (p, a, b))
         return (nearer(certifier, o, u, v) or nearer_copy(certifier, o, u, v)) > 0
 
     def _horizon(self) -> float:
-        # Roots are not asked for; but the filter looks at an interval that is not empty.
+        # No root is needed, but the filter requires a nonempty interval.
         high = self._certifier.now_high
         return high + 1e-12 * (1.0 + abs(high))
 

@@ -1,43 +1,44 @@
-"""Orientation and x-order of moving vertices, exactly: the decider behind every filter.
+"""Exact orientation and x-order of moving vertices, under a symbolic perturbation.
 
-**One symbolic rule** resolves all degeneracies that last (a function that is zero for
-ever). It is an infinitesimal perturbation in two steps, the second smaller than every
-positive power of the first:
+**One symbolic perturbation** resolves all permanent degeneracies (functions that are zero
+for ever). It is infinitesimal and has two steps, the second smaller than every positive
+power of the first:
 
 1. The plane is turned clockwise by rho. So of two vertices with equal x for ever the
    upper one is the left one: points are ordered by (x, -y), and a vertical direction is
    the steepest descent, not the steepest ascent.
 2. Every vertex v of the scene is inflated to a disc of radius eps * (1 - kappa |v|^2),
    kappa infinitesimal again, and every body to the hull of its discs. So points and
-   segments have an inside too. (The rings of thin bodies have several copies of a vertex,
-   see `exactpt.motion.vertices`: its disc is shared out among them, by direction.)
+   segments have an interior too. (The rings of degenerate bodies have several copies of a
+   vertex, see `exactpt.motion.infinitesimal`: its disc is divided among them, by direction.)
 
-Proof that step 2 decides three vertices a, m, b of the scene that stay on one line, m
+Proof that step 2 decides three vertices a, m, b of the scene that are collinear for ever, m
 between a and b: the radius is a strictly concave function along the line, so the disc of
 m sticks out of the hull of the discs of a and b on either side. So the free edge from a
-to b is hit by m, whichever sides its ends touch; an angle of exactly pi at m in a free
-face is reflex; and a corner of angle 0 at a, between m and b, has collapsed. In every one
+to b is hit by m, whichever sides its ends are tangent to; an angle of exactly pi at m in a
+free face is reflex; and a corner of angle 0 at a, between m and b, has collapsed. In each
 of these cases the orientation (previous, here, next) around a free face counts as
-*negative*: **zero counts as -1**. That is all that the code has to know of step 2.
+*negative*: **zero counts as -1**. The code uses nothing else of step 2.
 
 **What the perturbation preserves, and what it does not.** Let g be the function of a
-certificate, and g + eps h + ... the one of the perturbed vertices.
+certificate, and g + eps h + ... that of the perturbed vertices.
 
 - Where g is not zero for ever, the sign just after a time is that of g, and likewise just
-  before: eps is smaller than every time step. So the tiling just before a time, and the one
-  just after it, are those of the scene itself.
-- At a zero at which g changes its sign, the perturbed function has just one zero
+  before: eps is smaller than every time step. So the tilings just before and just after a
+  time are those of the scene itself.
+- At a zero at which g changes sign, the perturbed function has exactly one zero
   infinitesimally near: one event.
-- At a zero at which g does *not* change its sign, the perturbed function has no zero, or
-  two, infinitesimally near, and its sign between these is the other one. Just before and
+- At a zero at which g does *not* change sign, the perturbed function has no zero, or
+  two, infinitesimally near, and between these it has the opposite sign. Just before and
   just after, the sign is the same, so the tiling needs no repair. But it is not preserved
-  *at* the zero: there the perturbed tiling may be another one for an infinitesimal time, and
+  *at* the zero: there the perturbed tiling may differ for an infinitesimal time, and
   the perturbed bodies, which contain the bodies, may overlap.
 
-Hence a zero without a change of sign may be left out where only the tiling just before and
-just after counts (x-orders). It may not where contacts are sought: the angles of a tiling
-are watched for *every* zero, those of copies included, and a contact itself is decided on
-the unperturbed vertices (`exactpt.certificates.incidences`, `exactpt.motion.incidence`).
+Hence a zero without a change of sign may be ignored where only the tilings just before and
+just after matter (x-orders). It may not be where contacts are sought: the certificates of
+the angles of a tiling have an event at *every* zero, those of copies included, and a contact
+itself is decided on the unperturbed vertices (`exactpt.certificates.incidences`,
+`exactpt.motion.incidence`).
 """
 
 from __future__ import annotations
@@ -76,7 +77,7 @@ def cross(a: Track, b: Track, c: Track, d: Track) -> IntPoly:
 
 
 def copies_first(a: Vertex, b: Vertex, c: Vertex) -> tuple[Vertex, Vertex, Vertex]:
-    """Three vertices, rotated so that the first two are copies of one."""
+    """Three vertices, rotated so that the first two are copies of one, if any two are."""
     if a.track is c.track and b.track is not c.track:
         return c, a, b
     if b.track is c.track and a.track is not c.track:
@@ -85,10 +86,10 @@ def copies_first(a: Vertex, b: Vertex, c: Vertex) -> tuple[Vertex, Vertex, Verte
 
 
 def copy_orientation(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
-    """The orientation of three vertices of which some are copies of one.
+    """The orientation of three vertices of which two or all are copies of one.
 
-    Of two copies: (offset(b) - offset(a)) x (c - a), in the limit of small offsets; of
-    three: the orientation of their offsets.
+    With two copies it is (offset(b) - offset(a)) x (c - a), in the limit of small
+    displacements; with three, the orientation of their displacements.
     """
     a, b, c = copies_first(a, b, c)
     p, q = a.track, c.track
@@ -111,16 +112,16 @@ def _offset_difference(a: Vertex, b: Vertex) -> tuple[IntPoly, IntPoly]:
 
 
 def orientation(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
-    """What has the sign of the orientation; ``()`` if it is zero for ever (counts as -1)."""
+    """A function with the sign of the orientation; ``()`` if zero for ever (counts as -1)."""
     if a.track is b.track or b.track is c.track or c.track is a.track:
         return copy_orientation(a, b, c)
     return base_orientation(a.track, b.track, c.track)
 
 
 def x_order_terms(a: Vertex, b: Vertex) -> Iterator[IntPoly]:
-    """The terms, from the largest on, of what is positive while a is left of b.
+    """The terms of a function that is positive while a is left of b, the largest first.
 
-    That is x(b) - x(a); then y(a) - y(b), by step 1; then the same of the offsets.
+    They are x(b) - x(a); then y(a) - y(b), by step 1; then the same for the displacements.
     """
     yield difference(a.track.x, a.track.w, b.track.x, b.track.w)
     yield difference(b.track.y, b.track.w, a.track.y, a.track.w)
@@ -130,7 +131,7 @@ def x_order_terms(a: Vertex, b: Vertex) -> Iterator[IntPoly]:
 
 
 def x_order(a: Vertex, b: Vertex) -> IntPoly:
-    """The first of these terms that is not zero for ever."""
+    """The first of the `x_order_terms` that is not zero for ever."""
     return next((f for f in x_order_terms(a, b) if f), ())
 
 
@@ -143,10 +144,10 @@ def comes_first(
 ) -> bool:
     """Whether the copies p become collinear before the copies q do.
 
-    Both are of the same three vertices of the scene, in orders that may differ; their
-    orientation F vanishes at t and changes to sign_p and sign_q. With the offsets it is
-    F + eta g + ..., so that in the direction of the change, sign * F passes
-    -sign * eta * g: first the one for which -sign * g is less.
+    Both are copies of the same three vertices of the scene, in orders that may differ; their
+    orientation F vanishes at t and changes to sign_p and sign_q. With the displacements it is
+    F + eta g + ..., which vanishes where sign * F, increasing, equals -sign * eta * g: the
+    copies with the smaller -sign * g come first.
     """
     f = scale(_offset_term(*p), ZZ(sign_p))
     g = scale(_offset_term(*q), ZZ(sign_q))
@@ -154,7 +155,7 @@ def comes_first(
 
 
 def _offset_term(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
-    """The coefficient of eta in the orientation of three vertices moved by eta * offset.
+    """The coefficient of eta in the orientation of three vertices displaced by eta * offset.
 
     Row (x, y, w) of the determinant becomes (x + eta dx w, y + eta dy w, w).
     """

@@ -1,4 +1,4 @@
-"""Where vertices are now, in doubles with proven bounds, kept until time moves on."""
+"""Positions of vertices now, in doubles with proven bounds, cached until time advances."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ __all__ = ["K", "Positions", "cross_sign", "positions_at"]
 Floats: TypeAlias = NDArray[np.float64]
 
 K: Final = 8.0 * U
-"""Bounds the rounding of a 2 x 2 determinant of differences; see
+"""Relative bound on the rounding of a 2 x 2 determinant of differences; see
 `exactpt.certificates.coefficients`."""
 
 
 @np.errstate(all="ignore")
 def positions_at(vertices: Vertices, low: float, high: float) -> tuple[Floats, Floats, float]:
-    """x and y of all vertices, anywhere in an enclosure of a time, and a bound on their errors.
+    """x and y of all vertices at a time given by its enclosure, and one bound on all errors.
 
-    One bound for all; where nothing is known of a vertex, its coordinates are NaN. Paths of
-    degree 1 at once, by the formula of `Positions` (at the time 0 itself nothing is rounded).
+    Coordinates without a bound are NaN. Trajectories of degree 1 are evaluated in numpy, by
+    the formula of `Positions` (at the time 0 itself nothing is rounded).
     """
     images = [v.image for v in vertices.all]
     errors = vertices.frame.errors
@@ -55,10 +55,10 @@ def positions_at(vertices: Vertices, low: float, high: float) -> tuple[Floats, F
 
 @final
 class Positions:
-    """Positions in the frame, anywhere in an enclosure of the current time.
+    """Normalised positions at the current time, which is given by its enclosure.
 
     Args:
-        errors: of the frame, see `exactpt.motion.frame.Frame`.
+        errors: bounds on the coefficients, see `exactpt.motion.frame.Frame`.
     """
 
     def __init__(self, errors: list[float]) -> None:
@@ -68,15 +68,15 @@ class Positions:
         self._now: object = object()
 
     def move_to(self, low: float, high: float) -> None:
-        """Let the current time be in [low, high]."""
+        """Set the enclosure [low, high] of the current time."""
         self._middle, self._width = 0.5 * (low + high), high - low
         self._now = object()
 
     def find(self, vertex: Vertex) -> None:
-        """Let a vertex know its place: x, y, and a bound on the error of both.
+        """Set ``x``, ``y`` and ``error`` of a vertex to its position now and an error bound.
 
-        That is infinite where nothing is known. At the current time a vertex that enters
-        another piece of its motion is where it was, so what is known stays.
+        The bound is infinite if there is none. A vertex that enters another piece of its
+        motion at the current time keeps its position, so the cached one stays valid.
         """
         if vertex.seen is not self._now:
             image = vertex.image
@@ -87,7 +87,7 @@ class Positions:
             vertex.seen = self._now
 
     def _find_linear(self, vertex: Vertex, image: Image) -> None:
-        """As `_find_any`, by the formula of `_value` for two coefficients, once for x and y."""
+        """`_find_any` for degree 1: the formula of `_value`, with one bound for x and y."""
         m, r = self._middle, self._width
         reach = abs(m) + r
         x0, y0, x1, y1 = image.x0, image.y0, image.x1, image.y1
@@ -107,13 +107,14 @@ class Positions:
         vertex.x, vertex.y, vertex.error = x, y, min(INFINITY, max(dx, dy))
 
     def sign(self, a: Vertex, b: Vertex, c: Vertex) -> int:
-        """The certain sign of the orientation now, or 0.
+        """The sign of the orientation now, or 0 if it is not certain.
 
-        Coordinates off by at most da, db, dc: the differences u = b - a, v = c - a are off
-        by du = da + db, dv = da + dc besides their own rounding, and their determinant by
-        du (|vx| + |vy|) + dv (|ux| + |uy|) + 2 du dv.
+        With errors of the coordinates of at most da, db, dc, those of the differences
+        u = b - a, v = c - a are at most du = da + db, dv = da + dc plus their own rounding,
+        and that of their determinant is at most du (|vx| + |vy|) + dv (|ux| + |uy|) +
+        2 du dv.
         """
-        now = self._now  # `find` asks too, but most places are known
+        now = self._now  # `find` checks this too, but most positions are cached
         if a.seen is not now:
             self.find(a)
         if b.seen is not now:
@@ -124,14 +125,14 @@ class Positions:
         return cross_sign(b.x - x, b.y - y, d + b.error, c.x - x, c.y - y, d + c.error)
 
     def turn(self, a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> int:
-        """The certain sign of (b - a) x (d - c) now, or 0."""
+        """The sign of (b - a) x (d - c) now, or 0 if it is not certain."""
         for vertex in (a, b, c, d):
             self.find(vertex)
         du, dv = a.error + b.error, c.error + d.error
         return cross_sign(b.x - a.x, b.y - a.y, du, d.x - c.x, d.y - c.y, dv)
 
     def order(self, a: Vertex, b: Vertex, axis: int) -> int:
-        """The certain sign of x(b) - x(a) (axis 0) or of y(b) - y(a) (axis 1) now, or 0."""
+        """The sign of x(b) - x(a) (axis 0) or y(b) - y(a) (axis 1) now, or 0 if not certain."""
         self.find(a)
         self.find(b)
         difference = b.y - a.y if axis else b.x - a.x
@@ -139,12 +140,12 @@ class Positions:
         return 1 if difference > bound else -1 if difference < -bound else 0
 
     def _value(self, cs: list[float]) -> tuple[float, float]:
-        """A polynomial now, and a bound on its error anywhere in [low, high].
+        """The value of a polynomial now, and a bound on its error anywhere in [low, high].
 
-        Horner's rule at the middle m of the enclosure, on coefficients off by at most
-        errors[i] (and one unit): the value is off by sum((4n + 8) u |c_i| + errors[i]) |m|^i;
-        within the enclosure, of width r, it moves by less than r sum(i |c_i| T^(i-1)),
-        T = |m| + r. What underflows is far below TINY.
+        Horner's rule at the middle m of the enclosure, with errors of the coefficients of at
+        most errors[i] (and one unit), has an error of sum((4n + 8) u |c_i| + errors[i]) |m|^i;
+        within the enclosure, of width r, the value changes by less than
+        r sum(i |c_i| T^(i-1)), T = |m| + r. Any underflow is far below TINY.
         """
         errors = self._errors
         m, r = self._middle, self._width
@@ -171,9 +172,10 @@ def _quotient(x: float, dx: float, w: float, dw: float) -> tuple[float, float]:
 
 
 def cross_sign(ux: float, uy: float, du: float, vx: float, vy: float, dv: float) -> int:
-    """The certain sign of u x v, or 0, for u off by at most du and v by dv in each coordinate.
+    """The sign of u x v, or 0 if it is not certain.
 
-    Besides the rounding of the differences that u and v are.
+    u and v are rounded differences, with errors of at most du and dv in each coordinate
+    besides that rounding.
     """
     p, q = ux * vy, uy * vx
     det = p - q

@@ -1,4 +1,4 @@
-"""What tilings ask of vertices at one time.
+"""The interface of predicates at a time, or one-sided ones (t-, t+), that tilings use.
 
 A class, not a protocol: compiled code then calls it without the interpreter.
 """
@@ -11,15 +11,15 @@ __all__ = ["Predicates"]
 
 
 class Predicates:
-    """Signs at, or just after, or just before, some time."""
+    """Signs at a time, just after it, or just before it."""
 
     @abstractmethod
     def sign(self, a: int, b: int, c: int) -> int:
-        """1 if a, b, c turn left, -1 if right, 0 if collinear for ever (counts as right)."""
+        """1 if a, b, c turn left, -1 if they turn right, 0 if collinear for ever (counts as -1)."""
 
     @abstractmethod
     def left_of(self, a: int, b: int) -> bool:
-        """Whether a comes before b from left to right."""
+        """Whether a is left of b."""
 
     @abstractmethod
     def turn(self, a: int, b: int, c: int, d: int) -> int:
@@ -27,4 +27,4 @@ class Predicates:
 
     @abstractmethod
     def nearer(self, p: int, a: int, b: int) -> bool:
-        """Whether a is nearer to p than b is, for a and b in one direction from p."""
+        """Whether a is nearer to p than b is, for a and b in the same direction from p."""

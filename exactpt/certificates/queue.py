@@ -1,7 +1,7 @@
-"""The event queue: times of events as float enclosures, exact only where two overlap.
+"""The event queue: event times as float enclosures, compared exactly only if two overlap.
 
-The order of events is total and the same on every machine: by exact time, and at one
-time the slots in increasing order. Cancelled events are dropped when they surface.
+The order of events is total and the same on every machine: by exact time, and at equal
+times by slot. Cancelled events are dropped when they reach the top.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ __all__ = ["EventQueue", "EventTime", "ExactQueue", "Resolver"]
 
 @final
 class EventTime:
-    """A time known by an enclosure, and exactly on demand.
+    """An event time: a float enclosure, and the exact number on demand.
 
     Attributes:
-        low, high: doubles, in the frame of the run: low <= time <= high.
-        a, b, c: what the time is a root of, for the resolver; it knows what they mean.
-        exact: the number itself, once it has been asked for.
-        crossing: whether the watched function changes sign (else it only touches 0).
+        low, high: doubles, normalised as in the run: low <= time <= high.
+        a, b, c: the function of which the time is a root, as known to the resolver.
+        exact: the exact time, once it has been computed.
+        crossing: whether the function changes sign then; otherwise it only touches 0.
     """
 
     __slots__ = ("a", "b", "c", "crossing", "exact", "high", "low")
@@ -49,15 +49,15 @@ class EventTime:
 
 
 class Resolver(Protocol):
-    """Who knows what an event time is a root of."""
+    """Computes the exact times of events."""
 
     def resolve(self, time: EventTime) -> AlgebraicNumber:
-        """The exact time; kept in ``time.exact``, and the enclosure made as narrow as doubles."""
+        """The exact time, stored in ``time.exact``; the enclosure is narrowed likewise."""
         ...
 
 
 class EventQueue:
-    """At most one pending event a slot, popped in the order of time."""
+    """A queue of event times with at most one pending event per slot."""
 
     def __init__(self, resolver: Resolver, counters: Counters) -> None:
         self._resolver = resolver
@@ -70,7 +70,7 @@ class EventQueue:
         return len(self._live)
 
     def schedule(self, slot: int, time: EventTime) -> None:
-        """Put an event into a slot, in place of what was there."""
+        """Put an event into a slot, replacing the one there."""
         self._live[slot] = time
         self._sequence += 1
         heapq.heappush(self._heap, (time.low, self._sequence, slot, time))
@@ -82,7 +82,7 @@ class EventQueue:
         self._live.pop(slot, None)
 
     def pending(self, slot: int) -> EventTime | None:
-        """The time of the event in a slot."""
+        """The time of the event in a slot, or None."""
         return self._live.get(slot)
 
     def slots(self) -> list[int]:
@@ -94,11 +94,11 @@ class EventQueue:
         heapq.heapify(self._heap)
 
     def pop(self) -> tuple[EventTime, list[tuple[int, EventTime]]] | None:
-        """The earliest time, and all slots with an event then; None if there are none.
+        """The earliest time and all slots with an event then; None if the queue is empty.
 
-        A slot comes with its own account of the time, in increasing order of slots.
+        The slots are in increasing order, each with its own `EventTime`.
 
-        An enclosure that ends before the next one begins decides alone. Otherwise all
+        If the first enclosure ends before the next one begins, that decides. Otherwise all
         events that may be first are compared exactly.
         """
         heap, live = self._heap, self._live
@@ -162,21 +162,21 @@ class EventQueue:
 
 @final
 class ExactQueue(EventQueue):
-    """The same without floats: every comparison of two times is exact."""
+    """An event queue without floats: every comparison of two times is exact."""
 
     def __init__(self, resolver: Resolver, counters: Counters) -> None:
         super().__init__(resolver, counters)
         self._exact_heap: list[tuple[AlgebraicNumber, int, int, EventTime]] = []
 
     def schedule(self, slot: int, time: EventTime) -> None:
-        """Put an event into a slot, in place of what was there."""
+        """Put an event into a slot, replacing the one there."""
         self._live[slot] = time
         self._sequence += 1
         number = time.exact or self._resolver.resolve(time)
         heapq.heappush(self._exact_heap, (number, self._sequence, slot, time))
 
     def pop(self) -> tuple[EventTime, list[tuple[int, EventTime]]] | None:
-        """The earliest time, and all slots with an event then; None if there are none."""
+        """The earliest time and all slots with an event then; None if the queue is empty."""
         heap, live = self._exact_heap, self._live
         entries: list[tuple[int, EventTime]] = []
         first: AlgebraicNumber | None = None
@@ -197,7 +197,7 @@ class ExactQueue(EventQueue):
 
 
 def _simplest(times: list[EventTime]) -> EventTime:
-    """Of equal times the one known by the least polynomial: the same in every run."""
+    """Of equal times, the one with the smallest polynomial: the same in every run."""
     best = times[0]
     for time in times:
         if time.exact is not None and (best.exact is None or _size(time.exact) < _size(best.exact)):

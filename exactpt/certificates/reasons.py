@@ -1,4 +1,4 @@
-"""Why a decision was not left to floats: looked at only where exact arithmetic is done anyway."""
+"""Why a decision needed exact arithmetic; computed only where it was used anyway."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ __all__ = ["reason"]
 
 
 def reason(*vertices: Vertex, is_zero: bool, exact_only: bool) -> str:
-    """The reason why something about vertices was decided exactly.
+    """The reason why a sign was decided exactly.
 
     Args:
-        vertices: what it was about.
-        is_zero: whether the answer is zero.
+        vertices: the vertices of the sign.
+        is_zero: whether the sign is zero.
         exact_only: whether the filters are switched off.
 
     Returns:
-        "asked" (all is to be decided exactly), "zero", "copies" (two vertices are copies of
-        one of a thin body: there is no filter), "range" (the filters do not take numbers
-        as large or small), or "close" (not zero, but floats cannot tell).
+        "asked" (the filters are switched off), "zero", "copies" (two vertices are copies of
+        one of a degenerate body: there is no filter), "range" (a number is too large or too
+        small for the filters), or "close" (not zero, but floats cannot tell).
     """
     if exact_only:
         return "asked"

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from exactpt.collision.contact import Contact, contact_of, tracks_before
-from exactpt.geometry.polygon import contains, edges, segments_meet
+from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
@@ -48,9 +48,9 @@ def _first_between(scene: Scene, i: int, j: int, until: QQ) -> AlgebraicNumber |
     begin = scene._start
     for end in (*ends, until):
         p, q = a._piece_after(begin).tracks, b._piece_after(begin).tracks
-        pairs = _vertex_edge_pairs(p, q, edges(b.size, closed=b.closed), same=i == j)
+        pairs = _vertex_edge_pairs(p, q, b.edges, same=i == j)
         if i != j:
-            pairs += _vertex_edge_pairs(q, p, edges(a.size, closed=a.closed), same=False)
+            pairs += _vertex_edge_pairs(q, p, a.edges, same=False)
         best: AlgebraicNumber | None = None
         for v, u, w in pairs:
             limit = end if best is None else best._high
@@ -120,7 +120,7 @@ def _touches(
                 for w in on_vertex:
                     if (i, v) < (j, w):
                         yield Touch(i, v, j, -1, w)
-                for e, (a, b) in enumerate(edges(bodies[j].size, closed=bodies[j].closed)):
+                for e, (a, b) in enumerate(bodies[j].edges):
                     ends = {(j, a), (j, b)}
                     if (i, v) in ends or a in on_vertex or b in on_vertex:
                         continue
@@ -135,11 +135,11 @@ def _overlapping_at_start(scene: Scene) -> list[tuple[int, int]]:
         for i, a in enumerate(scene.bodies[:j]):
             crossing = any(
                 segments_meet(points[i][u], points[i][v], points[j][x], points[j][y])
-                for u, v in edges(a.size, closed=a.closed) or [(0, 0)]
-                for x, y in edges(b.size, closed=b.closed) or [(0, 0)]
+                for u, v in a.edges or [(0, 0)]
+                for x, y in b.edges or [(0, 0)]
             )
-            inside = (a.closed and a.size > 2 and contains(points[i], points[j][0])) or (
-                b.closed and b.size > 2 and contains(points[j], points[i][0])
+            inside = (a.has_interior and contains(points[i], points[j][0])) or (
+                b.has_interior and contains(points[j], points[i][0])
             )
             if crossing or inside:
                 found.append((i, j))

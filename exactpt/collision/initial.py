@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
-from exactpt.geometry.polygon import contains, edges, segments_meet
+from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.geometry.predicates import Point, between, side
 from exactpt.motion.incidence import Touch
 from exactpt.scene.scene import Scene
@@ -56,7 +56,7 @@ def _near_edges(
     found = []
     for i in sorted(bodies):
         body, at = scene.bodies[i], points[i]
-        pairs = edges(body.size, closed=body.closed)
+        pairs = body.edges
         found += [_Edge(i, k, at[u], at[v], (u, v)) for k, (u, v) in enumerate(pairs)]
         if not pairs:
             found.append(_Edge(i, -1, at[0], at[0], (0, 0)))
@@ -82,6 +82,6 @@ def _incidences(e: _Edge, f: _Edge) -> Iterator[Touch]:
 def _one_is_inside(scene: Scene, i: int, j: int, points: Sequence[Sequence[Point]]) -> bool:
     """Whether one of two bodies with disjoint boundaries contains the other."""
     a, b = scene.bodies[i], scene.bodies[j]
-    return (a.closed and a.size > 2 and contains(points[i], points[j][0])) or (
-        b.closed and b.size > 2 and contains(points[j], points[i][0])
+    return (a.has_interior and contains(points[i], points[j][0])) or (
+        b.has_interior and contains(points[j], points[i][0])
     )

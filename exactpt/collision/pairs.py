@@ -29,7 +29,6 @@ from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.geometry.boxes import overlapping_pairs
-from exactpt.geometry.polygon import edges
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, fraction, power_of_two
@@ -126,7 +125,7 @@ class PairsSearch:
         for moving, body in zip(self._vertices.bodies, scene.bodies, strict=True):
             base = len(ids)
             ids += moving.ring
-            pairs = edges(body.size, closed=body.closed) or [(0, 0)]
+            pairs = body.edges or [(0, 0)]
             first_edge += [(base + a, base + b) for a, b in pairs]
         self._ids = ids
         self._edges: Indices = np.array(first_edge)

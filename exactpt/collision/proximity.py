@@ -16,7 +16,7 @@ from itertools import chain, product
 from typing import Final, Literal, TypeAlias
 
 from exactpt.errors import InputError
-from exactpt.geometry.polygon import contains, edges, segments_meet
+from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale, subtract
@@ -118,8 +118,8 @@ def _in_both(
     """Candidates for "max": a vertex on a translated edge, or two vertices d apart in x or y."""
     corners: list[Point] = [(x, y) for x in (d, -d) for y in (d, -d)]
     pairs = chain(
-        product(p, ((q[i], q[j]) for i, j in edges(b.size, closed=b.closed))),
-        product(q, ((p[i], p[j]) for i, j in edges(a.size, closed=a.closed))),
+        product(p, ((q[i], q[j]) for i, j in b.edges)),
+        product(q, ((p[i], p[j]) for i, j in a.edges)),
     )
     for (v, (u, w)), corner in product(pairs, corners):
         moved = _moved(v, corner)
@@ -166,14 +166,14 @@ def _is_within(a: Body, b: Body, t: QQ, d: QQ, norm: Norm) -> bool:
             (min(v[axis] for v in points), max(v[axis] for v in points)) for points in (p, q)
         )
         return left - high <= d and low - right <= d
-    p_edges = edges(a.size, closed=a.closed) or [(0, 0)]
-    q_edges = edges(b.size, closed=b.closed) or [(0, 0)]
+    p_edges = a.edges or [(0, 0)]
+    q_edges = b.edges or [(0, 0)]
     return (
         any(segments_meet(p[i], p[j], q[k], q[l]) for i, j in p_edges for k, l in q_edges)
         or any(_is_near(v, q[k], q[l], d) for v in p for k, l in q_edges)
         or any(_is_near(v, p[i], p[j], d) for v in q for i, j in p_edges)
-        or (a.closed and a.size > 2 and contains(p, q[0]))
-        or (b.closed and b.size > 2 and contains(q, p[0]))
+        or (a.has_interior and contains(p, q[0]))
+        or (b.has_interior and contains(q, p[0]))
     )
 
 

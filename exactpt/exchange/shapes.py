@@ -128,7 +128,7 @@ def shapes_at(scene: Scene, at: QQ) -> list[Shape]:
 def _kind(body: Body) -> Kind:
     if body.size == 1:
         return "point"
-    return "polygon" if body.closed and body.size > 2 else "line"
+    return "polygon" if body.has_interior else "line"
 
 
 def rounded(shape: Shape) -> list[tuple[float, float]]:

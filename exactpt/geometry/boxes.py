@@ -1,4 +1,4 @@
-"""Which of many boxes overlap: sort and sweep, in numpy. A filter, never a decision."""
+"""Overlapping pairs among many boxes, by a sweep in numpy: a filter, never a decision."""
 
 from __future__ import annotations
 
@@ -17,12 +17,13 @@ Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
 
 Boxes: TypeAlias = NDArray[np.float64]
-"""Shape (n, 4): low x, high x, low y, high y, each rounded outward; no NaN among them."""
+"""Shape (n, 4): low x, high x, low y, high y, each rounded outward, without NaN."""
 
 FAR: Final = 2.0**20
-"""So many times as far from the origin as they are from each other: then points are far."""
+"""Ratio of distance from the origin to extent above which boxes are relative to a point."""
 
 _CHUNK: Final = 1 << 21
+"""Maximum number of candidate pairs in a chunk, unless a single box has more."""
 
 
 def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
@@ -30,8 +31,8 @@ def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
 
     Where all points are close together but far from the origin, boxes are relative to one of
     the points, so that rounding keeps them apart. Rounding is monotone, so the nearest double
-    of the least coordinate is the least of the nearest doubles; and the one below that is no
-    larger than the coordinate.
+    of the least coordinate is the least of the nearest doubles, and the next double below is
+    at most the coordinate.
     """
     rows = np.empty((len(groups), 4))
     if not groups:
@@ -40,7 +41,7 @@ def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
     for axis in (0, 1):
         near = [nearest_float(p[axis]) for points in groups for p in points]
         least, most = min(near), max(near)
-        if not max(-least, most) <= FAR * (most - least):  # nor where both are infinite
+        if not max(-least, most) <= FAR * (most - least):  # true also if both are infinite
             origin = groups[0][0][axis]
             near = [nearest_float(p[axis] - origin) for points in groups for p in points]
         rows[:, 2 * axis] = np.minimum.reduceat(near, firsts)
@@ -51,23 +52,23 @@ def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
 
 
 def widen_unknown(boxes: Boxes) -> None:
-    """Where a box is not known to the last side, the whole plane takes its place."""
+    """Replace every box with a NaN side by the whole plane."""
     boxes[np.isnan(boxes).any(axis=1)] = (-np.inf, np.inf, -np.inf, np.inf)
 
 
 def overlapping_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
-    """All pairs i < j of boxes that meet (closed), in chunks of index arrays (i, j).
+    """All pairs i < j of closed boxes that intersect, in chunks of index arrays (i, j).
 
-    The plane is cut into horizontal strips, and swept from left to right in each. Two boxes
-    that meet have a strip in common; the pair is told in the lowest one.
+    The plane is cut into horizontal strips, each swept from left to right. Two boxes that
+    intersect have a strip in common; the pair is reported in the lowest one.
     """
     n = len(boxes)
     order = np.argsort(boxes[:, 0], kind="stable")
     low_y, high_y = boxes[order, 2], boxes[order, 3]
-    # In this order, box i meets in x exactly the boxes i < j < ends[i].
+    # In this order, the x-interval of box i meets exactly those of the boxes i < j < ends[i].
     ends = np.searchsorted(boxes[order, 0], boxes[order, 1], side="right")
     lowest, highest = _strips(low_y, high_y)
-    # A copy of each box for each of its strips, one strip after the other.
+    # One copy of each box for each of its strips, sorted by strip.
     box, strip = _spread(np.arange(n), lowest, highest + 1)
     by_strip = np.argsort(strip, kind="stable")
     box, strip = box[by_strip], strip[by_strip]
@@ -76,7 +77,7 @@ def overlapping_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
     stop = np.searchsorted(place, place - box + ends[box])
     first = 0
     while first < len(box):
-        # As many boxes as fit a chunk, at least one.
+        # As many boxes as fit in a chunk, but at least one.
         total = np.cumsum(stop[first:] - after[first:])
         last = first + max(1, int(np.searchsorted(total, _CHUNK, side="right")))
         here, there = _spread(np.arange(first, last), after[first:last], stop[first:last])
@@ -89,9 +90,10 @@ def overlapping_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
 
 
 def _strips(low: Floats, high: Floats) -> tuple[Indices, Indices]:
-    """The strips, lowest and highest, of intervals: about as many begin in each, few meet many.
+    """The lowest and the highest strip of each interval.
 
-    What is above another is in no lower strip, wherever they are cut.
+    About as many intervals begin in each strip, and few meet many strips. A higher
+    interval is in no lower strip, wherever the plane is cut.
     """
     n = len(low)
     count = isqrt(n)
@@ -106,7 +108,7 @@ def _strips(low: Floats, high: Floats) -> tuple[Indices, Indices]:
 
 
 def _spread(items: Indices, start: Indices, stop: Indices) -> tuple[Indices, Indices]:
-    """Each item once for each number of its range from start to stop, and these numbers."""
+    """Each item repeated for every number in its range [start, stop), and these numbers."""
     sizes = stop - start
     numbers = np.arange(int(sizes.sum())) - np.repeat(np.cumsum(sizes) - sizes - start, sizes)
     return np.repeat(items, sizes), numbers

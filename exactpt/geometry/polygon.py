@@ -1,6 +1,6 @@
 """Polygons and chains at one instant: orientation, convexity, simplicity, containment.
 
-All exact. Boxes in floats, rounded outward, only say which edges need not be compared.
+All answers are exact. Float boxes, rounded outward, only rule out pairs of edges.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ __all__ = [
 def edges(size: int, *, closed: bool) -> list[tuple[int, int]]:
     """The edges of a body as pairs of vertices; edge i starts at vertex i.
 
-    A point has none, a segment one (closed or not), a polygon as many as vertices.
+    A point has none, a segment one (closed or not), a polygon as many as it has vertices.
     """
     pairs = [(i, i + 1) for i in range(size - 1)]
     if closed and size > 2:
@@ -41,10 +41,10 @@ def signed_area2(points: Sequence[Point]) -> QQ:
 
 
 def is_counter_clockwise(points: Sequence[Point]) -> bool:
-    """Whether a polygon, not of area 0, is counter-clockwise.
+    """Whether a polygon of nonzero area is counter-clockwise.
 
-    If it is simple it turns as it does at its leftmost vertex, of several the lowest: the
-    inside is there in the angle below pi. (That angle is not 0, and not pi.)
+    A simple polygon is oriented as it turns at its leftmost vertex, the lowest if there are
+    several: the interior angle there is less than pi. (It is neither 0 nor pi.)
     """
     n = len(points)
     first = min(range(n), key=points.__getitem__)
@@ -53,7 +53,7 @@ def is_counter_clockwise(points: Sequence[Point]) -> bool:
 
 
 def segments_meet(a: Point, b: Point, c: Point, d: Point) -> bool:
-    """Whether the closed segments ab and cd share a point."""
+    """Whether the closed segments ab and cd intersect."""
     abc, abd = side(a, b, c), side(a, b, d)
     cda, cdb = side(c, d, a), side(c, d, b)
     if abc * abd < 0 and cda * cdb < 0:
@@ -67,9 +67,9 @@ def segments_meet(a: Point, b: Point, c: Point, d: Point) -> bool:
 
 
 def first_self_touch(points: Sequence[Point], *, closed: bool) -> tuple[int, int] | None:
-    """Two edges that share more than a common end, or one edge (i, i) without length; or None.
+    """Two edges that share more than a common end, or one edge (i, i) of length 0, or None.
 
-    None says that the polygon (or chain) is simple.
+    The polygon (or chain) is simple if and only if the result is None.
     """
     pairs = edges(len(points), closed=closed)
     for i, (u, v) in enumerate(pairs):
@@ -91,18 +91,18 @@ def _touch(points: Sequence[Point], e: tuple[int, int], f: tuple[int, int]) -> b
     (v,) = common
     a = points[e[0] if e[1] == v else e[1]]
     b = points[f[0] if f[1] == v else f[1]]
-    # Edges with a common end overlap if they leave it in one direction.
+    # Edges with a common end overlap if they leave it in the same direction.
     return side(a, points[v], b) == 0 and (between(points[v], a, b) or between(points[v], b, a))
 
 
 def contains(points: Sequence[Point], p: Point) -> bool:
-    """Whether the closed simple polygon contains p (either orientation; the boundary counts)."""
+    """Whether the closed simple polygon, of either orientation, contains p."""
     inside = False
     for a, b in _cyclic_pairs(points):
         s = side(a, b, p)
         if s == 0 and between(a, b, p):
             return True
-        # A ray to the right crosses the edge (half-open in y, so vertices count once).
+        # A ray to the right crosses the edge (half-open in y, so a vertex counts once).
         if (a[1] > p[1]) != (b[1] > p[1]) and (s > 0) == (b[1] > a[1]):
             inside = not inside
     return inside

@@ -1,7 +1,8 @@
-"""Predicates of points, written once over any ring: + - * only.
+"""Predicates of points.
 
-Over the rationals they are static predicates; over polynomials in t, the functions
-whose signs a certificate watches.
+`orient2d` uses + - * only, so it works over any ring: over the rationals it is a static
+predicate, over polynomials in t the function of a certificate. (Certificates themselves
+take it from homogeneous coordinates, `exactpt.motion.incidence.orientation`.)
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ __all__ = ["Point", "Ring", "between", "orient2d", "side"]
 
 
 class Ring(Protocol):
-    """What a predicate asks of coordinates. No division, no comparison."""
+    """The operations that `orient2d` needs on coordinates: no division, no comparison."""
 
     def __add__(self, other: Self, /) -> Self: ...
     def __sub__(self, other: Self, /) -> Self: ...
@@ -42,5 +43,5 @@ def side(a: Point, b: Point, c: Point) -> int:
 
 
 def between(a: Point, b: Point, c: Point) -> bool:
-    """Whether c, on the line of a and b (or anywhere, if a = b), lies in the closed segment ab."""
+    """Whether c lies in the closed segment ab, if it is on the line ab (or if a = b)."""
     return all(min(u, v) <= w <= max(u, v) for u, v, w in zip(a, b, c, strict=True))

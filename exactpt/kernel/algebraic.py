@@ -1,7 +1,8 @@
 """Real algebraic numbers: the times of events, compared exactly.
 
-Nearly every comparison ends with disjoint intervals; where these stay overlapping,
-equality is decided by a gcd. A sign is decided likewise.
+Two numbers are compared by refining their isolating intervals until these are disjoint;
+if they go on overlapping, a gcd decides equality. The sign of a polynomial at a number is
+found in the same way.
 
 Source: S. Basu, R. Pollack, M.-F. Roy, *Algorithms in Real Algebraic Geometry*,
 2nd ed., section 10.4 (real roots by isolating intervals).
@@ -38,17 +39,17 @@ if TYPE_CHECKING:
 __all__ = ["AlgebraicNumber", "multiple_before", "rational_between"]
 
 FINE: Final = power_of_two(-100)
-"""Where both intervals are narrower and still overlap, equality is decided by a gcd."""
+"""Interval width below which two overlapping numbers are tested for equality by a gcd."""
 
 
 @final
 class AlgebraicNumber(IsolatedRoot):
     """A real algebraic number: a root of an integer polynomial, or a rational.
 
-    Compares exactly with other numbers and with rationals. ``float(x)`` is the
-    nearest double. Comparing refines the interval in place, which changes no
-    answer. Equal numbers have equal hashes, whatever their polynomials. (A text is read as
-    a number where one is compared with it; its hash is its own.)
+    Comparisons with algebraic numbers and with rationals are exact; they refine the
+    isolating interval in place, which changes no answer. ``float(x)`` is the nearest
+    double. Equal numbers have equal hashes, whatever their polynomials. (A string compares
+    as the number it denotes, but has the hash of a string.)
     """
 
     __slots__ = ()
@@ -72,7 +73,7 @@ class AlgebraicNumber(IsolatedRoot):
                 if self._shares_root(other):
                     return 0
                 differ = True
-            # The wider first: a surd doubles its digits at each step, others gain one bit.
+            # Refine the wider one: a surd doubles its digits at each step, others gain a bit.
             (self if width >= width_of_other else other).refine()
 
     def _shares_root(self, other: AlgebraicNumber) -> bool:
@@ -134,10 +135,10 @@ class AlgebraicNumber(IsolatedRoot):
     def canonical_interval(self) -> tuple[Fraction, Fraction]:
         """Rational bounds that depend on the number and its polynomial alone.
 
-        Two dyadic neighbours m/2^k, (m+1)/2^k that enclose the number, with the
-        first k of 64, 128, 256, ... for which no other root of the polynomial is in
-        between; so the same on every machine, by whatever comparisons the number has
-        been refined. Of a rational, known as one or not: the number twice.
+        The dyadic neighbours m/2^k and (m+1)/2^k that enclose the number, for the first k
+        of 64, 128, 256, ... with no other root of the polynomial between them. They are
+        the same on every machine, whatever comparisons have refined the number. For a
+        rational, even one not yet known to be rational, both bounds are the number.
         """
         return place(self._canonical_interval())
 
@@ -155,16 +156,16 @@ class AlgebraicNumber(IsolatedRoot):
         return nearest_double(self)
 
     def _as_root_of(self, f: IntPoly) -> AlgebraicNumber:
-        """This number, if it is irrational as the root of another polynomial.
+        """This number, represented as a root of f if it is irrational.
 
         Args:
-            f: vanishes here, and is not zero.
+            f: a nonzero polynomial that vanishes at this number.
         """
         if self.simplified().is_rational:
             return self
         p = square_free(f)
         slope = derivative(p)
-        # Where p is monotone, its root is alone.
+        # An interval on which p is monotone isolates the root.
         while not sign_on(slope, self._low, self._high):
             self.refine()
         return AlgebraicNumber._root(p, self._low, self._high)
@@ -172,17 +173,17 @@ class AlgebraicNumber(IsolatedRoot):
     def minimal_polynomial(self) -> tuple[int, ...]:
         """The irreducible integer polynomial with this root, constant term first.
 
-        Primitive, with a positive leading coefficient; of a rational p/q it is (-p, q). A
-        polynomial of degree 3 or more is factored by python-flint, or else by SymPy.
+        It is primitive with a positive leading coefficient; for a rational p/q it is (-p, q).
+        A polynomial of degree 3 or more is factored by python-flint, or else by SymPy.
 
         Raises:
-            ImportError: if a polynomial is to be factored and neither is installed.
+            ImportError: if a polynomial must be factored and neither is installed.
         """
         f = self.simplified()._polynomial
         if len(f) > 3:
             from exactpt.kernel.factors import irreducible_factors
 
-            # f is square-free: of its factors, one alone changes its sign around the root.
+            # f is square-free: exactly one of its factors changes sign around the root.
             f = next(
                 g
                 for g in irreducible_factors(f)
@@ -197,7 +198,7 @@ class AlgebraicNumber(IsolatedRoot):
         return algebraic_to_sympy(self)
 
     def __hash__(self) -> int:
-        """That of the rational, or of the double nearest to an irrational number."""
+        """The hash of the rational, or of the double nearest to an irrational number."""
         return hash(self._low) if self.simplified().is_rational else hash(float(self))
 
     def __eq__(self, other: object) -> bool:

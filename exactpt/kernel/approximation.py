@@ -1,7 +1,7 @@
 """Doubles and dyadic rationals near an algebraic number.
 
-What is found here depends on the number alone (and its polynomial where that is said),
-never on how far it has been refined: so that what is printed is the same in every run.
+Results depend on the number alone (and on its polynomial where stated), never on how far
+its interval has been refined, so printed output is the same in every run.
 """
 
 from __future__ import annotations
@@ -25,21 +25,23 @@ __all__ = [
 ]
 
 LARGEST_BITS: Final = 500
-"""Of coefficients as floats: products with powers of a time seldom overflow."""
+"""Maximum bit length of coefficients as floats: products with powers of t seldom overflow."""
 MOST_STEPS: Final = 60
+"""Maximum number of Newton steps."""
 SETTLED: Final = 2.0**-30
-"""A step of Newton's that is so short leaves an error about as large as its square."""
+"""Relative length of the last Newton step: the error left is about its square."""
 ROUNDING: Final = 2.0**-54
+"""First galloping step, relative to the size of the terms."""
 
 
 def nearest_double(x: IsolatedRoot) -> float:
-    """The nearest double (ties, which only a rational can have, to even); ±inf beyond all."""
+    """The nearest double (ties, possible only for a rational, to even); ±inf on overflow."""
     while True:
         low, high = nearest_float(x._low), nearest_float(x._high)
         if low == high:
             return low + 0.0  # never -0.0
         if high == math.nextafter(low, math.inf):
-            # Rounding changes at the middle between two neighbours.
+            # Rounding changes at the midpoint of two neighbours.
             middle = (_exact(low) + _exact(high)) / 2
             side = x.compare_rational(middle)
             return nearest_float(middle) if side == 0 else high if side > 0 else low
@@ -47,7 +49,7 @@ def nearest_double(x: IsolatedRoot) -> float:
 
 
 def _exact(x: float) -> QQ:
-    """The value of a double; of an infinity, what would be the next double."""
+    """The value of a double; for an infinity, the value the next double would have."""
     if math.isinf(x):
         return power_of_two(1024) if x > 0 else -power_of_two(1024)
     return QQ(*x.as_integer_ratio())
@@ -58,7 +60,7 @@ def enclosing_doubles(x: IsolatedRoot) -> tuple[float, float]:
     near = nearest_float(x._low)
     if near == nearest_float(x._high) and math.isfinite(near):
         exact = _exact(near)
-        # Both ends round to this double; and no end is x, unless both are.
+        # Both ends round to this double, and neither end equals x unless both do.
         if exact <= x._low:
             return near, (near if exact == x._high else math.nextafter(near, math.inf))
         if exact >= x._high:
@@ -79,9 +81,9 @@ def enclosing_doubles(x: IsolatedRoot) -> tuple[float, float]:
 
 
 def _narrow_around_guess(x: IsolatedRoot) -> None:
-    """Compare x with doubles near the one that floats make it out to be, until it is between.
+    """Narrow x by exact comparisons with doubles around a root estimated in floats.
 
-    If they are wrong, no more is known of x than on which side of some doubles it is.
+    A wrong estimate does no harm: the comparisons with x stay valid, only less useful.
     """
     lo, hi = nearest_float(x._low), nearest_float(x._high)
     shift = max(0, max(abs(c) for c in x._polynomial).bit_length() - LARGEST_BITS)
@@ -94,7 +96,7 @@ def _narrow_around_guess(x: IsolatedRoot) -> None:
         t, last = (t - step, t) if lo < t - step < hi else ((lo + hi) / 2, t)
         if abs(t - last) <= SETTLED * abs(t):
             break
-    # What is lost by rounding shows how far away x may be: gallop from a part of that.
+    # The rounding error of f bounds the distance to x: gallop from a fraction of it.
     size, slope = _value_and_slope([abs(c) for c in f], abs(t))[0], abs(_value_and_slope(f, t)[1])
     step = max(math.ulp(t), ROUNDING * size / slope if slope else math.inf)
     side = 0 if not math.isfinite(t) else x.compare_rational(_exact(t))
@@ -105,7 +107,7 @@ def _narrow_around_guess(x: IsolatedRoot) -> None:
 
 
 def _value_and_slope(f: list[float], t: float) -> tuple[float, float]:
-    """Of a polynomial, leading coefficient first."""
+    """The value and the derivative at t of a polynomial, leading coefficient first."""
     value = slope = 0.0
     for c in f:
         slope = slope * t + value
@@ -139,9 +141,9 @@ def _is_alone_in(x: IsolatedRoot, low: QQ, high: QQ) -> bool:
 def rational_between(x: IsolatedRoot, y: IsolatedRoot) -> QQ:
     """The dyadic rational of least denominator strictly between x and y, x < y.
 
-    (The least such in size of the exponent; the leftmost if there are several.)
+    The leftmost if there are several.
     """
-    # What lies between on a grid does so on all finer ones: gallop, then bisect.
+    # A grid point between x and y belongs to all finer grids too: gallop, then bisect.
     coarse, bits = -1, 0
     while y.compare_rational(found := _next_on_grid(x, bits)) <= 0:
         coarse, bits = bits, 2 * bits + 1

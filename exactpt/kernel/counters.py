@@ -1,6 +1,6 @@
-"""How many decisions the float filter settled, and how many needed exact arithmetic, and why.
+"""Counts of the decisions made by float filters and by exact arithmetic, with the reasons.
 
-Each run has counters of its own (`exactpt.motion.vertices.Vertices.counters`): written where
+Each run has its own counters (`exactpt.motion.vertices.Vertices.counters`): written where
 decisions are made, read by the statistics of the run, never by logic.
 """
 
@@ -14,12 +14,12 @@ __all__ = ["Counters", "Counts"]
 
 
 class Counts(NamedTuple):
-    """How many decisions were made.
+    """Numbers of decisions made.
 
     Attributes:
         exact: those that needed exact arithmetic.
-        filtered: those settled by floats with a proven bound.
-        reasons: the exact ones, by what was decided and why floats did not do.
+        filtered: those decided by floats with a proven bound.
+        reasons: the exact ones, by what was decided and why the filter failed.
     """
 
     exact: int
@@ -32,9 +32,9 @@ class Counters:
     """Running totals of one run.
 
     Attributes:
-        filtered: signs and comparisons of times settled by floats with a proven bound.
+        filtered: signs and comparisons of times decided by floats with a proven bound.
         exact: those that needed exact arithmetic.
-        reasons: the latter, by ``"what: why"``.
+        reasons: the exact ones, by ``"what: why"``.
     """
 
     def __init__(self) -> None:
@@ -43,7 +43,7 @@ class Counters:
         self.reasons: Counter[str] = Counter()
 
     def count_exact(self, what: str, why: str) -> None:
-        """Note an exact decision."""
+        """Count an exact decision."""
         self.exact += 1
         self.reasons[f"{what}: {why}"] += 1
 
@@ -52,12 +52,12 @@ class Counters:
         return Counts(self.exact, self.filtered, dict(sorted(self.reasons.items())))
 
     def add(self, counts: Counts) -> None:
-        """Count what another part of the same run has counted."""
+        """Add the counts of another part of the same run."""
         self.exact += counts.exact
         self.filtered += counts.filtered
         self.reasons.update(counts.reasons)
 
     def set(self, counts: Counts) -> None:
-        """Go on from what a run had counted when it was saved."""
+        """Replace the totals by those of a saved run, which goes on from them."""
         self.exact, self.filtered = counts.exact, counts.filtered
         self.reasons = Counter(counts.reasons)

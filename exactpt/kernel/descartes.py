@@ -1,8 +1,8 @@
-"""Descartes' rule of signs: most intervals hold no root, or one, and need no Sturm sequence.
+"""Descartes' rule of signs: isolates most roots without a Sturm sequence.
 
 Source: S. Basu, R. Pollack, M.-F. Roy, *Algorithms in Real Algebraic Geometry*,
-2nd ed., section 2.2.1 (Descartes' law of signs) and section 10.2 (in an interval, and
-isolation by halving).
+2nd ed., section 2.2.1 (Descartes' law of signs) and section 10.2 (on an interval, and
+isolation by bisection).
 """
 
 from __future__ import annotations
@@ -18,19 +18,20 @@ from exactpt.kernel.sturm import sign_changes
 __all__ = ["single_roots"]
 
 HALVINGS: Final = 8
-"""So often an interval is halved at most: roots as close as that are left to Sturm."""
+"""Maximum number of bisections; roots closer than that are left to Sturm's sequence."""
 
 
 def single_roots(f: IntPoly, low: QQ, high: QQ) -> Iterator[tuple[QQ, QQ, bool]]:
-    """Open intervals from left to right that hold all roots of f in (low, high), lazily.
+    """Open intervals from left to right that contain all roots of f in (low, high), lazily.
 
-    With each, whether it is known to hold just one root, a simple one; else it may hold
-    any number. No end of an interval is a root but ``low`` or ``high``.
+    Each comes with a flag: true if it is known to contain exactly one root, a simple one;
+    otherwise it may contain any number. Apart from ``low`` and ``high``, no end of an
+    interval is a root.
 
     Args:
         f: not zero.
         low: the left end.
-        high: the right end, larger.
+        high: the right end, greater than ``low``.
     """
     stack = [(_on_unit_interval(f, low, high), low, high, HALVINGS)]
     while stack:
@@ -66,11 +67,11 @@ def _on_unit_interval(f: IntPoly, low: QQ, high: QQ) -> list[ZZ]:
 
 
 def _variations(g: list[ZZ]) -> int:
-    """A bound for the roots of g in the open unit interval, each with its multiplicity.
+    """An upper bound on the number of roots of g in (0, 1), counted with multiplicity.
 
-    It exceeds their number by an even number: so 0 and 1 are that number. How often the
-    coefficients of (1 + s)^deg(g) g(1 / (1 + s)) change their sign: 1 / (1 + s) maps the
-    positive s to the interval.
+    It is the number of sign changes of the coefficients of (1 + s)^deg(g) g(1 / (1 + s)):
+    1 / (1 + s) maps the positive s onto (0, 1). The bound exceeds the number of roots by an
+    even number, so 0 and 1 are exact.
     """
     return sign_changes([sign(c) for c in _shifted_by_one(g[::-1])])
 
@@ -86,7 +87,7 @@ def _stretch(g: Sequence[ZZ], factor: ZZ) -> list[ZZ]:
 
 
 def _shifted_by_one(g: list[ZZ]) -> list[ZZ]:
-    """The coefficients of g(s + 1): Horner's scheme is to add up from the leading one."""
+    """The coefficients of g(s + 1), by repeated Horner."""
     rest, result = g[::-1], []
     while rest:
         rest = list(accumulate(rest))

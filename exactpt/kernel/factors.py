@@ -1,4 +1,4 @@
-"""Factors of integer polynomials, by python-flint or SymPy, imported when they are asked for."""
+"""Factors of integer polynomials, by python-flint or SymPy, imported on first use."""
 
 from __future__ import annotations
 

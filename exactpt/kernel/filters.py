@@ -2,7 +2,7 @@
 
 A polynomial is given by doubles c[i] and bounds e[i] on their errors: the true
 coefficient lies in [c[i] - e[i], c[i] + e[i]]. An `Answer` is proved for every such
-polynomial, whatever the doubles; "unsure" sends the caller to exact arithmetic. Now is
+polynomial, whatever the doubles; "unsure" sends the caller to exact arithmetic. "Now" is
 a time in [now_low, now_high].
 
 Source: N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed.,
@@ -41,7 +41,7 @@ def linear(
         true root - root = (-d0 - d1 r) / (c1 + d1) + (r - root).
 
     Underflow: e1 |root| is off by 2^-1074 / gap <= 2^-774 after the division; r itself
-    by 2^-1075, of which e1 / gap <= 2^53 times as much may follow.
+    is off by 2^-1075, which e1 / gap <= 2^53 may multiply.
 
     ``at_root``: the polynomial is known to vanish now.
     """
@@ -59,7 +59,7 @@ def linear(
                 return (-s, INFINITY, INFINITY)
             return (-s, low, root + error)
         return UNSURE
-    # No root up to the horizon if the constant outweighs the slope.
+    # There is no root up to the horizon if the constant term dominates.
     reach = max(abs(now_low), abs(now_high), abs(horizon))
     if INFINITY > abs(c0) > (e0 + (abs(c1) + e1) * reach) * SLACK + TINY:
         return (1 if c0 > 0.0 else -1, INFINITY, INFINITY)
@@ -91,11 +91,11 @@ def quadratic(
     if c1 >= 0 and c2 > 0 or c1 < 0 and c2 < 0.
 
     Underflow: in D by a few 2^-1074, below `TINY`. So D > 2^-500, sqrt(D) and |q| are
-    above 2^-252, and nothing before the quotients can underflow but what is far below the
-    rounding of sqrt(D) and q. The quotients' own bounds are those of `linear`.
+    above 2^-252, and any underflow before the quotients is far below the rounding of
+    sqrt(D) and q. The quotients' own bounds are those of `linear`.
 
     ``at_root``: the polynomial is known to vanish now. The two enclosures are of two
-    different roots; so if just one of them meets [now_low, now_high], that root is now.
+    different roots; so if only one of them meets [now_low, now_high], that root is now.
     """
     if c2 == 0.0 and e2 == 0.0:
         return linear(c0, c1, e0, e1, now_low, now_high, horizon, at_root)
@@ -142,7 +142,7 @@ def quadratic(
     elif unclear1 or unclear2:
         return UNSURE
     s = 1 if c2 > 0.0 else -1
-    if after1:  # both roots are to come; an enclosure has the first one alone
+    if after1:  # both roots are after now; the enclosure must hold only the first
         if high1 >= low2:
             return UNSURE
         return (s, low1, high1) if low1 <= horizon else (s, INFINITY, INFINITY)

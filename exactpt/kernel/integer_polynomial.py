@@ -1,14 +1,14 @@
-"""Polynomials over the integers as plain tuples: what certificates are made of.
+"""Polynomials over the integers as plain tuples: the functions whose signs certificates are.
 
 ``f[i]`` is the coefficient of t**i; the last entry is never 0, and the zero
-polynomial is ``()``. A certificate only asks for signs, so positive factors are
-dropped freely and integers suffice everywhere.
+polynomial is ``()``. A certificate needs only a sign, so positive factors are
+dropped freely and integer coefficients suffice.
 
 Sources: D. E. Knuth, *TAOCP* vol. 2, section 4.6.1 (pseudo-division, gcd of
 primitive parts); J. von zur Gathen, J. Gerhard, *Modern Computer Algebra*,
 section 14.6 (square-free part); B. Char, K. Geddes, G. Gonnet, *GCDHEU: heuristic
 polynomial GCD algorithm based on integer GCD computation*, J. Symbolic Computation 7
-(1989) (common factors show in values).
+(1989) (common factors detected from values).
 """
 
 from __future__ import annotations
@@ -23,7 +23,6 @@ __all__ = [
     "add",
     "derivative",
     "evaluate",
-    "from_rationals",
     "greatest_common_divisor",
     "multiply",
     "negate",
@@ -42,7 +41,7 @@ __all__ = [
 IntPoly: TypeAlias = "tuple[ZZ, ...]"
 
 SLACK: Final = 32
-"""So many more bits than the coefficients has the point at which common factors are sought."""
+"""Extra bits of the evaluation point in the test for common factors."""
 
 
 def trimmed(coefficients: Iterable[ZZ]) -> IntPoly:
@@ -51,15 +50,6 @@ def trimmed(coefficients: Iterable[ZZ]) -> IntPoly:
     while f and f[-1] == 0:
         f.pop()
     return tuple(f)
-
-
-def from_rationals(coefficients: Iterable[QQ]) -> IntPoly:
-    """A positive multiple with integer coefficients: the primitive one."""
-    f = list(coefficients)
-    denominator = ZZ(1)
-    for c in f:
-        denominator *= ZZ(c.denominator) // gcd(denominator, ZZ(c.denominator))
-    return primitive(trimmed(ZZ(c.numerator) * (denominator // ZZ(c.denominator)) for c in f))
 
 
 def add(f: IntPoly, g: IntPoly) -> IntPoly:
@@ -138,13 +128,13 @@ def sign_at(f: IntPoly, t: QQ) -> int:
 
 
 def sign_on(f: IntPoly, low: QQ, high: QQ) -> int:
-    """The sign of f on all of [low, high] if Horner's rule on intervals shows it, else 0."""
+    """The constant sign of f on [low, high] if interval Horner proves one, else 0."""
     a, b = range_on(f, low, high)
     return 1 if a > 0 else -1 if b < 0 else 0
 
 
 def range_on(f: IntPoly, low: QQ, high: QQ) -> tuple[QQ, QQ]:
-    """Bounds of f on [low, high], by Horner's rule on intervals."""
+    """Bounds of f on [low, high], by Horner's rule in interval arithmetic."""
     a = b = QQ(0)
     for c in reversed(f):
         products = (a * low, a * high, b * low, b * high)
@@ -161,9 +151,9 @@ def primitive(f: IntPoly) -> IntPoly:
 def positive_remainder(f: IntPoly, g: IntPoly) -> IntPoly:
     """The remainder of a *positive* multiple of f on division by g: primitive.
 
-    Ordinary pseudo-division multiplies f by a power of the leading coefficient of
-    g, whose sign would be lost; here |leading coefficient| is used, so that the
-    sign of the remainder is that of the rational one (Sturm's sequence needs it).
+    Ordinary pseudo-division multiplies f by a power of the leading coefficient of g, which
+    may be negative. Here |leading coefficient| is used, so the remainder has the sign of
+    the rational one, as Sturm's sequence requires.
     """
     lead, size = g[-1], len(g)
     positive, lead = (lead, lead) if lead > 0 else (-lead, lead)
@@ -186,7 +176,7 @@ def quotient(f: IntPoly, g: IntPoly) -> IntPoly:
     remainder, result = list(f), [ZZ(0)] * (len(f) - size + 1)
     positive = abs(lead)
     for shift in range(len(f) - size, -1, -1):
-        # Multiply everything by |lead|, so that the next digit is an integer.
+        # Multiply everything by |lead|, so that the next coefficient is an integer.
         remainder = [positive * c for c in remainder]
         result = [positive * c for c in result]
         factor = remainder[shift + size - 1] // lead
@@ -210,8 +200,8 @@ def _is_square_free_at_a_point(f: IntPoly) -> bool:
     A common factor h, primitive and not constant, divides both over the integers (Gauss), so
     h(N) divides both values at N. The roots of f, and so those of h, are at most 2^bits in
     size where all coefficients are below that (Cauchy), so |h(N)| >= N - 2^bits > N / 2 for
-    N = 2^width below. Where the gcd of the values is less, there is no h; only chance makes
-    it larger without.
+    N = 2^width below. A smaller gcd of the values proves that there is no h; without one,
+    the gcd is larger only by chance.
     """
     width = max([c.bit_length() for c in f]) + SLACK
     at = at_derivative = ZZ(0)
@@ -222,7 +212,7 @@ def _is_square_free_at_a_point(f: IntPoly) -> bool:
 
 
 def square_free(f: IntPoly) -> IntPoly:
-    """The primitive polynomial with the roots of f, each once, and the leading sign of f."""
+    """The square-free part of f: primitive, with the sign of f's leading coefficient."""
     f = primitive(f)
     if len(f) <= 2:
         return f

@@ -1,7 +1,8 @@
-"""One real root of an integer polynomial, held in a rational interval that can be narrowed.
+"""One real root of an integer polynomial, in a rational isolating interval.
 
-The polynomial is square-free, so it changes its sign at the root: a rational lies below
-the root if and only if the polynomial has there the sign that it has at the low end.
+The polynomial is square-free, so it changes sign at the root: a rational in the interval
+lies below the root if and only if the polynomial has there the sign that it has at the low
+end.
 
 Sources: S. Basu, R. Pollack, M.-F. Roy, *Algorithms in Real Algebraic Geometry*,
 2nd ed., section 10.4 (real roots by isolating intervals); J. Abbott, *Quadratic interval
@@ -37,17 +38,17 @@ from exactpt.kernel.numbers import (
 __all__ = ["IsolatedRoot"]
 
 FIRST_STEPS: Final = 6
-"""So many steps halve the interval: most numbers are asked for no more."""
+"""Number of initial refinements by bisection; most numbers need no more."""
 
 
 class IsolatedRoot:
-    """A real root of an integer polynomial, or a rational; narrowed in place.
+    """A real root of an integer polynomial, or a rational, whose interval is refined in place.
 
-    Narrowing changes what is known of the number, not the number.
+    Refining changes what is known of the number, not the number.
 
-    The polynomial is square-free, integer and primitive, its leading coefficient positive;
-    of a rational p/q it is ``(-p, q)``. No other real root of it lies in [low, high], and
-    ``low == high`` if and only if the number is known to be rational. Where ``low < high``,
+    The polynomial is square-free and primitive with a positive leading coefficient; for a
+    rational p/q it is ``(-p, q)``. No other real root of it lies in [low, high], and
+    ``low == high`` if and only if the number is known to be rational. If ``low < high``,
     neither end is a root.
     """
 
@@ -58,14 +59,14 @@ class IsolatedRoot:
         self._low: QQ
         self._high: QQ
         self._below: int  # the sign of the polynomial at low
-        self._bits: int  # how many the next step may gain; below 1: one
+        self._bits: int  # bits the next step tries to gain; below 1: bisection
         self._become(rational(value))
 
     @classmethod
     def root(cls, polynomial: Iterable[int], low: Rational, high: Rational) -> Self:
         """The root of a square-free polynomial in (low, high], where it has exactly one.
 
-        ``low`` itself may be another root; ``low == high`` says that it is the root.
+        ``low`` may be another root; ``low == high`` states that it is the root.
         """
         return cls._root(tuple(map(ZZ, polynomial)), rational(low), rational(high))
 
@@ -103,7 +104,7 @@ class IsolatedRoot:
         Args:
             quadratic: with positive leading coefficient.
             low: a rational below the root.
-            high: one above it.
+            high: a rational above it.
             larger: whether it is the larger root.
         """
         self = cls.__new__(cls)
@@ -114,7 +115,7 @@ class IsolatedRoot:
 
     def _leave_low_end(self) -> None:
         # The root is inside (low, high), and low is a (simple) root as well: the sign
-        # just right of it is that of the derivative. Halve until low is no root.
+        # just right of it is that of the derivative. Bisect until low is not a root.
         self._below = sign_at(derivative(self._polynomial), self._low)
         while True:
             middle = (self._low + self._high) / 2
@@ -134,7 +135,7 @@ class IsolatedRoot:
 
     @property
     def polynomial(self) -> tuple[int, ...]:
-        """An integer polynomial of which the number is a simple root, constant term first."""
+        """An integer polynomial with the number as a simple root, constant term first."""
         return tuple(map(int, self._polynomial))
 
     @property
@@ -149,13 +150,13 @@ class IsolatedRoot:
 
     @property
     def is_rational(self) -> bool:
-        """Whether the number is known to be rational (a root of degree 3 or more may hide one)."""
+        """Whether it is known to be rational; a number of degree 3 or more may be unrecognised."""
         return self._low == self._high
 
     def refine(self) -> None:
-        """Shrink the interval: to a half at least, near the root to the square of its width.
+        """Shrink the interval at least to a half; close to the root, quadratically.
 
-        (An interval around 0 is cut there: so 0 is found, and tiny numbers know their sign.)
+        An interval around 0 is cut there, so that 0 is found and a tiny number has a sign.
         """
         if self._low == self._high:
             return
@@ -169,11 +170,11 @@ class IsolatedRoot:
         self._bits = self._bits + 1 if self._bits < 1 else 4
 
     def _refine_by_secant(self) -> None:
-        """Of 2^bits cells of equal width, try the one that the secant meets (Abbott's QIR).
+        """One step of Abbott's QIR: of 2^bits equal cells, try the one the secant meets.
 
         Where the polynomial is nearly linear the root is in that cell, and the next step
-        tries the square of the number of cells; else the root of it, and the interval is
-        halved.
+        squares the number of cells. Otherwise the next step takes its square root, and the
+        interval is bisected.
         """
         low, width = self._low, self._high - self._low
         at_low, at_high = (abs(evaluate(self._polynomial, t)) for t in (low, self._high))
@@ -187,7 +188,7 @@ class IsolatedRoot:
                 self.compare_rational((self._low + self._high) / 2)
 
     def _refine_quadratic(self) -> None:
-        # (-c1 ± sqrt(d)) / 2 c2, the square root to as many bits as double the precision.
+        # (-c1 ± sqrt(d)) / 2 c2, the square root to enough bits to double the precision.
         c0, c1, c2 = self._polynomial
         width = self._high - self._low
         bits = 2 * max(8, width.denominator.bit_length() - width.numerator.bit_length()) + 8
@@ -226,7 +227,7 @@ class IsolatedRoot:
         return -1
 
     def simplified(self) -> Self:
-        """This number, recognised in place if it is rational, whatever its polynomial.
+        """This number, made known as rational in place if it is, whatever its polynomial.
 
         A rational root p/q of an integer polynomial has q dividing the leading
         coefficient c (Gauss), so c * root is an integer: one candidate is left once

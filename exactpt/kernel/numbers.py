@@ -1,8 +1,8 @@
-"""Integers and rationals: the only door through which GMP enters.
+"""Integers and rationals: the only module that imports gmpy2.
 
 gmpy2 ships no type stubs. For the type checker `ZZ` is ``int`` and `QQ` is
 ``Fraction``, which have the same interface; so a float mixed with an exact
-number is a type error (at run time gmpy2 would silently answer with an inexact
+number is a type error (at run time gmpy2 would silently return an inexact
 ``mpfr``).
 """
 
@@ -31,13 +31,13 @@ if TYPE_CHECKING:
         """The integer part of the square root of ``value >= 0``."""
 
     def isqrt_rem(value: ZZ) -> tuple[ZZ, ZZ]:
-        """The integer part of the square root of ``value >= 0``, and what its square leaves."""
+        """The integer part r of the square root of ``value >= 0``, and ``value - r * r``."""
 
     def is_square(value: ZZ) -> bool:
         """Whether ``value`` is the square of an integer."""
 
     def digits(value: ZZ, width: int) -> list[ZZ]:
-        """The digits of ``value >= 0`` to the base 2^width, the lowest first."""
+        """The digits of ``value >= 0`` in base 2^width, lowest first."""
 
 else:
     QQ = gmpy2.mpq
@@ -77,11 +77,11 @@ Rational: TypeAlias = "int | Fraction | QQ | float | str"
 
 _NUMBER: Final = re.compile(
     r"([+-]?\d++)(?:/(\d++))?\Z|([+-]?)(\d*+)\.?(\d*+)(?:[eE]([+-]?\d{1,18}))?\Z", re.ASCII
-)  # possessive: digits are never given back, so a long refused text takes linear time
+)  # possessive quantifiers: no backtracking, so a long invalid text takes linear time
 _EXPONENT_LIMIT: Final = 100_000
 _EXACT: Final[type[QQ]] = type(QQ())
 _INEXACT: Final = ("bool", "mpfr")
-"""Names of types that are refused; numpy's booleans have an index before numpy 2.3."""
+"""Names of refused types; before numpy 2.3 its booleans have an ``__index__``."""
 
 
 def sign(value: QQ | ZZ) -> int:
@@ -100,27 +100,27 @@ def ceil(value: QQ) -> ZZ:
 
 
 def power_of_two(exponent: int) -> QQ:
-    """2**exponent, for an exponent of either sign."""
+    """2**exponent; the exponent may be negative."""
     one = ZZ(1)
     return QQ(one << exponent) if exponent >= 0 else QQ(one, one << -exponent)
 
 
 def fraction(value: QQ) -> Fraction:
-    """The number as Python's own, for those outside of the package.
+    """The number as a ``Fraction``, for callers outside the package.
 
-    GMP's numbers stay inside: `limit_denominator` of gmpy2 2.3 frees the number that it is
-    called on where it returns that.
+    gmpy2's numbers stay inside: in gmpy2 2.3, `limit_denominator` frees the number it is
+    called on if it returns that number itself.
     """
     return Fraction(int(value.numerator), int(value.denominator))
 
 
 def fractions(values: Iterable[QQ]) -> tuple[Fraction, ...]:
-    """Numbers as Python's own."""
+    """The numbers as ``Fraction``."""
     return tuple(map(fraction, values))
 
 
 def place(point: tuple[QQ, QQ]) -> tuple[Fraction, Fraction]:
-    """A point with coordinates of Python's own."""
+    """The point with coordinates as ``Fraction``."""
     return fraction(point[0]), fraction(point[1])
 
 
@@ -156,13 +156,13 @@ def parse_rational(text: str) -> QQ:
 
 
 def shorten(text: object, limit: int = 60) -> str:
-    """The text of a value, cut so that a message stays one readable line."""
+    """The ``repr`` of a value, cut so that a message stays one readable line."""
     shown = " ".join(repr(text).splitlines())
     return shown if len(shown) <= limit else f"{shown[: limit - 12]}...{shown[-8:]}"
 
 
 def show(*numbers: QQ) -> str:
-    """A number, or (x, y), for a message: long ones are cut."""
+    """A number, or (x, y), as text for a message; long numbers are cut."""
     words = [shorten(str(q))[1:-1] for q in numbers]
     return words[0] if len(words) == 1 else f"({', '.join(words)})"
 
@@ -170,8 +170,8 @@ def show(*numbers: QQ) -> str:
 def rational(value: Rational) -> QQ:
     """The exact rational that ``value`` denotes.
 
-    Accepts ints, Fractions, gmpy2 ``mpz`` and ``mpq``, numpy integers, finite floats,
-    numpy's too (their exact binary value), and the strings of `parse_rational`.
+    Accepts ints, Fractions, gmpy2 ``mpz`` and ``mpq``, numpy integers, finite floats
+    including numpy's (their exact binary value), and the strings of `parse_rational`.
 
     Raises:
         InputError: for anything else (booleans, NaN, infinities, inexact ``mpfr``).
@@ -195,15 +195,15 @@ def rational(value: Rational) -> QQ:
         return QQ(ZZ(operator.index(value)))  # type: ignore[arg-type]
     except (OverflowError, ValueError):
         raise InputError(f"not a finite number: {value!r}") from None
-    except TypeError:  # arrays have an __index__, classes a numerator, that is none
+    except TypeError:  # an array's __index__ and a class's numerator do not give a number
         raise InputError(f"not a number: {shorten(value)}") from None
 
 
 def rationals(values: object, count: int, what: str) -> tuple[QQ, ...]:
-    """So many numbers.
+    """Exactly ``count`` rationals.
 
     Raises:
-        InputError: if there are more or fewer; it begins with ``what``.
+        InputError: if there are more or fewer; the message begins with ``what``.
     """
     listed = list(values) if isinstance(values, Iterable) else None
     if listed is None or isinstance(values, str) or len(listed) != count:
@@ -214,8 +214,8 @@ def rationals(values: object, count: int, what: str) -> tuple[QQ, ...]:
 def nearest_float(value: QQ) -> float:
     """The double nearest to ``value``; ±inf beyond the largest double.
 
-    gmpy2 and ``fractions`` round correctly, but the one returns inf and the other
-    raises where the value is too large.
+    gmpy2 and ``fractions`` round correctly, but for too large a value the former
+    returns inf and the latter raises.
     """
     try:
         return float(value)
@@ -224,7 +224,7 @@ def nearest_float(value: QQ) -> float:
 
 
 def enclosing_floats(value: QQ) -> tuple[float, float]:
-    """The nearest doubles lo <= value <= hi; equal if and only if value is a double."""
+    """The tightest doubles lo <= value <= hi; equal if and only if value is a double."""
     near = nearest_float(value)
     if math.isinf(near):
         largest = math.nextafter(math.inf, 0.0)

@@ -1,8 +1,9 @@
 """Integer polynomials as single integers: their values at 2^width.
 
-A sum of products of polynomials is then one of integers, each a single call of GMP, and
-the coefficients of the result are its digits to the base 2^width, with signs. Determinants
-of short polynomials are built several times faster than coefficient by coefficient.
+A sum of products of polynomials becomes a sum of products of integers, each a single call
+of GMP, and the coefficients of the result are its signed digits in base 2^width.
+Determinants of short polynomials are built several times faster than coefficient by
+coefficient.
 
 Source: Kronecker substitution; J. von zur Gathen, J. Gerhard, *Modern Computer Algebra*,
 section 8.4.
@@ -19,22 +20,22 @@ __all__ = ["coefficient_bits", "pack", "unpack", "width_for"]
 
 
 def coefficient_bits(*polynomials: IntPoly) -> int:
-    """The number of binary digits of the largest coefficient."""
+    """The bit length of the largest coefficient."""
     return max([c.bit_length() for f in polynomials for c in f], default=0)
 
 
 def width_for(bits: int, length: int, factors: int) -> int:
-    """A width that holds each coefficient of a sum of at most 8 products.
+    """A width that fits every coefficient of a sum of at most 8 products.
 
-    A product of polynomials of ``bits`` digits together has, in each coefficient, at most
-    length^(factors - 1) products of coefficients: one of each factor but the last can be
-    chosen freely. So the sum is below 2^(width - 1). A power of two, so that one width
-    does for most of a scene.
+    Each coefficient of a product of polynomials of ``bits`` bits in total is a sum of at
+    most length^(factors - 1) products of coefficients: one coefficient of each factor but
+    the last can be chosen freely. So the sum is below 2^(width - 1). The width is a power
+    of two, so that one width serves most of a scene.
 
     Args:
-        bits: the sum of the digits of the factors.
-        length: of the result, and so at least that of each factor.
-        factors: in each product.
+        bits: the sum of the coefficient bit lengths of the factors.
+        length: the length of the result, and so at least that of each factor.
+        factors: the number of factors in each product.
     """
     digits_needed = bits + (factors - 1) * length.bit_length() + 3 + 1
     return 1 << (digits_needed - 1).bit_length()
@@ -52,9 +53,9 @@ def unpack(value: ZZ, width: int, length: int) -> IntPoly:
     """The polynomial with this value at 2^width.
 
     Args:
-        value: of a polynomial with coefficients below 2^(width - 1) in absolute value.
+        value: the value of a polynomial with coefficients below 2^(width - 1) in size.
         width: see `width_for`.
-        length: the most coefficients that it may have.
+        length: the maximum number of its coefficients.
     """
     half, halves = _halves(width, length)
     f = [digit - half for digit in digits(value + halves, width)]
@@ -65,6 +66,6 @@ def unpack(value: ZZ, width: int, length: int) -> IntPoly:
 
 @cache
 def _halves(width: int, length: int) -> tuple[ZZ, ZZ]:
-    """Half the base, and the number all of whose digits are that: no digit is negative then."""
+    """Half the base, and the number with all digits equal to it: added, no digit is negative."""
     half = ZZ(1) << (width - 1)
     return half, pack((half,) * length, width)

@@ -1,4 +1,4 @@
-"""Polynomials over the rationals: what motions are written in."""
+"""Polynomials over the rationals: the coordinates of motions."""
 
 from __future__ import annotations
 
@@ -52,10 +52,10 @@ class Polynomial:
 
     @classmethod
     def from_sympy(cls, expression: Expression, variable: Variable) -> Polynomial:
-        """The polynomial that a SymPy expression is in ``variable``.
+        """A SymPy expression as a polynomial in ``variable``.
 
         Raises:
-            InputError: if it is none, or has coefficients that are not rational.
+            InputError: if it is not a polynomial with rational coefficients.
         """
         from exactpt.kernel.sympy_door import coefficients_from_sympy
 
@@ -69,7 +69,7 @@ class Polynomial:
 
     @property
     def coefficients(self) -> tuple[Fraction, ...]:
-        """``coefficients[i]`` belongs to t**i; the last is not 0, so that of 0 there are none."""
+        """``coefficients[i]`` is that of t**i; the last is not 0, and ``()`` is zero."""
         return fractions(self._coefficients)
 
     @property

@@ -1,9 +1,7 @@
 """The real roots of a polynomial after a time: closed form up to degree 2, else Descartes.
 
-His rule, and a few halvings, tell most roots apart; those that are close, or multiple, are
-left to Sturm's sequence.
-
-The one question a certificate asks: what is its sign now, and when may it change?
+Descartes' rule and a few bisections isolate most roots; close or multiple roots are left to
+Sturm's sequence. The roots of a certificate are the times at which its sign may change.
 """
 
 from __future__ import annotations
@@ -27,14 +25,14 @@ from exactpt.kernel.sturm import isolating_intervals, sturm_sequence
 __all__ = ["Root", "common_roots", "roots_after"]
 
 DIGITS: Final = 80
-"""The binary digits of a square root: its ends are seldom on two sides of a double."""
+"""Bits of a square root; so many that a double seldom separates the bounds of the root."""
 
 
 class Root(NamedTuple):
     """A real root of a polynomial.
 
     Attributes:
-        time: where it is.
+        time: the root itself.
         crossing: whether the polynomial changes sign there (odd multiplicity).
     """
 
@@ -68,7 +66,7 @@ def _linear_root(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root
 
 
 def _roots_by_descartes(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]:
-    """For an end that is no root."""
+    """The roots of f after start, if ``until`` is not a root."""
     p: IntPoly = ()
     sequence: list[IntPoly] = []
     for low, high, alone in single_roots(f, start._low, until):
@@ -85,7 +83,7 @@ def _roots_by_descartes(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterat
 def _roots_by_sturm(
     f: IntPoly, sequence: list[IntPoly], start: AlgebraicNumber, low: QQ, high: QQ
 ) -> Iterator[Root]:
-    """Those in (low, high] after start; with the Sturm sequence of f."""
+    """The roots of f in (low, high] after start, by the Sturm sequence of f."""
     p = sequence[0]
     simple = len(p) == len(f)
     for left, right in isolating_intervals(sequence, low, high):
@@ -99,7 +97,7 @@ def _quadratic_roots(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[
     d = c1 * c1 - 4 * c0 * c2
     if d < 0:
         return
-    # The square root to so many binary digits that doubles seldom want more.
+    # The square root to so many bits that rounding to doubles seldom needs more.
     places = max(0, DIGITS - (d.bit_length() >> 1))
     s, rest = isqrt_rem(d << 2 * places)
     if rest == 0:
@@ -127,8 +125,8 @@ def _quadratic_roots(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[
 def common_roots(f: IntPoly, g: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]:
     """The common real roots of f and g in (start, until], from left to right.
 
-    ``crossing`` says nothing here. If both are zero, nothing is yielded (every time
-    is a common root, so no time is the first).
+    ``crossing`` carries no meaning here. If both are zero, nothing is yielded (every time
+    is a common root, so none is the first).
     """
     common = greatest_common_divisor(f, g)
     if len(common) > 1:

@@ -1,14 +1,14 @@
 """The float filter of degree 3 to 6, such as of an orientation in cubic motion.
 
-Windows of time [a, b] are settled by the signs of Bernstein coefficients as in
+Windows of time [a, b] are decided by the signs of Bernstein coefficients as in
 `exactpt.kernel.windows`, but written out for degree 6, with every number in a variable
-of its own. (A polynomial of lower degree has zeros above.)
+of its own. (A polynomial of lower degree has zeros as its higher coefficients.)
 
 The bound. Let b = fl(a + h) and T = |a| + h. Bernstein coefficients are polar forms at
 arguments a and a + h, in which the terms of c[i] have sizes that add up to at most
 |c[i]| T^i. Each goes through at most 12 operations in the Taylor shift, 7 in the scaling
 and 6 in the sums; six arguments are off by at most u T where they should be b. That is
-31 units; Horner's rule at a time of size at most T takes 12. So with
+31 units; Horner's rule at a time of size at most T makes 12. So with
     g[i] = 32 u |c[i]| + e[i],
 sum(g[i] T^i) bounds the error of both. The sign at a is known without it if a is the end
 of another window.
@@ -18,16 +18,16 @@ times coefficient k - 1 of q. It is also (b - r) / 6 times the sum of k polar fo
 derivative p', each at five arguments r and b. What is computed is that sum times h / (6 k),
 with arguments a and a + h: Bernstein coefficients without the constant term, divided by
 k. The terms of c[i] have sizes of at most (h / 6) i |c[i]| T^(i-1) <= (h / T) |c[i]| T^i
-and go through one operation more. Five arguments are off by at most u T, or by the width
-w of now, each of which changes p' by at most i (i - 1) / 5 |c[i]| T^(i-2) times that. The
+and go through one operation more. Each of the five arguments is off by at most u T, or by
+the width w of now, which changes p' by at most i (i - 1) / 5 |c[i]| T^(i-2) times that. The
 bound is
     (h / T) (1 + 5 w / (32 u T)) sum(g[i] T^i), without i = 0.
 (For r = b too, since q(r) = p'(r).)
 
 Range. T < 2^66 and h > 2^-150, so max(1, T)^6 < 2^400 and h^6 > 2^-900: powers of h
 neither overflow nor underflow, and other underflow ends below TINY, as it does in
-`exactpt.kernel.windows`. (To cut h to a quarter multiplies by powers of two: exact, or
-one underflow more.) What overflows stays infinite or NaN and reaches the last Bernstein
+`exactpt.kernel.windows`. (Cutting h to a quarter multiplies by powers of two: exact, or
+one more underflow.) An overflow stays infinite or NaN and reaches the last Bernstein
 coefficient, the sum of all, which must be finite.
 """
 
@@ -43,8 +43,11 @@ Six: TypeAlias = tuple[float, float, float, float, float, float]
 Seven: TypeAlias = tuple[float, float, float, float, float, float, float]
 
 UNIT: Final = 32.0 * U
+"""Relative rounding error of the terms, as shown above."""
 SHORTEST: Final = 2.0**-150
+"""Minimum length h of a window."""
 FARTHEST: Final = 2.0**66
+"""Upper bound on T."""
 SIXTH: Final = 1.0 / 6.0
 FIFTEENTH: Final = 1.0 / 15.0
 TWENTIETH: Final = 1.0 / 20.0
@@ -87,7 +90,7 @@ def sextic(
     q0, q1, q2, q3, q4, q5, q6 = _scaled(c0, c1, c2, c3, c4, c5, c6, a, h)
     if at_root:
         q0 = 0.0
-    rising = (q1 if at_root else q0) > 0.0  # the sign after now, if it can be told
+    rising = (q1 if at_root else q0) > 0.0  # the sign after now, if it is certain
     s = 1.0 if rising else -1.0
     known, last = False, True
     for _ in range(80):
@@ -105,7 +108,7 @@ def sextic(
         k, y, z, one = 0.0, b0, b1, False
         first = b1 if at_root else b0
         if not (known or first > error):
-            # No window is short enough if not even now's own bound is.
+            # If the sign now is uncertain, it is uncertain on every window.
             if not (at_root or first > _bound(g0, g1, g2, g3, g4, g5, g6, abs(a))):
                 return UNSURE
         elif not b1 > error:
@@ -137,7 +140,7 @@ def sextic(
             known, at_root = True, False
             q0, q1, q2, q3, q4, q5, q6 = _scaled(c0, c1, c2, c3, c4, c5, c6, a, h)
             continue
-        if one and -INFINITY < b6 < -error:  # one root in it
+        if one and -INFINITY < b6 < -error:  # one root in the window
             x = a + h * (k + y / (y - z)) * SIXTH if y > z else b
             low, high = _tighten(c0, c1, c2, c3, c4, c5, c6, g0, g1, g2, g3, g4, g5, g6, a, b, x, s)
             return (1 if rising else -1, low, high) if low > now_high else UNSURE
@@ -229,7 +232,7 @@ def _sums(b0: float, b1: float, b2: float, b3: float, b4: float, b5: float, b6: 
 def _bound(
     g0: float, g1: float, g2: float, g3: float, g4: float, g5: float, g6: float, t: float
 ) -> float:
-    """The bound on all errors up to the time t, see above."""
+    """The bound on all errors at times of size at most t: see the module's proof."""
     return ((((((g6 * t + g5) * t + g4) * t + g3) * t + g2) * t + g1) * t + g0) * SLACK + TINY
 
 
@@ -255,8 +258,8 @@ def _tighten(
 ) -> tuple[float, float]:
     """A narrower enclosure of the one root in (low, high), where the sign falls from s to -s.
 
-    Newton's method from x, kept inside by bisection, proposes; the signs at x - d and
-    x + d, with their bound, dispose.
+    Newton's method from x, safeguarded by bisection, proposes a root x; the certain signs
+    at x - d and x + d confirm it.
     """
     left, right, slope = low, high, 0.0
     near = 1e-8 * (high - low) + 4.0 * U * (abs(low) + abs(high))
@@ -297,5 +300,5 @@ def _tighten(
 def _value(
     c0: float, c1: float, c2: float, c3: float, c4: float, c5: float, c6: float, t: float
 ) -> float:
-    """Horner's rule."""
+    """The value at t, by Horner's rule."""
     return (((((c6 * t + c5) * t + c4) * t + c3) * t + c2) * t + c1) * t + c0

@@ -33,7 +33,7 @@ def sturm_sequence(f: IntPoly) -> list[IntPoly]:
     """f, f', then the negated remainders, all divided by the last that is not zero.
 
     That last one is gcd(f, f'). Without the division every term vanishes at a
-    multiple root of f, and a count in an interval that ends there is wrong.
+    multiple root of f, and the count in an interval that ends there would be wrong.
 
     Raises:
         InputError: if f is zero.
@@ -56,7 +56,7 @@ def _variations(sequence: list[IntPoly], t: QQ) -> int:
 
 
 def sign_changes(signs: list[int]) -> int:
-    """How often the sign changes along a sequence of signs; zeros are passed over."""
+    """The number of sign changes in a sequence of signs; zeros are ignored."""
     count, last = 0, 0
     for s in signs:
         if s and s != last:
@@ -69,7 +69,7 @@ def count_roots(sequence: list[IntPoly], lo: QQ, hi: QQ) -> int:
     """The number of distinct real roots of ``sequence[0]`` in (lo, hi].
 
     Args:
-        sequence: a Sturm sequence, as `sturm_sequence` makes it.
+        sequence: a Sturm sequence, from `sturm_sequence`.
         lo: the open end of the interval.
         hi: the closed end, ``>= lo``.
 
@@ -89,13 +89,13 @@ def cauchy_bound(f: IntPoly) -> QQ:
 
 
 def isolating_intervals(sequence: list[IntPoly], lo: QQ, hi: QQ) -> Iterator[tuple[QQ, QQ]]:
-    """Each real root of sequence[0] in (lo, hi], from left to right, alone in an interval (l, r].
+    """Isolating intervals (l, r] of the real roots of sequence[0] in (lo, hi], left to right.
 
-    Lazily: a caller who wants the first root pays for no other. Where the root is
-    found to be r itself, the interval is (r, r).
+    Lazy: a caller who takes only the first root pays for no other. A root found to be r
+    itself has the interval (r, r).
 
     Args:
-        sequence: a Sturm sequence, as `sturm_sequence` makes it.
+        sequence: a Sturm sequence, from `sturm_sequence`.
         lo: the open end of the range.
         hi: its closed end, ``>= lo``.
     """

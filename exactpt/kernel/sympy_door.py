@@ -1,4 +1,4 @@
-"""To and from SymPy: the one module that imports it, itself imported only when called."""
+"""Conversion to and from SymPy: the only module that imports it, itself imported on first use."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def coefficients_from_sympy(expression: Expression, variable: Variable) -> list[
     """The rational coefficients of a polynomial expression, constant term first.
 
     Raises:
-        InputError: if the expression is no polynomial in ``variable`` over the rationals.
+        InputError: if the expression is not a polynomial in ``variable`` over the rationals.
     """
     try:
         poly = sympy.Poly(sympy.nsimplify(expression, rational=True), variable, domain="QQ")
@@ -51,7 +51,7 @@ def polynomial_to_sympy(f: Polynomial, variable: Variable) -> Expression:
 
 
 def algebraic_to_sympy(number: AlgebraicNumber) -> Expression:
-    """A rational, or the real root with the same place among those of the polynomial."""
+    """A rational, or the real root of the same index among those of the polynomial."""
     if number.is_rational:
         return _rational(number._low)
     f = number._polynomial

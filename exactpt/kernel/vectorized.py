@@ -1,10 +1,10 @@
 """The filters of degree 1 and 2 for many polynomials at once, in numpy.
 
-The same operations in the same order as `exactpt.kernel.filters`, whose proofs hold here:
-IEEE doubles round alike in an array. So the answers are those of the scalar filters, bit
-for bit; what a scalar filter decides by an early return is here a mask.
+These are the operations of `exactpt.kernel.filters` in the same order, so its proofs hold
+here: arrays of doubles round as single ones do. The answers are those of the scalar
+filters, bit for bit; an early return there is a mask here.
 
-Worth its overhead from about 50 polynomials on; 6 to 8 times faster for thousands.
+They pay off from about 50 polynomials on, and are 6 to 8 times faster for thousands.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ def quadratics(
     after1, after2 = low1 > now_high, low2 > now_high
     unclear1, unclear2 = ~after1 & ~(high1 <= now_low), ~after2 & ~(high2 <= now_low)
     clear = two_roots & np.where(at_root, unclear1 != unclear2, ~(unclear1 | unclear2))
-    clear &= ~(after1 & (high1 >= low2))  # an enclosure has one root alone
+    clear &= ~(after1 & (high1 >= low2))  # an enclosure must hold one root only
     between = ~after1 & after2
     s = _sign(c2)
     signs = np.where(no_root, s, np.where(clear, np.where(between, -s, s), 0))

@@ -1,17 +1,17 @@
 """The float filter of a polynomial of any degree: certified windows of time.
 
-A window [a, a + h] is settled if the Bernstein coefficients of the polynomial on it,
-with their error bound, all have one sign (no root), or change sign once from first to
+A window [a, a + h] is decided if the Bernstein coefficients of the polynomial on it,
+within their error bound, all have one sign (no root), or change sign once from first to
 last (one simple root, by the variation diminishing property).
 
 Range. With degree n <= 64, T = |a| + h for every window and M = max(1, T)^n, the guards
 are M < 2^400 and h^n > 2^-900, and an error bound counts only beside finite coefficients.
 - The factors h^k / binomial(n, k) are at least 2^-964: they do not underflow.
 - An underflow in the Taylor shift, in the scaling, or in Horner's rule is an error of
-  2^-1075. Multiplications by a, h and binomials follow, at most n in all of a and h: it
-  grows to at most 4^n M 2^-1075. There are fewer than 2 n^2 such, and
+  2^-1075. Multiplications by a, h and binomials follow, at most n of them by a or h: it
+  grows to at most 4^n M 2^-1075. There are fewer than 2 n^2 such underflows, and
   2 n^2 4^n M 2^-1075 < 2^(13 + 128 + 400 - 1075) < TINY / 2.
-- What overflows stays infinite or NaN and reaches the last coefficient, the sum of all.
+- An overflow stays infinite or NaN and reaches the last coefficient, the sum of all.
 
 Sources: N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed.,
 chapter 5 (Horner's rule); G. Farin, *Curves and Surfaces for CAGD* (Bernstein
@@ -39,9 +39,9 @@ def polynomial(
     The window starts now, as wide as the horizon allows; it is doubled after a success
     and cut to a quarter after a failure. Up to degree 6 see `exactpt.kernel.sextics`.
 
-    ``at_root``: the polynomial is known to vanish now. If its derivative has one sign
-    on [now_low, b], it has no other root there and the sign of the derivative after
-    now; the search goes on at b.
+    ``at_root``: the polynomial is known to vanish now. If its derivative has one sign on
+    [now_low, b], the polynomial has no other root there and, after now, the sign of the
+    derivative; the search goes on at b.
     """
     n = len(c) - 1
     if n <= 6:
@@ -119,8 +119,8 @@ def _window(c: list[float], e: list[float], a: float, h: float) -> tuple[list[fl
 def _bernstein(c: list[float], a: float, h: float) -> list[float]:
     """The Bernstein coefficients of sum(c[i] t^i) on [a, a + h], in floats.
 
-    Taylor shift to a by repeated Horner, scaling by h^k / binomial(n, k), then n
-    rounds of sums.
+    Computed by a Taylor shift to a (repeated Horner), scaling by h^k / binomial(n, k), and
+    n rounds of sums.
     """
     n = len(c) - 1
     b = c[:]
@@ -156,7 +156,7 @@ def _bernstein_error(c: list[float], e: list[float], a: float, h: float) -> floa
 
 
 def _one_sign(b: list[float], error: float) -> int:
-    """The common certain sign of all coefficients, or 0."""
+    """The certain common sign of all coefficients, or 0."""
     if b[0] > error:
         for x in b:
             if not x > error:
@@ -169,7 +169,7 @@ def _one_sign(b: list[float], error: float) -> int:
 
 
 def _one_change(b: list[float], error: float) -> bool:
-    """Whether the signs are certainly s ... s, at most one unknown, -s ... -s."""
+    """Whether the signs are certainly s, ..., s, at most one unknown, then -s, ..., -s."""
     s = 1.0 if b[0] > 0.0 else -1.0
     k, n = 0, len(b)
     while k < n and s * b[k] > error:
@@ -190,8 +190,8 @@ def _tighten(
 ) -> tuple[float, float]:
     """A narrower enclosure of the one root in (low, high), where the sign falls from s to -s.
 
-    Newton's method, kept inside by bisection, proposes x; the signs at x - d and
-    x + d, with Horner's error bound, dispose.
+    Newton's method, safeguarded by bisection, proposes a root x; the signs at x - d and
+    x + d, certain by Horner's error bound, confirm it.
     """
     left, right = low, high
     x = 0.5 * (left + right)
@@ -225,7 +225,7 @@ def _tighten(
 
 
 def _sign(c: list[float], e: list[float], x: float) -> int:
-    """The certain sign at the double x, or 0.
+    """The sign at the double x, or 0 if it is not certain.
 
     Horner's rule: |error| <= 2(n + 1) U sum(|c[i]| |x|^i), Higham section 5.1.
     """

@@ -1,1 +1,1 @@
-"""Points over time: motions, bodies, and the tracks of their vertices."""
+"""Points over time: motions, bodies, and the trajectories of their vertices."""

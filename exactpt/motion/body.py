@@ -1,4 +1,4 @@
-"""Bodies: a shape, its motion, its name; and from these the tracks of the vertices."""
+"""Bodies: a name, a shape and its motion, which give the trajectories of the vertices."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, final
 
 from exactpt.errors import InputError
 from exactpt.extensions import extension
+from exactpt.geometry.polygon import edges
 from exactpt.kernel.numbers import QQ, Rational, fraction, fractions, place, rational, shorten, show
 from exactpt.kernel.polynomial import Polynomial, polynomial
 from exactpt.motion.motions import REST, Coefficients, Motion, Pieces, Position, SimpleMotion, made
@@ -25,7 +26,7 @@ VertexLike: TypeAlias = (
 
 
 def is_text(name: object) -> bool:
-    """Whether it is a text that is not empty, and can be printed: no half of a surrogate pair."""
+    """Whether it is a nonempty string that can be encoded: without unpaired surrogates."""
     try:
         return isinstance(name, str) and bool(name.encode())
     except UnicodeEncodeError:
@@ -40,11 +41,11 @@ class Keyframe(NamedTuple):
 
 
 class BodyPiece(NamedTuple):
-    """What a body does up to a time.
+    """The motion of a body up to a time.
 
     Attributes:
-        until: the last time of the piece; None for ever.
-        tracks: one for each vertex, in the order of the scene.
+        until: the last time of the piece; None if it has no end.
+        tracks: the trajectory of each vertex, in the order of the scene.
     """
 
     until: QQ | None
@@ -59,11 +60,13 @@ class Body:
         name: unique in its scene.
         vertices: one (a point), two (a segment) or more; each a pair of numbers, or a
             mapping with polynomials "x" and "y" (missing: 0) for a vertex that moves in
-            the body's frame. A numpy array of shape (n, 2) will do. Either orientation.
-        motion: carries the shape; at rest if not given.
+            the body's rest frame. A numpy array of shape (n, 2) is accepted. The vertices
+            may be in either orientation.
+        motion: the motion of the shape; at rest if not given.
         closed: False for an open chain.
-        keyframes: instead of vertices: pairs (t, vertices) with increasing t; linear in
-            between, at rest before the first and after the last.
+        keyframes: instead of vertices, pairs (t, vertices) with increasing t; the shape is
+            interpolated linearly between them, and rests before the first and after the
+            last.
 
     Raises:
         InputError: if the arguments do not describe a body, or the motion jumps.
@@ -127,12 +130,12 @@ class Body:
         *,
         holes: Literal["refuse", "fill"] = "refuse",
     ) -> Body:
-        """The body of a shapely point, line or polygon; coordinates at their exact value.
+        """The body of a shapely point, line or polygon, with the exact values of its doubles.
 
         Args:
-            geometry: of one part; `Scene.from_shapely` takes several.
-            name: of the body.
-            motion: carries the shape; at rest if not given.
+            geometry: a geometry of one part; `Scene.from_shapely` takes several.
+            name: the name of the body.
+            motion: the motion of the shape; at rest if not given.
             holes: "refuse" a polygon with holes, or "fill" them.
 
         Raises:
@@ -147,8 +150,18 @@ class Body:
         return len(self._shapes[0][1])
 
     @property
+    def edges(self) -> list[tuple[int, int]]:
+        """The edges as pairs of vertices; edge i starts at vertex i, and a point has none."""
+        return edges(self.size, closed=self.closed)
+
+    @property
+    def has_interior(self) -> bool:
+        """Whether the body is a polygon: not a point, a segment or an open chain."""
+        return self.closed and self.size > 2
+
+    @property
     def keyframes(self) -> tuple[Keyframe, ...]:
-        """The shapes that the body goes through, if it was given by them."""
+        """The keyframes, if the body was given by them."""
         return tuple(
             Keyframe(fraction(frame.t), tuple(map(place, frame.vertices)))
             for frame in self._keyframes
@@ -156,11 +169,11 @@ class Body:
 
     @property
     def breakpoints(self) -> tuple[Fraction, ...]:
-        """The rational times at which the formulas of the tracks change, in order."""
+        """The rational times at which the formulas of the trajectories change, in order."""
         return fractions(self._breakpoints)
 
     def _piece_after(self, t: QQ) -> BodyPiece:
-        """What the body does just after a rational time."""
+        """The piece of motion just after a rational time."""
         end = next((b for b in self._breakpoints if b > t), None)
         if end not in self._pieces:
             tracks = self._tracks(self._shape_after(t), self._motion_after(t))
@@ -172,8 +185,8 @@ class Body:
         return list(map(place, self._at(rational(t))))
 
     def _at(self, t: QQ) -> list[tuple[QQ, QQ]]:
-        """The positions at a time; those of the last one are kept."""
-        last = self._last  # runs in other threads may share the body
+        """The positions at a time; those at the last time asked for are cached."""
+        last = self._last  # one read: other threads may share the body
         if last is None or last[0] != t:
             self._last = last = t, [track._at(t) for track in self._piece_after(t).tracks]
         return last[1][:]
@@ -268,7 +281,7 @@ def _read_vertex(name: str, index: int, vertex: VertexLike) -> Position:
 
 
 def _given(vertex: Position) -> tuple[object, object]:
-    """A vertex as the constructor takes it, short if it is at rest."""
+    """A vertex as an argument of the constructor; constants if it does not deform."""
     if vertex[0].degree > 0 or vertex[1].degree > 0:
         return vertex
     x, y = (f._at(QQ(0)) for f in vertex)
@@ -312,7 +325,7 @@ def _at_rest(frame: Keyframe) -> tuple[Position, ...]:
 
 
 def _between(before: Keyframe, after: Keyframe) -> tuple[Position, ...]:
-    """Each vertex on a line: a + (b - a) (t - t0) / (t1 - t0)."""
+    """The linear interpolation a + (b - a) (t - t0) / (t1 - t0) of each vertex."""
     span = after.t - before.t
 
     def line(a: QQ, b: QQ) -> Polynomial:

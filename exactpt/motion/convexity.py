@@ -1,4 +1,4 @@
-"""Whether a deforming polygon is convex all the time: then its inside needs no tiling."""
+"""Whether a deforming polygon stays convex: then its interior needs no tiling."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ __all__ = ["stays_convex"]
 
 
 def stays_convex(body: Body, ring: Sequence[int], start: QQ, end: QQ) -> bool:
-    """Whether a polygon turns left at every vertex, strictly, from a time on.
+    """Whether a polygon turns strictly left at every vertex throughout (start, end].
 
-    A polygon that turns left everywhere at the start and at each vertex for ever after
-    goes on turning around once: it stays convex, and no two of its vertices ever meet.
+    A simple polygon that turns left at every vertex at the start, and goes on doing so,
+    keeps its turning number 1: it stays convex, and no two of its vertices ever coincide.
 
     Args:
         body: the polygon.

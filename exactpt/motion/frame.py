@@ -1,9 +1,9 @@
-"""Float images of tracks: doubles with proven errors, in a frame where they are of moderate size.
+"""Float enclosures of trajectories: doubles with proven error bounds, in normalised units.
 
-The frame shifts and scales space and time: x' = (x - cx) / 2^s, likewise y with a
-scale of its own, t' = (t - t0) / 2^r. Signs of orientations and of differences of
-coordinates, and the order of times, do not change. So a scene far from the origin, or
-very small or large, is filtered as well as any other.
+The normalisation shifts and scales space and time: x' = (x - cx) / 2^s, likewise y with a
+scale of its own, t' = (t - t0) / 2^r. It preserves the signs of orientations and of
+differences of coordinates, and the order of times. So the filters work as well for a scene
+that is far from the origin, or very small or large, as for any other.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from collections.abc import Collection, Hashable, Iterable, Sequence
 from typing import TYPE_CHECKING, Final, final
 
 from exactpt.kernel.numbers import QQ, ZZ, enclosing_floats, nearest_float, power_of_two
+from exactpt.kernel.rounding import U
 from exactpt.motion.image import Image
 
 if TYPE_CHECKING:
@@ -21,24 +22,24 @@ if TYPE_CHECKING:
 
 __all__ = ["Frame", "frame_for"]
 
-U: Final = 2.0**-53
 SMALLEST: Final = 2.0**-100
 LARGEST: Final = 2.0**100
+"""Range of the size of nonzero coefficients that the filters accept."""
 INTEGERS: Final = 2.0**53
-"""All integers below this size are doubles; the next larger one is rounded to it."""
+"""All integers of smaller absolute value are doubles."""
 
 _ONE: Final = (ZZ(1),)
 
 
 @final
 class Frame:
-    """A frame, the identities of motions in it, and the errors of its images.
+    """A normalisation of space and time, numbers for rigid motions, and error bounds.
 
     Attributes:
-        center, scale, origin, time_scale: the frame: x' = (x - center[0]) / 2^scale[0],
-            likewise y, and t' = (t - origin) / 2^time_scale.
-        errors: ``errors[i]`` bounds the error of coefficient i of every image of a
-            translating track made so far, in x and in y; 0 while all are exact.
+        center, scale, origin, time_scale: the normalisation x' = (x - center[0]) /
+            2^scale[0], likewise y, and t' = (t - origin) / 2^time_scale.
+        errors: ``errors[i]`` bounds the error of coefficient i of every enclosure of a
+            translating trajectory made so far, in x and in y; 0 while all are exact.
     """
 
     def __init__(
@@ -56,7 +57,7 @@ class Frame:
         self.errors: list[float] = [0.0, 0.0]
 
     def point(self, position: tuple[QQ, QQ]) -> tuple[float, float]:
-        """The doubles nearest to a position."""
+        """The doubles nearest to a normalised position."""
         if self._identity:
             return nearest_float(position[0]), nearest_float(position[1])
         return (
@@ -65,13 +66,13 @@ class Frame:
         )
 
     def time(self, t: QQ) -> tuple[float, float]:
-        """Doubles that enclose a rational time."""
+        """Doubles that enclose a rational time, normalised."""
         if self._identity:
             return enclosing_floats(t)
         return enclosing_floats((t - self.origin) * power_of_two(-self.time_scale))
 
     def enclosure(self, t: AlgebraicNumber) -> tuple[float, float]:
-        """Doubles that enclose an algebraic time, neighbours or nearly so."""
+        """Doubles that enclose an algebraic time, normalised; at most two ulps apart."""
         if self._identity:
             return t.enclosure()
         while True:
@@ -81,39 +82,35 @@ class Frame:
             t.refine()
 
     def exact_time(self, t: float) -> QQ:
-        """The rational time that a double of the frame stands for."""
+        """The rational time of which a double is the normalised value."""
         return QQ(*t.as_integer_ratio()) * power_of_two(self.time_scale) + self.origin
 
     def images(self, tracks: Sequence[Track]) -> list[Image]:
-        """The images of some tracks, as those of one body: then most share their motion."""
+        """The enclosures of trajectories, fast if most successive ones share their motion."""
         images: list[Image] = []
         motion, last = -1, None
         tails: tuple[list[float], list[float]] | None = None
         for track in tracks:
-            if last is None or track.frame != last:
-                motion, last = self._motion(track.frame), track.frame
+            if last is None or track.motion != last:
+                motion, last = self._number(track.motion), track.motion
                 tails = self._integer_tails(track)
             image = None if tails is None else _integer_image(track, *tails, motion)
             images.append(image or self._image(track, motion))
         return images
 
-    def image(self, track: Track) -> Image:
-        """The image of a track."""
-        return self.images((track,))[0]
-
-    def _motion(self, frame: Hashable) -> int:
-        """The number of the motion of tracks with a frame; -1 for None."""
-        if frame is None:
+    def _number(self, motion: Hashable) -> int:
+        """The number of a rigid motion, as in `Track.motion`; -1 for None."""
+        if motion is None:
             return -1
-        motion = self._motions.setdefault(frame, self._named)
-        self._named = max(self._named, motion + 1)
-        return motion
+        number = self._motions.setdefault(motion, self._named)
+        self._named = max(self._named, number + 1)
+        return number
 
     def _integer_tails(self, track: Track) -> tuple[list[float], list[float]] | None:
-        """All but the constant coefficients of a path, if they are small integers.
+        """All but the constant coefficients of a trajectory, if they are small integers.
 
-        Rounding is monotone and 2^53 a double, so an integer that is rounded to less than
-        that is less itself, and a double.
+        Rounding is monotone and 2^53 is a double, so an integer rounded to less than 2^53
+        is itself less, and hence a double.
         """
         if not self._identity or track.w != _ONE:
             return None
@@ -144,15 +141,15 @@ class Frame:
 
     @property
     def motion_count(self) -> int:
-        """How many different motions are known."""
+        """The number of different motions known."""
         return len(self._motions)
 
     def forget_motions(self, kept: Collection[int]) -> None:
-        """Forget all motions but some: no image has them any more."""
+        """Forget all motions but those in ``kept``: no enclosure has them any more."""
         self._motions = {key: i for key, i in self._motions.items() if i in kept}
 
     def _moved(self, track: Track) -> tuple[Sequence[QQ], Sequence[QQ], Sequence[QQ]]:
-        """The track's coefficients in the frame (still exact; any common factor)."""
+        """The exact normalised coefficients of a trajectory, up to a common factor."""
         if self._identity:
             return track.x, track.y, track.w  # type: ignore[return-value]
         cx, cy = self.center
@@ -170,7 +167,7 @@ class Frame:
 
 
 def _integer_image(track: Track, x: list[float], y: list[float], motion: int) -> Image | None:
-    """The image of a path of integers, with these further coefficients, if it is exact."""
+    """The enclosure with these higher coefficients, if it is exact; else None."""
     if track.w != _ONE:
         return None
     try:
@@ -185,7 +182,7 @@ def _integer_image(track: Track, x: list[float], y: list[float], motion: int) ->
 
 def _floats(coefficients: Iterable[QQ], divisor: QQ, size: int) -> list[float]:
     one = divisor == 1
-    # Only 0 itself is 0.0: what is too small for a double becomes NaN, as if immoderate.
+    # Only 0 itself becomes 0.0: a number that underflows becomes NaN, as out of range.
     values = [
         nearest_float(c if one else c / divisor) or (math.nan if c else 0.0) for c in coefficients
     ]
@@ -220,10 +217,10 @@ def _substituted(f: list[QQ], origin: QQ, step: QQ) -> list[QQ]:
 
 
 def frame_for(points: Sequence[tuple[QQ, QQ]], start: QQ, end: QQ) -> Frame:
-    """A frame in which these points and the time span are of moderate size.
+    """A normalisation in which these points and the time span are of moderate size.
 
-    Shifts and scales only where needed, so that the integers of an ordinary scene stay
-    the integers they are.
+    It shifts and scales only where needed, so that the integers of an ordinary scene stay
+    unchanged.
     """
     cx, sx = _axis([p[0] for p in points])
     cy, sy = _axis([p[1] for p in points])

@@ -1,4 +1,4 @@
-"""The float image of a track: the doubles next to its coefficients."""
+"""The float enclosure of a trajectory: the doubles nearest to its coefficients."""
 
 from __future__ import annotations
 
@@ -9,18 +9,19 @@ __all__ = ["Image"]
 
 @final
 class Image:
-    """The doubles next to the coefficients of a track, in a frame.
+    """The doubles nearest to the normalised coefficients of a trajectory.
 
-    Coefficients that are 0 or of size 2^-100 to 2^100 are the nearest doubles; if one
-    is outside, ``x0`` and all others are NaN, which no filter accepts.
+    With the error bounds `exactpt.motion.frame.Frame.errors` they enclose the trajectory.
+    If a coefficient is neither 0 nor of size 2^-100 to 2^100, all of them are NaN, which no
+    filter accepts.
 
     Attributes:
-        x0, ..., x3, y0, ..., y3: the coefficients of a track that translates, up to t^3;
+        x0, ..., x3, y0, ..., y3: the coefficients of a translating trajectory, up to t^3;
             0 above its degree.
-        xs, ys: all its coefficients, of one length; ``degree`` + 1 each.
-        ws: the denominator's coefficients if the track turns, else empty (a constant
+        xs, ys: all coefficients; both lists have length ``degree`` + 1.
+        ws: the denominator's coefficients if the trajectory turns, else empty (a constant
             denominator is divided out).
-        degree: the degree of the path; of the numerators if it turns.
+        degree: the degree of the trajectory; of the numerators if it turns.
         motion: vertices of equal ``motion`` keep their difference (translating) or
             their distances (turning) for ever; -1 is equal to nothing.
     """

@@ -1,4 +1,4 @@
-"""Incidences: a vertex on an edge or on a vertex, decided exactly at an algebraic time."""
+"""Incidences of a vertex with an edge or a vertex, decided exactly at an algebraic time."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ def difference(p: IntPoly, pw: IntPoly, q: IntPoly, qw: IntPoly) -> IntPoly:
 
 
 def orientation(a: Track, b: Track, c: Track) -> IntPoly:
-    """A positive multiple of the orientation of three tracks: the determinant of (x, y, w).
+    """A positive multiple of the orientation of three trajectories.
 
-    Positive where a, b, c turn left.
+    It is the determinant of the rows (x, y, w), positive where a, b, c turn left.
     """
     length = a.length + b.length + c.length - 2
     width = width_for(a.bits + b.bits + c.bits, length, 3)
@@ -52,7 +52,7 @@ def orientation(a: Track, b: Track, c: Track) -> IntPoly:
 
 
 def coincide(a: Track, b: Track, t: AlgebraicNumber) -> bool:
-    """Whether two vertices are at one place."""
+    """Whether two vertices coincide."""
     return (
         t.sign_of(difference(a.x, a.w, b.x, b.w)) == 0
         and t.sign_of(difference(a.y, a.w, b.y, b.w)) == 0

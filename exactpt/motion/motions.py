@@ -1,7 +1,7 @@
 """Motions: how a body's rest shape is carried through time.
 
-A motion maps the rest position of a vertex, itself a polynomial in t where the body
-deforms, to the vertex's track. Time is the scene's time, not time since a piece began.
+A motion maps the rest position of a vertex, itself a polynomial in t if the body
+deforms, to the vertex's trajectory. Time is the scene's time, not time since a piece began.
 """
 
 from __future__ import annotations
@@ -45,22 +45,22 @@ Coefficients: TypeAlias = "Polynomial | Rational | Iterable[Rational]"
 """A polynomial as a caller may write it: coefficients (constant first), or a number."""
 
 Position: TypeAlias = tuple[Polynomial, Polynomial]
-"""The coordinates of a vertex in its body's frame; constants unless the body deforms."""
+"""The coordinates of a vertex in its body's rest frame; constants unless the body deforms."""
 
 
 def made(kind: Callable[..., T], values: tuple[object, ...], options: dict[str, object]) -> T:
-    """What a pickle calls: a constructor with what it was given, so no pickle knows of GMP."""
+    """Call a constructor with its arguments: what pickles contain, free of gmpy2 types."""
     return kind(*values, **options)
 
 
 class _Given:
-    """Motions are equal, and are pickled and copied, by what they are made of."""
+    """Equality, hashing and pickling of motions by the arguments of their constructors."""
 
     __slots__ = ()
 
     @abstractmethod
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
-        """The arguments of the constructor, by place and by name."""
+        """The positional and the keyword arguments of the constructor."""
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, _Given):
@@ -76,10 +76,10 @@ class _Given:
 
 
 class SimpleMotion(Protocol):
-    """A motion by one formula for all time."""
+    """A motion given by one formula for all time."""
 
     def track(self, position: Position) -> Track:
-        """The track of the vertex with this position in the body's frame."""
+        """The trajectory of the vertex with this position in the rest frame."""
         ...
 
 
@@ -94,7 +94,7 @@ class Translation(_Given):
         self.y = polynomial(y)
 
     def track(self, position: Position) -> Track:
-        """The track of the vertex with this position in the body's frame."""
+        """The trajectory of the vertex with this position in the rest frame."""
         return track(position[0] + self.x, position[1] + self.y, None, None)
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
@@ -109,7 +109,7 @@ REST: Final = Translation()
 
 @final
 class Rigid(_Given):
-    """A turn about ``pivot`` by the angle a(t), tan(a / 2) = half_turn(t), then a translation.
+    """A rotation about ``pivot`` by a(t), where tan(a / 2) = half_turn(t), then a translation.
 
     With h = half_turn, cos a = (1 - h^2) / (1 + h^2) and sin a = 2 h / (1 + h^2): the
     coordinates are rational functions with the positive denominator 1 + h^2.
@@ -133,11 +133,11 @@ class Rigid(_Given):
 
     @property
     def pivot(self) -> tuple[Fraction, Fraction]:
-        """The point about which the body turns."""
+        """The centre of rotation."""
         return place(self._pivot)
 
     def track(self, position: Position) -> Track:
-        """The track of the vertex with this position in the body's frame."""
+        """The trajectory of the vertex with this position in the rest frame."""
         px, py = Polynomial([self._pivot[0]]), Polynomial([self._pivot[1]])
         h = self.half_turn
         w, cosine, sine = ONE + h * h, ONE - h * h, h + h
@@ -182,7 +182,7 @@ class Affine(_Given):
         self.y = polynomial(y)
 
     def track(self, position: Position) -> Track:
-        """The track of the vertex with this position in the body's frame."""
+        """The trajectory of the vertex with this position in the rest frame."""
         (a, b), (c, d) = self.matrix
         u, v = position
         return track(a * u + b * v + self.x, c * u + d * v + self.y, None, None)
@@ -196,10 +196,10 @@ class Affine(_Given):
 
 @final
 class Pieces(_Given):
-    """Motions one after the other: each holds until its time, the last for ever.
+    """A sequence of motions: each holds until its time, the last for ever.
 
-    Where two pieces meet, every vertex must be at the same place under both; the body
-    checks it, since it knows the vertices.
+    Where two pieces meet, every vertex must have the same position under both; the body,
+    which knows the vertices, checks this.
     """
 
     __slots__ = ("_until", "motions")
@@ -227,7 +227,7 @@ class Pieces(_Given):
 
     @property
     def until(self) -> tuple[Fraction, ...]:
-        """The times at which the motions end, but the last."""
+        """The end times of all motions but the last."""
         return fractions(self._until)
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:

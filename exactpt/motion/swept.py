@@ -1,4 +1,4 @@
-"""Boxes that contain moving vertices during a time interval: proven, in doubles, in numpy."""
+"""Boxes proven to contain moving vertices during a time interval, in numpy."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ Floats: TypeAlias = NDArray[np.float64]
 
 @final
 class SweptBoxes:
-    """The images of some tracks as arrays, seen from a place that drifts along with them.
+    """Float enclosures of trajectories as arrays, relative to a common drift.
 
-    What all bodies have in common, as a convoy its velocity, brings none nearer to another.
-    So the medians of the coefficients from t on, over all vertices that translate, are
-    subtracted: the drift. Differences of places stay what they are.
+    A motion common to all bodies, such as the velocity of a convoy, brings no two of them
+    closer. So the drift is subtracted: the medians of the coefficients of t, t^2, ... over
+    all translating vertices. Differences of positions are unchanged.
 
     Args:
-        images: of the tracks.
-        errors: of the frame, see `exactpt.motion.frame.Frame`.
+        images: the enclosures.
+        errors: their error bounds, see `exactpt.motion.frame.Frame`.
 
     Attributes:
-        drift: its coefficients, in x and in y, constant (0) first.
+        drift: the coefficients of the drift in x and in y, the constant (0) first.
     """
 
     def __init__(self, images: Sequence[Image], errors: Sequence[float]) -> None:
@@ -53,17 +53,17 @@ class SweptBoxes:
 
     @np.errstate(all="ignore")
     def during(self, low: float, high: float) -> Boxes:
-        """A box for each track, in the frame and off by the drift, while low <= t <= high.
+        """A box for each trajectory less the drift, normalised, during low <= t <= high.
 
         Around the middle m of the interval, r its half-width, a polynomial is
         c'_0 + c'_1 (t - m) + ..., so it is off c'_0 by at most sum |c'_i| r^i. Computing
         the c'_i by Horner's rule takes at most 2 n operations each; their errors times
         r^i add up to at most 4 n u sum |c_i| (|m| + r)^i, and the coefficients
-        themselves are off by ``errors[i]`` (of turning tracks: by 2 u |c_i|), and by another
-        u |c_i| from the subtraction of the drift. `TINY` covers
-        what underflows: an error below 2^-1070 grows by (1 + |m| + r)^n at most, and where
-        that is large the leading term, with a coefficient of 2^-100 or more, is larger.
-        Whatever is not a number has the whole plane.
+        themselves are off by ``errors[i]`` (of turning trajectories: by 2 u |c_i|), and by
+        another u |c_i| from the subtraction of the drift. `TINY` covers underflow: an error
+        below 2^-1070 grows by (1 + |m| + r)^n at most, and where that is large the leading
+        term, with a coefficient of 2^-100 or more, is larger. Where a bound is NaN, the box
+        is the whole plane.
         """
         x_low, x_high = self._range(self._xs, low, high)
         y_low, y_high = self._range(self._ys, low, high)
@@ -83,7 +83,7 @@ class SweptBoxes:
     def _range(
         self, cs: Floats, low: float, high: float, *, exact: bool = False
     ) -> tuple[Floats, Floats]:
-        """Bounds of polynomials, whose coefficients are exact or else have errors."""
+        """Bounds of polynomials whose coefficients are exact, or have the known errors."""
         n = cs.shape[1]
         m = 0.5 * (low + high)
         r = max(high - m, m - low) * (1.0 + 4.0 * U)
@@ -102,10 +102,10 @@ class SweptBoxes:
 
     @np.errstate(all="ignore")
     def stride(self, now: float) -> float:
-        """Time, in the frame, in which vertices move by as much as they are apart, on average.
+        """The normalised time in which vertices move by their mean distance, on average.
 
-        An estimate: it chooses where to look, and decides nothing. Infinite if all drift
-        along; not a number if it is not known.
+        An estimate that only chooses time steps. Infinite if no vertex moves relative to the
+        drift; NaN if it is unknown.
         """
         x, dx = _value_and_slope(self._xs, now)
         y, dy = _value_and_slope(self._ys, now)
@@ -135,13 +135,13 @@ def _value_and_slope(cs: Floats, t: float) -> tuple[Floats, Floats]:
 
 
 def _difference(interval: tuple[Floats, Floats], low: float, high: float) -> tuple[Floats, Floats]:
-    """The range of a number of an interval less one between low and high."""
+    """The range of x - y for x in an interval and y in [low, high]."""
     least, most = interval[0] - high, interval[1] - low
     return least - 2.0 * U * np.abs(least) - TINY, most + 2.0 * U * np.abs(most) + TINY
 
 
 def _quotient(low: Floats, high: Floats, w_low: Floats, w_high: Floats) -> tuple[Floats, Floats]:
-    """The range of a quotient whose denominator is positive; not a number if it may not be."""
+    """The range of a quotient with positive denominator; NaN if it may not be positive."""
     w_low = np.where(w_low > SMALL, w_low, np.nan)
     quotients = np.stack((low / w_low, low / w_high, high / w_low, high / w_high))
     least, most = quotients.min(axis=0), quotients.max(axis=0)

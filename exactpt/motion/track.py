@@ -1,4 +1,4 @@
-"""Tracks: where one vertex is at every time, in homogeneous integer polynomials."""
+"""Trajectories: the position of one vertex over time, in homogeneous integer polynomials."""
 
 from __future__ import annotations
 
@@ -16,39 +16,40 @@ __all__ = ["Track", "track"]
 
 @final
 class Track:
-    """The path (x / w, y / w) of a vertex, with integer polynomials x, y, w in t.
+    """The trajectory (x / w, y / w) of a vertex, with integer polynomials x, y, w in t.
 
-    For the engine: its integers are GMP's.
+    Internal to the package: its integers are gmpy2's.
 
     Attributes:
         x, y: numerators.
         w: their denominator, positive at every time; a constant unless the body turns.
-        frame: tracks with equal frames keep their distances for ever: they translate
-            together, or (w not constant) turn together. ``None`` is equal to nothing.
-        length: the most coefficients that one of x, y, w has.
+        motion: the identity of the rigid motion. Trajectories with equal ``motion`` keep
+            their distances for ever: they translate together, or (if w is not constant)
+            turn together. ``None`` is equal to nothing.
+        length: the maximum number of coefficients of x, y and w.
     """
 
-    __slots__ = ("_bits", "_packed", "frame", "length", "w", "x", "y")
+    __slots__ = ("_bits", "_packed", "length", "motion", "w", "x", "y")
 
-    def __init__(self, x: IntPoly, y: IntPoly, w: IntPoly, frame: Hashable) -> None:
+    def __init__(self, x: IntPoly, y: IntPoly, w: IntPoly, motion: Hashable) -> None:
         self.x = x
         self.y = y
         self.w = w
-        self.frame = frame
+        self.motion = motion
         self.length: int = max(len(x), len(y), len(w))
         self._bits: int = -1
-        # In one piece with its width: runs in other threads may share the track.
+        # One tuple with its width, read at once: other threads may share the trajectory.
         self._packed: tuple[int, tuple[ZZ, ZZ, ZZ]] = (0, (ZZ(0), ZZ(0), ZZ(0)))
 
     @property
     def bits(self) -> int:
-        """The number of binary digits of the largest coefficient."""
+        """The bit length of the largest coefficient."""
         if self._bits < 0:
             self._bits = coefficient_bits(self.x, self.y, self.w)
         return self._bits
 
     def packed(self, width: int) -> tuple[ZZ, ZZ, ZZ]:
-        """x, y and w as integers (`exactpt.kernel.packed`); kept for the last width."""
+        """x, y and w as integers (`exactpt.kernel.packed`), cached for the last width."""
         kept, packed = self._packed
         if kept != width:
             packed = (pack(self.x, width), pack(self.y, width), pack(self.w, width))
@@ -70,16 +71,16 @@ class Track:
 
 
 def track(x: Polynomial, y: Polynomial, w: Polynomial | None, turning: Hashable) -> Track:
-    """The track of (x / w, y / w), brought to integers; ``w`` None stands for 1.
+    """The trajectory (x / w, y / w) with integer coefficients; ``w`` None stands for 1.
 
-    ``turning`` identifies the motion of a vertex that turns; a vertex that only
-    translates is identified by its coefficients of t, t^2, ...
+    ``turning`` identifies the motion of a vertex that turns; the motion of a vertex that
+    only translates is identified by its coefficients of t, t^2, ...
     """
     if w is None:
-        frame: Hashable = (x._coefficients[1:], y._coefficients[1:])
+        motion: Hashable = (x._coefficients[1:], y._coefficients[1:])
         parts = [x._coefficients, y._coefficients]
     else:
-        frame = turning
+        motion = turning
         parts = [x._coefficients, y._coefficients, w._coefficients]
     denominator = ZZ(1)
     for part in parts:
@@ -89,7 +90,7 @@ def track(x: Polynomial, y: Polynomial, w: Polynomial | None, turning: Hashable)
     scaled = [
         tuple([ZZ(c.numerator) * (denominator // c.denominator) for c in part]) for part in parts
     ]
-    return Track(scaled[0], scaled[1], scaled[2] if w is not None else (denominator,), frame)
+    return Track(scaled[0], scaled[1], scaled[2] if w is not None else (denominator,), motion)
 
 
 def _lcm(a: ZZ, b: ZZ) -> ZZ:

@@ -1,8 +1,8 @@
-"""The moving vertices of a scene: what every tiling is built on.
+"""The moving vertices of a scene, on which every tiling is built.
 
-Each body becomes a ring of vertices, counter-clockwise, with the body on the left of
-its edges. So that every ring turns around an inside, thin bodies get an infinitesimal one
-(`exactpt.motion.thin`). Contacts are decided without it.
+Each body becomes a counter-clockwise ring of vertices, with the body on the left of its
+edges. So that every ring encloses an interior, degenerate bodies get an infinitesimal one
+(`exactpt.motion.infinitesimal`). Contacts are decided without it.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.motion.convexity import stays_convex
 from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.image import Image
-from exactpt.motion.thin import Offset, thin_offsets, thin_ring
+from exactpt.motion.infinitesimal import Direction, displacements, ring_of_copies
 from exactpt.motion.track import Track
 
 if TYPE_CHECKING:
@@ -36,13 +36,14 @@ class Vertex:
     Attributes:
         id: its position in `Vertices.all`.
         body: the position of its body in the scene; -1 if it is unused.
-        index: the vertex of the scene that it is (the copies of a thin body share it).
-        track: its path until the body's next breakpoint.
-        image: the track in doubles.
-        offset: the direction of its infinitesimal offset; None unless the body is thin.
+        index: its vertex in the scene (infinitesimal copies share it).
+        track: its trajectory until the body's next breakpoint.
+        image: the float enclosure of the trajectory.
+        offset: the direction of its infinitesimal displacement; None unless the body is
+            degenerate.
         ahead, behind: the ids of its neighbours on the ring.
-        x, y, error: where it was when last asked for, in the frame, and a bound on the errors
-            of both; ``seen`` says when that was (`exactpt.certificates.positions`).
+        x, y, error: its last computed position, normalised, and a bound on the errors of
+            both; ``seen`` tells when (`exactpt.certificates.positions`).
     """
 
     __slots__ = (
@@ -66,7 +67,7 @@ class Vertex:
         self.index: int = index
         self.track: Track = track
         self.image: Image = image
-        self.offset: Offset | None = None
+        self.offset: Direction | None = None
         self.ahead: int = -1
         self.behind: int = -1
         self.x: float = 0.0
@@ -81,12 +82,12 @@ class MovingBody:
 
     Attributes:
         ring: vertex ids, counter-clockwise.
-        until: the next rational time at which its tracks, or offsets, change; None if
-            there is none.
-        horizon: a double at least ``until`` in the frame; infinite for None.
+        until: the next rational time at which its trajectories, or the displacements of
+            its copies, change; None if there is none.
+        horizon: a double at least ``until``, normalised; infinite for None.
         deforms: whether distances between its vertices may change, in the current piece.
-        is_tiled: whether its inside is tiled: it deforms at some time, has a diagonal, and
-            need not stay convex.
+        is_tiled: whether its interior is tiled: it deforms at some time, has a diagonal,
+            and is not known to stay convex.
         since: the rational time at which it entered the piece.
     """
 
@@ -107,20 +108,20 @@ class Vertices:
     """The rings of all bodies.
 
     Args:
-        bodies: with their present plans.
-        rings: of each body, the ids of its ring, each with the vertex of the scene it is.
-        since: when each body entered its piece.
-        frame: of the run.
-        end: of the time span.
-        free: the ids that removed bodies have left, the one to be used again first last.
-        plain: whether rings have no copies: then there are no offsets.
+        bodies: the bodies with their current motions.
+        rings: for each body, the ids of its ring, each with its vertex in the scene.
+        since: the time at which each body entered its piece.
+        frame: the normalisation of the run.
+        end: the end of the time span.
+        free: the unused ids, left by removed bodies; the last one is used first.
+        plain: whether rings have no infinitesimal copies, and so no displacements.
 
     Attributes:
-        all: the vertices, by id. A body that is removed leaves its ids to later ones.
-        bodies: in the order of the scene.
-        counters: of the decisions about these vertices.
-        frame: in which the images are.
-        changes: how often tracks have changed, or bodies come and gone.
+        all: the vertices, by id. Later bodies use the ids of removed ones again.
+        bodies: the moving bodies, in the order of the scene.
+        counters: the counts of decisions about these vertices.
+        frame: the normalisation of the enclosures.
+        changes: how often trajectories have changed, or bodies been added or removed.
     """
 
     def __init__(
@@ -139,7 +140,7 @@ class Vertices:
         self.changes: int = 0
         self._plain: bool = plain
         self._end: QQ = end
-        self.all: list[Vertex] = [_nobody(v) for v in range(sum(map(len, rings)) + len(free))]
+        self.all: list[Vertex] = [_unused(v) for v in range(sum(map(len, rings)) + len(free))]
         self.bodies: list[MovingBody] = []
         self._free: list[int] = list(free)
         for body, ring, t in zip(bodies, rings, since, strict=True):
@@ -149,8 +150,8 @@ class Vertices:
     def of(cls, bodies: Sequence[Body], start: QQ, end: QQ, *, plain: bool = False) -> Vertices:
         """The rings of bodies from a time on.
 
-        With ``plain`` they are the vertices of the scene as they are, without copies and
-        offsets, and no inside is tiled.
+        With ``plain`` they are the vertices of the scene as they are, without infinitesimal
+        copies, and no interior is tiled.
         """
         positions = [body._at(start) for body in bodies]
         flat = [p for points in positions for p in points]
@@ -166,20 +167,20 @@ class Vertices:
         return self
 
     def add(self, body: Body, t: QQ) -> int:
-        """Add a body as the last one, at a rational time; its number."""
+        """Add a body as the last one, at a rational time; returns its number."""
         i, indices = len(self.bodies), _ring_indices(body, body._at(t))
         while len(self._free) < len(indices):
             self._free.insert(0, len(self.all))
-            self.all.append(_nobody(len(self.all)))
+            self.all.append(_unused(len(self.all)))
         self._add(body, [(self._free.pop(), index) for index in indices], t)
         self.bodies[i].is_tiled = self._may_pinch(i, t, self._end)
         return i
 
     def remove(self, i: int) -> None:
-        """Remove a body; the last one gets its number."""
+        """Remove a body; the last body takes over its number."""
         self.changes += 1
         for v in reversed(self.bodies[i].ring):
-            self.all[v] = _nobody(v)
+            self.all[v] = _unused(v)
             self._free.append(v)
         last = self.bodies.pop()
         if i < len(self.bodies):
@@ -201,7 +202,7 @@ class Vertices:
 
     @property
     def free(self) -> list[int]:
-        """The ids that removed bodies have left, the one to be used again first at the end."""
+        """The unused ids, left by removed bodies; the last one is used first."""
         return self._free
 
     def ids(self) -> list[int]:
@@ -209,12 +210,12 @@ class Vertices:
         return [v for moving in self.bodies for v in moving.ring]
 
     def nodes(self) -> list[int]:
-        """Of each id, its vertex among those of the scene, counted through; -1 if unused."""
+        """For each id, the number of its vertex in the scene, over all bodies; -1 if unused."""
         first = list(accumulate((moving.body.size for moving in self.bodies), initial=0))
         return [first[v.body] + v.index if v.body >= 0 else -1 for v in self.all]
 
     def _may_pinch(self, i: int, start: QQ, end: QQ) -> bool:
-        """Whether the inside of a body must be tiled from a time on."""
+        """Whether the interior of a body must be tiled from a time on."""
         body, ring = self.bodies[i].body, self.bodies[i].ring
         return (
             body.size > 3
@@ -224,7 +225,7 @@ class Vertices:
         )
 
     def _ever_deforms(self, i: int, start: QQ) -> bool:
-        """Whether a body deforms in any of its pieces from a time in the present one on."""
+        """Whether a body deforms in its current piece or any later one."""
         body = self.bodies[i].body
         return self.bodies[i].deforms or any(
             _deforms(self.frame.images(body._piece_after(t).tracks))
@@ -233,7 +234,7 @@ class Vertices:
         )
 
     def enter_piece(self, i: int, t: QQ) -> None:
-        """Give the vertices of a body the tracks that hold just after a rational time."""
+        """Give the vertices of a body the trajectories valid just after a rational time."""
         self.changes += 1
         moving = self.bodies[i]
         piece = moving.body._piece_after(t)
@@ -245,25 +246,25 @@ class Vertices:
             vertex = self.all[vertex_id]
             vertex.track = piece.tracks[vertex.index]
             vertex.image = images[vertex.index]
-        if not self._plain and _is_thin(moving.body) and len(moving.ring) > 1:
+        if not self._plain and not moving.body.has_interior and len(moving.ring) > 1:
             end = self._end if piece.until is None else min(piece.until, self._end)
-            offsets = thin_offsets(piece.tracks, t, end)
-            for vertex_id, offset in zip(moving.ring, offsets.directions, strict=True):
+            moved = displacements(piece.tracks, t, end)
+            for vertex_id, offset in zip(moving.ring, moved.directions, strict=True):
                 self.all[vertex_id].offset = offset
-            if offsets.until is not None and offsets.until < end:
-                self._set_until(moving, offsets.until)
+            if moved.until is not None and moved.until < end:
+                self._set_until(moving, moved.until)
 
     def _set_until(self, moving: MovingBody, until: QQ | None) -> None:
         moving.until = until
         moving.horizon = float("inf") if until is None else self.frame.time(until)[1]
 
     def set_plan(self, i: int, body: Body, t: QQ, end: QQ) -> bool:
-        """Let a body go on as another one, which is at the same place at a rational time.
+        """Replace a body by one with the same position at a rational time.
 
-        A body whose inside is tiled stays so, whatever it does next.
+        A body whose interior is tiled stays so, whatever its motion.
 
         Returns:
-            Whether its inside has to be tiled from now on, and is not yet.
+            Whether its interior has to be tiled from now on, and is not yet.
         """
         moving = self.bodies[i]
         moving.body = body
@@ -279,8 +280,8 @@ class Vertices:
         return f"{self.bodies[vertex.body].body.name}:{vertex.index}"
 
 
-def _nobody(vertex_id: int) -> Vertex:
-    """A vertex that no body has."""
+def _unused(vertex_id: int) -> Vertex:
+    """A vertex that belongs to no body."""
     return Vertex(vertex_id, -1, -1, _NO_TRACK, _NO_IMAGE)
 
 
@@ -292,11 +293,7 @@ def _deforms(images: Sequence[Image]) -> bool:
 def _ring_indices(body: Body, positions: list[tuple[QQ, QQ]], *, plain: bool = False) -> list[int]:
     if plain:
         return list(range(body.size))
-    if _is_thin(body):
-        return thin_ring(body.size)
+    if not body.has_interior:
+        return ring_of_copies(body.size)
     ring = list(range(body.size))
     return ring if is_counter_clockwise(positions) else ring[::-1]
-
-
-def _is_thin(body: Body) -> bool:
-    return body.size < 3 or not body.closed

@@ -1,7 +1,7 @@
-"""A planar map of half-edges: who follows whom around a face. No coordinates, no time.
+"""A planar map of half-edges: pure topology, without coordinates or time.
 
 Half-edges come in twins h and h ^ 1, with opposite directions; the face of a half-edge
-is on its left. Edges that are removed leave their handles to later ones.
+is on its left. Later edges use the handles of removed ones again.
 
 Source: M. de Berg et al., *Computational Geometry*, 3rd ed., section 2.2 (the doubly
 connected edge list).
@@ -27,7 +27,7 @@ class PlanarMap:
     Attributes:
         origin: the vertex where a half-edge starts; `NOTHING` for a free handle.
         following: the next half-edge around the face on the left.
-        previous: the one before.
+        previous: the half-edge before it around the face on the left.
     """
 
     def __init__(self) -> None:
@@ -37,7 +37,7 @@ class PlanarMap:
         self._free: list[int] = []
 
     def add_edge(self, u: int, v: int) -> int:
-        """A new edge, linked to nothing yet; the half-edge from u to v (an even handle)."""
+        """Add an edge, not linked yet; returns its half-edge from u to v (an even handle)."""
         if self._free:
             h = self._free.pop()
             self.origin[h], self.origin[h + 1] = u, v
@@ -49,7 +49,7 @@ class PlanarMap:
         return h
 
     def link(self, h: int, g: int) -> None:
-        """Let g follow h around their face."""
+        """Make g the half-edge after h around their face."""
         self.following[h] = g
         self.previous[g] = h
 
@@ -57,14 +57,14 @@ class PlanarMap:
     def of(
         cls, origin: list[int], following: list[int], previous: list[int], free: list[int]
     ) -> PlanarMap:
-        """The map with these lists, and these handles to be used again, the last one first."""
+        """The map with these lists and these free handles, the last of which is used first."""
         self = cls()
         self.origin, self.following, self.previous, self._free = origin, following, previous, free
         return self
 
     @property
     def free(self) -> list[int]:
-        """The handles (even) that edges have left, the one to be used again first at the end."""
+        """The free handles (even), left by removed edges; the last one is used first."""
         return self._free
 
     def copy(self) -> PlanarMap:
@@ -79,7 +79,7 @@ class PlanarMap:
         return self.origin[h ^ 1]
 
     def split_face(self, h: int, g: int) -> int:
-        """Cut the face of h and g by a new edge from the origin of h to the origin of g.
+        """Split the face of h and g by a new edge from the origin of h to the origin of g.
 
             .--- g <--- o          .--- g <--- o
             v           ^          v       7   ^      e runs from origin[h] to
@@ -99,7 +99,7 @@ class PlanarMap:
         return e
 
     def remove_edge(self, h: int) -> None:
-        """Remove an edge between two different faces, which become one."""
+        """Remove an edge between two different faces, which merge."""
         g = h ^ 1
         before_h, after_h = self.previous[h], self.following[h]
         before_g, after_g = self.previous[g], self.following[g]
@@ -117,8 +117,8 @@ class PlanarMap:
                         : c                  a  7  o        the face g across h runs
                   g     v                    g     : c      twin(h), a, c and gains m.
 
-        This one operation serves both repairs of a pseudo-triangulation: a corner that
-        collapses (theory: HIT) and a bend that straightens (FLAT).
+        Both repairs of a pseudo-triangulation are this operation: that of a corner whose
+        angle becomes 0, and that of a reflex angle that becomes straight.
         """
         a = self.previous[h]
         b, t = self.previous[a], h ^ 1
@@ -129,7 +129,7 @@ class PlanarMap:
         self.origin[h] = self.origin[a]
 
     def slide_target(self, a: int) -> None:
-        """Move the target of a on along the half-edge h after it: `slide_origin` mirrored."""
+        """Move the target of a forward along the half-edge h after it: `slide_origin` mirrored."""
         h = self.following[a]
         b, t = self.following[h], a ^ 1
         c = self.previous[t]
@@ -139,7 +139,7 @@ class PlanarMap:
         self.origin[t] = self.origin[h ^ 1]
 
     def face(self, h: int) -> list[int]:
-        """The half-edges of a face, from h on."""
+        """The half-edges of the face of h, in cyclic order from h."""
         cycle = [h]
         g = self.following[h]
         while g != h:
@@ -148,7 +148,7 @@ class PlanarMap:
         return cycle
 
     def fan(self, h: int) -> list[int]:
-        """The half-edges that start where h does, counter-clockwise, from h on."""
+        """The star of the origin of h: the half-edges out of it, counter-clockwise from h."""
         fan = [h]
         g = self.previous[h] ^ 1
         while g != h:
@@ -164,7 +164,7 @@ class PlanarMap:
         """Check the links.
 
         Raises:
-            AuditError: if some half-edge is not where its neighbours say.
+            AuditError: if the links of two half-edges contradict each other.
         """
         for h in self.half_edges():
             g = self.following[h]
@@ -175,7 +175,7 @@ class PlanarMap:
 
 
 def without_steps_back(half_edges: Iterable[int]) -> list[int]:
-    """A sequence of half-edges, without any that is followed by its twin, and that twin."""
+    """A sequence of half-edges with every pair of successive twins cancelled."""
     kept: list[int] = []
     for h in half_edges:
         if kept and kept[-1] == h ^ 1:

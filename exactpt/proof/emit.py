@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, final
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import check_tiling, tiling_for_contact
-from exactpt.geometry.polygon import contains, edges, segments_meet
+from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.proof.changes import Angle, Angles, HalfEdge, change, followers
 from exactpt.proof.engine import OneSided, Run
@@ -170,13 +170,13 @@ class Proof:
         """What two bodies have in common at the start if no vertex of one is on the other."""
         bodies = [self._scene.bodies[k] for k in (i, j)]
         p, q = (body._at(self._scene.start) for body in bodies)
-        of_p, of_q = (edges(body.size, closed=body.closed) for body in bodies)
+        of_p, of_q = (body.edges for body in bodies)
         for k, (a, b) in enumerate(of_p):
             for m, (c, d) in enumerate(of_q):
                 if segments_meet(p[a], p[b], q[c], q[d]):
                     ends = (*self._edge(i, k), *self._edge(j, m))
                     return "edge {} {} edge {} {}".format(*ends)
-        if bodies[0].closed and bodies[0].size > 2 and contains(p, q[0]):
+        if bodies[0].has_interior and contains(p, q[0]):
             return f"vertex {self._nodes.first[j]} inside {i}"
         return f"vertex {self._nodes.first[i]} inside {j}"
 

@@ -49,7 +49,7 @@ class Nodes:
         """The rings of the rigid closed bodies, counter-clockwise."""
         rings = []
         for first, body, rigid in zip(self.first, self.scene.bodies, self.rigid, strict=False):
-            if rigid and body.closed and body.size > 2:
+            if rigid and body.has_interior:
                 ring = list(range(first, first + body.size))
                 turns_left = is_counter_clockwise(body._at(self.scene._start))
                 rings.append(ring if turns_left else ring[::-1])
@@ -119,8 +119,8 @@ def _is_rigid(body: Body, start: QQ, end: QQ) -> bool:
     times = [start, *(b for b in body._breakpoints if start < b < end)]
     for t in times:
         tracks = body._piece_after(t).tracks
-        frame = tracks[0].frame
-        if frame is not None and all(track.frame == frame for track in tracks):
+        motion = tracks[0].motion
+        if motion is not None and all(track.motion == motion for track in tracks):
             continue
         n = len(tracks)
         last = n if body.closed and n > 2 else n - 1

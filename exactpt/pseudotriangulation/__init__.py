@@ -1,1 +1,1 @@
-"""Pseudo-triangulations of one instant: half-edges with marks, built, changed and audited."""
+"""Pseudo-triangulations at one instant: half-edges with marks, built, changed and audited."""

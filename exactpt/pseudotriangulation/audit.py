@@ -1,4 +1,4 @@
-"""The audit of a tiling at an instant: is it an embedded pseudo-triangulation?"""
+"""The audit of a tiling at one instant: whether it is an embedded pseudo-triangulation."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["audit_angles", "audit_fan"]
 
 
 def audit_angles(mesh: Mesh, predicates: Predicates) -> None:
-    """Check links and marks, every marked angle by its sign, and the order around vertices.
+    """Check links and marks, the sign of every marked angle, and the order around vertices.
 
     Raises:
         AuditError: at the first fault.
@@ -28,9 +28,9 @@ def audit_angles(mesh: Mesh, predicates: Predicates) -> None:
 
 
 def audit_fan(mesh: Mesh, h: int, predicates: Predicates) -> None:
-    """Check that the half-edges out of a vertex turn once around it, counter-clockwise.
+    """Check that the star of a vertex turns once around it, counter-clockwise.
 
-    Seen from the first one, the others must have increasing angles between 0 and 2 pi.
+    The angles from the first half-edge to the others must increase between 0 and 2 pi.
 
     Raises:
         AuditError: if they do not.
@@ -40,7 +40,7 @@ def audit_fan(mesh: Mesh, h: int, predicates: Predicates) -> None:
     targets = [m.target(g) for g in m.fan(h)]
     base = targets[0]
     for u, w in pairwise(targets[1:]):
-        # 1: angle below pi, 0: pi, -1: above.
+        # Angle from the first half-edge: 1 if below pi, 0 if pi, -1 if above.
         side_u, side_w = predicates.sign(v, base, u), predicates.sign(v, base, w)
         if side_u < side_w or (side_u == side_w and predicates.sign(v, u, w) <= 0):
             raise AuditError(f"vertex {v}: the edges to {u} and {w} are in the wrong order")

@@ -1,4 +1,4 @@
-"""From a set of diagonals to a mesh: sort the edges around every vertex."""
+"""The mesh of a set of diagonals, by sorting the edges around every vertex."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ def build_mesh(
 
     Args:
         instant: the predicates.
-        diagonals: pairwise without crossings; a pseudo-triangulation together with the
-            body edges.
-        mesh: an empty one to fill.
+        diagonals: pairwise noncrossing diagonals that form a pseudo-triangulation together
+            with the body edges.
+        mesh: an empty mesh to fill.
 
     Raises:
-        AuditError: if a tile has not three corners.
+        AuditError: if a tile does not have three corners.
     """
     vertices = instant.vertices.all
     if mesh is None:
@@ -47,8 +47,8 @@ def build_mesh(
             around[v].append(h ^ 1)
     link = mesh.map.link
     for v in instant.vertices.ids():
-        # Counter-clockwise: to the next vertex of the ring, (the body and its diagonals),
-        # to the vertex before, (free space and its diagonals).
+        # Counter-clockwise: the edge to the next vertex of the ring, the diagonals inside the
+        # body, the edge to the vertex before, the diagonals in free space.
         ahead, behind = mesh.ring_edge[v], mesh.ring_edge[vertices[v].behind] ^ 1
         fan = _sorted_fan(instant, mesh, v, ahead, inside[v]) if v in inside else []
         fan.append(behind)
@@ -65,7 +65,7 @@ def build_mesh(
 def _sorted_fan(
     instant: PredicatesAt, mesh: Mesh, v: int, reference: int, edges: list[int]
 ) -> list[int]:
-    """Half-edges out of v in counter-clockwise order from a reference direction."""
+    """The half-edges out of v in counter-clockwise order from a reference half-edge."""
     if len(edges) < 2:
         return edges
     return sorted(edges, key=cmp_to_key(fan_order(instant, mesh, v, reference)))
@@ -74,12 +74,12 @@ def _sorted_fan(
 def fan_order(
     predicates: Predicates, mesh: Mesh, v: int, reference: int
 ) -> Callable[[int, int], int]:
-    """Compares half-edges out of v: the angles from a reference direction, up to 2 pi."""
+    """A comparison of half-edges out of v by their angles in [0, 2 pi) from a reference."""
     target, base = mesh.map.target, mesh.map.target(reference)
     known: dict[int, int] = {}
 
     def half(h: int) -> int:
-        """1: angle from the reference below pi, 0: equal to it, -1: above."""
+        """1 if the angle from the reference is below pi, 0 if pi, -1 if above."""
         if h not in known:
             known[h] = predicates.sign(v, base, target(h))
         return known[h]
@@ -113,7 +113,7 @@ def _mark_angles(instant: PredicatesAt, mesh: Mesh) -> None:
 
 
 def _mark_face(instant: PredicatesAt, mesh: Mesh, first: int, seen: list[bool]) -> None:
-    """Mark what lies outside; every other face has three corners."""
+    """Mark the outer face; every other face must have three corners."""
     m = mesh.map
     corners = 0
     h = first

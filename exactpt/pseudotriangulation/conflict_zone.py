@@ -1,10 +1,10 @@
-"""Where a new body comes to lie in a tiling: the faces that it meets.
+"""The conflict zone of a new body in a tiling: the faces that it meets.
 
-From any face, others are looked at in the order of their distance (in floats, which say
-only where to look next) until one is found in which the body has a vertex; from there on,
-exactly, every diagonal that the body meets leads to the next face. All of it is decided at
-the given time, for closed faces and the closed body, so that nothing is missed where
-certificates vanish just then.
+A search from any face visits others in the order of their distance (in floats, which
+decide only the order) until it finds one that contains a vertex of the body; from there,
+every diagonal that the body meets leads to another face of the zone, exactly. Everything is
+decided at the given time, for closed faces and the closed body, so that nothing is missed
+where certificates vanish at that time.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple, final
 
 from exactpt.errors import AuditError, InputError
-from exactpt.geometry.polygon import contains, edges, segments_meet
+from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.geometry.predicates import Point, side
 from exactpt.pseudotriangulation.mesh import INSIDE, OUTER, SOLID, Mesh
 
@@ -28,11 +28,11 @@ __all__ = ["ConflictZone", "find_conflict_zone"]
 
 
 class ConflictZone(NamedTuple):
-    """Where a body lies.
+    """The faces and diagonals that a body meets.
 
     Attributes:
-        faces: a half-edge of every face that it meets.
-        crossed: the diagonals that it meets, each by one half-edge.
+        faces: one half-edge of every face that it meets.
+        crossed: one half-edge of every diagonal that it meets.
     """
 
     faces: list[int]
@@ -40,18 +40,18 @@ class ConflictZone(NamedTuple):
 
 
 def find_conflict_zone(vertices: Vertices, mesh: Mesh, body: Body, t: QQ) -> ConflictZone:
-    """Find the faces that a body which is not there yet meets.
+    """The conflict zone of a body that is not in the tiling yet.
 
     Args:
         vertices: the moving vertices.
         mesh: their tiling just after a time.
-        body: whose site it is.
+        body: the new body.
         t: the time.
 
     Raises:
         InputError: if the body touches another one.
     """
-    return _Search(vertices, mesh, body, t).site()
+    return _Search(vertices, mesh, body, t).zone()
 
 
 @final
@@ -62,14 +62,14 @@ class _Search:
         self.body = body
         self.t = t
         self.points: Sequence[Point] = body._at(t)
-        pairs = edges(body.size, closed=body.closed) or [(0, 0)]
+        pairs = body.edges or [(0, 0)]
         self.edges = [(self.points[u], self.points[v]) for u, v in pairs]
         self.low = min(p[0] for p in self.points), min(p[1] for p in self.points)
         self.high = max(p[0] for p in self.points), max(p[1] for p in self.points)
         self.known: dict[int, Point] = {}
 
-    def site(self) -> ConflictZone:
-        """The site of the body."""
+    def zone(self) -> ConflictZone:
+        """The conflict zone of the body."""
         if not self.vertices.bodies:
             return ConflictZone([], [])
         first = self._face_around(self.points[0])
@@ -90,8 +90,8 @@ class _Search:
                     seen.update(beyond)
                     todo.append(beyond)
                     faces.append(h ^ 1)
-        # A body that is swallowed whole is joined to what is outside of the new one, if
-        # anything is; so is the first face.
+        # A body inside the new one is connected to what lies outside of it, if anything
+        # does; so is the first face.
         touched.update(
             self._body_at(g) for h in [*crossed, first[0]] for g in (h, h ^ 1) if self._swallows(g)
         )
@@ -101,7 +101,7 @@ class _Search:
         return ConflictZone(faces, list(crossed))
 
     def _at(self, v: int) -> Point:
-        """Where a vertex is."""
+        """The position of a vertex."""
         if v not in self.known:
             self.known[v] = self.vertices.all[v].track._at(self.t)
         return self.known[v]
@@ -114,7 +114,7 @@ class _Search:
         return self.vertices.all[self.mesh.map.origin[h]].body
 
     def _face_around(self, p: Point) -> list[int]:
-        """The face that a point is in; of several that it borders, any one."""
+        """A closed face that contains a point."""
         m = self.mesh.map
         seen: set[int] = set()
         waiting = [(0.0, self.mesh.ring_edge[self.vertices.bodies[-1].ring[0]] ^ 1)]
@@ -125,7 +125,7 @@ class _Search:
                 continue
             face = m.face(first)
             seen.update(face)
-            # The one face that is unbounded turns around what is not in it.
+            # The unbounded face winds around the points that are not in it.
             if (self._turns(face, p) != 0) != (self.mesh.region[first] == OUTER):
                 return face
             for h in face:
@@ -134,7 +134,7 @@ class _Search:
         raise AuditError(f"no face around ({p[0]}, {p[1]})")
 
     def _distance(self, h: int, target: tuple[float, float]) -> float:
-        """About how far an edge is from a place in the frame."""
+        """An estimate of the distance from an edge to a normalised position."""
         (ax, ay), (bx, by) = map(self.vertices.frame.point, self._ends(h))
         dx, dy, px, py = bx - ax, by - ay, target[0] - ax, target[1] - ay
         square = dx * dx + dy * dy
@@ -142,7 +142,7 @@ class _Search:
         return math.hypot(px - s * dx, py - s * dy)
 
     def _turns(self, face: Sequence[int], p: Point) -> int:
-        """How often a face turns around a point, half-open in y as in `contains`."""
+        """The winding number of a face around a point, half-open in y as in `contains`."""
         turns = 0
         for h in face:
             a, b = self._ends(h)
@@ -155,7 +155,7 @@ class _Search:
         return turns
 
     def _meets(self, h: int) -> bool:
-        """Whether the body meets the closed edge of a half-edge, other than inside itself."""
+        """Whether the boundary of the body meets the closed edge of a half-edge."""
         a, b = self._ends(h)
         for axis in (0, 1):
             if max(a[axis], b[axis]) < self.low[axis] or min(a[axis], b[axis]) > self.high[axis]:
@@ -163,6 +163,5 @@ class _Search:
         return any(segments_meet(a, b, c, d) for c, d in self.edges)
 
     def _swallows(self, h: int) -> bool:
-        """Whether the origin of a half-edge is in the body."""
-        is_polygon = self.body.closed and self.body.size > 2
-        return is_polygon and contains(self.points, self._at(self.mesh.map.origin[h]))
+        """Whether the body is a polygon that contains the origin of a half-edge."""
+        return self.body.has_interior and contains(self.points, self._at(self.mesh.map.origin[h]))

@@ -1,10 +1,10 @@
-"""A tiling at the very time of an event.
+"""The tiling at a degenerate instant, the time of an event itself.
 
 A kinetic tiling is the one just after the current time. Where certificates vanish at that
-time, some of its edges run through vertices, and some of its faces have no area, just
-then. `close_at` gives the tiling of that very moment: what is collinear then is treated
-like what is collinear for ever (`exactpt.certificates.perturbation`), so that the middle vertex of
-three sticks out.
+time, some of its edges pass through vertices then, and some of its faces have no area.
+`close_at` gives the tiling of the instant itself: vertices collinear then are treated
+like vertices collinear for ever (`exactpt.certificates.perturbation`), so that the middle
+one of three sticks out.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ __all__ = ["close_at"]
 
 
 def close_at(mesh: Mesh, instant: PredicatesAt) -> bool:
-    """Collapse, in place, every corner that is zero or straight at an instant.
+    """Collapse, in place, every corner whose angle is 0 or pi at an instant.
 
     Args:
         mesh: a pseudo-triangulation just before or just after the instant.
@@ -30,22 +30,22 @@ def close_at(mesh: Mesh, instant: PredicatesAt) -> bool:
         Whether anything changed.
 
     Raises:
-        AuditError: if a corner closes on the edge of a body: there is a contact then; or if
-            one corner after the other opens again.
+        AuditError: if a corner closes on the edge of a body, which is a contact; or if
+            corners open again without end.
     """
     half_edges = mesh.map.half_edges()
-    due = {h for h in half_edges if _has_closed(mesh, h, instant)}
-    changed = bool(due)
+    closed = {h for h in half_edges if _has_closed(mesh, h, instant)}
+    changed = bool(closed)
     rounds = 0
-    while due:
+    while closed:
         rounds += 1
         if rounds > 2 * len(half_edges):
             raise AuditError("corners do not stay closed")
-        h = _first(mesh, due, instant)
+        h = _first(mesh, closed, instant)
         for g in _collapse(mesh, h, instant):
-            due.discard(g)
+            closed.discard(g)
             if mesh.map.origin[g] >= 0 and _has_closed(mesh, g, instant):
-                due.add(g)
+                closed.add(g)
     return changed
 
 
@@ -60,11 +60,11 @@ def _has_closed(mesh: Mesh, h: int, instant: PredicatesAt) -> bool:
     return may_close and instant.sign(a, p, b) <= 0
 
 
-def _first(mesh: Mesh, due: set[int], instant: PredicatesAt) -> int:
-    """The least of the closed corners, but of copies of one triple the first to close."""
+def _first(mesh: Mesh, closed: set[int], instant: PredicatesAt) -> int:
+    """The least closed corner; among infinitesimal copies of its triple, the first to close."""
     all_vertices = instant.vertices.all
     number = AlgebraicNumber(instant.time)
-    first, *others = sorted(due)
+    first, *others = sorted(closed)
 
     def vertices(h: int) -> tuple[Vertex, Vertex, Vertex]:
         a, p, b = _angle(mesh, h)
@@ -79,7 +79,7 @@ def _first(mesh: Mesh, due: set[int], instant: PredicatesAt) -> int:
 
 
 def _collapse(mesh: Mesh, h: int, instant: PredicatesAt) -> list[int]:
-    """Collapse one corner; the half-edges whose angles may have changed."""
+    """Collapse one corner; returns the half-edges whose angles may have changed."""
     m = mesh.map
     a, p, b = _angle(mesh, h)
     before, face = m.previous[h], m.face(h)

@@ -1,10 +1,10 @@
 """Shadow edges and flips: the other diagonal of a pseudo-quadrangle.
 
-A diagonal s between two pseudo-triangles is removed; what is left is a pseudo-quadrangle
-with four corners. The corners that face s from either side are joined by a geodesic
-inside; its one edge that is no edge of the boundary is the shadow of s (paper, section
-2.2; checked against the definition in the tests). A pseudo-quadrangle may visit a vertex
-twice, so everything here is about visits, that is half-edges.
+Removing a diagonal s between two pseudo-triangles leaves a pseudo-quadrangle, a face with
+four corners. The two corners opposite to s are joined by a geodesic inside; its one edge
+that is not a boundary edge is the shadow of s (paper, section 2.2; checked against the
+definition in the tests). The boundary of a pseudo-quadrangle may visit a vertex twice, so
+this module works with visits, that is half-edges.
 """
 
 from __future__ import annotations
@@ -30,9 +30,10 @@ __all__ = [
 
 
 def opposite_corner(mesh: Mesh, h: int) -> int:
-    """The corner of the face of h that is at neither end of the side chain with h.
+    """The corner of the face of h opposite to the side chain with h.
 
-    -1 if the face has not just three corners, as may be amid the repairs of one time.
+    -1 if the face does not have exactly three corners, as may happen between the repairs of
+    one time.
     """
     following, corner = mesh.map.following, mesh.corner
     count, found, g = 0, -1, h
@@ -49,9 +50,9 @@ def opposite_corner(mesh: Mesh, h: int) -> int:
 def shadow(mesh: Mesh, h: int, predicates: Predicates) -> tuple[int, int] | None:
     """The visits (half-edges of the two faces of h) that the shadow edge of h joins.
 
-    The ends start at the two facing corners and move away from them along their side
-    chains until the segment between them is tangent at both. None if that does not end
-    in a segment that crosses h: the mesh is no pseudo-triangulation just after now.
+    The ends start at the two opposite corners and move away from them along their side
+    chains until the segment between them is tangent at both. None if the result does not
+    cross h: the mesh is then not a pseudo-triangulation just after now.
     """
     m = mesh.map
     here, there = opposite_corner(mesh, h), opposite_corner(mesh, h ^ 1)
@@ -61,7 +62,7 @@ def shadow(mesh: Mesh, h: int, predicates: Predicates) -> tuple[int, int] | None
     n = len(cycle)
     points = [m.origin[g] for g in cycle]
     is_corner = [mesh.corner[g] for g in cycle]
-    for g in (m.following[h], m.following[h ^ 1]):  # here two angles have become one
+    for g in (m.following[h], m.following[h ^ 1]):  # two angles have merged here
         k = cycle.index(g)
         is_corner[k] = predicates.sign(points[k - 1], points[k], points[(k + 1) % n]) > 0
     ends = [0, cycle.index(there)]
@@ -71,7 +72,7 @@ def shadow(mesh: Mesh, h: int, predicates: Predicates) -> tuple[int, int] | None
     while stuck < 2 and steps < 8 * n:
         steps += 1
         i, y = ends[e], points[ends[1 - e]]
-        at_other = points[i] == y  # then it is for the other end to move
+        at_other = points[i] == y  # then the other end must move
         step = 0 if at_other else _step(points, i, distances[e], moved, y, predicates)
         if step and (not is_corner[(i + step) % n] or distances[e] + step == 0):
             ends[e], distances[e], moved = (i + step) % n, distances[e] + step, step
@@ -86,10 +87,10 @@ def shadow(mesh: Mesh, h: int, predicates: Predicates) -> tuple[int, int] | None
 
 
 def tangency(mesh: Mesh, h: int, visits: tuple[int, int]) -> list[tuple[int, int, int]]:
-    """The four triples whose orientations keep a shadow edge tangent at both its ends.
+    """The four triples whose orientations certify that a shadow edge is tangent at both ends.
 
-    Of each end, with the neighbours before and after it on the boundary of the two faces
-    of h; none if these do not have both visits.
+    Each end gives two, with its neighbours before and after it on the boundary of the two
+    faces of h. Empty if the faces do not have both visits.
     """
     cycle = _cycle(mesh, h, mesh.map.following[h])
     if visits[0] not in cycle or visits[1] not in cycle:
@@ -106,12 +107,12 @@ def tangency(mesh: Mesh, h: int, visits: tuple[int, int]) -> list[tuple[int, int
 
 
 def _cycle(mesh: Mesh, h: int, start: int) -> list[int]:
-    """The visits of the union of the two faces of h, counter-clockwise from one of them."""
+    """The visits around the union of the two faces of h, counter-clockwise from ``start``."""
     following, t = mesh.map.following, h ^ 1
     cycle = [start]
     g = following[start]
     while True:
-        if g == h:  # at the origin of h: on in the other face
+        if g == h:  # at the origin of h: continue in the other face
             g = following[t]
         elif g == t:
             g = following[h]
@@ -124,14 +125,14 @@ def _cycle(mesh: Mesh, h: int, start: int) -> list[int]:
 def _step(
     points: list[int], i: int, distance: int, moved: int, y: int, predicates: Predicates
 ) -> int:
-    """Which way visit i has to move to be tangent to the segment to y: 1, -1 or 0.
+    """The direction in which visit i must move for tangency to the segment to y: 1, -1 or 0.
 
     At its corner (distance 0) the segment must be inside the angle. On the chain after
     the corner both neighbours must be on the right of the segment, on the chain before
     it on the left: the solid side. A neighbour farther from the corner that is on the
     line for ever is nearer to y and sticks out: the end moves there. (A neighbour may be
-    another visit of the vertex of y; then it is for the other end to move.) What made
-    the visit move here, away from its corner, shows that it need not move back.
+    another visit of the vertex of y; then the other end must move.) The test that moved the
+    visit here, away from its corner, shows that it need not move back.
     """
     x, after, before = points[i], points[(i + 1) % len(points)], points[i - 1]
     if distance >= 0 and y != after and predicates.sign(x, after, y) <= 0:
@@ -146,7 +147,7 @@ def _step(
 
 
 def crosses(x: int, y: int, u: int, v: int, predicates: Predicates) -> bool:
-    """Whether segments xy and uv cross inside, or share one end."""
+    """Whether segments xy and uv cross in their interiors, or share one end."""
     if x in (u, v) or y in (u, v):
         return {x, y} != {u, v}
     if predicates.sign(x, y, u) == predicates.sign(x, y, v):
@@ -158,8 +159,8 @@ def flip(mesh: Mesh, h: int, visits: tuple[int, int], predicates: Predicates) ->
     """Replace diagonal h by the segment between two visits of its faces.
 
     Returns:
-        The half-edges whose angles have changed; the first is one of the new diagonal.
-        If one of the two faces was a triangle, all angles of both new faces.
+        The half-edges whose angles have changed, the first one of the new diagonal. If one
+        of the two faces was a triangle, these are all angles of both new faces.
     """
     m = mesh.map
     was_triangle = any(m.following[m.following[m.following[g]]] == g for g in (h, h ^ 1))
@@ -178,8 +179,8 @@ class Flip(NamedTuple):
     """A diagonal replaced by its shadow.
 
     Attributes:
-        old, new: the ends of the two.
-        changed: the half-edges of changed angles.
+        old, new: the ends of the diagonal before and after.
+        changed: the half-edges whose angles have changed.
     """
 
     old: tuple[int, int]
@@ -194,24 +195,25 @@ def flip_until_greedy(
     shadows: dict[int, tuple[int, int]] | None = None,
     is_known: Callable[[int], bool] | None = None,
 ) -> list[Flip]:
-    """Flip every diagonal whose shadow has smaller theta, until there is none.
+    """Flip diagonals whose shadow has smaller theta, until there is none.
 
-    Each flip lowers the multiset of angles, so it ends; a pseudo-triangulation in which
-    no diagonal can be flipped so is the greedy one (paper, Lemma 4.2: the local property).
+    Each flip lowers the multiset of the theta, so the process terminates; a
+    pseudo-triangulation without such a diagonal is the greedy one (paper, Lemma 4.2: the
+    local property).
 
     Args:
         mesh: a pseudo-triangulation just after the time of the predicates.
-        predicates: of that time.
-        candidates: half-edges of the diagonals to look at first.
-        shadows: gets the visits of the shadow of each diagonal that was looked at and is
-            still there, and not known.
+        predicates: the predicates just after that time.
+        candidates: half-edges of the diagonals to test first.
+        shadows: receives the visits of the shadow of each diagonal that was tested, is not
+            known and remains.
         is_known: whether a diagonal is known to have a shadow of larger theta.
 
     Returns:
         The flips, in order.
 
     Raises:
-        AuditError: if a diagonal has no shadow: the mesh is no pseudo-triangulation.
+        AuditError: if a diagonal has no shadow: the mesh is not a pseudo-triangulation.
     """
     todo = deque(dict.fromkeys(min(h, h ^ 1) for h in candidates))
     waiting = set(todo)
@@ -223,7 +225,7 @@ def flip_until_greedy(
             continue
         if is_known is not None and is_known(h):
             if shadows is not None:
-                shadows.pop(h, None)  # of before a flip nearby
+                shadows.pop(h, None)  # computed before a flip nearby
             continue
         visits = shadow(mesh, h, predicates)
         if visits is None:
@@ -260,7 +262,7 @@ def _theta_is_smaller(
 
 
 def _rise(mesh: Mesh, a: int, b: int, predicates: Predicates) -> int:
-    """h(b) - h(a) for a bitangent from a to b."""
+    """The difference h(b) - h(a) for a bitangent from a to b; see `_theta_is_smaller`."""
     return _side(mesh, a, a, b, predicates) - _side(mesh, b, a, b, predicates)
 
 
@@ -272,17 +274,17 @@ def _side(mesh: Mesh, v: int, a: int, b: int, predicates: Predicates) -> int:
 
 
 def facing_visit(mesh: Mesh, around: list[int], target: int, predicates: Predicates) -> int | None:
-    """Of the half-edges out of a vertex, the one whose free angle a target is seen in.
+    """The half-edge out of a vertex whose free angle contains the direction to a target.
 
     Args:
         mesh: a tiling.
         around: some half-edges out of one vertex.
         target: another vertex.
-        predicates: of the time.
+        predicates: the predicates of the time.
     """
     m = mesh.map
     known = -1
-    side = 0  # of the target, on the left or on the right of the vertex ``known``
+    side = 0  # of the target: left or right of the direction to the vertex ``known``
     for h in around:
         if mesh.region[h] != FREE:
             continue

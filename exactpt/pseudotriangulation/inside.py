@@ -1,4 +1,4 @@
-"""The inside of a body that begins to deform: cut into triangles, in place."""
+"""Triangulation, in place, of the interior of a body that begins to deform."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ __all__ = ["tile_inside"]
 
 
 def tile_inside(mesh: Mesh, first: int, predicates: Predicates) -> None:
-    """Cut the solid inside of a body into triangles by cutting off its ears; O(n^2).
+    """Triangulate the solid interior of a body by ear clipping.
 
     Args:
         mesh: a tiling in which the face is `SOLID`.
         first: a half-edge of the ring of the body.
-        predicates: of the time.
+        predicates: the predicates of the time.
 
     Raises:
         AuditError: if the body is not simple then.
@@ -41,7 +41,7 @@ def tile_inside(mesh: Mesh, first: int, predicates: Predicates) -> None:
 
 
 def _is_ear(mesh: Mesh, rest: list[int], before: int, h: int, predicates: Predicates) -> bool:
-    """Whether the triangle at the origin of h lies inside, and no other vertex in it."""
+    """Whether the triangle at the origin of h lies inside and contains no other vertex."""
     sign, origin = predicates.sign, mesh.map.origin
     a, b, c = origin[before], origin[h], origin[h ^ 1]
     if sign(a, b, c) <= 0:

@@ -1,4 +1,4 @@
-"""A tiling as topology with marks: which half-edges bound what, which angles are corners.
+"""A tiling as topology with marks: the region of every half-edge, and which angles are corners.
 
 The angle of half-edge h is the one at its origin, between the half-edge before it and h,
 in the face on the left.
@@ -29,7 +29,7 @@ class Diagonal(NamedTuple):
 
 
 class Tile(NamedTuple):
-    """Where a tile is: inside the relative hull of a body, at a level; body -1 outside all."""
+    """The relative hull that a tile lies in, by its body, and its level there; body -1: none."""
 
     body: int
     level: int
@@ -39,20 +39,19 @@ F2: Final = Tile(-1, 0)
 
 
 class Mesh:
-    """A planar map of body edges and diagonals, with marks that the repairs keep right.
+    """A planar map of body edges and diagonals, with marks that every repair maintains.
 
     `exactpt.tiling.mixed.labels` adds labels, and the rules for them.
 
     Attributes:
         map: the half-edges.
-        region: of each half-edge, what is on its left: `FREE` (a pseudo-triangle),
-            `OUTER` (outside the convex hull), `SOLID` (inside a rigid body), `INSIDE` (a
-            pseudo-triangle inside a body that deforms).
-        corner: of each half-edge, whether its angle is less than pi (in a tile: one of
-            three).
-        boundary: of each edge (half of the handle), whether it is an edge of a body.
-        ring_edge: of each vertex, the half-edge to the next one on its ring; the body is
-            on its left. `NOTHING` for a vertex that no body has.
+        region: for each half-edge, the kind of the face on its left: `FREE` (a
+            pseudo-triangle), `OUTER` (outside the convex hull), `SOLID` (inside a rigid
+            body), `INSIDE` (a pseudo-triangle inside a body that deforms).
+        corner: for each half-edge, whether its angle is less than pi; a tile has three.
+        boundary: for each edge (half of the handle), whether it is an edge of a body.
+        ring_edge: for each vertex, the half-edge to the next one on its ring; the body is
+            on its left. `NOTHING` for a vertex of no body.
     """
 
     def __init__(self, vertices: int) -> None:
@@ -63,7 +62,7 @@ class Mesh:
         self.ring_edge: list[int] = [NOTHING] * vertices
 
     def add_edge(self, u: int, v: int, *, boundary: bool) -> int:
-        """A new edge, not linked yet, with free space on both sides."""
+        """Add an edge, not linked yet, with free space on both sides; returns a half-edge."""
         h = self.map.add_edge(u, v)
         self._mark(h, boundary=boundary)
         return h
@@ -78,19 +77,19 @@ class Mesh:
             self.boundary[h >> 1] = boundary
 
     def is_boundary(self, h: int) -> bool:
-        """Whether a half-edge belongs to the edge of a body."""
+        """Whether a half-edge belongs to a body edge."""
         return self.boundary[h >> 1]
 
     def is_hull(self, h: int) -> bool:
-        """Whether an edge is on the convex hull of everything."""
+        """Whether an edge is on the convex hull of all bodies."""
         return OUTER in (self.region[h], self.region[h ^ 1])
 
     def is_fixed(self, h: int) -> bool:
-        """Whether an edge is there whatever the diagonals around it."""
+        """Whether an edge is never flipped: a body edge, or one that has a label."""
         return self.boundary[h >> 1]
 
     def is_flippable(self, h: int) -> bool:
-        """Whether a half-edge is of a diagonal between two tiles of free space."""
+        """Whether a half-edge belongs to a diagonal between two tiles of free space."""
         return self.region[h] == self.region[h ^ 1] == FREE and not self.is_fixed(h)
 
     def flippable(self) -> list[int]:
@@ -98,11 +97,11 @@ class Mesh:
         return [h for h in self.diagonals() if self.is_flippable(h)]
 
     def stays(self, h: int) -> tuple[bool, bool]:
-        """Whether the edge before h and that of h stay once the bend between them is straight."""
+        """Whether the edges before and of h remain when their reflex angle becomes straight."""
         return self.is_boundary(self.map.previous[h]), self.is_boundary(h)
 
-    def tile(self, h: int) -> Tile:  # noqa: ARG002 - there is but one without labels
-        """Where the tile on the left of a half-edge of free space is."""
+    def tile(self, h: int) -> Tile:  # noqa: ARG002 - without labels there is only one
+        """The relative hull and level of the tile on the left of a half-edge of free space."""
         return F2
 
     def ends(self, h: int) -> tuple[int, int]:
@@ -110,7 +109,7 @@ class Mesh:
         return self.map.origin[h], self.map.origin[h ^ 1]
 
     def diagonals(self) -> list[int]:
-        """One half-edge (the even one) of every edge that no body has."""
+        """The even half-edges of all edges that are not body edges."""
         origin = self.map.origin
         return [h for h in range(0, len(origin), 2) if origin[h] >= 0 and not self.boundary[h >> 1]]
 
@@ -119,7 +118,7 @@ class Mesh:
         return [h for h in self.ring_edge if h != NOTHING]
 
     def faces(self, region: int = FREE) -> list[list[int]]:
-        """The faces of a region as cycles of half-edges, each from its least half-edge."""
+        """The faces of a kind as cycles of half-edges, each starting at its least half-edge."""
         seen: set[int] = set()
         faces = []
         for h in self.map.half_edges():
@@ -130,10 +129,10 @@ class Mesh:
         return faces
 
     def collapse_corner(self, h: int, *, origin_moves: bool) -> None:
-        """Repair the corner of h, whose two edges have come to lie on one another.
+        """Repair the corner of h, whose angle has become 0.
 
-        With ``origin_moves`` the edge before h is the shorter one: h then starts at its
-        far end. Else h is the shorter one, and the edge before ends at its target.
+        With ``origin_moves`` the edge before h is the shorter one, and the origin of h moves
+        to its far end. Otherwise h is shorter, and the edge before it ends at its target.
         """
         m = self.map
         region, corner = self.region, self.corner
@@ -146,15 +145,15 @@ class Mesh:
             t, b = a ^ 1, m.following[h]
             was = corner[t]
             m.slide_target(a)
-            # The face of a loses the corner; the one across gains a bend at its new end t.
+            # The face of a loses the corner; the one across gains a reflex angle at t.
             corner[b], corner[h], corner[t] = True, was, False
             region[h] = region[t]
 
     def straighten(self, h: int, *, origin_moves: bool) -> None:
-        """Repair the bend at the origin of h, whose two edges have become one line.
+        """Repair the reflex angle at the origin of h, which has become straight.
 
-        With ``origin_moves`` h gives way: it then starts where the edge before it does.
-        Else the edge before gives way and ends where h does.
+        With ``origin_moves`` the origin of h moves to the origin of the edge before it.
+        Otherwise the target of the edge before moves to that of h.
         """
         m = self.map
         region, corner = self.region, self.corner
@@ -168,15 +167,15 @@ class Mesh:
             a = m.previous[h]
             t = a ^ 1
             m.slide_target(a)
-            # Angle of t: at the far end of h, a corner now; of h: at the old bend, reflex.
+            # t: a corner now, at the far end of h; h: reflex, at the old reflex vertex.
             corner[h], corner[t] = False, True
             region[h] = region[t]
 
     def cut_off(self, h: int) -> int:
-        """Close the triangle at the bend of h by a new edge; the half-edge of it outside.
+        """Cut off the triangle at the origin of h by a new edge; returns its outer half-edge.
 
-        The bend lies between the half-edge before h and h; the new half-edge leads from
-        the origin of the one to the target of the other, with their old face on its left.
+        The new half-edge leads from the origin of the half-edge before h to the target of
+        h, with their old face on its left.
         """
         m = self.map
         a, b = m.previous[h], m.following[h]
@@ -191,9 +190,9 @@ class Mesh:
         return e
 
     def dissolve_triangle(self, h: int) -> None:
-        """Remove a diagonal that the opposite vertex of its triangle has come to lie on.
+        """Remove a diagonal on which the opposite vertex of its triangle lies now.
 
-        The vertex is a bend of the face across then.
+        The vertex becomes a reflex vertex of the face across.
         """
         m = self.map
         first, second = m.following[h], m.previous[h]
@@ -206,8 +205,8 @@ class Mesh:
         """Remove a diagonal between two tiles.
 
         Returns:
-            The half-edges that follow at its origin and at its target; each now has the
-            joined angle there (its mark is the caller's to set).
+            The next half-edges at its origin and at its target; each now has the joined
+            angle there, whose mark the caller must set.
         """
         m = self.map
         at_origin, at_target = m.following[h ^ 1], m.following[h]
@@ -219,7 +218,7 @@ class Mesh:
 
         Returns:
             The half-edge from the origin of h to that of g; the four angles at its ends
-            belong to it, its twin, h and g (their marks are the caller's to set).
+            belong to it, its twin, h and g, and the caller must set their marks.
         """
         e = self.map.split_face(h, g)
         self._mark(min(e, e ^ 1), boundary=False)
@@ -241,8 +240,8 @@ class Mesh:
         """Check links and marks.
 
         Raises:
-            AuditError: if a tile has not three corners, the outer face has any, or the
-                half-edges of a face disagree on what it is.
+            AuditError: if a tile does not have three corners, the outer face has any, or the
+                half-edges of a face are marked with different regions.
         """
         self.map.audit()
         for h in self.map.half_edges():
@@ -254,7 +253,7 @@ class Mesh:
         """Check the number of corners of the faces of some half-edges.
 
         Raises:
-            AuditError: if a tile has not three corners, or the outer face has any.
+            AuditError: if a tile does not have three corners, or the outer face has any.
         """
         seen: set[int] = set()
         for h in half_edges:

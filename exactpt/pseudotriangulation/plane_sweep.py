@@ -1,15 +1,16 @@
-"""A first tiling of any disjoint simple polygons: a sweep from left to right.
+"""A first tiling of any disjoint simple polygons: a plane sweep from left to right.
 
-Between two edges that meet the sweep line next to each other lies a *gap*. The gap keeps
-the chain of vertices that it has been closed with so far on the left: from the last
-vertex of its lower edge to that of its upper one, bulging to the right. A new vertex in
-the gap is joined to the chain by its two tangents; the chain between their ends becomes
-the third side of a pseudo-triangle. For points this is the incremental
-pseudo-triangulation (paper, section 3.1); a vertex on the edge of a gap needs one tangent,
-and where two edges meet, the chain between them is closed off.
+Between two edges that are adjacent on the sweep line lies a *gap*. A gap has a chain of
+vertices that bounds its tiles so far on the right: from the last vertex of its lower edge
+to that of its upper one, convex to the right. A new vertex in the gap is joined to the
+chain by its two tangents; the chain between their ends becomes the third side of a
+pseudo-triangle. For points this is the incremental pseudo-triangulation (paper, section
+3.1); a vertex on an edge of a gap needs one tangent, and where two edges meet, the chain
+between them closes the gap.
 
-The result is a pseudo-triangulation, though not one with the fewest faces
-(`exactpt.pseudotriangulation.pointed`). O(n log n), and the length of the chains that are passed.
+The result is a pseudo-triangulation, but not one with the fewest faces
+(`exactpt.pseudotriangulation.pointed`). Time O(n log n) plus the lengths of the chains
+traversed.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ __all__ = ["Sweep", "SweptEdge", "body_edges", "sweep_diagonals"]
 
 @final
 class SweptEdge:
-    """An edge from left to right, the region above it, and the gap there."""
+    """An edge from left to right, the kind of region above it, and the chain of its gap."""
 
     __slots__ = ("chain", "left", "region", "right")
 
@@ -41,13 +42,13 @@ class SweptEdge:
 def sweep_diagonals(instant: PredicatesAt) -> list[Diagonal]:
     """The diagonals of a pseudo-triangulation of the free space, hull edges included.
 
-    The insides of bodies that deform are tiled as well, those of rigid bodies not.
+    The interiors of bodies that deform are tiled too, those of rigid bodies are not.
     """
     return Sweep(instant, body_edges(instant)).run()
 
 
 def body_edges(instant: PredicatesAt) -> list[SweptEdge]:
-    """The edges of all bodies. A body is on the left of its ring: above an edge leading right."""
+    """The edges of all bodies; a body, on the left of its ring, is above edges leading right."""
     vertices = instant.vertices
     edges = []
     for body in vertices.bodies:
@@ -66,10 +67,10 @@ class Sweep:
     """A sweep over edges that do not cross.
 
     Args:
-        predicates: of the time.
-        edges: the edges; what is above each is tiled unless it is `SOLID`.
-        triangulate: join a vertex to all of the chain that it sees, not by tangents only.
-        around: what is outside all edges.
+        predicates: the predicates of the time.
+        edges: the edges; the region above each is tiled unless it is `SOLID`.
+        triangulate: join a vertex to all of the chain that it sees, not only by tangents.
+        around: the kind of region outside all edges.
     """
 
     def __init__(
@@ -83,7 +84,7 @@ class Sweep:
         self.predicates = predicates
         self.triangulate = triangulate
         self.diagonals: list[Diagonal] = []
-        # From bottom to top; the first is no edge but the gap below all of them.
+        # From bottom to top; the first is not an edge but stands for the gap below all edges.
         self.active: list[SweptEdge] = [SweptEdge(-1, -1, around)]
         self.starting: dict[int, list[SweptEdge]] = {}
         self.ends: dict[int, None] = {}
@@ -99,7 +100,7 @@ class Sweep:
         return self.diagonals
 
     def _from_bottom_to_top(self, edges: list[SweptEdge]) -> list[SweptEdge]:
-        """Edges with a common left end."""
+        """Edges with a common left end, sorted from bottom to top."""
 
         def order(a: SweptEdge, b: SweptEdge) -> int:
             return -self.predicates.sign(a.left, a.right, b.right)
@@ -114,7 +115,7 @@ class Sweep:
         below = self.active[first - 1]
         ending = self.active[first:last]
         if not ending:
-            # Inside a gap: its chain is seen from v between two tangents.
+            # Inside a gap: v sees its chain between two tangents.
             lower, upper = self._split_chain(v, below.chain, below.region)
         else:
             lower = self._upper_end(v, below.chain, below.region)
@@ -133,7 +134,7 @@ class Sweep:
         self.active[first:last] = starting
 
     def _first_not_below(self, v: int) -> int:
-        """The position of the lowest edge that is over v or ends there."""
+        """The position of the lowest edge that is above v or ends there."""
         low, high = 1, len(self.active)
         while low < high:
             middle = (low + high) // 2
@@ -145,17 +146,17 @@ class Sweep:
         return low
 
     def _join_part(self, v: int, chain: list[int], low: int, high: int, region: int) -> None:
-        """Join v to a part of a chain: to its ends, or to all of it."""
+        """Join v to the ends of a part of a chain, or to all its vertices."""
         step = 1 if self.triangulate else max(high - low, 1)
         for i in range(low, high + 1, step):
             self.diagonals.append(Diagonal(chain[i], v, region))
 
     def _sees(self, v: int, chain: list[int], i: int) -> bool:
-        """Whether v sees the edge i of a chain: it is on its right, going up."""
+        """Whether v sees edge i of a chain: it lies to the right of the edge, going up."""
         return self.predicates.sign(chain[i], chain[i + 1], v) < 0
 
     def _split_chain(self, v: int, chain: list[int], region: int) -> tuple[list[int], list[int]]:
-        """The chains below and above v in a gap that starts or goes on there."""
+        """The chains below and above v, a vertex that splits a gap."""
         if not chain or region == SOLID:
             return [v], [v]
         low, high = 0, len(chain) - 1
@@ -168,9 +169,9 @@ class Sweep:
         return [*chain[: low + 1], v], [v, *chain[high:]]
 
     def _only_visible(self, chain: list[int]) -> int:
-        """The one vertex of a chain that is seen by a vertex which sees no edge: an end.
+        """The end of a chain that is seen by a vertex which sees no edge of it.
 
-        The lower end, if its wedge between the gap's lower edge (which leads right) and
+        It is the lower end, if its wedge between the gap's lower edge (which leads right) and
         the chain is more than pi: then the chain starts to the left. The directions of
         the chain turn to the left on the way up, so then it ends to the left as well, and
         the wedge at its upper end is less than pi.
@@ -179,7 +180,7 @@ class Sweep:
         return 0 if leans_left else len(chain) - 1
 
     def _upper_end(self, v: int, chain: list[int], region: int) -> list[int]:
-        """The chain of a gap whose upper edge ends at v: its last vertex is next to v."""
+        """The chain of a gap whose upper edge ends at v; its last vertex is adjacent to v."""
         if region == SOLID:
             return [v]
         i = len(chain) - 1
@@ -191,7 +192,7 @@ class Sweep:
         return [*chain[: i + 1], v]
 
     def _lower_end(self, v: int, chain: list[int], region: int) -> list[int]:
-        """The same for a gap whose lower edge ends at v: its first vertex is next to v."""
+        """The chain of a gap whose lower edge ends at v; its first vertex is adjacent to v."""
         if region == SOLID:
             return [v]
         i = 0

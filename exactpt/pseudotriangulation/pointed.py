@@ -1,15 +1,15 @@
-"""From any pseudo-triangulation to one with the fewest faces.
+"""Pointed pseudo-triangulations, which have the fewest faces, from any pseudo-triangulation.
 
-A pseudo-triangulation is *pointed* if every vertex has a tile with an angle above pi
-there, except where the free space itself has an angle below pi (a reflex vertex of a
-polygon, seen from outside). The pointed ones are those with the fewest faces:
-k + m + r - 2 in free space (paper, Lemma 2.1, which needs pointed, not minimal).
+A pseudo-triangulation is *pointed* if at every vertex some tile has an angle above pi,
+except where the free space itself has an angle below pi (at a reflex vertex of a polygon).
+The pointed ones are those with the fewest faces: k + m + r - 2 in free space (paper, Lemma
+2.1, which needs pointed, not minimal).
 
-A diagonal whose removal leaves a tile with three corners is taken out. If none is left
+A diagonal whose removal leaves a tile with three corners is removed. If there is none
 but a vertex is not pointed, one of its diagonals is flipped: the other diagonal of the
 pseudo-quadrangle does not end there, since the vertex is a corner of it. So the degree of
-the vertex falls, until two of its neighbouring angles add up to more than pi; the
-diagonal between these can be removed (it takes two corners away at the one end and, as a
+the vertex decreases until two of its adjacent angles add up to more than pi; the
+diagonal between these can be removed (it removes two corners at the one end and, as a
 face has at least three, just one at the other).
 """
 
@@ -34,8 +34,8 @@ class Change(NamedTuple):
         handle: the half-edge that was removed.
         old: its ends.
         new: the ends of the diagonal in its place, or None.
-        angles: the half-edges whose angles have changed; all of a tile where there was a
-            triangle, whose angles shared a certificate.
+        angles: the half-edges whose angles have changed; all of a tile if there was a
+            triangle, since the angles of a triangle share a certificate.
     """
 
     handle: int
@@ -47,19 +47,19 @@ class Change(NamedTuple):
 def make_pointed(
     mesh: Mesh, predicates: Predicates, nearby: Iterable[int] | None = None
 ) -> list[Change]:
-    """Remove and flip diagonals, in place, until every vertex is pointed that can be.
+    """Remove and flip diagonals, in place, until every vertex that can be pointed is.
 
     Args:
         mesh: a pseudo-triangulation.
-        predicates: of the time.
-        nearby: half-edges; only they and the vertices where they start are looked at, and
-            what follows from their changes.
+        predicates: the predicates of the time.
+        nearby: the half-edges to test, with their origins; changes propagate from them. All
+            if not given.
 
     Returns:
-        What was done, in order.
+        The changes, in order.
 
     Raises:
-        AuditError: if the mesh is no pseudo-triangulation.
+        AuditError: if the mesh is not a pseudo-triangulation.
     """
     if nearby is None:
         changes = _remove(mesh, predicates, mesh.diagonals())
@@ -79,13 +79,13 @@ def point_vertex(mesh: Mesh, first: int, predicates: Predicates) -> list[Change]
     Args:
         mesh: a pseudo-triangulation, in which no diagonal can be removed.
         first: the half-edge of the ring that starts at the vertex.
-        predicates: of the time.
+        predicates: the predicates of the time.
 
     Returns:
-        What was done, in order; nothing if the vertex is pointed or need not be.
+        The changes, in order; none if the vertex is pointed or need not be.
 
     Raises:
-        AuditError: if the mesh is no pseudo-triangulation.
+        AuditError: if the mesh is not a pseudo-triangulation.
     """
     m = mesh.map
     changes: list[Change] = []
@@ -105,7 +105,7 @@ def point_vertex(mesh: Mesh, first: int, predicates: Predicates) -> list[Change]
 
 
 def _remove(mesh: Mesh, predicates: Predicates, todo: list[int]) -> list[Change]:
-    """Take out every diagonal whose two tiles are one with three corners together."""
+    """Remove every diagonal whose two tiles merge into one with three corners."""
     m = mesh.map
     changes = []
     pending = deque(dict.fromkeys(todo))
@@ -125,7 +125,7 @@ def _remove(mesh: Mesh, predicates: Predicates, todo: list[int]) -> list[Change]
             mesh.corner[g] = is_corner
         angles = m.face(joined[0]) if was_triangle else list(joined)
         changes.append(Change(h, old, None, angles))
-        # Whether a diagonal can go is told by the four angles at its ends: two are new.
+        # The four angles at its ends decide whether a diagonal can be removed: two are new.
         for g in joined:
             for e in (g, m.previous[g]):
                 if (even := min(e, e ^ 1)) not in waiting:
@@ -152,11 +152,12 @@ def _corners_after_removal(mesh: Mesh, h: int, predicates: Predicates) -> tuple[
 def _needless_diagonals(mesh: Mesh, first: int, predicates: Predicates) -> list[int]:
     """The diagonals in a sector of a vertex whose angles are all below pi but need not be.
 
-    A sector is between two edges that stay; it needs an angle above pi if it has one.
+    A sector lies between two successive fixed edges; if the angle of a sector is above pi,
+    one of its tiles should have an angle above pi.
     """
     m = mesh.map
     v = m.origin[first]
-    sector: list[int] = []  # from an edge that stays on, the half-edges of its angles
+    sector: list[int] = []  # the half-edges of its angles, from a fixed edge on
     for h in [*m.fan(first), first]:
         if sector and mesh.is_fixed(h):
             diagonals = sector[1:]
@@ -165,7 +166,7 @@ def _needless_diagonals(mesh: Mesh, first: int, predicates: Predicates) -> list[
                 and all(mesh.corner[g] for g in sector)
                 and mesh.region[sector[0]] != OUTER
             ):
-                # Its tiles are passed from the far edge h to the near one.
+                # A face of the whole sector would pass v from the far edge h to the near one.
                 a, b = m.target(h), m.target(sector[0])
                 if a == b or predicates.sign(a, v, b) <= 0:
                     return diagonals

@@ -1,8 +1,8 @@
-"""A region of a mesh that is tiled anew: a few faces without the edges between them.
+"""A region of a mesh to be retiled: some faces without the edges between them.
 
-The rest of the mesh stays as it is, handles included. Within the region a plane sweep
-(`exactpt.pseudotriangulation.plane_sweep`) finds new diagonals, and the result is made pointed
-again; that may take out, or flip, diagonals of the tiles next to the region too.
+The rest of the mesh is unchanged, handles included. Within the region a plane sweep
+(`exactpt.pseudotriangulation.plane_sweep`) finds new diagonals, and the result is made
+pointed again; that may remove or flip diagonals of adjacent tiles too.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ __all__ = ["Region", "Retiled"]
 
 
 class Retiled(NamedTuple):
-    """What tiling a region has done.
+    """The changes made by retiling a region.
 
     Attributes:
-        handles: of edges that are gone; a later edge may have them again.
-        removed, added: diagonals that have gone and come, as pairs of vertices, in order.
-        angles: the half-edges whose angles are new, or belong to a triangle or did.
+        handles: the handles of removed edges; a later edge may use them again.
+        removed, added: the diagonals removed and added, as pairs of vertices, in order.
+        angles: the half-edges whose angles are new, or belong or belonged to a triangle.
     """
 
     handles: list[int]
@@ -48,11 +48,11 @@ class _Angle(NamedTuple):
 
 
 class Region:
-    """Faces of a mesh that have been joined.
+    """Faces of a mesh that have been merged.
 
     Args:
         mesh: the mesh; the edges are removed from it at once.
-        faces: a half-edge of every face; none if there are no edges yet.
+        faces: one half-edge of every face; none if there are no edges yet.
         gone: the edges to be removed, none of which borders another face.
 
     Attributes:
@@ -73,14 +73,14 @@ class Region:
         self._remove(list(gone))
 
     def _join(self, first: int) -> None:
-        """Take a face into the region."""
+        """Add a face to the region."""
         if first not in self._before:
             face = self.mesh.map.face(first)
             self._before.update((h, self._angle(h)) for h in face)
             self._rim += face
 
     def _remove(self, edges: list[int]) -> None:
-        """Remove edges between faces of the region; later ones may have their handles."""
+        """Remove edges between faces of the region; later edges may use their handles."""
         mesh = self.mesh
         lost = {g for h in edges for g in (h, h ^ 1)}
         self.gone += edges
@@ -92,7 +92,7 @@ class Region:
             mesh.map.remove_edge(h)
 
     def add_ring(self, vertices: Vertices, moving: MovingBody) -> None:
-        """Put the ring of a new body into the region."""
+        """Add the ring of a new body to the region."""
         mesh, m = self.mesh, self.mesh.map
         mesh.ring_edge += [NOTHING] * (len(vertices.all) - len(mesh.ring_edge))
         for v in moving.ring:
@@ -109,7 +109,7 @@ class Region:
         """Tile the region.
 
         Raises:
-            AuditError: if that is not possible: what is in it overlaps.
+            AuditError: if it cannot be tiled, because bodies in it overlap.
         """
         sweep = Sweep(predicates, self._edges(predicates, self._open()), around=self._around)
         added = [(u, v) for u, v, _ in sweep.run()]
@@ -136,11 +136,11 @@ class Region:
         return self.mesh.map.origin[h] >= 0 and self._before.get(h) != self._angle(h)
 
     def _open(self) -> list[int]:
-        """The half-edges of the rim that have on their left what is to be tiled."""
+        """The half-edges of the rim with the region to be tiled on their left."""
         return self._rim
 
     def _edges(self, predicates: Predicates, around: Iterable[int]) -> Iterable[SweptEdge]:
-        """The edges of half-edges around some faces, from left to right, and what is above."""
+        """The swept edges of half-edges around some faces."""
         rim = dict.fromkeys(around)
         done: set[int] = set()
         for h in rim:
@@ -150,7 +150,7 @@ class Region:
                 yield SweptEdge(*self.mesh.ends(g), FREE if g in rim else SOLID)
 
     def _insert(self, predicates: Predicates, diagonals: Iterable[tuple[int, int]]) -> list[int]:
-        """Link new diagonals into the fans of their ends; their half-edges."""
+        """Link new diagonals into the stars of their ends; returns their half-edges."""
         mesh, m = self.mesh, self.mesh.map
         new: dict[int, list[int]] = {}
         for u, v in diagonals:
@@ -169,7 +169,7 @@ class Region:
         return [h for edges in new.values() for h in edges]
 
     def _mark(self, predicates: Predicates, inside: list[int]) -> None:
-        """Mark the angles that are new, and say which face is outside of everything."""
+        """Mark the new angles, and the outer face."""
         mesh, m = self.mesh, self.mesh.map
         for h in inside:
             mesh.region[h] = FREE

@@ -1,9 +1,9 @@
 """Snapshots: a tiling as plain data, at a rational time.
 
-Vertices are those of the scene. The copies of a thin vertex become one; faces that have
-no area then are left out, and edges that run along such a face are cut at its vertices.
-What remains is a tiling of the unperturbed free space: no vertex lies inside an edge, and
-every face has three corners.
+Vertices are those of the scene. Infinitesimal copies of a vertex are contracted to it;
+faces without area are dropped, and edges along such a face are split at its vertices.
+What remains is a tiling of the unperturbed free space: no vertex lies in the interior of an
+edge, and every face has three corners.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ __all__ = ["Edge", "Face", "Node", "Snapshot", "node_of", "snapshot", "snapshot_
 @final
 @dataclass(frozen=True, slots=True)
 class Node:
-    """A vertex of the scene and where it is."""
+    """A vertex of the scene and its position."""
 
     body: str
     vertex: int
@@ -54,7 +54,7 @@ class Node:
 
 
 def node_of(body: str, vertex: int, x: str, y: str) -> Node:
-    """The node that a pickle tells."""
+    """The node of a pickle."""
     return Node(body, vertex, parse_rational(x), parse_rational(y))
 
 
@@ -78,10 +78,10 @@ class Face:
     """A pseudo-triangle.
 
     Attributes:
-        nodes: counter-clockwise.
-        corners: the three of them with an angle below pi.
-        region: "F1" inside the relative hull of a body, "F2" outside all of them.
-        body: in F1, whose relative hull.
+        nodes: the nodes around it, counter-clockwise.
+        corners: the three nodes with an angle below pi.
+        region: "F1" inside the relative hull of a body, "F2" outside all relative hulls.
+        body: in F1, the body of the relative hull.
         level: in F1, the level of its geodesic.
     """
 
@@ -101,7 +101,7 @@ class Snapshot:
     """A tiling at a time.
 
     Attributes:
-        tiling: its name.
+        tiling: the name of the tiling.
         nodes: all vertices of the scene, in its order.
         edges: body edges and diagonals, in order of their nodes.
         faces: the pseudo-triangles.
@@ -118,19 +118,20 @@ class Snapshot:
 
     @property
     def at(self) -> Fraction:
-        """The time; the tiling is the one of that very time."""
+        """The time; the tiling is the one at that time itself."""
         return fraction(self._at)
 
     @property
     def diagonals(self) -> tuple[Edge, ...]:
-        """The edges that no body has."""
+        """The edges that are not body edges."""
         return tuple(e for e in self.edges if e.kind == "diagonal")
 
     @property
     def fan(self) -> tuple[tuple[int, int], ...]:
-        """Of an incremental tiling, what makes it the fan triangulation (paper, section 3.4).
+        """The edges that refine an incremental tiling to the fan triangulation (paper, 3.4).
 
-        From the last corner of every face in x-order to the vertices that are no corners.
+        They join the last corner in x-order of every face to its vertices that are not
+        corners.
         """
         edges = []
         for face in self.faces:
@@ -172,17 +173,17 @@ def snapshot_of(
     edges: tuple[Edge, ...],
     faces: tuple[Face, ...],
 ) -> Snapshot:
-    """The snapshot that a pickle tells."""
+    """The snapshot of a pickle."""
     return Snapshot(parse_rational(at), tiling, nodes, edges, faces)
 
 
 def snapshot(vertices: Vertices, mesh: Mesh, name: str, at: QQ) -> Snapshot:
-    """The tiling that a mesh is at a rational time, in terms of the scene.
+    """The tiling of a mesh at a rational time, in terms of the scene.
 
     Args:
-        vertices: with the tracks of that time.
-        mesh: the tiling of that very time (`KineticTiling.mesh_now`).
-        name: of the tiling.
+        vertices: the moving vertices, with the trajectories of that time.
+        mesh: the tiling at that time itself (`KineticTiling.mesh_now`).
+        name: the name of the tiling.
         at: the time.
     """
     return _Contraction(vertices, mesh, at).snapshot(name)
@@ -225,22 +226,22 @@ class _Contraction:
         return Snapshot(self.at, name, tuple(self.nodes), tuple(edges), tuple(faces))
 
     def _is_inside(self, h: int) -> bool:
-        """Whether an edge is a diagonal within a body, which is no part of the free space."""
+        """Whether an edge is a diagonal inside a body, and so not in the free space."""
         return self.mesh.region[h] == INSIDE and not self.mesh.is_boundary(h)
 
     def _contracted(self, face: Sequence[int]) -> tuple[list[int], list[int]]:
-        """The nodes around a face, runs of copies as one; and the nodes of its corners."""
+        """The nodes around a face, with runs of copies contracted, and those of its corners."""
         ids = [self.node[self.mesh.map.origin[h]] for h in face]
         nodes = [v for before, v in zip([ids[-1], *ids[:-1]], ids, strict=True) if v != before]
         return nodes, [self.node[self.mesh.map.origin[h]] for h in face if self.mesh.corner[h]]
 
     def _has_area(self, corners: Sequence[int]) -> bool:
-        """Whether a face with these corners bounds an area."""
+        """Whether a face with these corners has an area."""
         a, b, c = ((self.nodes[v]._x, self.nodes[v]._y) for v in corners)
         return side(a, b, c) != 0
 
     def _cut_along(self, nodes: Sequence[int]) -> None:
-        """Cut the edges of a face without area at its vertices that lie inside them."""
+        """Split the edges of a face without area at its vertices in their interiors."""
         ordered = sorted(set(nodes), key=lambda v: (self.nodes[v]._x, self.nodes[v]._y))
         rank = {v: i for i, v in enumerate(ordered)}
         for u, v in pairwise([*nodes, nodes[0]]) if len(ordered) > 2 else ():
@@ -249,7 +250,7 @@ class _Contraction:
                 self.cuts.setdefault(edge_key(u, v), set()).update(ordered[low + 1 : high])
 
     def _path(self, u: int, v: int) -> Iterator[int]:
-        """The nodes from u to v along an edge and its cuts, without v."""
+        """The nodes from u to v along an edge with its splits, v excluded."""
         inside = self.cuts.get(edge_key(u, v))
         if not inside:
             yield u

@@ -1,1 +1,1 @@
-"""What is given: bodies and a time span, and their file format."""
+"""Scenes, the input of every run: bodies and a time span, and their file format."""

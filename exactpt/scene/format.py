@@ -1,4 +1,4 @@
-"""Scenes as JSON: read with every refusal of docs/format.md, written exactly."""
+"""Scenes as JSON: validated as in docs/format.md when read, written exactly."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def load(path: Path) -> Scene:
 
 
 def loads(text: str) -> Scene:
-    """The scene that a JSON text describes.
+    """The scene in a JSON text.
 
     Raises:
         InputError: one line that names the body, the key and the value.
@@ -71,7 +71,7 @@ def loads(text: str) -> Scene:
 
 
 def from_json(data: Mapping[str, object]) -> Scene:
-    """The scene that is given as JSON data.
+    """The scene in JSON data.
 
     Raises:
         InputError: one line that names the body, the key and the value.
@@ -218,7 +218,7 @@ def to_json(scene: Scene) -> dict[str, object]:
     """The scene as JSON data, rationals as ``"p/q"``; `loads` gives the same scene back.
 
     Raises:
-        InputError: if it has a number, or a motion of the caller's own, that files have not.
+        InputError: if it has a number or a custom motion that files cannot hold.
     """
     return {
         "exactpt": VERSION,
@@ -283,5 +283,5 @@ def _motion_to_json(motion: Motion) -> dict[str, object]:
 
 
 def save(scene: Scene, path: Path) -> None:
-    """Write a scene file; it is complete or not there."""
+    """Write a scene file atomically."""
     write_atomically(path, json.dumps(to_json(scene), indent=1) + "\n")

@@ -1,4 +1,4 @@
-"""Seeded scenes by family, from generic to wholly degenerate: the same on every machine."""
+"""Random scenes by family and seed, generic to fully degenerate: the same on every machine."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ SIMPLE: Final[dict[str, Family]] = {
 """Families with simple polygons of any shape."""
 
 FAMILIES: Final[dict[str, Family]] = {**CONVEX, **SIMPLE}
-"""All families of bodies of any kind; each makes a scene from a random generator."""
+"""All families but those of points alone; each makes a scene from a random generator."""
 
 POINTS: Final[dict[str, Family]] = {
     "linear_points": points.linear_points,

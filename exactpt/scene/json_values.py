@@ -1,7 +1,7 @@
-"""JSON whose numbers stay text until they are rationals, and what is refused in it.
+"""JSON with exact numbers, and its validation.
 
-Numbers never pass through a float: JSON numbers reach `parse_rational` as the text
-that is in the file.
+Numbers never pass through a float: `parse_rational` gets JSON numbers as the text in the
+file.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ __all__ = [
 ]
 
 MOST_DIGITS: Final = 10_000
-"""Numerators and denominators have no more: exact arithmetic would not end with many more."""
+"""Maximum number of digits of a numerator or denominator, to bound the cost of arithmetic."""
 MOST_BITS: Final = 33_220
-"""The length of the largest number with so many digits."""
+"""Bit length of the largest integer with `MOST_DIGITS` digits."""
 
 
 class Number(str):
@@ -45,7 +45,7 @@ def parse_json(text: str) -> Json:
     """The value of a JSON text, numbers as they are written.
 
     Raises:
-        InputError: if it is no JSON, or names a key twice.
+        InputError: if it is not JSON, or repeats a key.
         RecursionError: if it is nested too deeply.
     """
     try:
@@ -53,7 +53,7 @@ def parse_json(text: str) -> Json:
             text,
             parse_int=Number,
             parse_float=Number,
-            parse_constant=Number,  # NaN and the infinities: refused where they stand
+            parse_constant=Number,  # NaN and infinities: refused later, with their place
             object_pairs_hook=_unique_keys,
         )
     except json.JSONDecodeError as error:
@@ -72,10 +72,10 @@ def _unique_keys(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
 
 
 def exact_number(data: Json, where: str) -> QQ:
-    """The rational that a number or a text denotes.
+    """The rational that a number or a string denotes.
 
     Raises:
-        InputError: if it is none, or has more than `MOST_DIGITS`.
+        InputError: if it is not a rational, or has more than `MOST_DIGITS`.
     """
     if not isinstance(data, str):
         raise InputError(f"{where}: not a number: {shown(data)}")
@@ -97,7 +97,7 @@ def a_list(data: Json, where: str, length: int | None = None) -> list[Json]:
     """The entries of a list, of this length if one is given.
 
     Raises:
-        InputError: if it is none.
+        InputError: if it is not such a list.
     """
     if not isinstance(data, list):
         raise InputError(f"{where}: not a list: {shown(data)}")
@@ -115,7 +115,7 @@ def an_object(
     """An object with all of the required keys, and no others but the optional ones.
 
     Raises:
-        InputError: if it is none.
+        InputError: if it is not such an object.
     """
     if not isinstance(data, dict):
         raise InputError(f"{where}: not an object: {shown(data)}")
@@ -131,7 +131,7 @@ def an_object(
 
 
 def shown(data: Json) -> str:
-    """A value in a message, short and on one line."""
+    """A value as text for a message, short and on one line."""
     if isinstance(data, (Number, bool)) or data is None:
         return shorten(str(data) if isinstance(data, Number) else json.dumps(data))[1:-1]
     return shorten(json.loads(json.dumps(data)) if isinstance(data, (list, dict)) else data)

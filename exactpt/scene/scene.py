@@ -1,4 +1,4 @@
-"""Scenes: what is given. Bodies and a closed time span, validated before anything runs."""
+"""Scenes: bodies and a closed time span, validated before anything runs."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Scene:
         bodies: in the order of the file; names are unique.
 
     Raises:
-        InputError: if names repeat, the span is empty or reversed, or a polygon or
+        InputError: if a name repeats, the end is not after the start, or a polygon or
             chain is not simple at the start.
     """
 
@@ -66,7 +66,7 @@ class Scene:
                 f"at the start, t = {show(self._start)}: "
                 f"edge {i} from {show(*points[i])} meets edge {j} from {show(*points[j])}"
             )
-        if body.closed and len(points) > 2 and signed_area2(points) == 0:
+        if body.has_interior and signed_area2(points) == 0:
             raise InputError(
                 f"body {shorten(body.name)}: the polygon has no area at t = {show(self._start)}"
             )
@@ -83,11 +83,11 @@ class Scene:
         return load(Path(path))
 
     def save(self, path: str | Path) -> None:
-        """Write the scene as JSON, exactly; the file is complete or not there.
+        """Write the scene as JSON, exactly and atomically: the file is complete or not there.
 
         Raises:
-            InputError: if it cannot be written, or the scene has what no file has: a number
-                of more than 10,000 digits, or a motion of the caller's own.
+            InputError: if the file cannot be written, or the scene has a number of more than
+                10,000 digits or a custom motion, which files cannot hold.
         """
         from exactpt.scene.format import save
 
@@ -105,9 +105,9 @@ class Scene:
 
     @classmethod
     def from_json(cls, data: Mapping[str, object]) -> Scene:
-        """The scene that `to_json` has written; see docs/format.md.
+        """The scene in JSON data, as from `to_json`; see docs/format.md.
 
-        A float counts as the decimal that Python writes for it, as in a file.
+        A float counts as the decimal that Python prints for it, as in a file.
 
         Raises:
             InputError: one line that names the body, the key and the value.
@@ -117,7 +117,7 @@ class Scene:
         return from_json(data)
 
     def to_json(self) -> dict[str, object]:
-        """The scene as data for ``json.dump``, exactly: what `save` writes.
+        """The scene as data for ``json.dump``, exact: what `save` writes.
 
         Raises:
             InputError: see `save`.
@@ -127,7 +127,7 @@ class Scene:
         return to_json(self)
 
     def body(self, name: str) -> Body:
-        """The body with a name.
+        """The body of this name.
 
         Raises:
             InputError: if there is none.
@@ -149,10 +149,10 @@ class Scene:
         *,
         holes: Literal["refuse", "fill"] = "refuse",
     ) -> Scene:
-        """The scene at rest of shapely geometries: a body for each part of each.
+        """The scene of shapely geometries, at rest: one body for each part of each.
 
         Args:
-            geometries: by name, or in order; coordinates are taken at their exact value.
+            geometries: by name, or in order; the exact values of their doubles are taken.
             time: the start and the end of the scene.
             holes: "refuse" polygons with holes, or "fill" them.
 
@@ -174,7 +174,7 @@ class Scene:
         return geometries
 
     def until(self, end: Rational) -> Scene:
-        """The scene up to an earlier end (a later one changes nothing).
+        """The scene up to an earlier end; a later end changes nothing.
 
         Raises:
             InputError: if the end is not after the start.
@@ -189,7 +189,7 @@ class Scene:
         return other
 
     def going_on(self, bodies: Iterable[Body], start: QQ) -> Scene:
-        """The scene from a later start on, with bodies that are known to be valid then."""
+        """The scene from a later start on, with bodies already known to be valid then."""
         other = Scene.__new__(Scene)
         other.bodies, other._start, other._end = tuple(bodies), start, self._end
         return other
@@ -200,7 +200,7 @@ class Scene:
         return sum(body.size for body in self.bodies)
 
     def __eq__(self, other: object) -> bool:
-        """Whether all bodies are the same, in order, and the time span is."""
+        """Whether the bodies, in order, and the time spans are equal."""
         if not isinstance(other, Scene):
             return NotImplemented
         return (self.bodies, self._start, self._end) == (other.bodies, other._start, other._end)
@@ -212,7 +212,7 @@ class Scene:
         return _valid_scene, (self.bodies, str(self._start), str(self._end))
 
     def _repr_svg_(self) -> str:
-        """The bodies at the start, for notebooks."""
+        """The bodies at the start as SVG, for notebooks."""
         return str(extension("picture of a scene")(self))
 
     def __repr__(self) -> str:
@@ -223,7 +223,7 @@ class Scene:
 
 
 def _valid_scene(bodies: tuple[Body, ...], start: str, end: str) -> Scene:
-    """A scene that has been one before."""
+    """The scene of a pickle, which was validated before."""
     scene = Scene.__new__(Scene)
     scene.bodies, scene._start, scene._end = bodies, rational(start), rational(end)
     return scene

@@ -12,9 +12,11 @@ import random
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from strategies import as_primitive
+
 from exactpt.kernel import filters
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.integer_polynomial import from_rationals, sign_at
+from exactpt.kernel.integer_polynomial import sign_at
 from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of_two, rational
 from exactpt.kernel.roots import roots_after
 from exactpt.kernel.sturm import cauchy_bound, count_roots, sturm_sequence
@@ -71,7 +73,7 @@ def judge(case: Case, said: filters.Answer) -> str:
     s, low, high = said
     if s == 0:
         return ""
-    f, now = from_rationals(case.true), case.instant()
+    f, now = as_primitive(case.true), case.instant()
     expected = now.sign_after(f)
     if s != expected:
         return f"sign {s}, not {expected}"
@@ -118,7 +120,7 @@ def asked(rng: random.Random, true, roots, c, e) -> Case:
     if rng.random() < 0.1:
         width = 2.0 ** -rng.randint(0, 40)
         now_low, now_high = now_low - width * rng.random(), now_high + width * rng.random()
-    vanishes = number.sign_of(from_rationals(true)) == 0 and any(true)
+    vanishes = number.sign_of(as_primitive(true)) == 0 and any(true)
     at_root = vanishes and rng.random() < 0.7
     horizon = _horizon(rng, number, now_low, now_high, roots)
     return Case(tuple(true), c, e, now, now_low, now_high, horizon, at_root)
@@ -293,7 +295,7 @@ def _now(rng, true, roots):
             x = math.nextafter(x, rng.choice([math.inf, -math.inf]))
         return rational(x)
     if kind < 0.75:
-        f = from_rationals(true)
+        f = as_primitive(true)
         if len(f) > 1:
             bound = cauchy_bound(f)
             found = [r.time for r in roots_after(f, AlgebraicNumber(-bound), bound)]
@@ -301,7 +303,7 @@ def _now(rng, true, roots):
                 return rng.choice(found)
     if kind < 0.85:
         centre = abs(rng.choice(roots)) + 1
-        surd = from_rationals([-centre * centre * QQ(rng.randint(90, 110), 100), QQ(0), QQ(1)])
+        surd = as_primitive([-centre * centre * QQ(rng.randint(90, 110), 100), QQ(0), QQ(1)])
         found = list(roots_after(surd, AlgebraicNumber(0), 2 * centre))
         if found:
             return found[0].time
@@ -369,7 +371,7 @@ def extreme(rng: random.Random, degree: int) -> Case:
 def generic(rng: random.Random, d: int) -> Case:
     """A certificate of three random points on paths of degree d, now another's root."""
     f = certificate(rng, d, grid=10**6)
-    other = from_rationals(certificate(rng, d, grid=10**6))
+    other = as_primitive(certificate(rng, d, grid=10**6))
     start = AlgebraicNumber(QQ(rng.randint(0, 10**6), 10**6))
     found = next(roots_after(other, start, QQ(10)), None)
     now = found.time if found else QQ(rng.randint(0, 10**6), 10**6)

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from oracles import exact, real_roots, value
 from strategies import (
     as_int_poly,
+    as_primitive,
     as_rational,
     fractions,
     int_polys,
@@ -23,7 +24,6 @@ from exactpt.kernel.integer_polynomial import (
     add,
     derivative,
     evaluate,
-    from_rationals,
     greatest_common_divisor,
     multiply,
     negate,
@@ -96,21 +96,6 @@ def test_values_and_signs(f, t):
     assert sign_at(f, as_rational(t)) == (expected > 0) - (expected < 0)
 
 
-@given(f=st.lists(wide_fractions, max_size=5))
-def test_from_rationals_is_the_primitive_positive_multiple(f):
-    g = from_rationals([as_rational(q) for q in f])
-
-    assert primitive(g) == g
-    if not any(f):
-        assert g == ()
-        return
-    while not f[-1]:
-        f.pop()
-    ratio = int(g[-1]) / f[-1]
-    assert ratio > 0
-    assert [ratio * q for q in f] == [int(c) for c in g]
-
-
 @given(f=polys, k=st.integers(1, 10**20))
 def test_primitive_divides_by_the_content_and_keeps_the_sign(f, k):
     g = primitive(scale(f, k))
@@ -126,7 +111,7 @@ def test_the_remainder_is_a_positive_multiple_of_the_rational_one(f, g):
 
     remainder = positive_remainder(f, g)
 
-    assert remainder == from_rationals(
+    assert remainder == as_primitive(
         [as_rational(Fraction(int(c.p), int(c.q))) for c in expected.coeffs()]
     )
 
@@ -188,7 +173,6 @@ def test_the_zero_polynomial_and_constants():
     assert multiply(zero, five) == zero
     assert derivative(five) == zero
     assert primitive(zero) == zero
-    assert from_rationals([]) == zero
     assert greatest_common_divisor(zero, zero) == zero
     assert greatest_common_divisor(zero, negate(five)) == as_int_poly([1])
     assert positive_remainder(five, five) == zero

@@ -66,7 +66,7 @@ def padded(f, size):
 def test_images_of_translating_tracks_are_within_the_errors(frame, x, y):
     path = track(Polynomial(x), Polynomial(y), None, None)
 
-    image = frame.image(path)
+    image = frame.images([path])[0]
 
     if math.isnan(image.x0):
         return
@@ -86,7 +86,7 @@ def test_images_of_turning_tracks_are_right_to_a_unit(frame, h, x):
     w = Polynomial([1]) + turn * turn
     path = track(Polynomial(x), turn, w, ("turn", 1))
 
-    image = frame.image(path)
+    image = frame.images([path])[0]
 
     if math.isnan(image.x0) or not image.ws:
         return
@@ -111,7 +111,7 @@ def test_bug_a_coefficient_too_small_for_a_double_counts_as_zero():
     frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
     tiny = Polynomial([1, Fraction(1, 10**400)])
 
-    image = frame.image(track(tiny, Polynomial([1]), None, None))
+    image = frame.images([track(tiny, Polynomial([1]), None, None)])[0]
 
     assert math.isnan(image.x0) or frame.errors[1] > 0.0
 
@@ -120,7 +120,7 @@ def test_bug_the_errors_are_shorter_than_an_image_of_nan():
     """A cubic of immoderate size left ``errors`` at two entries: an IndexError later."""
     frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
 
-    image = frame.image(track(Polynomial([0, 0, 0, 10**40]), Polynomial([1]), None, None))
+    image = frame.images([track(Polynomial([0, 0, 0, 10**40]), Polynomial([1]), None, None)])[0]
 
     assert math.isnan(image.x0)
     assert len(frame.errors) >= len(image.xs)
@@ -154,7 +154,7 @@ def test_ordinary_scenes_keep_their_integers(points, x, end):
     exact_points = [(as_rational(p), as_rational(q)) for p, q in points]
     frame = frame_for(exact_points, QQ(0), QQ(end))
 
-    image = frame.image(track(Polynomial(x), Polynomial([7]), None, None))
+    image = frame.images([track(Polynomial(x), Polynomial([7]), None, None)])[0]
 
     assert [value(x, Fraction(1))] == [sum(map(Fraction, image.xs), Fraction(0))]
     assert not any(frame.errors)
@@ -164,10 +164,12 @@ def test_ordinary_scenes_keep_their_integers(points, x, end):
 def test_integers_are_exact_as_far_as_doubles_are():
     frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
 
-    exact_ones = frame.image(track(Polynomial([2**53 - 1, -(2**53)]), Polynomial([]), None, None))
+    exact_ones = frame.images(
+        [track(Polynomial([2**53 - 1, -(2**53)]), Polynomial([]), None, None)]
+    )[0]
     errors = list(frame.errors)
-    rounded = frame.image(track(Polynomial([2**53 + 1]), Polynomial([1]), None, None))
-    huge = frame.image(track(Polynomial([10**400]), Polynomial([1]), None, None))
+    rounded = frame.images([track(Polynomial([2**53 + 1]), Polynomial([1]), None, None)])[0]
+    huge = frame.images([track(Polynomial([10**400]), Polynomial([1]), None, None)])[0]
 
     assert exact_ones.xs == [2.0**53 - 1, -(2.0**53)]
     assert exact_ones.ys == [0.0, 0.0]
@@ -185,7 +187,7 @@ def test_tracks_of_one_body_have_one_motion():
     first, second, third, fourth = (image.motion for image in frame.images(tracks))
 
     assert first == second == fourth != third
-    assert frame.image(tracks[0]).motion == first
+    assert frame.images(tracks[:1])[0].motion == first
 
 
 def test_integer_vertices_among_others_of_one_body():

@@ -95,12 +95,12 @@ def test_tracks_of_one_frame_keep_their_distances(shapes, turn, pivots, shift, d
         for i, shape in enumerate(shapes)
         for track in Body(f"b{i}", shape, motion)._piece_after(QQ(0)).tracks
     ]
-    by_frame = {}
+    by_motion = {}
     for track in tracks:
-        if track.frame is not None:
-            by_frame.setdefault(track.frame, []).append(track)
+        if track.motion is not None:
+            by_motion.setdefault(track.motion, []).append(track)
 
-    for together in by_frame.values():
+    for together in by_motion.values():
         for a, b in pairwise(together):
             assert len({distance2(a, b, t) for t in (-2, 0, Fraction(1, 3), 1, 5)}) == 1
 
@@ -115,8 +115,8 @@ def test_vertices_that_translate_together_have_equal_frames(shape, shift, drift)
     a, b = Body("a", shape, Translation(shift, drift))._piece_after(QQ(0)).tracks
     c = Body("c", [shape[0]], Translation([1, *shift[1:]], [2, *drift[1:]]))._piece_after(QQ(0))
 
-    assert a.frame is not None
-    assert a.frame == b.frame == c.tracks[0].frame
+    assert a.motion is not None
+    assert a.motion == b.motion == c.tracks[0].motion
 
 
 def test_vertices_that_turn_together_have_equal_frames_unless_they_deform():
@@ -125,8 +125,8 @@ def test_vertices_that_turn_together_have_equal_frames_unless_they_deform():
     (c,) = Body("c", [{"x": [0, 1], "y": [0]}], turn)._piece_after(QQ(0)).tracks
     (d,) = Body("d", [(0, 0)], Rigid([0, 1], pivot=(1, 1)))._piece_after(QQ(0)).tracks
 
-    assert a.frame == b.frame != d.frame
-    assert c.frame is None
+    assert a.motion == b.motion != d.motion
+    assert c.motion is None
 
 
 @given(point=points, turn=polys, pivot=points, x=polys, y=polys, t=times)

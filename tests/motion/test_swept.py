@@ -33,7 +33,7 @@ bodies = st.one_of(
 def test_boxes_contain_the_vertices(bodies, begin, length):
     tracks = [body._piece_after(QQ(0)).tracks[0] for body in bodies]
     frame = frame_for([body.at(QQ(0))[0] for body in bodies], QQ(0), QQ(8))
-    images = [frame.image(track) for track in tracks]
+    images = frame.images(tracks)
     first, last = as_rational(begin), as_rational(begin + length)
     low, high = frame.time(first)[0], frame.time(last)[1]
 
@@ -66,7 +66,7 @@ def test_what_all_have_in_common_moves_no_box():
     ]
     frame = frame_for([(QQ(0), QQ(0)), (QQ(12), QQ(4))], QQ(0), QQ(1000))
 
-    swept = SweptBoxes([frame.image(track) for track in tracks], frame.errors)
+    swept = SweptBoxes(frame.images(tracks), frame.errors)
 
     for i, box in enumerate(swept.during(0.0, 1000.0).tolist()):
         assert [round(v, 6) for v in box] == [3 * i, 3 * i, i, i]
@@ -81,10 +81,10 @@ def test_boxes_contain_what_underflows(bits, numerator):
     for degree in range(1060 // bits - 1, 1074 // bits + 2):
         power = Body("a", [(0, 0)], Translation([0] * degree + [1]))
         frame = frame_for([(QQ(0), QQ(0))], QQ(0), QQ(1))
-        image = frame.image(power._piece_after(QQ(0)).tracks[0])
+        image = frame.images([power._piece_after(QQ(0)).tracks[0]])[0]
         low, high = frame.time(t)[0], frame.time(t * (1 + QQ(1, 1 << 50)))[1]
 
-        rest = frame.image(Body("b", [(0, 0)])._piece_after(QQ(0)).tracks[0])
+        rest = frame.images([Body("b", [(0, 0)])._piece_after(QQ(0)).tracks[0]])[0]
         swept = SweptBoxes([image, rest, rest], frame.errors)
         x_low, x_high, *_ = swept.during(low, high)[0].tolist()
 
@@ -99,7 +99,7 @@ def test_boxes_are_tight():
     assert frame.point((QQ(1, 2), QQ(1, 2))) == (0.5, 0.5)
 
     rest = Body("b", [(1, 1)])._piece_after(QQ(0)).tracks[0]
-    images = [frame.image(track) for track in (line, turn, rest, rest)]
+    images = frame.images([line, turn, rest, rest])
     boxes = SweptBoxes(images, frame.errors).during(0.0, 1.0)
 
     assert [round(v, 9) for v in boxes[0].tolist()] == [0, 1, -2, 0]
@@ -114,7 +114,7 @@ def test_what_cannot_be_bounded_has_the_whole_plane():
     spin = Body("b", [(1, 0)], Rigid([0, 1]))._piece_after(QQ(0)).tracks[0]
     rest = Body("c", [(1, 1)])._piece_after(QQ(0)).tracks[0]
     frame = frame_for([(QQ(0), QQ(0)), (QQ(1), QQ(1))], QQ(0), QQ(100))
-    images = [frame.image(track) for track in (huge, spin, rest)]
+    images = frame.images([huge, spin, rest])
 
     boxes = SweptBoxes(images, frame.errors).during(-50.0, 50.0).tolist()
 

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exactpt.bench.methods.method import UnsuitableScene
-from exactpt.geometry.polygon import edges
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.scene.scene import Scene
@@ -70,11 +69,11 @@ class Moving:
             tracks = body._piece_after(scene._start).tracks
             if any(len(track.w) > 1 for track in tracks):
                 raise UnsuitableScene("bodies that turn")
-            rigid = all(t.frame is not None and t.frame == tracks[0].frame for t in tracks)
+            rigid = all(t.motion is not None and t.motion == tracks[0].motion for t in tracks)
             first = len(xs)
-            closed = body.closed and body.size > 2
+            closed = body.has_interior
             self.shapes.append(Shape(first, body.size, closed=closed, deforms=not rigid))
-            pairs += [(first + a, first + b) for a, b in edges(body.size, closed=body.closed)]
+            pairs += [(first + a, first + b) for a, b in body.edges]
             xs += [_doubles(track.x, track.w) for track in tracks]
             ys += [_doubles(track.y, track.w) for track in tracks]
         width = max(map(len, (*xs, *ys)), default=1)

@@ -1,1 +1,1 @@
-"""Seeded scene families, from generic to wholly degenerate; see `exactpt.scene.generate`."""
+"""Scene families, from generic to fully degenerate; see `exactpt.scene.generate`."""

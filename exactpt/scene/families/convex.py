@@ -45,7 +45,7 @@ def mixed_shapes(rng: Random) -> Scene:
 
 
 def ballistic(rng: Random) -> Scene:
-    """Shapes on parabolas."""
+    """Shapes that move along parabolas."""
     k = rng.randint(2, 9)
     bodies = []
     for i, c in enumerate(cells(rng, k, 100)):
@@ -91,7 +91,7 @@ def deforming(rng: Random) -> Scene:
 
 
 def pieces(rng: Random) -> Scene:
-    """Shapes that change their velocity at rational times, some at the same one."""
+    """Shapes that change velocity at rational times, some of them simultaneously."""
     k = rng.randint(2, 9)
     bodies = []
     for i, c in enumerate(cells(rng, k, 100)):
@@ -115,7 +115,7 @@ def keyframed(rng: Random) -> Scene:
 
 
 def _shaken(rng: Random, name: str, outline: Sequence[Point], times: Sequence[int]) -> Body:
-    """A body whose vertices are a little off an outline, elsewhere at each time."""
+    """A body with a keyframe at each time, its vertices randomly near an outline."""
     frames = [
         (t, [(x + rng.randint(-9, 9), y + rng.randint(-9, 9)) for x, y in outline]) for t in times
     ]

@@ -1,4 +1,4 @@
-"""Scenes where everything coincides: grids, rows, mirror images, grazing passes."""
+"""Highly degenerate scenes: grids, rows, mirror images, grazing passes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ __all__ = [
 
 
 def small_grid(rng: Random) -> Scene:
-    """Shapes with tiny integer coordinates and velocities: everything coincides."""
+    """Shapes with tiny integer coordinates and velocities: degeneracies everywhere."""
     k = rng.randint(2, 8)
     bodies = [
         Body(f"b{i}", shape(rng, c, 1), velocity(rng, 1)) for i, c in enumerate(cells(rng, k, 3))
@@ -85,7 +85,7 @@ def row(rng: Random) -> Scene:
 
 
 def convoy(rng: Random) -> Scene:
-    """All bodies with one velocity, but perhaps one."""
+    """Bodies with a common velocity, except perhaps one."""
     k = rng.randint(3, 10)
     common = velocity(rng, 20)
     bodies = [Body(f"b{i}", shape(rng, c, 40), common) for i, c in enumerate(cells(rng, k, 100))]
@@ -122,7 +122,7 @@ def polygons_in_step(rng: Random) -> Scene:
 
 
 def grazing(rng: Random) -> Scene:
-    """Bodies thrown up to a ceiling that they reach, miss or pass by a little or not at all."""
+    """Bodies thrown up at a ceiling, which they graze or miss, some by very little."""
     k = rng.randint(1, 5)
     bodies = [Body("ceiling", [(-10, 10), (10 * k, 10), (10 * k, 12), (-10, 12)])]
     tiny = QQ(1, 10 ** rng.choice([3, 12, 40]))
@@ -138,7 +138,7 @@ def grazing(rng: Random) -> Scene:
 
 
 def concentric(rng: Random) -> Scene:
-    """Rings of equal bodies that turn about one center, or grow from it."""
+    """Concentric rings of equal bodies that turn about the center or grow from it."""
     counts = [rng.choice([2, 2, 4, 8]) for _ in range(rng.randint(1, 2))]
     turns = [rng.choice([QQ(0), QQ(1, 2), QQ(1, 2), QQ(-1), QQ(1, 4)]) for _ in counts]
     reach = rng.choice([2, 3, 4])
@@ -146,18 +146,18 @@ def concentric(rng: Random) -> Scene:
 
 
 def rings(counts: Sequence[int], turns: Sequence[QQ], reach: int, time: tuple[int, int]) -> Scene:
-    """Around a square: rings of 2, 4 or 8 diamonds, each ring turning in step.
+    """Rings of 2, 4 or 8 diamonds around a square, each ring turning in step.
 
     Args:
-        counts: how many bodies, ring by ring.
-        turns: of each ring, the tangent of half its angle at t = 1.
-        reach: half the width of a diamond; rings are 7 apart.
-        time: the span.
+        counts: the number of bodies of each ring.
+        turns: for each ring, the tangent of half its angle at t = 1.
+        reach: half the width of a diamond; the rings are 7 apart.
+        time: the time span.
     """
     bodies = [Body("center", [(2, 0), (0, 2), (-2, 0), (0, -2)])]
     for ring, (count, turn) in enumerate(zip(counts, turns, strict=True), start=1):
         for i in range(0, 8, 8 // count):
-            # Points of equal distance: (4, 3), (3, 4), ... on a circle of radius 5.
+            # Points at equal distance: (4, 3), (3, 4), ... on a circle of radius 5.
             x, y = (QQ(c * 7 * ring, 5) for c in _COMPASS[i])
             half = QQ(reach)
             diamond = [(x + half, y), (x, y + half), (x - half, y), (x, y - half)]
@@ -169,7 +169,7 @@ _COMPASS: Final = ((5, 0), (4, 3), (0, 5), (-3, 4), (-5, 0), (-4, -3), (0, -5), 
 
 
 def sweeping(rng: Random) -> Scene:
-    """Bodies that slide along the line of another's edge, on it, or a little off it."""
+    """Bodies that slide along the line of another body's edge, or a little off it."""
     k = rng.randint(1, 4)
     tiny = QQ(1, 10 ** rng.choice([1, 12, 40]))
     bodies = [Body("table", box(0, -3, 6 * k, 3))]
@@ -190,11 +190,11 @@ def sweeping(rng: Random) -> Scene:
 
 
 def hairs(rng: Random) -> Scene:
-    """A comb that comes down on a wall with all teeth at once, by coefficients of any size."""
+    """A comb that comes down on a wall, all teeth at once, with coefficients of any size."""
     teeth = rng.choice([2, 5, 9, 28])
     e = rng.choice([0, 1, -1]) * QQ(1, 10 ** rng.choice([20, 40, 400]))
     gap = rng.choice([0, 0, 1, -1]) * QQ(1, 10 ** rng.choice([1, 40]))
-    # Down at t = 1: to go up again, or to go through.
+    # Down at t = 1, then up again or through.
     path = rng.choice([[QQ(0), e - 2, 1 - 2 * e, e], [QQ(0), -1 - e, QQ(0), e]])
     drift = rng.choice([poly(0), poly(0, e), poly(0, 1)])
     tips = [p for i in range(teeth) for p in ((2 * i + 1, 1), (2 * i + 2, 5))][:-1]

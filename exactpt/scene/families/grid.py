@@ -1,4 +1,4 @@
-"""Bodies and motions of every kind with tiny integers: whatever may coincide does."""
+"""Bodies and motions of every kind with tiny integers: degeneracies of every kind."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ ATTEMPTS: Final = 20
 
 
 def bodies_on_grid(rng: Random) -> Scene:
-    """Points, segments, chains and polygons that move in every way there is."""
+    """Points, segments, chains and polygons with motions of every kind."""
     centers = cells(rng, rng.randint(2, 5), rng.choice([4, 5, 6]))
     bodies = [_body(rng, f"b{i}", center) for i, center in enumerate(centers)]
     return Scene(bodies, (0, rng.choice([1, 2, 4])))
@@ -44,7 +44,7 @@ def _body(rng: Random, name: str, center: Point) -> Body:
 
 
 def chains_on_grid(rng: Random) -> Scene:
-    """Open chains that look at each other's vertices along their ends; they move, turn, bend."""
+    """Open chains whose end edges point at each other's vertices; they move, turn, deform."""
     bodies = []
     for i, center in enumerate(cells(rng, rng.randint(2, 4), 4)):
         ring = _ring(rng, center, rng.choice([1, 2, 3, 3, 3, 4, 5]))

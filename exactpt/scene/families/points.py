@@ -1,4 +1,4 @@
-"""Moving points: generic ones, and those where everything coincides."""
+"""Moving points: generic and highly degenerate families."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def linear_points(rng: Random) -> Scene:
 
 
 def ballistic_points(rng: Random) -> Scene:
-    """Random quadratic motions, each with an acceleration of its own."""
+    """Random quadratic motions, each with its own acceleration."""
     n = rng.randint(2, 10)
 
     def motion() -> SimpleMotion:
@@ -56,7 +56,7 @@ def ballistic_points(rng: Random) -> Scene:
 
 
 def piecewise_points(rng: Random) -> Scene:
-    """Linear motions with one bend, the bends often at one time."""
+    """Linear motions with one change of velocity, often simultaneous."""
     n = rng.randint(2, 10)
     motions: list[Pieces] = []
     for _ in range(n):
@@ -78,7 +78,7 @@ def piecewise_points(rng: Random) -> Scene:
 
 
 def turning_points(rng: Random) -> Scene:
-    """Points on circles, some in step about one pivot, and others that pass."""
+    """Points on circles, some in step about one pivot, and points that pass by."""
     n = rng.randint(2, 7)
     in_step = Rigid(poly(0, rng.choice([QQ(1), QQ(-1, 2)])), pivot=(QQ(3), QQ(3)))
     motions: list[SimpleMotion] = []
@@ -113,7 +113,7 @@ def point_convoy(rng: Random) -> Scene:
 
 
 def point_grids_passing(rng: Random) -> Scene:
-    """Two grids, one passing through the gaps of the other: whole columns at one time."""
+    """Two grids, one passing through the gaps of the other: whole columns simultaneously."""
     n = rng.randint(2, 4)
     dx, dy = rng.choice([(1, 0), (0, 1), (1, 1), (2, 1)])
     gap = rng.choice([QQ(1, 2), QQ(1, 3), QQ(0)])
@@ -132,7 +132,7 @@ def point_grids_passing(rng: Random) -> Scene:
 
 
 def points_in_line(rng: Random) -> Scene:
-    """Points on one line that turns or stretches for ever, and a few others."""
+    """Points on one line that turns or stretches for ever, and a few other points."""
     n = rng.randint(3, 9)
     # Point i is at i * (x(t), y(t)).
     a, b, c, d = (rng.randint(-2, 2) for _ in range(4))
@@ -175,7 +175,7 @@ def parabola_points(rng: Random) -> Scene:
 
 
 def simultaneous_swaps(rng: Random) -> Scene:
-    """All points have equal x at one time, and at another they mirror each other."""
+    """Points that all have equal x at one time, and are mirror images at another."""
     n = rng.randint(2, 9)
     x = rng.sample(range(-8, 9), n)
     y = rng.sample(range(-8, 9), n)

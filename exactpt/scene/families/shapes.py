@@ -1,4 +1,4 @@
-"""Shapes and motions that the scene families are made of."""
+"""Shapes and motions of which the scene families are made."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ __all__ = [
 def convex_polygon(rng: Random, center: Point, radius: int, size: int) -> list[Point]:
     """A convex polygon of 3 to ``size`` integer vertices around a center, counter-clockwise.
 
-    The hull of random integer points in the square of half-width ``radius``.
+    It is the hull of random integer points in the square of half-width ``radius``.
     """
     while True:
         points = [
@@ -42,7 +42,7 @@ def convex_polygon(rng: Random, center: Point, radius: int, size: int) -> list[P
 
 
 def hull(points: Sequence[Point]) -> list[Point]:
-    """Andrew's monotone chain; strictly convex."""
+    """The strictly convex hull, by Andrew's monotone chain."""
     ordered = sorted(set(points))
     halves: list[Point] = []
     for sequence in (ordered, ordered[::-1]):
@@ -56,7 +56,7 @@ def hull(points: Sequence[Point]) -> list[Point]:
 
 
 def cells(rng: Random, count: int, spacing: int) -> list[tuple[QQ, QQ]]:
-    """Centers of distinct cells of a square grid with about a third of it empty."""
+    """Centers of distinct cells of a square grid, about a third of which stays empty."""
     width = math.ceil(math.sqrt(1.5 * count)) + 1
     chosen = rng.sample(range(width * width), count)
     return [(QQ(spacing * (c % width)), QQ(spacing * (c // width))) for c in chosen]
@@ -73,7 +73,7 @@ def velocity(rng: Random, speed: int) -> Translation:
 
 
 def shape(rng: Random, center: Point, radius: int) -> list[Point]:
-    """Mostly a polygon; now and then a segment or a point."""
+    """A polygon, or sometimes a segment or a point."""
     kind = rng.randrange(8)
     if kind == 0:
         return [
@@ -97,7 +97,7 @@ def box(x: QQ | int, y: QQ | int, width: int = 2, height: int = 2) -> list[Point
 
 
 def is_simple(body: Body) -> bool:
-    """Whether a random polygon or chain may be part of a scene that starts at t = 0."""
+    """Whether a polygon or chain is simple at t = 0, as a scene requires."""
     try:
         Scene([body], (0, 1))
     except InputError:

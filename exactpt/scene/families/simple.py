@@ -26,7 +26,7 @@ __all__ = [
     "turning_stars",
 ]
 
-# Directions around a circle, in order; exact, of about equal length.
+# Directions around a circle in order, exact and of about equal length.
 _CIRCLE = [
     (100, 0), (92, 38), (71, 71), (38, 92), (0, 100), (-38, 92), (-71, 71), (-92, 38),
     (-100, 0), (-92, -38), (-71, -71), (-38, -92), (0, -100), (38, -92), (71, -71), (92, -38),
@@ -66,7 +66,7 @@ def turning_stars(rng: Random) -> Scene:
 
 
 def blobs(rng: Random) -> Scene:
-    """Star-shaped polygons whose vertices move each on a line of their own."""
+    """Star-shaped polygons whose vertices move independently along lines."""
     k = rng.randint(1, 4)
     bodies = []
     speed = rng.choice([10, 40])
@@ -93,7 +93,7 @@ def chains(rng: Random) -> Scene:
             bodies.append(_body(f"b{i}", shape(rng, c, 40), move))
             continue
         line = star(rng, c, 45, rng.randint(4, 9))
-        if rng.random() < 0.3:  # straight on at one vertex
+        if rng.random() < 0.3:  # an angle of pi at one vertex
             line.insert(1, ((line[0][0] + line[1][0]) / 2, (line[0][1] + line[1][1]) / 2))
         kind = rng.randrange(3)
         if kind == 0:
@@ -123,7 +123,7 @@ def _body(
 
 
 def combs(rng: Random) -> Scene:
-    """Two combs that mesh; one moves along the teeth, across them, or both."""
+    """Two interlocking combs; one moves along the teeth, across them, or both."""
     teeth = rng.randint(2, 5)
     gap, width, depth = 8, rng.choice([2, 3]), rng.randint(4, 9)
     lower: list[Point] = [(QQ(-2), QQ(-2)), (QQ(gap * teeth), QQ(-2))]
@@ -133,7 +133,7 @@ def combs(rng: Random) -> Scene:
     lower[2:2] = [(QQ(gap * teeth), QQ(0))]
     lower.append((QQ(-2), QQ(0)))
     top = QQ(depth + rng.randint(1, 3))
-    shift = QQ(gap, 2)  # each tooth in the middle between two
+    shift = QQ(gap, 2)  # each tooth midway between two
     if rng.random() < 0.5:
         shift = QQ(rng.randint(3 * width + 1, 3 * (gap - width) - 1), 3)
     upper = [(x + shift, top - y) for x, y in reversed(lower)]
@@ -188,7 +188,7 @@ def _unit(a: Point, b: Point) -> tuple[int, int]:
 
 
 def clamps(rng: Random) -> Scene:
-    """A jaw that closes on itself, perhaps on something in between."""
+    """A jaw that closes on itself, perhaps with a body in between."""
     n = rng.randint(2, 6)
     bottom = [(Polynomial([200 * i]), Polynomial([rng.randint(0, 90)])) for i in range(n)]
     top = [
@@ -246,7 +246,7 @@ def letters(rng: Random) -> Scene:
 
 
 def flat(rng: Random) -> Scene:
-    """Shapes with straight angles, of one body and between bodies that move together."""
+    """Shapes with straight angles, within a body or among bodies that move together."""
     k = rng.randint(1, 4)
     bodies = []
     for i, (x, y) in enumerate(cells(rng, k, 8)):
@@ -268,7 +268,7 @@ def flat(rng: Random) -> Scene:
 
 
 def nested(rng: Random) -> Scene:
-    """Square brackets around each other and around a box, that slide through their openings."""
+    """Nested square brackets around a box, which slide through their openings."""
     k = rng.randint(1, 4)
     bodies = [Body("core", box(-1, -1), velocity(rng, 1))]
     for i in range(1, k + 1):

@@ -1,4 +1,4 @@
-"""Offsets of thin bodies: on the left and right of both edges at every vertex, while they hold."""
+"""Displacements of infinitesimal copies: on one side of both edges at every vertex."""
 
 from itertools import pairwise
 
@@ -12,8 +12,8 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference
+from exactpt.motion.infinitesimal import displacements, ring_of_copies
 from exactpt.motion.motions import Rigid, Translation
-from exactpt.motion.thin import thin_offsets, thin_ring
 
 START, END = QQ(0), QQ(3)
 paths = st.lists(fractions, max_size=3)
@@ -24,7 +24,7 @@ motions = st.one_of(
 
 @st.composite
 def chains(draw, least=2):
-    """The tracks of an open chain whose vertices may move by polynomials of their own."""
+    """The trajectories of an open chain whose vertices may move by polynomials of their own."""
     n = draw(st.integers(least, 5))
     if draw(st.booleans()):
         steps = draw(st.lists(st.tuples(fractions, fractions), min_size=n, max_size=n))
@@ -65,10 +65,10 @@ def first_contact(edges):
 
 
 @given(chains())
-def test_offsets_are_on_their_side_of_both_edges(tracks):
+def test_displacements_are_on_their_side_of_both_edges(tracks):
     n = len(tracks)
-    offsets = thin_offsets(tracks, START, END)
-    ring = thin_ring(n)
+    offsets = displacements(tracks, START, END)
+    ring = ring_of_copies(n)
     edges = [direction(p, q) for p, q in pairwise(tracks)]
     until = END if offsets.until is None else offsets.until
     assert len(ring) == len(offsets.directions)
@@ -84,14 +84,14 @@ def test_offsets_are_on_their_side_of_both_edges(tracks):
 
 
 def test_a_ring_goes_out_on_the_right_and_back_on_the_left():
-    assert thin_ring(1) == [0, 0, 0]
-    assert thin_ring(2) == [0, 0, 1, 1]
-    assert thin_ring(4) == [0, 0, 1, 2, 3, 3, 2, 1]
+    assert ring_of_copies(1) == [0, 0, 0]
+    assert ring_of_copies(2) == [0, 0, 1, 1]
+    assert ring_of_copies(4) == [0, 0, 1, 2, 3, 3, 2, 1]
 
 
 def test_a_point_becomes_a_triangle_around_it():
     track = Body("a", [(3, 4)])._piece_after(START).tracks
-    offsets, until = thin_offsets(track, START, END)
+    offsets, until = displacements(track, START, END)
 
     assert until is None
     turns = [cross_sign(offsets[i], offsets[(i + 1) % 3], START) for i in range(3)]
@@ -100,7 +100,7 @@ def test_a_point_becomes_a_triangle_around_it():
 
 def test_the_ends_of_a_segment_have_a_left_and_a_right_copy():
     tracks = Body("a", [(0, 0), (2, 1)], Rigid([0, 1]))._piece_after(START).tracks
-    offsets, until = thin_offsets(tracks, START, END)
+    offsets, until = displacements(tracks, START, END)
     along = direction(*tracks)
 
     assert until is None
@@ -108,21 +108,21 @@ def test_the_ends_of_a_segment_have_a_left_and_a_right_copy():
         assert [cross_sign(along, offset, t) for offset in offsets] == [1, -1, -1, 1]
 
 
-def test_offsets_at_the_start_of_a_chain_with_a_right_angle_then():
+def test_displacements_at_the_start_of_a_chain_with_a_right_angle_then():
     """It becomes obtuse: the left of the first edge, good from then on, is along the other."""
     tracks = Body("a", [[0, 0], [2, 0], {"x": [2, 1], "y": [2, -1]}], closed=False)._piece_after(
         START
     )
-    left = thin_offsets(tracks.tracks, START, END).directions[5]
+    left = displacements(tracks.tracks, START, END).directions[5]
 
     for p, q in pairwise(tracks.tracks):
         assert cross_sign(direction(p, q), left, START) == 1
 
 
-def test_offsets_end_where_the_chain_has_bent_too_far():
+def test_displacements_end_where_the_chain_has_bent_too_far():
     """A right angle, then straight, then the other way round: one direction is not enough."""
     tracks = Body(
         "a", [[0, 0], {"x": [2], "y": [0]}, {"x": [2, 2, -1], "y": [2, -2]}], closed=False
     )._piece_after(START).tracks  # fmt: skip
 
-    assert thin_offsets(tracks, START, END).until is not None
+    assert displacements(tracks, START, END).until is not None

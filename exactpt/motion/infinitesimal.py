@@ -1,8 +1,9 @@
-"""Thin bodies: rings around an infinitesimal inside, told by the offsets of their vertices.
+"""Degenerate bodies as rings around an infinitesimal interior.
 
-A point becomes a triangle, a segment a rectangle, an open chain a strip with blunt ends;
-several vertices of a ring are then copies of one vertex of the scene. A copy has
-the direction of its offset, which says only in which directions a line may touch it.
+A point becomes a triangle, a segment a rectangle, an open chain a strip with blunt ends:
+several vertices of the ring are infinitesimal copies of one vertex of the scene. A copy has
+the direction of its infinitesimal displacement, which decides in which directions a line
+may be tangent to it.
 """
 
 from __future__ import annotations
@@ -18,48 +19,51 @@ from exactpt.kernel.roots import roots_after
 from exactpt.motion.incidence import difference
 from exactpt.motion.track import Track
 
-__all__ = ["Offset", "Offsets", "thin_offsets", "thin_ring"]
+__all__ = ["Direction", "Displacements", "displacements", "ring_of_copies"]
 
-Offset: TypeAlias = tuple[IntPoly, IntPoly]
+Direction: TypeAlias = tuple[IntPoly, IntPoly]
 """A direction (dx, dy), polynomials in t."""
 
-# A triangle with no side in a direction that rows and columns of points have.
-_POINT_OFFSETS: Final = ((-3, 1), (1, -4), (2, 3))
+# A triangle without a side in a direction that is frequent among rows and columns of points.
+_POINT_DISPLACEMENTS: Final = ((-3, 1), (1, -4), (2, 3))
 
 
-def thin_ring(size: int) -> list[int]:
-    """The vertices of the scene around a thin body, counter-clockwise.
+def ring_of_copies(size: int) -> list[int]:
+    """The vertices of the scene along the ring of a degenerate body, counter-clockwise.
 
-    A chain goes from the left of its first vertex to the right of it, along its right side
-    to its last vertex, and back along its left. (A pointed end would not do: what lies on
-    the line of the last edge sees it in a direction of both sides, and on neither is the
-    angle a corner.)
+    The ring of a chain goes from the left of its first vertex to the right of it, along the
+    right side to the last vertex, and back along the left side. (An end with a single copy
+    would not do: seen from a point on the line of the last edge, it lies in the direction of
+    both sides, and neither has a corner there.)
     """
     if size == 1:
         return [0, 0, 0]
     return [0, *range(size), *range(size - 1, 0, -1)]
 
 
-class Offsets(NamedTuple):
-    """The offsets of the vertices of a ring, and the time up to which they hold (None: for ever).
+class Displacements(NamedTuple):
+    """The displacements of the vertices of a ring, and the time up to which they hold.
 
-    An offset is on the left, or on the right, of both edges of the chain at its vertex.
+    A displacement lies to the left of both edges of the chain at its vertex, or to the
+    right of both. ``until`` is None if they hold as long as was asked for.
     """
 
-    directions: list[Offset]
+    directions: list[Direction]
     until: QQ | None
 
 
-def thin_offsets(tracks: Sequence[Track], start: QQ, end: QQ) -> Offsets:
-    """The offsets of a thin body.
+def displacements(tracks: Sequence[Track], start: QQ, end: QQ) -> Displacements:
+    """The displacements of a degenerate body.
 
     Args:
-        tracks: of the vertices of the scene.
-        start: the time just after which the offsets begin to hold.
+        tracks: the trajectories of its vertices in the scene.
+        start: the time just after which the displacements begin to hold.
         end: the time up to which they are needed.
     """
     if len(tracks) == 1:
-        return Offsets([((ZZ(right),), (ZZ(up),)) for right, up in _POINT_OFFSETS], None)
+        return Displacements(
+            [((ZZ(right),), (ZZ(up),)) for right, up in _POINT_DISPLACEMENTS], None
+        )
     edges = [_direction(p, q) for p, q in pairwise(tracks)]
     lefts = [_turned(edges[0])]
     until: QQ | None = None
@@ -69,15 +73,15 @@ def thin_offsets(tracks: Sequence[Track], start: QQ, end: QQ) -> Offsets:
         if its_end is not None and (until is None or its_end < until):
             until = its_end
     lefts.append(_turned(edges[-1]))
-    return Offsets([lefts[0], *map(_minus, lefts), *reversed(lefts[1:])], until)
+    return Displacements([lefts[0], *map(_minus, lefts), *reversed(lefts[1:])], until)
 
 
-def _left_of_both(d: Offset, e: Offset, start: QQ, end: QQ) -> tuple[Offset, QQ | None]:
-    """A direction on the left of two successive edges d and e, and how long it is.
+def _left_of_both(d: Direction, e: Direction, start: QQ, end: QQ) -> tuple[Direction, QQ | None]:
+    """A direction to the left of two successive edges d and e, and the end of its validity.
 
-    While d x e keeps its sign s, that is s (e - d): d x (e - d) = d x e = e x (e - d).
-    While d . e is positive, that is d turned left: e x (d turned left) = e . d. Where the
-    first ends, the second holds, and the other way round; else e lies on d, or is a point,
+    While d x e keeps its sign s, s (e - d) is one: d x (e - d) = d x e = e x (e - d).
+    While d . e is positive, d turned left is one: e x (d turned left) = e . d. Where the
+    first ends, the second holds, and vice versa; else e lies on d, or is a point,
     and that is a contact. So the one that ends later is taken, up to a time at which the
     other holds already.
     """
@@ -86,8 +90,8 @@ def _left_of_both(d: Offset, e: Offset, start: QQ, end: QQ) -> tuple[Offset, QQ 
     now = AlgebraicNumber(start)
     s = now.sign_after(turn) if turn else 0
     turn_ends, along_ends = _first_root(turn, now, end), _first_root(along, now, end)
-    # At the start itself, if the chain is straight then, s (e - d) points along it; and if
-    # it has a right angle, d turned left points along e.
+    # At the start itself, s (e - d) points along the chain if that is straight, and d turned
+    # left points along e if the angle is right.
     turn_is_first = now.sign_of(turn) == 0 or (
         turn_ends is not None and (along_ends is None or turn_ends.compare(along_ends) < 0)
     )
@@ -110,7 +114,7 @@ def _first_root(f: IntPoly, now: AlgebraicNumber, end: QQ) -> AlgebraicNumber | 
 
 
 def _before(time: AlgebraicNumber, f: IntPoly, now: AlgebraicNumber, end: QQ) -> QQ:
-    """A rational time before a time, later than all zeros of f before it."""
+    """A rational time before ``time`` and after all zeros of f before ``time``."""
     last = now
     for root in roots_after(f, now, end) if f else ():
         if root.time.compare(time) >= 0:
@@ -119,14 +123,14 @@ def _before(time: AlgebraicNumber, f: IntPoly, now: AlgebraicNumber, end: QQ) ->
     return rational_between(last, time)
 
 
-def _direction(p: Track, q: Track) -> Offset:
+def _direction(p: Track, q: Track) -> Direction:
     return difference(p.x, p.w, q.x, q.w), difference(p.y, p.w, q.y, q.w)
 
 
-def _turned(d: Offset) -> Offset:
-    """d turned left by a right angle."""
+def _turned(d: Direction) -> Direction:
+    """The direction d turned left by a right angle."""
     return negate(d[1]), d[0]
 
 
-def _minus(d: Offset) -> Offset:
+def _minus(d: Direction) -> Direction:
     return negate(d[0]), negate(d[1])
