@@ -12,10 +12,10 @@ import click
 
 from exactpt.cli.alarm import endings
 from exactpt.cli.bench import bench
-from exactpt.cli.contacts import collide, simulate
 from exactpt.cli.files import convert, generate
 from exactpt.cli.options import SCENE_FILE, drop_standard_output
 from exactpt.cli.pictures import demo, draw
+from exactpt.cli.runs import collide, simulate
 from exactpt.cli.tilings import check, tile
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 

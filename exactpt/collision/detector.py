@@ -78,7 +78,7 @@ def first_contact(
 
 
 def check_provable(method: str, groups: Collection[object]) -> None:
-    """See whether an answer can have a proof.
+    """Check that an answer of this method can be proved.
 
     Raises:
         InputError: if not.
