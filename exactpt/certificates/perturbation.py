@@ -26,13 +26,13 @@ certificate, and g + eps h + ... that of the perturbed vertices.
 - Where g is not zero for ever, the sign just after a time is that of g, and likewise just
   before: eps is smaller than every time step. So the tilings just before and just after a
   time are those of the scene itself.
-- At a zero at which g changes sign, the perturbed function has exactly one zero
-  infinitesimally near: one event.
-- At a zero at which g does *not* change sign, the perturbed function has no zero, or
-  two, infinitesimally near, and between these it has the opposite sign. Just before and
-  just after, the sign is the same, so the tiling needs no repair. But it is not preserved
-  *at* the zero: there the perturbed tiling may differ for an infinitesimal time, and
-  the perturbed bodies, which contain the bodies, may overlap.
+- At a zero at which g changes sign, the perturbed function changes sign an odd number of
+  times infinitesimally near: once, if the zero is simple. All of it is one event.
+- At a zero at which g does *not* change sign, the perturbed function changes sign an even
+  number of times infinitesimally near, perhaps never; in between it has the opposite sign.
+  Just before and just after, the sign is the same, so the tiling needs no repair. But it is
+  not preserved *at* the zero: there the perturbed tiling may differ for an infinitesimal
+  time, and the perturbed bodies, which contain the bodies, may overlap.
 
 Hence a zero without a change of sign may be ignored where only the tilings just before and
 just after matter (x-orders). It may not be where contacts are sought: the certificates of
