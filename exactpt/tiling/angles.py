@@ -7,9 +7,8 @@ triangle vanish together and share one certificate.
 
 from __future__ import annotations
 
-from typing import Final
-
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certificate import ANGLE, MOTION, SHRINK, kind_of, pack
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.one_sided import OneSided
 from exactpt.certificates.queue import EventTime
@@ -23,15 +22,7 @@ from exactpt.tiling.events import Stats
 from exactpt.tiling.simultaneous import Batch
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["ANGLE", "CELL", "EXTREME", "KINDS", "MOTION", "SHRINK", "CertifiedTiling"]
-
-ANGLE: Final = 0
-CELL: Final = 1
-EXTREME: Final = 2
-MOTION: Final = 3
-SHRINK: Final = 4
-KINDS: Final = 16
-"""A slot of the queue is ``KINDS * handle + kind``."""
+__all__ = ["CertifiedTiling"]
 
 
 class CertifiedTiling(Tiling):
@@ -89,7 +80,7 @@ class CertifiedTiling(Tiling):
     def _certify_everything(self) -> None:
         self._flat.clear()
         for slot in self.queue.slots():
-            if slot % KINDS not in (MOTION, SHRINK):
+            if kind_of(slot) not in (MOTION, SHRINK):
                 self.queue.cancel(slot)
         watched: list[int] = []
         angles: list[tuple[int, int, int]] = []
@@ -128,7 +119,7 @@ class CertifiedTiling(Tiling):
         of simultaneous events.
         """
         self.certifier.skipped += 1
-        self.queue.cancel(KINDS * h + ANGLE)
+        self.queue.cancel(pack(ANGLE, h))
         if self._careful and self.mesh.region[h] != SOLID:
             a, p, b = self._angle(h)
             if self.certifier.rigid(a, p, b):
@@ -142,7 +133,7 @@ class CertifiedTiling(Tiling):
 
     def _keep(self, h: int, s: int, time: EventTime | None) -> None:
         """Schedule the failure of an angle; note it as due if it is violated just after now."""
-        slot = KINDS * h + ANGLE
+        slot = pack(ANGLE, h)
         if s == 0:
             self._flat.add(h)
         if (s > 0) != self.mesh.corner[h]:
@@ -191,7 +182,7 @@ class CertifiedTiling(Tiling):
     def _cancel_edge(self, h: int) -> None:
         """Forget the certificates of an edge that has been removed."""
         for g in (h, h ^ 1):
-            self.queue.cancel(KINDS * g + ANGLE)
+            self.queue.cancel(pack(ANGLE, g))
             self._due.discard(g)
             self._flat.discard(g)
 

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Final, Self
 
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certificate import ANGLE, MOTION, SHRINK, kind_of, pack, part_of
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.coincidence import nearer, strictly_between
 from exactpt.certificates.incidences import touches
@@ -24,7 +25,6 @@ from exactpt.motion.vertices import MovingBody, Vertices
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.inside import tile_inside
 from exactpt.pseudotriangulation.mesh import Mesh
-from exactpt.tiling.angles import ANGLE, KINDS, MOTION, SHRINK
 from exactpt.tiling.events import ContactFound, Stats, TilingEvent
 from exactpt.tiling.repairs import RebuildNeeded, RepairedTiling
 
@@ -83,13 +83,13 @@ class KineticTiling(RepairedTiling):
         flat: the only bodies that deform so and whose inside is not tiled.
         """
         moving = self.vertices.bodies[i]
-        slot = KINDS * i + SHRINK
+        slot = pack(SHRINK, i)
         time = self._collapse(moving) if moving.deforms else None
         if time is None:
             self.queue.cancel(slot)
         else:
             self.queue.schedule(slot, time)
-        self._schedule_end(moving, KINDS * i + MOTION)
+        self._schedule_end(moving, pack(MOTION, i))
 
     def _collapse(self, moving: MovingBody) -> EventTime | None:
         if moving.body.size == 2:
@@ -129,8 +129,9 @@ class KineticTiling(RepairedTiling):
         slots = [slot for slot, _ in entries]
         self._batch.clear()
         try:
-            h, kind = divmod(slots[0], KINDS)
-            if len(slots) == 1 and kind == ANGLE and time.crossing and not self._has_flats(h):
+            h = part_of(slots[0])
+            is_angle = len(slots) == 1 and kind_of(slots[0]) == ANGLE
+            if is_angle and time.crossing and not self._has_flats(h):
                 if self._may_touch(h):
                     self._report_touches(self._angle(h))
                 self._due.add(h)
@@ -146,9 +147,9 @@ class KineticTiling(RepairedTiling):
 
     def _begin_batch(self, slots: list[int]) -> None:
         """Note what is violated just after now; report a contact if there is one."""
-        angles = [slot // KINDS for slot in slots if slot % KINDS == ANGLE]
-        shrinking = [slot // KINDS for slot in slots if slot % KINDS == SHRINK]
-        moving = [slot // KINDS for slot in slots if slot % KINDS == MOTION]
+        angles = [part_of(slot) for slot in slots if kind_of(slot) == ANGLE]
+        shrinking = [part_of(slot) for slot in slots if kind_of(slot) == SHRINK]
+        moving = [part_of(slot) for slot in slots if kind_of(slot) == MOTION]
         # Before anything is changed, so that `retreat` finds everything as it was. What
         # vanishes at the end of a piece has an event then, so that one look finds all.
         self._look_for_contact(angles, shrinking)
@@ -156,7 +157,7 @@ class KineticTiling(RepairedTiling):
             self._batch.has_new_motions = True
             self._undo = None
             angles += [h for i in moving for h in self._change_motion(i)]
-        self._recheck([slot for slot in slots if slot % KINDS not in (ANGLE, MOTION, SHRINK)])
+        self._recheck([slot for slot in slots if kind_of(slot) not in (ANGLE, MOTION, SHRINK)])
         self._certify_again(angles)
 
     def _look_for_contact(self, angles: Iterable[int], shrinking: Iterable[int]) -> None:

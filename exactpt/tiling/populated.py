@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from exactpt.certificates.certificate import MOTION, SHRINK, pack
 from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
@@ -18,7 +19,6 @@ from exactpt.planar.halfedge import NOTHING
 from exactpt.pseudotriangulation.conflict_zone import ConflictZone
 from exactpt.pseudotriangulation.inside import tile_inside
 from exactpt.pseudotriangulation.region import Region
-from exactpt.tiling.angles import KINDS, MOTION, SHRINK
 from exactpt.tiling.events import TilingEvent
 from exactpt.tiling.kinetic import KineticTiling
 from exactpt.tiling.repairs import RebuildNeeded
@@ -79,7 +79,7 @@ class PopulatedTiling(KineticTiling):
             self._leave_body(i)
         last = len(self.vertices.bodies) - 1
         for kind in (MOTION, SHRINK):
-            self._move_slot(KINDS * last + kind, KINDS * i + kind)
+            self._move_slot(pack(kind, last), pack(kind, i))
         self.vertices.remove(i)
         return self._resume(is_whole=is_whole)
 

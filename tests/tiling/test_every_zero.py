@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import pytest
 
+from exactpt.certificates.certificate import ANGLE, pack
 from exactpt.certificates.perturbation import orientation
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import TILINGS, start_tiling
@@ -18,7 +19,6 @@ from exactpt.motion.motions import Translation
 from exactpt.pseudotriangulation.mesh import SOLID
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
-from exactpt.tiling.angles import ANGLE, KINDS
 from exactpt.tiling.events import ContactFound
 from fuzz import corpus
 
@@ -59,7 +59,7 @@ def pending(kinetic, h):
     slots = [h]
     if kinetic._is_triangle(h) and kinetic.mesh.corner[h]:
         slots += [m.following[h], m.previous[h]]
-    times = [time for g in slots if (time := kinetic.queue.pending(KINDS * g + ANGLE))]
+    times = [time for g in slots if (time := kinetic.queue.pending(pack(ANGLE, g)))]
     return min((t.exact or kinetic.certifier.resolve(t) for t in times), default=None)
 
 

@@ -11,21 +11,18 @@ x-order of s and of s', and four orientations.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certificate import SHADOW, pack, part_of
 from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
 from exactpt.pseudotriangulation.flip import flip, flip_until_greedy, shadow, tangency
 from exactpt.pseudotriangulation.mesh import Mesh
-from exactpt.tiling.angles import KINDS
 from exactpt.tiling.populated import PopulatedTiling
 from exactpt.tiling.repairs import RebuildNeeded
 
 __all__ = ["FlippingTiling"]
-
-SHADOW: Final = 8
-"""Kinds SHADOW to SHADOW + 5: the x-order of a diagonal and of its shadow, four tangencies."""
 
 
 class _Shadow(NamedTuple):
@@ -104,7 +101,7 @@ class FlippingTiling(PopulatedTiling):
         return vanishing
 
     def _recheck(self, slots: list[int]) -> None:
-        self._moved.update(slot // KINDS for slot in slots)
+        self._moved.update(part_of(slot) for slot in slots)
 
     def _settle(self) -> None:
         super()._settle()
@@ -178,11 +175,10 @@ class FlippingTiling(PopulatedTiling):
         if self._shadows.get(h) == new and h not in self._moved:
             return
         self._shadows[h] = new
-        slot = KINDS * h + SHADOW
-        self._certify_spin(slot, *new.diagonal, after)
-        self._certify_spin(slot + 1, *new.crossing, after)
+        self._certify_spin(pack(SHADOW, h), *new.diagonal, after)
+        self._certify_spin(pack(SHADOW + 1, h), *new.crossing, after)
         for i, triple in enumerate(new.tangencies):
-            self._certify_tangency(slot + 2 + i, triple)
+            self._certify_tangency(pack(SHADOW + 2 + i, h), triple)
 
     def _shadow_of(self, h: int, visits: tuple[int, int]) -> _Shadow:
         m = self.mesh.map
@@ -213,4 +209,4 @@ class FlippingTiling(PopulatedTiling):
     def _cancel_shadow(self, h: int) -> None:
         self._shadows.pop(h, None)
         for i in range(6):
-            self.queue.cancel(KINDS * h + SHADOW + i)
+            self.queue.cancel(pack(SHADOW + i, h))

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import final
 
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certificate import CELL, EXTREME, kind_of, pack, part_of
 from exactpt.certificates.coincidence import coordinate_order
 from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
@@ -20,7 +21,6 @@ from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.build import build_mesh
 from exactpt.pseudotriangulation.flip import crosses, facing_visit, flip, flip_until_greedy, shadow
 from exactpt.pseudotriangulation.mesh import Mesh
-from exactpt.tiling.angles import CELL, EXTREME, KINDS
 from exactpt.tiling.greedy import cells
 from exactpt.tiling.greedy.sweep import greedy_diagonals
 from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition, is_above, lower_chain
@@ -85,7 +85,7 @@ class GreedyTiling(PopulatedTiling):
     # Certificates of the vertical decomposition
 
     def _certify_cell(self, cell: int) -> None:
-        slot = KINDS * cell + CELL
+        slot = pack(CELL, cell)
         self._due_cells.discard(cell)
         left, right = self.cells.left[cell], self.cells.right[cell]
         if NO_ARC in (left, right) or left >> 1 == right >> 1:
@@ -120,7 +120,7 @@ class GreedyTiling(PopulatedTiling):
         Args:
             handle: twice the arc, plus 1 for the neighbour behind.
         """
-        slot = KINDS * handle + EXTREME
+        slot = pack(EXTREME, handle)
         self._due_extremes.discard(handle)
         a, b = self._extreme_pair(handle)
         if not self._certify_x_order(slot, a, b):
@@ -169,21 +169,21 @@ class GreedyTiling(PopulatedTiling):
         last = len(self.vertices.bodies) - 1
         changed, spare = cells.remove_body(self.cells, OneSided(self.certifier, before=False), i)
         for k in range(4):
-            self._move_slot(KINDS * (4 * last + k) + EXTREME, KINDS * (4 * i + k) + EXTREME)
+            self._move_slot(pack(EXTREME, 4 * last + k), pack(EXTREME, 4 * i + k))
         cells.rename_body(self.cells, last, i)
         for cell in sorted(spare, reverse=True):
             old = cells.rename_cell(self.cells, cell)
-            self._move_slot(KINDS * old + CELL, KINDS * cell + CELL)
+            self._move_slot(pack(CELL, old), pack(CELL, cell))
             changed = [cell if c == old else c for c in changed]
         for cell in changed:
             self._certify_cell(cell)
 
     def _recheck(self, slots: list[int]) -> None:
         for slot in slots:
-            if slot % KINDS == CELL:
-                self._certify_cell(slot // KINDS)
+            if kind_of(slot) == CELL:
+                self._certify_cell(part_of(slot))
             else:
-                self._certify_extreme(slot // KINDS)
+                self._certify_extreme(part_of(slot))
         # In the plane turned by rho (`exactpt.certificates.perturbation`, step 1) x is x - rho y.
         # Two vertices l and r that exchange their order now, l the left one before, do so
         # when x(r) - x(l) has fallen to rho (y(r) - y(l)): before now, and so before the

@@ -10,9 +10,10 @@ certificates and without shadow events.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Final, final
+from typing import final
 
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certificate import TURN, kind_of, pack, part_of
 from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
 from exactpt.pseudotriangulation.build import build_mesh
@@ -20,13 +21,10 @@ from exactpt.pseudotriangulation.flip import flip_until_greedy
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.pseudotriangulation.plane_sweep import sweep_diagonals
 from exactpt.pseudotriangulation.pointed import make_pointed, point_vertex
-from exactpt.tiling.angles import KINDS
 from exactpt.tiling.greedy.flipping import FlippingTiling
 from exactpt.tiling.repairs import RebuildNeeded
 
 __all__ = ["ShadowedTiling"]
-
-TURN: Final = 5
 
 
 @final
@@ -58,8 +56,8 @@ class ShadowedTiling(FlippingTiling):
         return super()._certify_body(i)
 
     def _recheck(self, slots: list[int]) -> None:
-        self._turned.update(slot // KINDS for slot in slots if slot % KINDS == TURN)
-        super()._recheck([slot for slot in slots if slot % KINDS != TURN])
+        self._turned.update(part_of(slot) for slot in slots if kind_of(slot) == TURN)
+        super()._recheck([slot for slot in slots if kind_of(slot) != TURN])
 
     def _repair_convex_vertex(self, h: int, kind: str) -> None:
         self._turned.add(self.mesh.map.origin[h])
@@ -76,13 +74,13 @@ class ShadowedTiling(FlippingTiling):
 
     def _leave_body(self, i: int) -> None:
         for v in self.vertices.bodies[i].ring:
-            self.queue.cancel(KINDS * v + TURN)
+            self.queue.cancel(pack(TURN, v))
             self._turned.discard(v)
 
     def _certify_turn(self, v: int) -> None:
         """Certify that a vertex of a deforming polygon stays reflex, if it is."""
         vertex = self.vertices.all[v]
-        slot = KINDS * v + TURN
+        slot = pack(TURN, v)
         self.queue.cancel(slot)
         if not self.certifier.rigid(vertex.ahead, v, vertex.behind):
             s, time = self.certifier.orientation(vertex.ahead, v, vertex.behind)

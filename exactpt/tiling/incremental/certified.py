@@ -1,24 +1,19 @@
 """A structure with its certificates: what is pending in the queue, what is violated now.
 
-A slot of the queue is ``KINDS * point + kind``. Kinds `UPPER` and `LOWER` are the edges on
-which the point hangs, `ORDER` is the point and the next one in x-order, `MOTION` the end of
-its piece of motion.
+Their kinds are those of `exactpt.certificates.certificate.PointKind`.
 """
 
 from __future__ import annotations
 
-from typing import Final, final
+from typing import final
 
+from exactpt.certificates.certificate import POINT_ORDER, pack_point
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.one_sided import OneSided
 from exactpt.certificates.queue import EventQueue
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
 
-__all__ = ["KINDS", "MOTION", "ORDER", "CertifiedStructure"]
-
-ORDER: Final = 2
-MOTION: Final = 3
-KINDS: Final = 4
+__all__ = ["CertifiedStructure"]
 
 
 @final
@@ -51,7 +46,7 @@ class CertifiedStructure:
 
     def certify_edge(self, side: int, b: int) -> None:
         """Certify the edge on which b hangs."""
-        slot = KINDS * b + side
+        slot = pack_point(side, b)
         due = self.due[side]
         due.discard(b)
         certificate = self.now.certificate(side, b)
@@ -76,8 +71,8 @@ class CertifiedStructure:
 
     def certify_order(self, p: int) -> None:
         """Certify that p is left of the next point."""
-        slot = KINDS * p + ORDER
-        due = self.due[ORDER]
+        slot = pack_point(POINT_ORDER, p)
+        due = self.due[POINT_ORDER]
         due.discard(p)
         order = self.now.order
         i = self.now.rank[p] + 1
@@ -126,5 +121,5 @@ class CertifiedStructure:
                     self.certify_edge(side, b)
         for i, p in enumerate(new.order):
             j = old.rank[p]
-            if p in self.due[ORDER] or new.order[i + 1 : i + 2] != old.order[j + 1 : j + 2]:
+            if p in self.due[POINT_ORDER] or new.order[i + 1 : i + 2] != old.order[j + 1 : j + 2]:
                 self.certify_order(p)

@@ -10,6 +10,13 @@ from collections.abc import Mapping, Sequence
 from typing import final
 
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certificate import (
+    POINT_MOTION,
+    POINT_ORDER,
+    pack_point,
+    point_kind_of,
+    point_of,
+)
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
 from exactpt.errors import AuditError, InputError
@@ -18,7 +25,6 @@ from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.tiling.events import ContactFound, Stats, TilingEvent
-from exactpt.tiling.incremental.certified import KINDS, MOTION, ORDER
 from exactpt.tiling.incremental.chains import PATIENCE, ChainKind, Chains
 from exactpt.tiling.incremental.contacts import coinciding
 from exactpt.tiling.incremental.mesh import mesh_of
@@ -108,7 +114,7 @@ class IncrementalTiling(RepairedStructure):
 
     def _schedule_piece(self, p: int) -> None:
         """Schedule the end of the current piece of a point's motion."""
-        self._schedule_end(self.vertices.bodies[p], KINDS * p + MOTION)
+        self._schedule_end(self.vertices.bodies[p], pack_point(POINT_MOTION, p))
 
     def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent]:
         """See `Tiling.change_plans`."""
@@ -131,7 +137,7 @@ class IncrementalTiling(RepairedStructure):
         self.certifier.move_to(time, [(t.a, t.b, t.c) for _, t in entries])
         self._mesh = None
         slots = [slot for slot, _ in entries]
-        level = [slot // KINDS for slot in slots if slot % KINDS == ORDER]
+        level = [point_of(slot) for slot in slots if point_kind_of(slot) == POINT_ORDER]
         if level and (touches := coinciding(self.certifier, self.structure, level)):
             raise ContactFound(touches)
         if len(slots) > 1:
@@ -139,12 +145,12 @@ class IncrementalTiling(RepairedStructure):
         alone = len(slots) == 1 and time.crossing
         certified = self._certified
         for slot in slots:
-            p, kind = divmod(slot, KINDS)
-            if kind == MOTION:
+            p, kind = point_of(slot), point_kind_of(slot)
+            if kind == POINT_MOTION:
                 self._change_motion(p)
             elif alone:
                 certified.due[kind].add(p)
-            elif kind == ORDER:
+            elif kind == POINT_ORDER:
                 certified.certify_order(p)
             else:
                 certified.certify_edge(kind, p)

@@ -17,13 +17,14 @@ from __future__ import annotations
 
 from functools import cmp_to_key
 
+from exactpt.certificates.certificate import POINT_ORDER
 from exactpt.certificates.certifier import Certifier
 from exactpt.errors import AuditError
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.tiling.events import Stats
-from exactpt.tiling.incremental.certified import ORDER, CertifiedStructure
+from exactpt.tiling.incremental.certified import CertifiedStructure
 from exactpt.tiling.incremental.chains import Chains
 from exactpt.tiling.incremental.columns import resweep
 from exactpt.tiling.incremental.contacts import column_around
@@ -149,8 +150,8 @@ class RepairedStructure(Tiling):
         """Put all points of one x that are in the wrong order into theirs; whether any could."""
         structure, certified = self.structure, self._certified
         order, found = structure.order, False
-        for p in sorted(certified.due[ORDER], key=structure.rank.__getitem__):
-            if p not in certified.due[ORDER]:
+        for p in sorted(certified.due[POINT_ORDER], key=structure.rank.__getitem__):
+            if p not in certified.due[POINT_ORDER]:
                 continue  # of a column that has been swept
             i, end = column_around(self.certifier, structure, p)
             old = order[i:end]
