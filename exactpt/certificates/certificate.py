@@ -15,6 +15,7 @@ __all__ = [
     "ANGLE",
     "CELL",
     "EXTREME",
+    "KIND_COUNT",
     "MOTION",
     "POINT_MOTION",
     "POINT_ORDER",
@@ -35,7 +36,9 @@ __all__ = [
 CertificateId = NewType("CertificateId", int)
 """A certificate in the queue: its kind and its part in one integer."""
 
-_KINDS: Final = 16
+KIND_COUNT: Final = 16
+"""All packed codes of kinds are less."""
+
 _POINT_KINDS: Final = 4
 
 
@@ -101,17 +104,17 @@ POINT_MOTION: Final[int] = int(PointKind.MOTION)
 
 def pack(kind: int, part: int) -> CertificateId:
     """The certificate of a kind; of a part of the mesh, as `Kind` tells."""
-    return CertificateId(_KINDS * part + kind)
+    return CertificateId(KIND_COUNT * part + kind)
 
 
 def kind_of(certificate: int) -> int:
     """The value of its `Kind`."""
-    return certificate % _KINDS
+    return certificate % KIND_COUNT
 
 
 def part_of(certificate: int) -> int:
     """The part of the mesh that a certificate watches."""
-    return certificate // _KINDS
+    return certificate // KIND_COUNT
 
 
 def pack_point(kind: int, point: int) -> CertificateId:

@@ -181,7 +181,7 @@ def snapshot(vertices: Vertices, mesh: Mesh, name: str, at: QQ) -> Snapshot:
 
     Args:
         vertices: with the tracks of that time.
-        mesh: the tiling of that very time (`KineticTiling.mesh_now`).
+        mesh: the tiling of that very time (`Tiling.mesh_now`).
         name: of the tiling.
         at: the time.
     """

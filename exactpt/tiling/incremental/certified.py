@@ -10,7 +10,7 @@ from typing import final
 from exactpt.certificates.certificate import POINT_ORDER, pack_point
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.one_sided import OneSided
-from exactpt.certificates.queue import EventQueue
+from exactpt.certificates.table import CertificateTable
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
 
 __all__ = ["CertifiedStructure"]
@@ -26,14 +26,14 @@ class CertifiedStructure:
         due: of each kind, the points whose certificate is violated just after now.
     """
 
-    __slots__ = ("_certifier", "_queue", "after", "due", "now")
+    __slots__ = ("_certifier", "_table", "after", "due", "now")
 
     def __init__(
-        self, structure: IncrementalStructure, certifier: Certifier, queue: EventQueue
+        self, structure: IncrementalStructure, certifier: Certifier, table: CertificateTable
     ) -> None:
         self.now = structure
         self._certifier = certifier
-        self._queue = queue
+        self._table = table
         self.after = OneSided(certifier, before=False)
         self.due: tuple[set[int], set[int], set[int]] = (set(), set(), set())
 
@@ -46,12 +46,12 @@ class CertifiedStructure:
 
     def certify_edge(self, side: int, b: int) -> None:
         """Certify the edge on which b hangs."""
-        slot = pack_point(side, b)
+        certificate_id = pack_point(side, b)
         due = self.due[side]
         due.discard(b)
         certificate = self.now.certificate(side, b)
         if certificate is None:
-            self._queue.cancel(slot)
+            self._table.schedule(certificate_id, None)
             return
         lo, mid, hi, bends = certificate
         certifier = self._certifier
@@ -64,20 +64,17 @@ class CertifiedStructure:
         if (s == (1 if side == UPPER else -1)) != bends:
             due.add(b)
             time = None
-        if time is None:
-            self._queue.cancel(slot)
-        else:
-            self._queue.schedule(slot, time)
+        self._table.schedule(certificate_id, time)
 
     def certify_order(self, p: int) -> None:
         """Certify that p is left of the next point."""
-        slot = pack_point(POINT_ORDER, p)
+        certificate_id = pack_point(POINT_ORDER, p)
         due = self.due[POINT_ORDER]
         due.discard(p)
         order = self.now.order
         i = self.now.rank[p] + 1
         if i == len(order):
-            self._queue.cancel(slot)
+            self._table.schedule(certificate_id, None)
             return
         q = order[i]
         certifier = self._certifier
@@ -91,10 +88,7 @@ class CertifiedStructure:
         if not is_left:
             due.add(p)
             time = None
-        if time is None:
-            self._queue.cancel(slot)
-        else:
-            self._queue.schedule(slot, time)
+        self._table.schedule(certificate_id, time)
 
     def certify_point(self, p: int) -> None:
         """Certify anew whatever depends on the motion of a point."""

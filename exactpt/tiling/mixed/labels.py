@@ -23,8 +23,8 @@ of which neither edge or both edges give way.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import Final, NamedTuple, TypeAlias, final
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Final, NamedTuple, TypeAlias, final
 
 from exactpt.errors import AuditError
 from exactpt.motion.vertices import Vertices
@@ -271,6 +271,50 @@ class LabelledMesh(Mesh):
         self._copy_to(other)
         other.labels = self.labels[:]
         return other
+
+    def state(self) -> dict[str, list[Any]]:
+        """As `Mesh.state`; with the labels."""
+        return {**super().state(), "labels": [sorted(label) for label in self.labels]}
+
+    def resume(self, state: dict[str, list[Any]]) -> None:
+        """As `Mesh.resume`; with the labels."""
+        super().resume(state)
+        self.labels = [frozenset(label) for label in state["labels"]]
+
+    def labelling(self) -> Sequence[Label]:
+        """The labels."""
+        return self.labels
+
+    def relative_hulls(self) -> Callable[[int], list[int]]:
+        """See `Mesh.relative_hulls`: the cycles that are pinned nowhere, of the bodies now."""
+        tops = [of.nodes[TOP] for of in self.forest.bodies]
+        return lambda i: self._loop(tops[i])
+
+    def _loop(self, top: int) -> list[int]:
+        """The vertex ids along the cycle of a node that is pinned nowhere, counter-clockwise.
+
+        It may pass a vertex of its own body twice, where a mouth is pulled shut: what is on
+        its left tells how it goes on.
+
+        Raises:
+            AuditError: if the labels are not those of one cycle.
+        """
+        m = self.map
+        cycle = [h for h in m.half_edges() if top in self.labels[h]]
+        ordered = [cycle[0]]
+        while True:
+            # The first one to the left: clockwise from where it comes from.
+            g = m.following[ordered[-1]]
+            while top not in self.labels[g]:
+                g = m.following[g ^ 1]
+            if g == ordered[0]:
+                break
+            ordered.append(g)
+            if len(ordered) > len(cycle):
+                break
+        if sorted(ordered) != cycle:
+            raise AuditError(f"the relative hull of node {top} is not one cycle: {cycle}")
+        return [m.origin[h] for h in ordered]
 
     def audit_faces(self, half_edges: Iterable[int]) -> None:
         """Check corners, that labels are paths, and that the edges of a tile agree on its node.
