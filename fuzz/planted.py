@@ -207,7 +207,7 @@ PLANTED: Final[dict[str, Callable[[], Any]]] = {
     "root enclosures too narrow": lambda: _replaced(filters, "linear", _narrow),
     "filter bound too small": lambda: _replaced(Certifier, "__init__", _unguarded),
     "vertical bitangents ignored": lambda: _replaced(
-        VerticalRules, "repair", lambda right: lambda self: self._violated_cells.clear()
+        VerticalRules, "repair", lambda right: lambda self: self.cells.violated.clear()
     ),
 }
 """The mistakes: each gives a context in which it is made."""

@@ -34,7 +34,7 @@ pairs of what is found are tested.)
 
 The faces are those of the free space, and of the insides that are tiled. A deforming
 body without a diagonal, a segment or a triangle, may lose its inside too: then all its
-vertices are tested (`Engine._schedule_piece`).
+vertices are tested (`exactpt.tiling.pieces`).
 """
 
 from __future__ import annotations

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import final
 
 from exactpt.certificates.certifier import Certifier
-from exactpt.certificates.queue import EventQueue, EventTime
+from exactpt.certificates.queue import EventTime
+from exactpt.certificates.table import CertificateTable
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
 from exactpt.kernel.numbers import QQ
@@ -21,12 +22,12 @@ class Clock:
 
     Attributes:
         certifier: it knows the current time.
-        pending: what fails when.
+        table: it knows what fails when.
     """
 
-    def __init__(self, certifier: Certifier, pending: EventQueue, frame: Frame) -> None:
+    def __init__(self, certifier: Certifier, table: CertificateTable, frame: Frame) -> None:
         self.certifier: Certifier = certifier
-        self.pending: EventQueue = pending
+        self.table: CertificateTable = table
         self._frame: Frame = frame
         # The time before the last one with events, and these: what `retreat` restores.
         self._undo: tuple[EventTime, list[tuple[int, EventTime]]] | None = None
@@ -34,7 +35,7 @@ class Clock:
 
     def next_time(self) -> EventTime | None:
         """When the next certificates fail; the queue keeps them."""
-        popped = self.pending.pop()
+        popped = self.table.pending.pop()
         if popped is None:
             return None
         time, entries = popped
@@ -50,7 +51,7 @@ class Clock:
         """The next time at which certificates fail, and these; None if it is after ``until``."""
         if until is not self._until[0]:
             self._until = (until, self._frame.time(until)[0])
-        popped = self.pending.pop()
+        popped = self.table.pending.pop()
         if popped is not None:
             time, entries = popped
             if time.high > self._until[1]:
@@ -97,4 +98,4 @@ class Clock:
 
     def _put_back(self, entries: list[tuple[int, EventTime]]) -> None:
         for certificate, time in entries:
-            self.pending.schedule(certificate, time)
+            self.table.pending.schedule(certificate, time)

@@ -20,7 +20,7 @@ from exactpt.certificates.queue import EventTime
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ, power_of_two
-from exactpt.motion.vertices import MovingBody, Vertices
+from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.audit import audit_angles
 from exactpt.pseudotriangulation.conflict_zone import find_conflict_zone
@@ -29,6 +29,7 @@ from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.entry import Entry
 from exactpt.tiling.events import Stats, TilingEvent
+from exactpt.tiling.pieces import certify_piece
 from exactpt.tiling.population import add_ring, remove_ring
 from exactpt.tiling.repairs import RebuildNeeded, Repairs
 from exactpt.tiling.rules import Rules
@@ -75,8 +76,8 @@ class Engine(Tiling):
         self._build(start)
         if self.table.angles:
             raise AuditError(f"violated at the start: {sorted(self.table.angles)}")
-        for i in range(len(self.vertices.bodies)):
-            self._schedule_piece(i)
+        for i, moving in enumerate(self.vertices.bodies):
+            certify_piece(self.clock, moving, i)
 
     def _build(self, time: QQ) -> None:
         """Build and certify the tiling that holds just after a rational time."""
@@ -188,28 +189,10 @@ class Engine(Tiling):
             raise AuditError(f"body {i} has no next piece")
         changes = moving.until in moving.body._breakpoints  # else only its offsets do
         self.vertices.enter_piece(i, moving.until)
-        self._schedule_piece(i)
+        certify_piece(self.clock, moving, i)
         if changes:
             self.log.record("motion", (), ())
         return self.certified.certify_body(i)
-
-    def _schedule_piece(self, i: int) -> None:
-        """Schedule when a body's current piece ends, and when the body loses its inside.
-
-        That may be so of a segment that shrinks to a point, and a triangle that becomes
-        flat: the only bodies that deform so and whose inside is not tiled.
-        """
-        moving = self.vertices.bodies[i]
-        time = self._collapse(moving) if moving.deforms else None
-        self.table.schedule(pack(SHRINK, i), time)
-        self.table.schedule(pack(MOTION, i), self.clock.end_of_piece(moving))
-
-    def _collapse(self, moving: MovingBody) -> EventTime | None:
-        if moving.body.size == 2:
-            return self.certifier.first_coincidence(moving.ring[0], moving.ring[2])
-        if moving.body.size == 3 and moving.body.closed:
-            return self.certifier.orientation(*moving.ring)[1]
-        return None
 
     # Plans, and bodies that come and go
 
@@ -225,7 +208,7 @@ class Engine(Tiling):
                 if self.vertices.set_plan(i, plans[i], t, self.certifier.end):
                     first = self.mesh.ring_edge[self.vertices.bodies[i].ring[0]]
                     tile_inside(self.mesh, first, certified.after())
-                self._schedule_piece(i)
+                certify_piece(self.clock, self.vertices.bodies[i], i)
                 self.log.record("motion", (), ())
             angles = [h for i in sorted(plans) for h in certified.certify_body(i)]
             self.rules.failed([])
@@ -243,7 +226,7 @@ class Engine(Tiling):
         zone = find_conflict_zone(self.vertices, self.mesh, body, t)
         self._pause(t)
         i = self.vertices.add(body, t)
-        self._schedule_piece(i)
+        certify_piece(self.clock, self.vertices.bodies[i], i)
         return self._go_on(is_whole=add_ring(self.certified, self.log, i, zone))
 
     def remove_body(self, i: int, t: QQ) -> list[TilingEvent] | None:

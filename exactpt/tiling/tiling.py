@@ -50,7 +50,7 @@ class Tiling(ABC):
         self.vertices: Vertices = vertices
         self.certifier: Certifier = certifier
         self.table: CertificateTable = CertificateTable(certifier)
-        self.clock: Clock = Clock(certifier, self.table.pending, vertices.frame)
+        self.clock: Clock = Clock(certifier, self.table, vertices.frame)
         self.log: Log = Log(certifier, stats)
 
     @abstractmethod

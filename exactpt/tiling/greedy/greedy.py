@@ -10,8 +10,7 @@ from __future__ import annotations
 from typing import final
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.certificates.certificate import CELL, EXTREME, kind_of, pack, part_of
-from exactpt.certificates.coincidence import coordinate_order
+from exactpt.certificates.certificate import CELL, kind_of, part_of
 from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
@@ -23,10 +22,9 @@ from exactpt.pseudotriangulation.flip import crosses, facing_visit, flip, flip_u
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.events import Log
-from exactpt.tiling.greedy import cells
+from exactpt.tiling.greedy.certified_cells import CertifiedCells
 from exactpt.tiling.greedy.sweep import greedy_diagonals
-from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition, is_above, lower_chain
-from exactpt.tiling.greedy.vertical_view import seen_from
+from exactpt.tiling.greedy.vertical import VerticalDecomposition
 from exactpt.tiling.repairs import RebuildNeeded
 from exactpt.tiling.rules import Rules
 from exactpt.tiling.tiling import State
@@ -52,14 +50,12 @@ class VerticalRules(Rules):
     """The canonical tiling of convex bodies: at any time the one that the sweep builds.
 
     Attributes:
-        cells: the vertical decomposition.
+        cells: the vertical decomposition, with its certificates.
     """
 
     def __init__(self, certified: CertifiedMesh, log: Log) -> None:
         super().__init__(certified, log)
-        self.cells: VerticalDecomposition = VerticalDecomposition(0)
-        self._violated_cells: set[int] = certified.table.violated[CELL]
-        self._violated_extremes: set[int] = certified.table.violated[EXTREME]
+        self.cells: CertifiedCells = CertifiedCells(certified)
 
     @staticmethod
     def build(instant: PredicatesAt) -> Mesh:
@@ -68,8 +64,8 @@ class VerticalRules(Rules):
 
     def begin(self, instant: PredicatesAt) -> Mesh:
         """See `Rules.begin`."""
-        self.cells = VerticalDecomposition.at(instant)
-        mesh, flips = greedy_mesh(instant, self.cells.copy())
+        self.cells.now = VerticalDecomposition.at(instant)
+        mesh, flips = greedy_mesh(instant, self.cells.now.copy())
         self.log.stats.flips += flips
         return mesh
 
@@ -81,9 +77,9 @@ class VerticalRules(Rules):
     def audit(self, instant: PredicatesAt) -> None:
         """See `Rules.audit`."""
         static = VerticalDecomposition.at(instant)
-        if static.vertex != self.cells.vertex:
+        if static.vertex != self.cells.now.vertex:
             raise AuditError(f"t = {instant.time}: other extreme vertices than the static ones")
-        pairs = [sorted(zip(c.left, c.right, strict=True)) for c in (self.cells, static)]
+        pairs = [sorted(zip(c.left, c.right, strict=True)) for c in (self.cells.now, static)]
         if pairs[0] != pairs[1]:
             raise AuditError(
                 f"t = {instant.time}: another vertical decomposition than the static one"
@@ -91,68 +87,19 @@ class VerticalRules(Rules):
 
     def state(self) -> State:
         """See `Rules.state`."""
-        return {"cells": self.cells.state()}
+        return {"cells": self.cells.now.state()}
 
     def resume(self, state: State) -> None:
         """See `Rules.resume`."""
-        self.cells.resume(state["cells"])
+        self.cells.now.resume(state["cells"])
 
     def certify(self) -> None:
         """See `Rules.certify`."""
-        self._violated_cells.clear()
-        self._violated_extremes.clear()
-        for cell in range(len(self.cells.left)):
-            self._certify_cell(cell)
-        for i in range(len(self.certified.vertices.bodies)):
-            self._certify_extremes(i)
-
-    # Certificates of the vertical decomposition
-
-    def _certify_cell(self, cell: int) -> None:
-        certificate = pack(CELL, cell)
-        self._violated_cells.discard(cell)
-        left, right = self.cells.left[cell], self.cells.right[cell]
-        if NO_ARC in (left, right) or left >> 1 == right >> 1:
-            self.certified.table.pending.cancel(certificate)
-            return
-        a, b = self._cell_pair(cell)
-        if not self._certify_x_order(certificate, a, b):
-            self._violated_cells.add(cell)
-
-    def _certify_x_order(self, certificate: int, a: int, b: int) -> bool:
-        """Certify that a is left of b; whether it is so just after now."""
-        if self.certified.certifier.keeps_x_order(a, b):
-            self.certified.certifier.skipped += 1
-            self.certified.table.pending.cancel(certificate)
-            # What is kept may be wrong only in the midst of simultaneous events.
-            return not self.certified.is_careful or self.certified.after().left_of(a, b)
-        s, time = self.certified.certifier.x_order(a, b)
-        self.certified.table.schedule(certificate, None if s < 0 else time)
-        return s > 0
-
-    def _certify_extremes(self, i: int) -> None:
-        for arc in (2 * i, 2 * i + 1):
-            self._certify_extreme(2 * arc)
-            self._certify_extreme(2 * arc + 1)
-
-    def _certify_extreme(self, handle: int) -> None:
-        """Certify that an extreme vertex is so against one neighbour on its ring.
-
-        Args:
-            handle: twice the arc, plus 1 for the neighbour behind.
-        """
-        certificate = pack(EXTREME, handle)
-        self._violated_extremes.discard(handle)
-        a, b = self._extreme_pair(handle)
-        if not self._certify_x_order(certificate, a, b):
-            self._violated_extremes.add(handle)
+        self.cells.certify_everything()
 
     def certify_body(self, i: int) -> None:
         """See `Rules.certify_body`."""
-        self._certify_extremes(i)
-        for arc in (2 * i, 2 * i + 1):
-            for cell in sorted(self.cells.cells_of(arc)):
-                self._certify_cell(cell)
+        self.cells.certify_body(i)
 
     # Bodies that come and go
 
@@ -168,50 +115,19 @@ class VerticalRules(Rules):
 
     def enter(self, i: int) -> None:
         """See `Rules.enter`."""
-        after = self.certified.after()
-        chain = lower_chain(after, self.certified.vertices.bodies[i].ring)
-        changed = cells.add_body(
-            self.cells,
-            after,
-            (chain[0], chain[-1]),
-            self._cell_around(chain[0], after),
-            lambda v: is_above(after, chain, v),
-        )
-        self._certify_extremes(i)
-        for cell in changed:
-            self._certify_cell(cell)
-
-    def _cell_around(self, v: int, after: OneSided) -> int:
-        """The cell that a vertex which bounds none is in: over what it sees below, or under."""
-        for up in (False, True):
-            h = seen_from(self.certified.mesh, after, v, up=up)
-            if h is not None:
-                arc = 2 * self.certified.vertices.all[self.certified.mesh.map.origin[h]].body
-                row = self.cells.right_down if up else self.cells.right_up
-                return cells.cell_along(self.cells, after, v, row[arc], over=not up)
-        return cells.cell_along(self.cells, after, v, self.cells.left.index(NO_ARC), over=True)
+        self.cells.enter(i)
 
     def leave(self, i: int) -> None:
         """See `Rules.leave`."""
-        last = len(self.certified.vertices.bodies) - 1
-        changed, spare = cells.remove_body(self.cells, self.certified.after(), i)
-        for k in range(4):
-            self.certified.table.move(pack(EXTREME, 4 * last + k), pack(EXTREME, 4 * i + k))
-        cells.rename_body(self.cells, last, i)
-        for cell in sorted(spare, reverse=True):
-            old = cells.rename_cell(self.cells, cell)
-            self.certified.table.move(pack(CELL, old), pack(CELL, cell))
-            changed = [cell if c == old else c for c in changed]
-        for cell in changed:
-            self._certify_cell(cell)
+        self.cells.leave(i)
 
     def failed(self, certificates: list[int]) -> None:
         """See `Rules.failed`."""
         for certificate in certificates:
             if kind_of(certificate) == CELL:
-                self._certify_cell(part_of(certificate))
+                self.cells.certify(part_of(certificate))
             else:
-                self._certify_extreme(part_of(certificate))
+                self.cells.certify_extreme(part_of(certificate))
         # In the plane turned by rho (`exactpt.certificates.perturbation`, step 1) x is x - rho y.
         # Two vertices l and r that exchange their order now, l the left one before, do so
         # when x(r) - x(l) has fallen to rho (y(r) - y(l)): before now, and so before the
@@ -222,15 +138,15 @@ class VerticalRules(Rules):
 
     def is_violated(self) -> bool:
         """See `Rules.is_violated`."""
-        return bool(self._violated_extremes or self._violated_cells)
+        return bool(self.cells.violated_extremes or self.cells.violated)
 
     def repair(self) -> None:
         """See `Rules.repair`."""
         after = self.certified.after()
-        if self._violated_extremes:
-            self._move_extreme(min(self._violated_extremes))
+        if self.cells.violated_extremes:
+            self._move_extreme(min(self.cells.violated_extremes))
         else:
-            self._pass_vertical(min(self._violated_cells), after)
+            self._pass_vertical(min(self.cells.violated), after)
 
     def _repair_rising(self) -> None:
         """Exchange the pairs that do so just before now."""
@@ -238,52 +154,37 @@ class VerticalRules(Rules):
         rising = True
         while rising:
             rising = False
-            for handle in sorted(self._violated_extremes):
-                if self._is_rising(*self._extreme_pair(handle)):
+            for handle in sorted(self.cells.violated_extremes):
+                if self.cells.is_rising(*self.cells.extreme_pair(handle)):
                     self.certified.batch.begin_repair()
                     self._move_extreme(handle)
                     rising = True
                     break
-            for cell in sorted(self._violated_cells):
-                if self._is_rising(*self._cell_pair(cell)):
+            for cell in sorted(self.cells.violated):
+                if self.cells.is_rising(*self.cells.pair(cell)):
                     self.certified.batch.begin_repair()
                     self._pass_vertical(cell, before)
                     rising = True
                     break
 
-    def _is_rising(self, left: int, right: int) -> bool:
-        u, v = self.certified.vertices.all[left], self.certified.vertices.all[right]
-        return coordinate_order(self.certified.certifier, u, v, 1) > 0
-
-    def _cell_pair(self, cell: int) -> tuple[int, int]:
-        vertex = self.cells.vertex
-        return vertex[self.cells.left[cell]], vertex[self.cells.right[cell]]
-
-    def _extreme_pair(self, handle: int) -> tuple[int, int]:
-        """An extreme vertex and its neighbour on the ring, as they should be from left to right."""
-        arc = handle >> 1
-        vertex = self.certified.vertices.all[self.cells.vertex[arc]]
-        neighbour = vertex.behind if handle % 2 else vertex.ahead
-        return (vertex.id, neighbour) if arc % 2 == 0 else (neighbour, vertex.id)
-
     def _move_extreme(self, handle: int) -> None:
         arc = handle >> 1
-        vertex = self.certified.vertices.all[self.cells.vertex[arc]]
-        self.cells.vertex[arc] = vertex.behind if handle % 2 else vertex.ahead
+        vertex = self.certified.vertices.all[self.cells.now.vertex[arc]]
+        self.cells.now.vertex[arc] = vertex.behind if handle % 2 else vertex.ahead
         self.log.stats.count("internal")
-        self._certify_extreme(2 * arc)
-        self._certify_extreme(2 * arc + 1)
-        for cell in sorted(self.cells.cells_of(arc)):
-            self._certify_cell(cell)
+        self.cells.certify_extreme(2 * arc)
+        self.cells.certify_extreme(2 * arc + 1)
+        for cell in sorted(self.cells.now.cells_of(arc)):
+            self.cells.certify(cell)
 
     def _pass_vertical(self, cell: int, moment: OneSided) -> None:
         """The two arcs of a cell exchange their order: their bitangent is vertical now."""
-        self._violated_cells.discard(cell)
-        u, v = self._cell_pair(cell)
-        rising = self._is_rising(u, v)
-        a, b = self.cells.swap(cell, left_is_lower=rising)
+        self.cells.violated.discard(cell)
+        u, v = self.cells.pair(cell)
+        rising = self.cells.is_rising(u, v)
+        a, b = self.cells.now.swap(cell, left_is_lower=rising)
         for touched in sorted({cell, a, b}):
-            self._certify_cell(touched)
+            self.cells.certify(touched)
         # Rising from the left one to the right one, it goes from the smallest theta to the
         # largest; falling, from the largest to the smallest.
         if rising:

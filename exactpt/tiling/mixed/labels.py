@@ -30,6 +30,7 @@ from exactpt.errors import AuditError
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import NOTHING
 from exactpt.pseudotriangulation.mesh import F2, FREE, INSIDE, Mesh, Tile
+from exactpt.tiling.mixed.loops import loop_along
 from exactpt.tiling.mixed.tree import ROOT, TOP, GeodesicTree, tree_of_size
 
 __all__ = ["NO_LABEL", "BodyTree", "Forest", "Label", "LabelledMesh"]
@@ -288,33 +289,7 @@ class LabelledMesh(Mesh):
     def relative_hulls(self) -> Callable[[int], list[int]]:
         """See `Mesh.relative_hulls`: the cycles that are pinned nowhere, of the bodies now."""
         tops = [of.nodes[TOP] for of in self.forest.bodies]
-        return lambda i: self._loop(tops[i])
-
-    def _loop(self, top: int) -> list[int]:
-        """The vertex ids along the cycle of a node that is pinned nowhere, counter-clockwise.
-
-        It may pass a vertex of its own body twice, where a mouth is pulled shut: what is on
-        its left tells how it goes on.
-
-        Raises:
-            AuditError: if the labels are not those of one cycle.
-        """
-        m = self.map
-        cycle = [h for h in m.half_edges() if top in self.labels[h]]
-        ordered = [cycle[0]]
-        while True:
-            # The first one to the left: clockwise from where it comes from.
-            g = m.following[ordered[-1]]
-            while top not in self.labels[g]:
-                g = m.following[g ^ 1]
-            if g == ordered[0]:
-                break
-            ordered.append(g)
-            if len(ordered) > len(cycle):
-                break
-        if sorted(ordered) != cycle:
-            raise AuditError(f"the relative hull of node {top} is not one cycle: {cycle}")
-        return [m.origin[h] for h in ordered]
+        return lambda i: loop_along(self.map, self.labels, tops[i])
 
     def audit_faces(self, half_edges: Iterable[int]) -> None:
         """Check corners, that labels are paths, and that the edges of a tile agree on its node.
