@@ -17,6 +17,7 @@ __all__ = [
     "EXTREME",
     "KIND_COUNT",
     "MOTION",
+    "OTHER",
     "POINT_MOTION",
     "POINT_ORDER",
     "SHADOW",
@@ -62,6 +63,8 @@ class Kind(IntEnum):
       in mid-air before the others are judged greedy or not.
     * SHADOW and the five after it, of a diagonal: the x-order of the diagonal, that of its
       shadow, and four tangencies of the shadow (`exactpt.tiling.greedy.flipping`).
+    * OTHER, and the one after it: of structures from outside the package (docs/extending.md),
+      which order them as they need.
     """
 
     SHRINK = 4
@@ -71,6 +74,7 @@ class Kind(IntEnum):
     ANGLE = 0
     TURN = 5
     SHADOW = 8
+    OTHER = 6
 
 
 @final
@@ -98,6 +102,7 @@ MOTION: Final[int] = int(Kind.MOTION)
 SHRINK: Final[int] = int(Kind.SHRINK)
 TURN: Final[int] = int(Kind.TURN)
 SHADOW: Final[int] = int(Kind.SHADOW)
+OTHER: Final[int] = int(Kind.OTHER)
 POINT_ORDER: Final[int] = int(PointKind.ORDER)
 POINT_MOTION: Final[int] = int(PointKind.MOTION)
 

@@ -13,6 +13,7 @@ import click
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, parse_rational
+from exactpt.tiling import catalogue
 
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
@@ -87,7 +88,7 @@ TILING = click.option(
     "--tiling",
     default="auto",
     show_default=True,
-    type=click.Choice(["auto", "incremental", "greedy", "mixed", "lazy"]),
+    type=click.Choice(catalogue.known()),
     help="Which tiling to keep.",
 )
 

@@ -12,8 +12,8 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.scene.scene import Scene
-from exactpt.tiling import catalogue
-from exactpt.tiling.entry import Bodies, Entry
+from exactpt.tiling import catalogue, loading
+from exactpt.tiling.catalogue import Bodies, Entry
 from exactpt.tiling.events import Stats
 from exactpt.tiling.tiling import Tiling
 
@@ -52,13 +52,13 @@ class TilingPlan(NamedTuple):
     def start(self, time: QQ, *, exact_only: bool = False) -> Tiling:
         """The tiling just after a time at which the bodies are disjoint."""
         certifier = Certifier(self.vertices, time, self.end, exact_only=exact_only)
-        tiling = catalogue.make(self.entry, self.vertices, certifier, Stats())
+        tiling = loading.make(self.entry, self.vertices, certifier, Stats())
         tiling.begin(time)
         return tiling
 
     def mesh_at(self, time: QQ) -> Mesh:
         """The tiling at a time."""
-        return catalogue.mesh_at(self.entry, PredicatesAt(self.vertices, time, after=False))
+        return loading.mesh_at(self.entry, PredicatesAt(self.vertices, time, after=False))
 
 
 def check_tiling(name: str) -> None:
@@ -93,7 +93,7 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
 
     entry = catalogue.choose(name, points=_are_points(scene), convex=convex)
     if entry.bodies is Bodies.POINTS:
-        vertices = catalogue.vertices_of_points(entry, scene.bodies, start, scene._end)
+        vertices = loading.vertices_of_points(entry, scene.bodies, start, scene._end)
     else:
         vertices = of_bodies()
         vertices.counters = Counters()  # the choice is no decision of the run

@@ -22,8 +22,8 @@ from exactpt.motion.body import Body
 from exactpt.motion.frame import Frame
 from exactpt.motion.vertices import Vertices
 from exactpt.simulation.event import Event
-from exactpt.tiling import catalogue
-from exactpt.tiling.entry import Bodies
+from exactpt.tiling import catalogue, loading
+from exactpt.tiling.catalogue import Bodies
 from exactpt.tiling.events import Stats
 from exactpt.tiling.tiling import Tiling
 
@@ -94,7 +94,7 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], *, exact_only: bool) ->
     for name in _STATS:
         setattr(stats, name, data["stats"][name])
     entry = catalogue.find(data["kind"], convex=data["convex"])
-    kinetic = catalogue.make(entry, vertices, certifier, stats)
+    kinetic = loading.make(entry, vertices, certifier, stats)
     kinetic.resume(data)
     for slot, time in data["queue"]:
         kinetic.queue.schedule(slot, _time_from_json(time))

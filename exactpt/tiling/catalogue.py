@@ -2,25 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from importlib import import_module
-from typing import TYPE_CHECKING, Any, Final
+from collections.abc import Callable
+from enum import Enum, unique
+from typing import Final, NamedTuple, final
 
-from exactpt.certificates.certifier import Certifier
 from exactpt.errors import InputError
-from exactpt.motion.vertices import Vertices
-from exactpt.tiling.engine import Engine
-from exactpt.tiling.entry import Bodies, Entry
-from exactpt.tiling.events import Stats
-from exactpt.tiling.tiling import Tiling
 
-if TYPE_CHECKING:
-    from exactpt.certificates.at_time import PredicatesAt
-    from exactpt.kernel.numbers import QQ
-    from exactpt.motion.body import Body
-    from exactpt.pseudotriangulation.mesh import Mesh
+__all__ = ["AUTO", "ENTRIES", "Bodies", "Entry", "choose", "find", "known", "names"]
 
-__all__ = ["AUTO", "ENTRIES", "choose", "find", "make", "mesh_at", "names", "vertices_of_points"]
+
+@final
+@unique
+class Bodies(Enum):
+    """For which bodies a tiling is."""
+
+    ANY = "any"
+    CONVEX = "convex"
+    POINTS = "points"
+
+
+class Entry(NamedTuple):
+    """A line of the catalogue.
+
+    Attributes:
+        name: what it is asked for by.
+        bodies: for which it is.
+        place: of its rules, ``module:class``; imported when it is asked for.
+        is_canonical: whether the tiling of a time does not depend on what happened before.
+        has_fewest_events: whether it is for those who only want the first contact.
+    """
+
+    name: str
+    bodies: Bodies
+    place: str
+    is_canonical: bool = True
+    has_fewest_events: bool = False
+
 
 AUTO: Final = "auto"
 """Asks for the first tiling of the catalogue that is for the bodies."""
@@ -44,6 +61,11 @@ ENTRIES: Final = [
     ),
 ]
 """All tilings; of two with one name the first that is for the bodies is meant."""
+
+
+def known() -> list[str]:
+    """All that can be asked for."""
+    return list(dict.fromkeys([AUTO, *(entry.name for entry in ENTRIES)]))
 
 
 def names(*, points: bool) -> list[str]:
@@ -75,8 +97,7 @@ def choose(
             is_meant, fits = entry.name == name, True  # `vertices_of_points` refuses the others
         if is_meant and fits and (entry.bodies is not Bodies.CONVEX or convex()):
             return entry
-    known = ", ".join([AUTO, *names(points=True)])
-    raise InputError(f"no tiling {name!r}; there are: {known}")
+    raise InputError(f"no tiling {name!r}; there are: {', '.join(known())}")
 
 
 def find(name: str, *, convex: bool) -> Entry:
@@ -87,38 +108,3 @@ def find(name: str, *, convex: bool) -> Entry:
         convex: whether it is for convex bodies.
     """
     return choose(name, points=True, convex=lambda: convex)
-
-
-def vertices_of_points(entry: Entry, bodies: Sequence[Body], start: QQ, end: QQ) -> Vertices:
-    """The moving vertices of points, one each, for a tiling that is for these alone.
-
-    Raises:
-        InputError: if a body is no point.
-    """
-    for body in bodies:
-        if body.size > 1:
-            raise InputError(
-                f"body {body.name!r}: has {body.size} vertices: "
-                f"the {entry.name} tiling is for points"
-            )
-    return Vertices.of(bodies, start, end, plain=True)
-
-
-def make(entry: Entry, vertices: Vertices, certifier: Certifier, stats: Stats) -> Tiling:
-    """The tiling, still without a mesh: `Tiling.begin` or `Tiling.resume` comes next."""
-    kept = _load(entry)
-    if entry.bodies is Bodies.POINTS:
-        tiling: Tiling = kept(entry, vertices, certifier, stats)
-        return tiling
-    return Engine(entry, kept, vertices, certifier, stats)
-
-
-def mesh_at(entry: Entry, instant: PredicatesAt) -> Mesh:
-    """The tiling of an instant."""
-    mesh: Mesh = _load(entry).build(instant)
-    return mesh
-
-
-def _load(entry: Entry) -> Any:  # noqa: ANN401 - a class of rules, or of a tiling of points
-    module, name = entry.place.split(":")
-    return getattr(import_module(module), name)

@@ -27,7 +27,7 @@ from exactpt.pseudotriangulation.conflict_zone import find_conflict_zone
 from exactpt.pseudotriangulation.inside import tile_inside
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.tiling.angles import CertifiedMesh
-from exactpt.tiling.entry import Entry
+from exactpt.tiling.catalogue import Entry
 from exactpt.tiling.events import Stats, TilingEvent
 from exactpt.tiling.pieces import certify_piece
 from exactpt.tiling.population import add_ring, remove_ring

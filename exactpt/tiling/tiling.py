@@ -16,8 +16,8 @@ from exactpt.certificates.table import CertificateTable
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
+from exactpt.tiling.catalogue import Entry
 from exactpt.tiling.clock import Clock
-from exactpt.tiling.entry import Entry
 from exactpt.tiling.events import Log, Stats, TilingEvent
 
 if TYPE_CHECKING:

@@ -23,7 +23,7 @@ from exactpt.errors import AuditError
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.mesh import Mesh
-from exactpt.tiling.entry import Entry
+from exactpt.tiling.catalogue import Entry
 from exactpt.tiling.events import Stats
 from exactpt.tiling.incremental.certified import CertifiedStructure
 from exactpt.tiling.incremental.chains import PATIENCE, ChainKind, Chains
