@@ -33,7 +33,7 @@ class ShadowRules(FlippingRules):
 
     def __init__(self, certified: CertifiedMesh, log: Log) -> None:
         super().__init__(certified, log)
-        self._turned: set[int] = set()
+        self._turned: set[int] = certified.table.violated[TURN]
 
     @staticmethod
     def build(instant: PredicatesAt) -> Mesh:

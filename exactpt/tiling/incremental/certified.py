@@ -35,7 +35,7 @@ class CertifiedStructure:
         self._certifier = certifier
         self._table = table
         self.after = OneSided(certifier, before=False)
-        self.due: tuple[set[int], set[int], set[int]] = (set(), set(), set())
+        self.due: list[set[int]] = [table.violated[kind] for kind in (UPPER, LOWER, POINT_ORDER)]
 
     def certify_everything(self) -> None:
         """Certify all edges and all neighbours in the x-order."""
