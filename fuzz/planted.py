@@ -21,8 +21,10 @@ from exactpt.kernel import filters
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import negate
 from exactpt.scene.generate import FAMILIES, generate
-from exactpt.tiling.greedy.greedy import GreedyTiling
-from exactpt.tiling.kinetic import KineticTiling
+from exactpt.tiling import engine
+from exactpt.tiling.angles import CertifiedMesh
+from exactpt.tiling.greedy.greedy import VerticalRules
+from exactpt.tiling.repairs import Repairs
 from fuzz.cases import Failure, failure_of
 
 __all__ = ["PLANTED", "WITNESSES", "Found", "hunt", "table"]
@@ -114,13 +116,13 @@ def _no_meetings(right: Function) -> Function:  # noqa: ARG001
 def _wrong_diagonal(right: Function) -> Function:
     """Of two diagonals that become collinear, the wrong one is removed."""
 
-    def wrong(self: KineticTiling, h: int) -> None:
-        mesh = self.mesh
+    def wrong(self: Repairs, h: int) -> None:
+        mesh = self.certified.mesh
         before = mesh.map.previous[h]
         if mesh.is_boundary(before) or mesh.is_boundary(h):
             right(self, h)
             return
-        a, p, b = self._angle(h)
+        a, p, b = self.certified.angle(h)
         mesh.straighten(h, origin_moves=True)
         self._slid(h, before, "reflex", (p, b, a), origin_moves=True)
 
@@ -191,13 +193,11 @@ PLANTED: Final[dict[str, Callable[[], Any]]] = {
     "even zeros of copies ignored": lambda: _replaced(
         Certifier, "_exact_orientation", _even_zeros_of_copies
     ),
-    "contact proof skipped": lambda: _replaced(KineticTiling, "_may_touch", _always(False)),
-    "straight chains not followed": lambda: _replaced(KineticTiling, "_is_flat", _always(False)),
+    "contact proof skipped": lambda: _replaced(engine, "may_touch", _always(False)),
+    "straight chains not followed": lambda: _replaced(CertifiedMesh, "_is_flat", _always(False)),
     "vertex on vertex ignored": lambda: _replaced(incidences, "coincide", _no_meetings),
-    "the wrong diagonal gives way": lambda: _replaced(
-        KineticTiling, "_repair_bend", _wrong_diagonal
-    ),
-    "pieces not certified anew": lambda: _replaced(KineticTiling, "_certify_body", _always([])),
+    "the wrong diagonal gives way": lambda: _replaced(Repairs, "_repair_bend", _wrong_diagonal),
+    "pieces not certified anew": lambda: _replaced(CertifiedMesh, "certify_body", _always([])),
     "rigid by mistake": lambda: _replaced(Certifier, "rigid", _rigid_if_one_velocity),
     "order of ties swapped": lambda: _replaced(perturbation, "x_order_terms", _swapped),
     "containment at the start missed": lambda: _replaced(
@@ -207,7 +207,7 @@ PLANTED: Final[dict[str, Callable[[], Any]]] = {
     "root enclosures too narrow": lambda: _replaced(filters, "linear", _narrow),
     "filter bound too small": lambda: _replaced(Certifier, "__init__", _unguarded),
     "vertical bitangents ignored": lambda: _replaced(
-        GreedyTiling, "_repair_more", lambda right: lambda self: self._due_cells.clear()
+        VerticalRules, "repair", lambda right: lambda self: self.cells.violated.clear()
     ),
 }
 """The mistakes: functions that return a context in which the mistake is made."""

@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.initial import initial_touches
-from exactpt.collision.tilings import POINT_TILING, start_tiling
+from exactpt.collision.tilings import start_tiling
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
-from exactpt.pseudotriangulation.audit import audit_angles
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
-from exactpt.tiling.greedy.greedy import GreedyTiling
-from exactpt.tiling.greedy.vertical import VerticalDecomposition
-from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["FREE_TO_DIFFER", "Audited", "audit_at", "audit_now", "run_and_audit"]
-
-FREE_TO_DIFFER: Final = frozenset({"lazy"})
-"""The tilings that depend on their history; all others are canonical."""
+__all__ = ["Audited", "audit_at", "audit_now", "run_and_audit"]
 
 
 class Audited(NamedTuple):
@@ -82,15 +75,11 @@ def audit_at(kinetic: Tiling, at: QQ) -> None:
         AuditError: if the marks of an angle are wrong, or the tilings differ.
     """
     instant = PredicatesAt(kinetic.vertices, at)
-    if kinetic.name == POINT_TILING:
-        kinetic.mesh_after().audit()  # points have no boundary cycles
-    else:
-        audit_angles(kinetic.mesh_after(), instant)
-    if kinetic.name in FREE_TO_DIFFER:
+    kinetic.audit(kinetic.mesh_after(), instant)
+    if not kinetic.entry.is_canonical:
         return
-    if isinstance(kinetic, GreedyTiling):
-        _audit_cells(kinetic.cells, VerticalDecomposition.at(instant), at)
-    mesh, name = type(kinetic).mesh_at(instant), kinetic.vertices.name
+    kinetic.audit_structure(instant)
+    mesh, name = kinetic.mesh_at(instant), kinetic.vertices.name
     static, kept = _diagonals(mesh), _diagonals(kinetic.mesh_after())
     if static != kept:
         missing = [f"{name(u)} {name(v)}" for u, v in static if (u, v) not in kept]
@@ -107,21 +96,12 @@ def audit_now(kinetic: Tiling) -> None:
     """
     now = kinetic.now.low
     instant = PredicatesAt(kinetic.vertices, now, after=False)
-    kept, static = kinetic.mesh_now(now), type(kinetic).mesh_at(instant)
-    if kinetic.name != POINT_TILING:
-        audit_angles(kept, instant)
-    if kinetic.name in FREE_TO_DIFFER:
+    kept, static = kinetic.mesh_now(now), kinetic.mesh_at(instant)
+    kinetic.audit(kept, instant)
+    if not kinetic.entry.is_canonical:
         return
     if _diagonals(static) != _diagonals(kept) or _labels(static) != _labels(kept):
         raise AuditError(f"t = {now}: at the time itself, kinetic is not static")
-
-
-def _audit_cells(kept: VerticalDecomposition, static: VerticalDecomposition, at: QQ) -> None:
-    if static.vertex != kept.vertex:
-        raise AuditError(f"t = {at}: other extreme vertices than the static ones")
-    pairs = [sorted(zip(cells.left, cells.right, strict=True)) for cells in (kept, static)]
-    if pairs[0] != pairs[1]:
-        raise AuditError(f"t = {at}: another vertical decomposition than the static one")
 
 
 def _diagonals(mesh: Mesh) -> list[tuple[int, int]]:
@@ -131,7 +111,5 @@ def _diagonals(mesh: Mesh) -> list[tuple[int, int]]:
 
 
 def _labels(mesh: Mesh) -> dict[tuple[int, int], object]:
-    """The labels of the mixed tiling; empty for any other."""
-    if not isinstance(mesh, LabelledMesh):
-        return {}
-    return {mesh.ends(h): mesh.labels[h] for h in mesh.map.half_edges() if mesh.labels[h]}
+    labels = mesh.labelling()
+    return {mesh.ends(h): labels[h] for h in mesh.map.half_edges() if labels and labels[h]}

@@ -10,7 +10,7 @@ from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.comparison import contrast, in_words
 from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
-from exactpt.collision.tilings import POINT_TILING, TILINGS
+from exactpt.collision.tilings import tilings_for
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from fuzz.statics import run_and_audit
@@ -122,8 +122,7 @@ WITNESSES: Final[dict[str, Witness]] = {
 
 def tilings_of(scene: Scene) -> list[str]:
     """The tilings that must support a scene."""
-    points = all(body.size == 1 for body in scene.bodies)
-    return [*TILINGS, POINT_TILING] if points else [*TILINGS]
+    return tilings_for(scene)
 
 
 def _with_tilings(scene: Scene, check: Callable[[str], None], turn: int | None) -> None:

@@ -17,8 +17,10 @@ from exactpt.bench.output import Output, Row
 from exactpt.bench.plots import series_of
 from exactpt.bench.point_scenes import FAMILIES, random_linear, swaps_beside_arc
 from exactpt.bench.timing import exponent, memory_of, per_event, timed
+from exactpt.certificates.certifier import Certifier
+from exactpt.collision.tilings import plan_tiling
 from exactpt.scene.scene import Scene
-from exactpt.tiling.events import ContactFound
+from exactpt.tiling.events import ContactFound, Stats
 from exactpt.tiling.incremental.incremental import IncrementalTiling
 
 __all__ = ["FULL", "QUICK", "Measured", "Sizes", "measure", "run"]
@@ -126,8 +128,13 @@ def measure(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> Meas
 
 
 def _start(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> IncrementalTiling:
-    vertices = IncrementalTiling.vertices_of(scene.bodies, scene._start, scene._end)
-    return IncrementalTiling.begin(vertices, scene._start, scene._end, chains=chains, fan=fan)
+    plan = plan_tiling(scene, "incremental", scene._start)
+    certifier = Certifier(plan.vertices, scene._start, scene._end, exact_only=False)
+    tiling = IncrementalTiling(
+        plan.entry, plan.vertices, certifier, Stats(), chains=chains, fan=fan
+    )
+    tiling.begin(scene._start)
+    return tiling
 
 
 def _pass(tiling: IncrementalTiling) -> None:

@@ -35,7 +35,7 @@ above, and all pairs among the vertices and edges found are tested.)
 
 The faces are those of the free space, and of the interiors that are tiled. A deforming
 body without a diagonal, a segment or a triangle, may lose its interior too: then all its
-vertices are tested (`KineticTiling._schedule_piece`).
+vertices are tested (`exactpt.tiling.pieces`).
 """
 
 from __future__ import annotations

@@ -14,6 +14,7 @@ import click
 
 from exactpt.errors import InputError, TimeRangeError
 from exactpt.kernel.numbers import QQ, parse_rational
+from exactpt.tiling import catalogue
 
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
@@ -89,7 +90,7 @@ TILING = click.option(
     "--tiling",
     default="auto",
     show_default=True,
-    type=click.Choice(["auto", "incremental", "greedy", "mixed", "lazy"]),
+    type=click.Choice(catalogue.known()),
     help="The tiling to maintain.",
 )
 

@@ -6,8 +6,8 @@ in the face on the left.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Final, NamedTuple
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Final, NamedTuple
 
 from exactpt.errors import AuditError
 from exactpt.planar.halfedge import NOTHING, PlanarMap
@@ -235,6 +235,38 @@ class Mesh:
         other.map = self.map.copy()
         other.region, other.corner = self.region[:], self.corner[:]
         other.boundary, other.ring_edge = self.boundary[:], self.ring_edge[:]
+
+    def state(self) -> dict[str, list[Any]]:
+        """The mesh as JSON data."""
+        m = self.map
+        return {
+            "origin": list(m.origin),
+            "following": list(m.following),
+            "previous": list(m.previous),
+            "free": list(m.free),
+            "region": list(self.region),
+            "corner": [int(c) for c in self.corner],
+            "boundary": [int(b) for b in self.boundary],
+            "ring_edge": list(self.ring_edge),
+        }
+
+    def resume(self, state: dict[str, list[Any]]) -> None:
+        """Have these half-edges and marks."""
+        self.map = PlanarMap.of(
+            state["origin"], state["following"], state["previous"], state["free"]
+        )
+        self.region = state["region"]
+        self.corner = [bool(c) for c in state["corner"]]
+        self.boundary = [bool(b) for b in state["boundary"]]
+        self.ring_edge = state["ring_edge"]
+
+    def labelling(self) -> Sequence[frozenset[int]]:
+        """Of each half-edge, the geodesics that run along it; empty if none are kept."""
+        return ()
+
+    def relative_hulls(self) -> Callable[[int], list[int]] | None:
+        """The shortest loop around each body, as vertex ids; None if the mesh does not know."""
+        return None
 
     def audit(self) -> None:
         """Check links and marks.

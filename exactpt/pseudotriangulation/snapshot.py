@@ -182,7 +182,7 @@ def snapshot(vertices: Vertices, mesh: Mesh, name: str, at: QQ) -> Snapshot:
 
     Args:
         vertices: the moving vertices, with the trajectories of that time.
-        mesh: the tiling at that time itself (`KineticTiling.mesh_now`).
+        mesh: the tiling at that time itself (`Tiling.mesh_now`).
         name: the name of the tiling.
         at: the time.
     """

@@ -11,7 +11,7 @@ Source: the paper, sections 4 and 5 (Lemma 5.4 for the number of edges crossed).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import TypeAlias, final
@@ -26,9 +26,7 @@ from exactpt.query.answers import Hit, Path, Place, VertexName
 from exactpt.query.homotopy import ShortestPaths
 from exactpt.query.locate import cast, find, place_of
 from exactpt.query.outer import OuterRectangle, with_outer_triangulation
-from exactpt.query.relative import relative_hull, top_nodes
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.mixed.static import mixed_mesh
 from exactpt.tiling.tiling import Tiling
 
@@ -59,9 +57,7 @@ class FreeSpace:
         self._node = kinetic.vertices.nodes()
         self._mesh: Mesh = kinetic.mesh_now(at)
         # The trees change as the run goes on; the root nodes are read now.
-        self._labelled = (
-            (self._mesh, top_nodes(self._mesh)) if isinstance(self._mesh, LabelledMesh) else None
-        )
+        self._relative_hulls = self._mesh.relative_hulls()
         self._at = at
         self._wide: dict[int, ShortestPaths] = {}
         self.snapshot: Snapshot = snapshot(self._vertices, self._mesh, kinetic.name, at)
@@ -185,8 +181,8 @@ class FreeSpace:
         index, first = self._index(body), self._plane.first
         if first[index + 1] - first[index] == 1:
             return [(body, 0)]
-        mesh, tops = self._labelled or self._mixed
-        nodes = [self._node[v] for v in relative_hull(mesh, tops[index])]
+        around = self._relative_hulls or self._mixed
+        nodes = [self._node[v] for v in around(index)]
         cycle = [
             v for before, v in zip([nodes[-1], *nodes[:-1]], nodes, strict=True) if v != before
         ]
@@ -195,11 +191,10 @@ class FreeSpace:
         return [self._plane.node_name(v) for v in cycle[least:] + cycle[:least]]
 
     @cached_property
-    def _mixed(self) -> tuple[LabelledMesh, list[int]]:
+    def _mixed(self) -> Callable[[int], list[int]]:
         if self._vertices.changes != self._changes:
             raise InputError("the bodies have other motions now: make the space anew")
-        mesh = mixed_mesh(PredicatesAt(self._vertices, self._at, after=False))
-        return mesh, top_nodes(mesh)
+        return mixed_mesh(PredicatesAt(self._vertices, self._at, after=False)).relative_hulls()
 
     def neighbours(self, body: str) -> list[str]:
         """The bodies connected to a body by a diagonal, in the order of the scene.

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Final, NamedTuple, final
 
 from exactpt.pseudotriangulation.mesh import F2, FREE, INSIDE, OUTER, SOLID, Tile
 from exactpt.render.palette import TINTS
-from exactpt.tiling.mixed.labels import Label, LabelledMesh
 
 if TYPE_CHECKING:
     from exactpt.tiling.tiling import Tiling
@@ -86,7 +85,7 @@ class Tracker:
         self._kinetic = kinetic
         self._node = node
         self._seen: list[list[int]] = [[], [], [], []]
-        self._labels: list[Label] = []
+        self._labels: list[frozenset[int]] = []
         self._tile_of: list[int] = []
         self._tiles: dict[int, _Tile] = {}
         self._made = 0
@@ -118,11 +117,9 @@ class Tracker:
         for old, new in zip(self._seen, now, strict=True):
             changed.update(_differences(old, new))
         self._seen = [array[:] for array in now]
-        if isinstance(mesh, LabelledMesh):  # a label places the tiles on both sides of its edge
-            changed.update(
-                h ^ side for h in _differences(self._labels, mesh.labels) for side in (0, 1)
-            )
-            self._labels = mesh.labels[:]
+        labels = list(mesh.labelling())  # a label places the tiles on both sides of its edge
+        changed.update(h ^ side for h in _differences(self._labels, labels) for side in (0, 1))
+        self._labels = labels
         self._tile_of += [-1] * (len(now[0]) - len(self._tile_of))
         ordered = sorted(changed)
         self._update_tiles(ordered, step)

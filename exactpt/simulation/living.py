@@ -12,14 +12,10 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
-from exactpt.motion.vertices import Vertices
-from exactpt.pseudotriangulation.conflict_zone import find_conflict_zone
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
 from exactpt.simulation.plans import planned
 from exactpt.tiling.events import TilingEvent
-from exactpt.tiling.greedy.greedy import GreedyTiling
-from exactpt.tiling.populated import PopulatedTiling
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["LivingScene"]
@@ -122,11 +118,9 @@ class LivingScene:
         bodies = self._bodies[:]
         for i, body in new.items():
             bodies[i] = body
-        if isinstance(self.kinetic, GreedyTiling) and any(
-            Vertices.of([body], t, self._end._end).bodies[0].is_tiled for body in new.values()
-        ):
-            return self._restart(bodies, t, len(new))
         events = self.kinetic.change_plans(new, t)
+        if events is None:
+            return self._restart(bodies, t, len(new))
         self._bodies, self._since, self._scene = bodies, t, None
         self.changes += len(new)
         return [self.named(event) for event in events]
@@ -137,15 +131,13 @@ class LivingScene:
         if body.name in self._number:
             raise InputError(f"body {body.name!r}: the name is taken by another body")
         alone = Scene([body], (t, self._end._end))  # checks its shape
-        kinetic = self.kinetic
-        if not isinstance(kinetic, PopulatedTiling) or not kinetic.takes(body, t):
+        events = self.kinetic.add_body(body, t)
+        if events is None:
             bodies = [*self._bodies, body]
             for i, j in initial_touches(alone.going_on(bodies, t))[1]:
                 names = bodies[i].name, bodies[j].name
                 raise InputError(f"body {names[1]!r} touches body {names[0]!r} at t = {show(t)}")
             return self._restart(bodies, t, 1)
-        site = find_conflict_zone(kinetic.vertices, kinetic.mesh, body, t)
-        events = kinetic.add_body(body, t, site)
         self._number[body.name] = len(self._bodies)
         self._bodies.append(body)
         self._since, self._scene = t, None
@@ -161,10 +153,10 @@ class LivingScene:
             self._bodies[i] = last
         self._number[last.name] = i
         del self._number[name]
-        if not isinstance(kinetic, PopulatedTiling):
-            return self._restart(self._bodies, t, 1)
         gone = {v: kinetic.vertices.name(v) for v in kinetic.vertices.bodies[i].ring}
         events = kinetic.remove_body(i, t)
+        if events is None:
+            return self._restart(self._bodies, t, 1)
         self._since, self._scene = t, None
         self.changes += 1
         return [self.named(event, gone) for event in events]

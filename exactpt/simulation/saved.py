@@ -16,24 +16,15 @@ from typing import Any, TypeAlias
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
 from exactpt.collision.contact import Contact, Pair
-from exactpt.collision.tilings import POINT_TILING, tiling_class
-from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, ZZ, parse_rational
 from exactpt.motion.body import Body
 from exactpt.motion.frame import Frame
 from exactpt.motion.vertices import Vertices
-from exactpt.planar.halfedge import PlanarMap
-from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.simulation.event import Event
+from exactpt.tiling import catalogue, loading
+from exactpt.tiling.catalogue import Bodies
 from exactpt.tiling.events import Stats
-from exactpt.tiling.greedy.greedy import GreedyTiling
-from exactpt.tiling.greedy.vertical import VerticalDecomposition
-from exactpt.tiling.incremental.chains import Chains
-from exactpt.tiling.incremental.incremental import IncrementalTiling
-from exactpt.tiling.incremental.structure import IncrementalStructure
-from exactpt.tiling.kinetic import KineticTiling
-from exactpt.tiling.mixed.labels import Forest, LabelledMesh
 from exactpt.tiling.tiling import Tiling
 
 __all__ = [
@@ -50,7 +41,6 @@ Data: TypeAlias = "dict[str, Any]"
 """A JSON object that has been read; defects are detected where it is used."""
 
 _STATS = ("batches", "rebuilds", "flips", "most")
-_CELLS = ("vertex", "left", "right", "left_up", "left_down", "right_up", "right_down")
 
 
 def tiling_to_json(kinetic: Tiling) -> Data:
@@ -58,7 +48,7 @@ def tiling_to_json(kinetic: Tiling) -> Data:
     certifier, stats, vertices = kinetic.certifier, kinetic.stats, kinetic.vertices
     data: Data = {
         "kind": kinetic.name,
-        "convex": isinstance(kinetic, GreedyTiling),
+        "convex": kinetic.entry.bodies is Bodies.CONVEX,
         "end": str(certifier.end),
         "now": _time_to_json(certifier.now),
         "roots_now": [list(key) for key in certifier.roots_now],
@@ -80,15 +70,7 @@ def tiling_to_json(kinetic: Tiling) -> Data:
             if (time := kinetic.queue.pending(slot)) is not None
         ],
     }
-    if isinstance(kinetic, KineticTiling):
-        data["flat"] = sorted(kinetic.flat)
-        data["mesh"] = _mesh_to_json(kinetic.mesh)
-    if isinstance(kinetic, GreedyTiling):
-        data["cells"] = {name: list(getattr(kinetic.cells, name)) for name in _CELLS}
-    if isinstance(kinetic, IncrementalTiling):
-        data["structure"] = _structure_to_json(kinetic.structure)
-        data["chains"] = [kinetic.chains.kind, kinetic.chains.allowed]
-    return data
+    return {**data, **kinetic.state()}
 
 
 def tiling_from_json(data: Data, bodies: Sequence[Body], *, exact_only: bool) -> Tiling:
@@ -111,26 +93,11 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], *, exact_only: bool) ->
     stats.events = dict(data["stats"]["events"])
     for name in _STATS:
         setattr(stats, name, data["stats"][name])
-    kinetic = _kept(data, certifier, vertices, stats)
+    entry = catalogue.find(data["kind"], convex=data["convex"])
+    kinetic = loading.make(entry, vertices, certifier, stats)
+    kinetic.resume(data)
     for slot, time in data["queue"]:
         kinetic.queue.schedule(slot, _time_from_json(time))
-    return kinetic
-
-
-def _kept(data: Data, certifier: Certifier, vertices: Vertices, stats: Stats) -> Tiling:
-    """The tiling of the saved class, without pending certificates."""
-    if data["kind"] == POINT_TILING:
-        structure, chains = _structure_from_json(data["structure"]), Chains(*data["chains"])
-        return IncrementalTiling(vertices, certifier, stats, structure, chains)
-    kind = tiling_class(data["kind"], convex=data["convex"])
-    if not issubclass(kind, KineticTiling):
-        raise InputError(f"no tiling {data['kind']!r} can be restored")
-    kinetic = kind(vertices, certifier, stats)
-    kinetic.resume(_mesh_from_json(data["mesh"], vertices), data["flat"])
-    if isinstance(kinetic, GreedyTiling):
-        kinetic.cells = VerticalDecomposition(0)
-        for name in _CELLS:
-            setattr(kinetic.cells, name, data["cells"][name])
     return kinetic
 
 
@@ -182,59 +149,6 @@ def _frame_from_json(data: Data) -> Frame:
     x, y = map(parse_rational, data["center"])
     sx, sy = data["scale"]
     return Frame((x, y), (sx, sy), parse_rational(data["origin"]), data["time_scale"])
-
-
-# The mesh
-
-
-def _mesh_to_json(mesh: Mesh) -> Data:
-    m = mesh.map
-    data: Data = {
-        "origin": list(m.origin),
-        "following": list(m.following),
-        "previous": list(m.previous),
-        "free": list(m.free),
-        "region": list(mesh.region),
-        "corner": [int(c) for c in mesh.corner],
-        "boundary": [int(b) for b in mesh.boundary],
-        "ring_edge": list(mesh.ring_edge),
-    }
-    if isinstance(mesh, LabelledMesh):
-        data["labels"] = [sorted(label) for label in mesh.labels]
-    return data
-
-
-def _mesh_from_json(data: Data, vertices: Vertices) -> Mesh:
-    mesh = Mesh(0)
-    if "labels" in data:
-        mesh = LabelledMesh(0, Forest(vertices))
-        mesh.labels = [frozenset(label) for label in data["labels"]]
-    mesh.map = PlanarMap.of(data["origin"], data["following"], data["previous"], data["free"])
-    mesh.region = data["region"]
-    mesh.corner = [bool(c) for c in data["corner"]]
-    mesh.boundary = [bool(b) for b in data["boundary"]]
-    mesh.ring_edge = data["ring_edge"]
-    mesh.audit()
-    return mesh
-
-
-# The structure of points
-
-
-def _structure_to_json(structure: IncrementalStructure) -> Data:
-    return {
-        "order": list(structure.order),
-        "parents": [list(tree.parent) for tree in structure.trees],
-        "steps": [tree.steps for tree in structure.trees],
-    }
-
-
-def _structure_from_json(data: Data) -> IncrementalStructure:
-    upper, lower = data["parents"]
-    structure = IncrementalStructure.of(data["order"], (upper, lower))
-    for tree, steps in zip(structure.trees, data["steps"], strict=True):
-        tree.steps = steps
-    return structure
 
 
 # Events and contacts

@@ -7,96 +7,61 @@ triangle vanish together and share one certificate.
 
 from __future__ import annotations
 
-from typing import Final
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, final
 
-from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certificate import ANGLE, MOTION, SHRINK, pack
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.one_sided import OneSided
 from exactpt.certificates.queue import EventTime
-from exactpt.errors import AuditError
-from exactpt.kernel.numbers import QQ
+from exactpt.certificates.table import CertificateTable
 from exactpt.motion.vertices import Vertex, Vertices
-from exactpt.pseudotriangulation.audit import audit_angles
-from exactpt.pseudotriangulation.degenerate import close_at
 from exactpt.pseudotriangulation.mesh import SOLID, Mesh
-from exactpt.tiling.events import Stats
 from exactpt.tiling.simultaneous import Batch
-from exactpt.tiling.tiling import Tiling
 
-__all__ = ["ANGLE", "CELL", "EXTREME", "KINDS", "MOTION", "SHRINK", "CertifiedTiling"]
+if TYPE_CHECKING:
+    from exactpt.tiling.rules import Rules
 
-ANGLE: Final = 0
-CELL: Final = 1
-EXTREME: Final = 2
-MOTION: Final = 3
-SHRINK: Final = 4
-KINDS: Final = 16
-"""A slot of the queue is ``KINDS * handle + kind``."""
+__all__ = ["CertifiedMesh"]
 
 
-class CertifiedTiling(Tiling):
-    """A tiling with a certificate for each angle that can fail.
+@final
+class CertifiedMesh:
+    """A mesh just after the current time, with a certificate for each angle that can fail.
 
     Attributes:
-        mesh: the tiling just after the current time.
+        mesh: the mesh.
+        vertices: the moving vertices.
+        certifier: certificates and the current time.
+        table: what is pending, violated and flat.
+        rules: of the structure, told of all that changes.
+        batch: what is repaired at the current time.
+        is_careful: whether marks may be wrong where signs do not change.
     """
 
-    def __init__(self, vertices: Vertices, certifier: Certifier, stats: Stats) -> None:
-        super().__init__(vertices, certifier, stats)
+    rules: Rules
+
+    def __init__(self, vertices: Vertices, certifier: Certifier, table: CertificateTable) -> None:
         self.mesh: Mesh = Mesh(0)
-        self._flat: set[int] = set()
-        self._due: set[int] = set()
-        self._batch: Batch = Batch()
-        self._careful: bool = False
-        self._clear_notes()
+        self.vertices: Vertices = vertices
+        self.certifier: Certifier = certifier
+        self.table: CertificateTable = table
+        self.batch: Batch = Batch()
+        self.is_careful: bool = False
 
-    def _clear_notes(self) -> None:
-        """Forget what is noted during the repairs of one time."""
+    def after(self) -> OneSided:
+        """Predicates just after the current time."""
+        return OneSided(self.certifier, before=False)
 
-    @property
-    def flat(self) -> set[int]:
-        """The half-edges whose angles are known to be straight for ever."""
-        return self._flat
-
-    def mesh_after(self) -> Mesh:
-        """The tiling just after the current time: not a copy."""
-        return self.mesh
-
-    def mesh_now(self, time: QQ) -> Mesh:
-        """The tiling at a rational time: the current one, or one before the next event.
-
-        It is the current one with corners closed; or, where corners close on each other
-        so that one by one they cannot, the one that is built at that time.
-        """
-        mesh = self.mesh.copy()
-        instant = PredicatesAt(self.vertices, time, after=False)
-        try:
-            self._close(mesh, instant)
-        except AuditError:
-            mesh = self.mesh_at(instant)
-            audit_angles(mesh, instant)
-        return mesh
-
-    def _close(self, mesh: Mesh, instant: PredicatesAt) -> None:
-        """Make a tiling just after an instant the one at the instant.
-
-        Raises:
-            AuditError: if that does not end in a tiling.
-        """
-        if close_at(mesh, instant):
-            audit_angles(mesh, instant)
-
-    def _certify_everything(self) -> None:
-        self._flat.clear()
-        for slot in self.queue.slots():
-            if slot % KINDS not in (MOTION, SHRINK):
-                self.queue.cancel(slot)
+    def certify_everything(self) -> int:
+        """Certify all angles, and what else the structure has; how many are pending of angles."""
+        self.table.keep_only((MOTION, SHRINK))
         watched: list[int] = []
         angles: list[tuple[int, int, int]] = []
         region = self.mesh.region
         for h in self.mesh.map.half_edges():
             if region[h] != SOLID:
-                a, p, b = self._angle(h)
+                a, p, b = self.angle(h)
                 if self._cannot_fail(h, a, p, b):
                     self._skip(h)
                 else:
@@ -104,17 +69,20 @@ class CertifiedTiling(Tiling):
                     angles.append((a, p, b))
         answers = self.certifier.orientations(angles)
         for h, (s, time) in zip(watched, answers, strict=True):
-            self._due.discard(h)
+            self.table.angles.discard(h)
             self._keep(h, s, time)
-        self.stats.most = max(self.stats.most, len(self.queue))
+        pending = len(self.table.pending)
+        self.rules.certify()
+        return pending
 
-    def _certify(self, h: int) -> None:
-        """Certify the angle of h; note it as due if it is violated just after now."""
-        if self._due:
-            self._due.discard(h)
-        if self._flat:
-            self._flat.discard(h)
-        a, p, b = self._angle(h)
+    def certify(self, h: int) -> None:
+        """Certify the angle of h; note it if it is violated just after now."""
+        table = self.table
+        if table.angles:
+            table.angles.discard(h)
+        if table.flat:
+            table.flat.discard(h)
+        a, p, b = self.angle(h)
         if self.mesh.region[h] == SOLID or self._cannot_fail(h, a, p, b):
             self._skip(h)
         else:
@@ -128,30 +96,30 @@ class CertifiedTiling(Tiling):
         of simultaneous events.
         """
         self.certifier.skipped += 1
-        self.queue.cancel(KINDS * h + ANGLE)
-        if self._careful and self.mesh.region[h] != SOLID:
-            a, p, b = self._angle(h)
-            if self.certifier.rigid(a, p, b):
-                after = OneSided(self.certifier, before=False)
-                if (after.sign(a, p, b) > 0) != self.mesh.corner[h]:
-                    self._due.add(h)
+        self.table.pending.cancel(pack(ANGLE, h))
+        if self.is_careful and self.mesh.region[h] != SOLID:
+            a, p, b = self.angle(h)
+            if self.certifier.rigid(a, p, b) and (
+                (self.after().sign(a, p, b) > 0) != self.mesh.corner[h]
+            ):
+                self.table.angles.add(h)
 
     def _cannot_fail(self, h: int, a: int, p: int, b: int) -> bool:
         """Whether the angle of h, at p between a and b, needs no certificate of its own."""
         return a == b or self.certifier.rigid(a, p, b) or self._is_copy(h)
 
     def _keep(self, h: int, s: int, time: EventTime | None) -> None:
-        """Schedule the failure of an angle; note it as due if it is violated just after now."""
-        slot = KINDS * h + ANGLE
+        """Schedule the failure of an angle; note it if it is violated just after now."""
+        table, certificate = self.table, pack(ANGLE, h)
         if s == 0:
-            self._flat.add(h)
+            table.flat.add(h)
         if (s > 0) != self.mesh.corner[h]:
-            self.queue.cancel(slot)
-            self._due.add(h)
+            table.pending.cancel(certificate)
+            table.angles.add(h)
         elif time is None:
-            self.queue.cancel(slot)
+            table.pending.cancel(certificate)
         else:
-            self.queue.schedule(slot, time)
+            table.pending.schedule(certificate, time)
 
     def _is_copy(self, h: int) -> bool:
         """Whether another half-edge of a triangular face stands for its three angles."""
@@ -160,58 +128,72 @@ class CertifiedTiling(Tiling):
         k = m.following[g]
         return m.following[k] == h and (g < h or k < h) and self.mesh.corner[h]
 
-    def _recertify(self, slots: list[int]) -> None:
+    def recertify(self, half_edges: list[int]) -> None:
         """Certify changed angles; of faces that are or were triangles, all angles."""
         m = self.mesh.map
-        self._batch.touch(slots)
+        self.batch.touch(half_edges)
         todo: dict[int, None] = {}
-        for h in slots:
+        for h in half_edges:
             todo[h] = None
-            if m.following[m.following[m.following[m.following[h]]]] == h or self._is_triangle(h):
+            if m.following[m.following[m.following[m.following[h]]]] == h or self.is_triangle(h):
                 for g in m.face(h):
                     todo[g] = None
         for h in todo:
-            self._certify(h)
+            self.certify(h)
+        self.rules.changed(half_edges)
 
-    def _certify_body(self, i: int) -> list[int]:
+    def certify_body(self, i: int) -> list[int]:
         """Certify anew whatever depends on a body; the angles that vanish now."""
         m = self.mesh.map
         angles: dict[int, None] = {}
-        for v in self.vertices.bodies[i].ring:
-            for h in m.fan(self.mesh.ring_edge[v]):
-                angles.update(dict.fromkeys((h, m.following[h], h ^ 1)))
+        for h in self.ring_angles(i):
+            angles.update(dict.fromkeys((h, m.following[h], h ^ 1)))
         vanishing = []
         for h in angles:
             zeros = self.certifier.zeros
-            self._certify(h)
+            self.certify(h)
             if self.certifier.zeros > zeros:
                 vanishing.append(h)
+        self.rules.certify_body(i)
         return vanishing
 
-    def _cancel_edge(self, h: int) -> None:
-        """Forget the certificates of an edge that has been removed."""
-        for g in (h, h ^ 1):
-            self.queue.cancel(KINDS * g + ANGLE)
-            self._due.discard(g)
-            self._flat.discard(g)
+    def certify_again(self, half_edges: Iterable[int]) -> None:
+        """Certify the angles of those half-edges that are still there."""
+        for h in half_edges:
+            if self.mesh.map.origin[h] >= 0:
+                self.certify(h)
 
-    def _angle(self, h: int) -> tuple[int, int, int]:
+    def cancel_edge(self, h: int) -> None:
+        """Forget the certificates of an edge that has been removed."""
+        table = self.table
+        for g in (h, h ^ 1):
+            table.pending.cancel(pack(ANGLE, g))
+            table.angles.discard(g)
+            table.flat.discard(g)
+        self.rules.cancelled(h)
+
+    # Angles
+
+    def angle(self, h: int) -> tuple[int, int, int]:
+        """The vertices of the angle of h, which is at the second one."""
         m = self.mesh.map
         return m.origin[m.previous[h]], m.origin[h], m.origin[h ^ 1]
 
-    def _vertices_of(self, h: int) -> tuple[Vertex, Vertex, Vertex]:
-        a, p, b = self._angle(h)
+    def vertices_of(self, h: int) -> tuple[Vertex, Vertex, Vertex]:
+        """The same as moving vertices."""
+        a, p, b = self.angle(h)
         v = self.vertices.all
         return v[a], v[p], v[b]
 
-    def _is_triangle(self, h: int) -> bool:
+    def is_triangle(self, h: int) -> bool:
+        """Whether the face on the left of h has three edges."""
         m = self.mesh.map
         return m.following[m.following[m.following[h]]] == h
 
-    def _straight_run(self, h: int) -> set[int]:
+    def straight_run(self, h: int) -> set[int]:
         """The vertices of an angle, and on along chains that are straight for ever."""
         m = self.mesh.map
-        run = set(self._angle(h))
+        run = set(self.angle(h))
         for step in (m.following, m.previous):
             g = step[h]
             while g != h and self._is_flat(g):
@@ -219,16 +201,27 @@ class CertifiedTiling(Tiling):
                 run.add(m.origin[g])
         return run
 
-    def _has_flats(self, h: int) -> bool:
+    def has_flats(self, h: int) -> bool:
         """Whether a chain that is straight for ever may be next to an angle."""
         m = self.mesh.map
-        return bool(self._flat) or self._is_flat(m.following[h]) or self._is_flat(m.previous[h])
+        return (
+            bool(self.table.flat) or self._is_flat(m.following[h]) or self._is_flat(m.previous[h])
+        )
 
     def _is_flat(self, h: int) -> bool:
         """Whether the angle of h is straight for ever; of one body it has no certificate."""
-        a, p, b = self._angle(h)
-        return h in self._flat or (
-            a != b
-            and self.certifier.rigid(a, p, b)
-            and OneSided(self.certifier, before=False).sign(a, p, b) == 0
+        a, p, b = self.angle(h)
+        return h in self.table.flat or (
+            a != b and self.certifier.rigid(a, p, b) and self.after().sign(a, p, b) == 0
         )
+
+    # Bodies
+
+    def ring_angles(self, i: int) -> list[int]:
+        """The half-edges out of the vertices of a body."""
+        m, ring_edge = self.mesh.map, self.mesh.ring_edge
+        return [h for v in self.vertices.bodies[i].ring for h in m.fan(ring_edge[v])]
+
+    def edges_at(self, i: int) -> list[int]:
+        """The edges at the vertices of a body."""
+        return list(dict.fromkeys(min(h, h ^ 1) for h in self.ring_angles(i)))

@@ -11,17 +11,17 @@ from exactpt.pseudotriangulation.plane_sweep import sweep_diagonals
 from exactpt.pseudotriangulation.pointed import make_pointed
 from exactpt.tiling.greedy.greedy import greedy_mesh
 from exactpt.tiling.greedy.vertical import VerticalDecomposition
-from exactpt.tiling.populated import PopulatedTiling
+from exactpt.tiling.rules import Rules
 
-__all__ = ["LazyTiling"]
+__all__ = ["LazyRules"]
 
 
 @final
-class LazyTiling(PopulatedTiling):
+class LazyRules(Rules):
     """Starts greedy and repairs corners and bends alone."""
 
-    @classmethod
-    def mesh_at(cls, instant: PredicatesAt) -> Mesh:
+    @staticmethod
+    def build(instant: PredicatesAt) -> Mesh:
         """A tiling of an instant: of convex bodies by rotation, else by a plane sweep."""
         if instant.all_stay_convex():
             return greedy_mesh(instant, VerticalDecomposition.at(instant))[0]

@@ -5,7 +5,7 @@ corner that closes is collapsed; a bend that straightens gives one of its edges 
 Either is one slide of an edge along its neighbour (`exactpt.planar.halfedge`).
 
 At one time, several certificates may fail. They are repaired one after the other, in the
-order of their slots, each judged by its sign *just after* that time, until none is
+order of their numbers, each judged by its sign *just after* that time, until none is
 violated. If all angles of the result are as they should be, it is an embedding: the
 angles around every vertex add up to a positive multiple of 2 pi and, by Euler's formula,
 to 2 pi on average.
@@ -13,91 +13,102 @@ to 2 pi on average.
 
 from __future__ import annotations
 
+from typing import final
+
 from exactpt.certificates.coincidence import nearer, nearer_copy, strictly_between
-from exactpt.certificates.one_sided import OneSided
 from exactpt.certificates.perturbation import comes_first
 from exactpt.errors import AuditError
 from exactpt.pseudotriangulation.audit import audit_fan
 from exactpt.pseudotriangulation.mesh import OUTER
-from exactpt.tiling.angles import CertifiedTiling
+from exactpt.tiling.angles import CertifiedMesh
+from exactpt.tiling.events import Log
+from exactpt.tiling.rules import Rules
 
-__all__ = ["RebuildNeeded", "RepairedTiling"]
+__all__ = ["RebuildNeeded", "Repairs"]
 
 
 class RebuildNeeded(Exception):  # noqa: N818 - a turn of the control flow, no error
     """The events of one time could not be repaired one by one."""
 
 
-class RepairedTiling(CertifiedTiling):
-    """A tiling whose violated angles are mended one by one."""
+@final
+class Repairs:
+    """Mends the violated angles of a mesh one by one, and what its rules have besides."""
 
-    def _settle(self) -> None:
+    def __init__(self, certified: CertifiedMesh, rules: Rules, log: Log) -> None:
+        self.certified: CertifiedMesh = certified
+        self._rules: Rules = rules
+        self._log: Log = log
+
+    def settle(self) -> None:
         """Repair until nothing is violated just after now.
 
         Raises:
             RebuildNeeded: if that does not end in a pseudo-triangulation.
         """
-        rounds, most = 0, 64 + 4 * (len(self.queue) + len(self._due))
-        while self._due or self._has_more():
+        table, batch, rules = self.certified.table, self.certified.batch, self._rules
+        rounds, most = 0, 64 + 4 * (len(table.pending) + len(table.angles))
+        while table.angles or rules.is_violated():
             rounds += 1
             if rounds > most:
                 raise RebuildNeeded
-            self._batch.begin_repair()
-            if self._due:
-                self._repair(self._first_due())
+            batch.begin_repair()
+            if table.angles:
+                self._repair(self.first_violated())
             else:
-                self._repair_more()
-        if self._batch.needs_check(self.mesh):
-            self._check_batch(sorted(self._batch.touched))
+                rules.repair()
+        if batch.needs_check(self.certified.mesh):
+            self.check_batch()
+        rules.restore()
 
-    def _first_due(self) -> int:
+    def first_violated(self) -> int:
         """The violated angle to be mended first: copies of one triple in perturbed order."""
-        first = min(self._due)
-        if len(self._due) == 1:
+        certified, violated = self.certified, self.certified.table.angles
+        first = min(violated)
+        if len(violated) == 1:
             return first
-        q = self._vertices_of(first)
+        q = certified.vertices_of(first)
         triple = {(v.body, v.index) for v in q}
-        for h in sorted(self._due_at(triple) - {first}):
-            p = self._vertices_of(h)
+        for h in sorted(self._violated_at(triple) - {first}):
+            p = certified.vertices_of(h)
             if {(v.body, v.index) for v in p} == triple:
-                signs = (-1 if self.mesh.corner[g] else 1 for g in (h, first))
-                if comes_first(p, next(signs), q, next(signs), self.now):
+                signs = (-1 if certified.mesh.corner[g] else 1 for g in (h, first))
+                if comes_first(p, next(signs), q, next(signs), certified.certifier.exact_now):
                     first, q = h, p
         return first
 
-    def _due_at(self, vertices: set[tuple[int, int]]) -> set[int]:
+    def _violated_at(self, vertices: set[tuple[int, int]]) -> set[int]:
         """The violated angles at some vertices, each given by its body and its number there."""
-        origin, every = self.mesh.map.origin, self.vertices.all
-        return {h for h in self._due if ((v := every[origin[h]]).body, v.index) in vertices}
+        certified = self.certified
+        origin, every = certified.mesh.map.origin, certified.vertices.all
+        return {
+            h for h in certified.table.angles if ((v := every[origin[h]]).body, v.index) in vertices
+        }
 
-    def _check_batch(self, touched: list[int]) -> None:
+    def check_batch(self) -> None:
         """Check what several repairs at one time have left: corners, order around vertices.
 
         Raises:
             RebuildNeeded: if it is no pseudo-triangulation.
         """
-        m = self.mesh.map
-        after = OneSided(self.certifier, before=False)
+        mesh, touched = self.certified.mesh, sorted(self.certified.batch.touched)
+        m, after = mesh.map, self.certified.after()
         try:
-            self.mesh.audit_faces(touched)
+            mesh.audit_faces(touched)
             for v in sorted({m.origin[h] for h in touched if m.origin[h] >= 0}):
-                audit_fan(self.mesh, self.mesh.ring_edge[v], after)
+                audit_fan(mesh, mesh.ring_edge[v], after)
         except AuditError:
             raise RebuildNeeded from None
-
-    def _has_more(self) -> bool:
-        """Whether a certificate that is none of an angle is violated just after now."""
-        return False
-
-    def _repair_more(self) -> None:
-        """Mend one of these."""
+        self._rules.check(touched)
 
     def _repair(self, h: int) -> None:
         """Mend the violated angle of h."""
-        self._due.discard(h)
-        if self._is_triangle(h) and self.mesh.corner[h]:
+        certified = self.certified
+        certified.table.angles.discard(h)
+        is_corner = certified.mesh.corner[h]
+        if is_corner and certified.is_triangle(h):
             self._repair_triangle(h)
-        elif self.mesh.corner[h]:
+        elif is_corner:
             self._repair_corner(h)
         else:
             self._repair_bend(h)
@@ -108,11 +119,11 @@ class RepairedTiling(CertifiedTiling):
         Of a pointed tiling, it is a reflex vertex of a polygon that becomes convex; the
         triangle was its last tile with an angle above pi on the other side.
         """
-        mesh = self.mesh
-        vertices = self._vertices_of(h)
+        certified, mesh = self.certified, self.certified.mesh
+        vertices = certified.vertices_of(h)
         for i, middle in enumerate(vertices):
             a, b = vertices[i - 1], vertices[i - 2]
-            if strictly_between(self.certifier, a, middle, b):
+            if strictly_between(certified.certifier, a, middle, b):
                 break
         else:
             raise RebuildNeeded
@@ -120,21 +131,19 @@ class RepairedTiling(CertifiedTiling):
         if mesh.is_boundary(edge):
             raise RebuildNeeded
         across = mesh.map.face(edge ^ 1)
-        self._record("hull" if mesh.is_hull(edge) else "corner", (mesh.ends(edge),), ())
+        self._log.record("hull" if mesh.is_hull(edge) else "corner", (mesh.ends(edge),), ())
         first, second = mesh.map.following[edge], mesh.map.previous[edge]
         after = mesh.map.following[edge ^ 1]
         mesh.dissolve_triangle(edge)
-        self._cancel_edge(edge)
-        self._recertify([first, second, after] if len(across) > 3 else mesh.map.face(first))
+        certified.cancel_edge(edge)
+        certified.recertify([first, second, after] if len(across) > 3 else mesh.map.face(first))
 
     def _repair_corner(self, h: int) -> None:
-        mesh, m = self.mesh, self.mesh.map
-        a, p, b = self._angle(h)
-        v = self.vertices.all
-        side = nearer(self.certifier, v[p], v[a], v[b]) or nearer_copy(
-            self.certifier, v[p], v[a], v[b]
-        )
-        before = m.previous[h]
+        mesh, certifier = self.certified.mesh, self.certified.certifier
+        a, p, b = self.certified.angle(h)
+        va, vp, vb = self.certified.vertices_of(h)
+        side = nearer(certifier, vp, va, vb) or nearer_copy(certifier, vp, va, vb)
+        before = mesh.map.previous[h]
         if side == 0:
             raise RebuildNeeded
         long, origin_moves = (h, True) if side > 0 else (before, False)
@@ -146,12 +155,13 @@ class RepairedTiling(CertifiedTiling):
         self._slid(h, before, kind, ends, origin_moves=origin_moves)
 
     def _repair_bend(self, h: int) -> None:
-        mesh, m = self.mesh, self.mesh.map
-        a, p, b = self._angle(h)
-        before = m.previous[h]
+        mesh = self.certified.mesh
+        a, p, b = self.certified.angle(h)
+        before = mesh.map.previous[h]
         kind = "hull" if mesh.region[h] == OUTER else "reflex"
         stays_before, stays_after = mesh.stays(h)
         if stays_before and stays_after:
+            self._rules.turns_reflex(h)
             self._repair_convex_vertex(h, kind)
             return
         # Of two diagonals that become one line the one before the bend gives way: the one
@@ -166,45 +176,22 @@ class RepairedTiling(CertifiedTiling):
 
     def _repair_convex_vertex(self, h: int, kind: str) -> None:
         """A convex vertex of a body becomes reflex: it gets a triangle of its own."""
-        a, _, b = self._angle(h)
-        e = self.mesh.cut_off(h)
-        self._record(kind, (), ((a, b),))
-        m = self.mesh.map
-        self._recertify([e, m.following[e], e ^ 1, h, m.previous[h]])
+        a, _, b = self.certified.angle(h)
+        e = self.certified.mesh.cut_off(h)
+        self._log.record(kind, (), ((a, b),))
+        m = self.certified.mesh.map
+        self.certified.recertify([e, m.following[e], e ^ 1, h, m.previous[h]])
 
     def _slid(
         self, h: int, before: int, kind: str, ends: tuple[int, int, int], *, origin_moves: bool
     ) -> None:
         """Certify the angles that a slide has changed: two in one face, three across."""
-        m = self.mesh.map
+        m = self.certified.mesh.map
         old, fixed, new = ends
-        self._record(kind, ((old, fixed),), ((new, fixed),))
+        self._log.record(kind, ((old, fixed),), ((new, fixed),))
         if origin_moves:
             changed = [h, m.following[h], h ^ 1, before, m.following[before]]
         else:
             t = before ^ 1
             changed = [before, m.following[before], h, t, m.following[t]]
-        self._recertify(changed)
-
-    def _record(
-        self,
-        kind: str,
-        removed: tuple[tuple[int, int], ...],
-        added: tuple[tuple[int, int], ...],
-    ) -> None:
-        """Note a change; one between copies of a thin vertex is none for the outside."""
-        if self._has_copies(removed) and self._scene_edges(removed) == self._scene_edges(added):
-            self.stats.count("internal")
-        else:
-            super()._record(kind, removed, added)
-
-    def _has_copies(self, edges: tuple[tuple[int, int], ...]) -> bool:
-        """Whether an edge ends at a vertex that has copies."""
-        for a, b in edges:
-            if self.vertices.all[a].offset is not None or self.vertices.all[b].offset is not None:
-                return True
-        return False
-
-    def _scene_edges(self, edges: tuple[tuple[int, int], ...]) -> set[frozenset[tuple[int, int]]]:
-        v = self.vertices.all
-        return {frozenset((v[i].body, v[i].index) for i in edge) for edge in edges}
+        self.certified.recertify(changed)

@@ -160,7 +160,7 @@ def test_a_check_finds_a_contact_that_the_tiling_missed(tmp_path, program, capsy
         {"name": "b", "vertices": [[0, 0]]},
     ]
     path.write_text(json.dumps({"exactpt": 1, "time": [0, 3], "bodies": bodies}))
-    monkeypatch.setattr("exactpt.tiling.kinetic.touches", lambda *_: [])
+    monkeypatch.setattr("exactpt.tiling.touching.touches", lambda *_: [])
 
     assert code_of("check", path, "--tiling", "lazy") == 1
 

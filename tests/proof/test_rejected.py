@@ -4,6 +4,7 @@ from fractions import Fraction
 from random import Random
 
 import pytest
+from exactpt.tiling.kinetic import KineticTiling
 from proving import accepted, agrees, proof_of, verdict
 
 from exactpt import Body, Scene, Translation
@@ -14,7 +15,6 @@ from exactpt.proof.changes import change, followers
 from exactpt.proof.emit import Proof, scene_bytes
 from exactpt.scene.format import loads
 from exactpt.scene.generate import generate
-from exactpt.tiling.kinetic import KineticTiling
 
 
 def points(*places):

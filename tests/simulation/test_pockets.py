@@ -8,7 +8,6 @@ from test_plans import audit
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
-from exactpt.query.relative import relative_hull
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 
@@ -89,7 +88,7 @@ def hull(simulation, name):
     """The vertices along the relative hull of a body."""
     vertices, mesh = simulation.kinetic.vertices, simulation.kinetic.mesh
     number = [moving.body.name for moving in vertices.bodies].index(name)
-    return [vertices.name(v) for v in relative_hull(mesh, number)]
+    return [vertices.name(v) for v in mesh.relative_hulls()(number)]
 
 
 def test_a_relative_hull_goes_down_to_a_guest_and_up_again():

@@ -3,12 +3,23 @@
 from fractions import Fraction
 
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certifier import Certifier
 from exactpt.collision.initial import initial_touches
+from exactpt.collision.tilings import plan_tiling
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.tiling.events import ContactFound
+from exactpt.tiling.events import ContactFound, Stats
 from exactpt.tiling.incremental.incremental import IncrementalTiling
 from exactpt.tiling.incremental.static import sweep_at
 from exactpt.tiling.incremental.structure import LOWER, UPPER
+
+
+def started(scene, *, exact_only=False, **options):
+    """The tiling at the start of a scene of points."""
+    plan = plan_tiling(scene, "incremental", scene.start)
+    certifier = Certifier(plan.vertices, scene.start, scene.end, exact_only=exact_only)
+    kinetic = IncrementalTiling(plan.entry, plan.vertices, certifier, Stats(), **options)
+    kinetic.begin(scene.start)
+    return kinetic
 
 
 def points_at(scene, t):
@@ -84,10 +95,7 @@ def run_and_audit(scene, *, exact_only=False, by_slope=False, each=None, **optio
     """
     if initial_touches(scene)[1]:
         return None
-    vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
-    kinetic = IncrementalTiling.begin(
-        vertices, scene.start, scene.end, exact_only=exact_only, **options
-    )
+    kinetic = started(scene, exact_only=exact_only, **options)
     gaps = 0
     try:
         while True:

@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import pytest
 
+from exactpt.certificates.certificate import ANGLE, pack
 from exactpt.certificates.perturbation import orientation
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import TILINGS, start_tiling
@@ -18,7 +19,6 @@ from exactpt.motion.motions import Translation
 from exactpt.pseudotriangulation.mesh import SOLID
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
-from exactpt.tiling.angles import ANGLE, KINDS
 from exactpt.tiling.events import ContactFound
 from fuzz import corpus
 
@@ -33,7 +33,7 @@ GRAZING = Scene(
 
 def first_zero(kinetic, h):
     """The first time after now at which the angle of h vanishes, by its exact polynomials."""
-    vertices = kinetic._vertices_of(h)
+    vertices = kinetic.certified.vertices_of(h)
     ends = [kinetic.vertices.bodies[v.body].until for v in vertices]
     until = min([kinetic.certifier.end, *(end for end in ends if end is not None)])
     times = [root.time for root in zeros(vertices, kinetic.now, until)]
@@ -57,9 +57,9 @@ def pending(kinetic, h):
     """When an event of the angle of h is pending, or of the triangle that it is one of."""
     m = kinetic.mesh.map
     slots = [h]
-    if kinetic._is_triangle(h) and kinetic.mesh.corner[h]:
+    if kinetic.certified.is_triangle(h) and kinetic.mesh.corner[h]:
         slots += [m.following[h], m.previous[h]]
-    times = [time for g in slots if (time := kinetic.queue.pending(KINDS * g + ANGLE))]
+    times = [time for g in slots if (time := kinetic.queue.pending(pack(ANGLE, g)))]
     return min((t.exact or kinetic.certifier.resolve(t) for t in times), default=None)
 
 
@@ -69,8 +69,8 @@ def check_angles(kinetic):
     for h in kinetic.mesh.map.half_edges():
         if kinetic.mesh.region[h] != SOLID:
             expected, found = first_zero(kinetic, h), pending(kinetic, h)
-            assert found == expected, [kinetic.vertices.name(v) for v in kinetic._angle(h)]
-            f = orientation(*kinetic._vertices_of(h))
+            assert found == expected, [kinetic.vertices.name(v) for v in kinetic.certified.angle(h)]
+            f = orientation(*kinetic.certified.vertices_of(h))
             if found is not None and f and found.sign_of(f) == 0:
                 even += found.sign_before(f) == found.sign_after(f)
     return even

@@ -5,7 +5,7 @@ from collections import Counter
 from random import Random
 
 import pytest
-from point_audits import points_at, run_and_audit, structure_of, tangents_by_slope
+from point_audits import points_at, run_and_audit, started, structure_of, tangents_by_slope
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.allpairs import first_contact_allpairs
@@ -33,7 +33,7 @@ def at_rest(points):
 
 def static(points):
     scene = at_rest(points)
-    vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
+    vertices = plan_tiling(scene, "incremental", scene.start).vertices
     return sweep_at(PredicatesAt(vertices, scene.start))
 
 
@@ -121,8 +121,7 @@ def test_long_chains_are_searched():
     )
     steps, ends = {}, set()
     for chains in ("linked", "searchable", "auto"):
-        vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
-        kinetic = IncrementalTiling.begin(vertices, scene.start, scene.end, chains=chains)
+        kinetic = started(scene, chains=chains)
         for _ in kinetic.run():
             pass
         trees = kinetic.structure.trees
@@ -227,8 +226,8 @@ def test_counts():
         points = rng.sample([(x, (x * x * 7919) % 10007) for x in range(500)], n)
         structure = static(points)
         scene = at_rest(points)
-        vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
-        mesh = IncrementalTiling.mesh_at(PredicatesAt(vertices, scene.start))
+        vertices = plan_tiling(scene, "incremental", scene.start).vertices
+        mesh = IncrementalTiling.build(PredicatesAt(vertices, scene.start))
         mesh.audit()
         assert len(mesh.faces()) == n - 2
         assert len(mesh.diagonals()) == 2 * n - 3
@@ -372,8 +371,7 @@ def test_theorem_3_4():
     """The fan changes at most n^(4/3) lambda_s(n) times, here with the constant 1."""
     for seed in range(3):
         scene = spread(40, seed)
-        vertices = IncrementalTiling.vertices_of(scene.bodies, scene.start, scene.end)
-        kinetic = IncrementalTiling.begin(vertices, scene.start, scene.end, fan=True)
+        kinetic = started(scene, fan=True)
         for _ in kinetic.run():
             pass
         assert kinetic.stats.total < kinetic.stats.fan < 40 ** (7 / 3)

@@ -13,18 +13,18 @@ from exactpt.scene.families.shapes import box
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
-from exactpt.tiling.repairs import RepairedTiling
+from exactpt.tiling.repairs import Repairs
 from fuzz.statics import run_and_audit
 
 pytestmark = pytest.mark.plain
 
 
-def new_sign(tiling, h):
-    return -1 if tiling.mesh.corner[h] else 1
+def new_sign(certified, h):
+    return -1 if certified.mesh.corner[h] else 1
 
 
-def scene_triple(tiling, h):
-    return {(v.body, v.index) for v in tiling._vertices_of(h)}
+def scene_triple(certified, h):
+    return {(v.body, v.index) for v in certified.vertices_of(h)}
 
 
 @pytest.mark.parametrize(
@@ -37,23 +37,24 @@ def scene_triple(tiling, h):
     ],
 )
 def test_the_copies_of_one_triple_are_mended_in_perturbed_order(monkeypatch, family, seed, tiling):
-    """First the triple of the least slot; of its copies none that changes after another."""
-    choose, moved = RepairedTiling._first_due, []
+    """First the triple of the least half-edge; of its copies none that changes after another."""
+    choose, moved = Repairs.first_violated, []
 
-    def checked(repaired):
-        due = sorted(repaired._due)
-        chosen = choose(repaired)
+    def checked(repairs):
+        repaired = repairs.certified
+        due = sorted(repaired.table.angles)
+        chosen = choose(repairs)
         triple = scene_triple(repaired, due[0])
         assert scene_triple(repaired, chosen) == triple
-        this = repaired._vertices_of(chosen), new_sign(repaired, chosen)
+        this = repaired.vertices_of(chosen), new_sign(repaired, chosen)
         for h in due:
             if scene_triple(repaired, h) == triple:
-                other = repaired._vertices_of(h), new_sign(repaired, h)
-                assert not comes_first(*other, *this, repaired.now)
+                other = repaired.vertices_of(h), new_sign(repaired, h)
+                assert not comes_first(*other, *this, repaired.certifier.exact_now)
         moved.append(chosen != due[0])
         return chosen
 
-    monkeypatch.setattr(RepairedTiling, "_first_due", checked)
+    monkeypatch.setattr(Repairs, "first_violated", checked)
     for _ in Simulation(generate(family, seed), tiling=tiling).run():
         pass
 
@@ -77,20 +78,20 @@ def test_what_happens_one_by_one_is_repaired_and_not_built_anew(tiling):
 def test_repairs_at_one_time_are_checked_unless_they_are_apart(monkeypatch, tiling, least):
     """Where the check is left out, it would have found nothing and changed nothing."""
     done = Counter()
-    settle = RepairedTiling._settle
+    settle = Repairs.settle
 
-    def settled(repaired):
-        settle(repaired)
-        batch = repaired._batch
+    def settled(repairs):
+        settle(repairs)
+        repaired, batch = repairs.certified, repairs.certified.batch
         if batch.needs_check(repaired.mesh):
             done["checked"] += 1
         elif batch._repair > 1:
             done["apart"] += 1
             before = sorted(map(repaired.mesh.ends, repaired.mesh.diagonals()))
-            repaired._check_batch(sorted(batch.touched))
+            repairs.check_batch()
             assert sorted(map(repaired.mesh.ends, repaired.mesh.diagonals())) == before
 
-    monkeypatch.setattr(RepairedTiling, "_settle", settled)
+    monkeypatch.setattr(Repairs, "settle", settled)
     for family, seed in [("concentric", 0), ("grids_passing", 3), ("mirrored", 2)]:
         for _ in Simulation(generate(family, seed), tiling=tiling).run():
             pass

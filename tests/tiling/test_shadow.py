@@ -11,7 +11,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.flip import flip_until_greedy, shadow
 from exactpt.scene.generate import generate
-from exactpt.tiling.greedy.greedy import GreedyTiling
+from exactpt.tiling.greedy.greedy import VerticalRules
 
 FAMILIES = ("mixed_shapes", "small_grid", "row", "mirrored", "concentric", "polygons_in_step")
 
@@ -33,7 +33,7 @@ def test_flips_lead_from_any_tiling_back_to_the_greedy_one():
     """Paper, Lemma 4.2: each diagonal before its shadow is enough."""
     flips = 0
     for seed, instant in enumerate(instants(3)):
-        mesh = GreedyTiling.mesh_at(instant)
+        mesh = VerticalRules.build(instant)
         if all(mesh.is_hull(h) for h in mesh.diagonals()):
             continue
         greedy = diagonals(mesh)
@@ -66,7 +66,7 @@ class Nonsense(Predicates):
 def test_the_walk_to_a_shadow_ends_whatever_the_signs(seed):
     """Where a mesh is no pseudo-triangulation just after now, its ends may go to and fro."""
     instant = PredicatesAt(Vertices.of(scattered(Random(seed), 6), QQ(0), QQ(1)), QQ(0))
-    mesh = GreedyTiling.mesh_at(instant)
+    mesh = VerticalRules.build(instant)
     for h in mesh.diagonals():
         if not mesh.is_hull(h):
             shadow(mesh, h, Nonsense(seed))

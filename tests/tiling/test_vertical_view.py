@@ -10,7 +10,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.greedy.vertical import lower_chain
 from exactpt.tiling.greedy.vertical_view import seen_from
-from exactpt.tiling.lazy import LazyTiling
+from exactpt.tiling.lazy import LazyRules
 
 
 def height_over(p, q, x):
@@ -38,7 +38,7 @@ def test_a_vertical_that_meets_a_tile_twice_ends_at_the_nearest_edge(seed):
     rng = Random(seed)
     vertices = Vertices.of(scattered(rng, 24), QQ(0), QQ(1))
     instant = PredicatesAt(vertices, QQ(0))
-    mesh = LazyTiling.mesh_at(instant)
+    mesh = LazyRules.build(instant)
     flipped_at_random(mesh, instant, rng, 100)
     xs = [instant.position(v.id)[0] for v in vertices.all]
     for moving in vertices.bodies:

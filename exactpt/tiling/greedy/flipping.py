@@ -11,21 +11,21 @@ x-order of s and of s', and four orientations.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certificate import SHADOW, pack, part_of
 from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
 from exactpt.pseudotriangulation.flip import flip, flip_until_greedy, shadow, tangency
 from exactpt.pseudotriangulation.mesh import Mesh
-from exactpt.tiling.angles import KINDS
-from exactpt.tiling.populated import PopulatedTiling
+from exactpt.tiling.angles import CertifiedMesh
+from exactpt.tiling.events import Log
 from exactpt.tiling.repairs import RebuildNeeded
+from exactpt.tiling.rules import Rules
+from exactpt.tiling.tiling import State
 
-__all__ = ["FlippingTiling"]
-
-SHADOW: Final = 8
-"""Kinds SHADOW to SHADOW + 5: the x-order of a diagonal and of its shadow, four tangencies."""
+__all__ = ["FlippingRules"]
 
 
 class _Shadow(NamedTuple):
@@ -46,12 +46,19 @@ class _Shadow(NamedTuple):
     tangencies: list[tuple[int, int, int]]
 
 
-class FlippingTiling(PopulatedTiling):
-    """A tiling that is greedy wherever its diagonals may be flipped."""
+class FlippingRules(Rules):
+    """The rules of a tiling that is greedy wherever its diagonals may be flipped."""
 
-    def _close(self, mesh: Mesh, instant: PredicatesAt) -> None:
+    def __init__(self, certified: CertifiedMesh, log: Log) -> None:
+        super().__init__(certified, log)
+        self._stale: set[int] = set()
+        self._moved: set[int] = set()
+        self._shadows: dict[int, _Shadow] = {}
+
+    def close(self, mesh: Mesh, instant: PredicatesAt) -> None:
+        """See `Rules.close`."""
         self._free_flat_vertices(mesh, instant)
-        super()._close(mesh, instant)
+        super().close(mesh, instant)
         flip_until_greedy(mesh, instant, mesh.flippable())
 
     def _free_flat_vertices(self, mesh: Mesh, instant: PredicatesAt) -> None:
@@ -61,79 +68,80 @@ class FlippingTiling(PopulatedTiling):
         convex, so that the other diagonal does not end there. What is left at the vertex is
         a tile that has no area at the instant.
         """
-        deforming = [v for body in self.vertices.bodies if body.deforms for v in body.ring]
+        vertices = self.certified.vertices
+        deforming = [v for body in vertices.bodies if body.deforms for v in body.ring]
         if not deforming:
             return
-        after = PredicatesAt(self.vertices, instant.time)
+        after = PredicatesAt(vertices, instant.time)
         for v in deforming:
-            ahead, behind = self.vertices.all[v].ahead, self.vertices.all[v].behind
+            ahead, behind = vertices.all[v].ahead, vertices.all[v].behind
             if instant.sign(ahead, v, behind) <= 0 < after.sign(ahead, v, behind):
                 for h in mesh.map.fan(mesh.ring_edge[v]):
                     visits = shadow(mesh, h, after) if mesh.is_flippable(h) else None
                     if visits is not None:
                         flip(mesh, h, visits, after)
 
-    def _clear_notes(self) -> None:
-        self._stale: set[int] = set()
-        self._moved: set[int] = set()
-        self._shadows: dict[int, _Shadow] = {}
-
-    def _recall(self) -> None:
-        after = OneSided(self.certifier, before=False)
-        for h in self.mesh.flippable():
-            visits = shadow(self.mesh, h, after)
+    def resume(self, state: State) -> None:  # noqa: ARG002 - shadows follow from the mesh
+        """See `Rules.resume`."""
+        mesh, after = self.certified.mesh, self.certified.after()
+        for h in mesh.flippable():
+            visits = shadow(mesh, h, after)
             if visits is not None:  # at a contact, after which nothing comes
                 self._shadows[h] = self._shadow_of(h, visits)
 
-    def _certify_everything(self) -> None:
-        self._clear_notes()
-        super()._certify_everything()
+    def certify(self) -> None:
+        """See `Rules.certify`."""
         self._stale.clear()
-        self._restore_greedy(OneSided(self.certifier, before=False), self.mesh.flippable())
+        self._moved.clear()
+        self._shadows.clear()
+        self._restore_greedy(self.certified.mesh.flippable())
 
-    def _recertify(self, slots: list[int]) -> None:
-        super()._recertify(slots)
-        self._stale.update(slots)
-
-    def _certify_body(self, i: int) -> list[int]:
-        vanishing = super()._certify_body(i)
-        m = self.mesh.map
-        for v in self.vertices.bodies[i].ring:
-            self._stale.update(m.fan(self.mesh.ring_edge[v]))
+    def certify_body(self, i: int) -> None:
+        """See `Rules.certify_body`."""
+        self._stale.update(self.certified.ring_angles(i))
         self._moved.update(self._near(self._stale))
-        return vanishing
 
-    def _recheck(self, slots: list[int]) -> None:
-        self._moved.update(slot // KINDS for slot in slots)
+    def changed(self, half_edges: list[int]) -> None:
+        """See `Rules.changed`."""
+        self._stale.update(half_edges)
 
-    def _settle(self) -> None:
-        super()._settle()
-        self._restore_greedy(OneSided(self.certifier, before=False))
+    def cancelled(self, h: int) -> None:
+        """See `Rules.cancelled`."""
+        self._cancel_shadow(min(h, h ^ 1))
 
-    def _restore_greedy(self, after: OneSided, diagonals: Iterable[int] = ()) -> None:
+    def failed(self, certificates: list[int]) -> None:
+        """See `Rules.failed`."""
+        self._moved.update(part_of(c) for c in certificates)
+
+    def restore(self) -> None:
+        """See `Rules.restore`."""
+        self._restore_greedy()
+
+    def _restore_greedy(self, diagonals: Iterable[int] = ()) -> None:
         """Flip what is no longer greedy, and certify the shadows of all that may have changed.
 
         That is every diagonal of a tile that has changed, and those whose own certificates
         have failed.
         """
-        m = self.mesh.map
+        certified, mesh, after = self.certified, self.certified.mesh, self.certified.after()
+        m = mesh.map
         nearby = self._near(self._stale)
         nearby.update(min(h, h ^ 1) for h in self._moved)
         nearby.update(diagonals)
-        self._stale.clear()
         shadows: dict[int, tuple[int, int]] = {}
-        candidates = [h for h in sorted(nearby) if m.origin[h] >= 0 and self.mesh.is_flippable(h)]
+        candidates = [h for h in sorted(nearby) if m.origin[h] >= 0 and mesh.is_flippable(h)]
         try:
-            flips = flip_until_greedy(self.mesh, after, candidates, shadows, self._is_known)
+            flips = flip_until_greedy(mesh, after, candidates, shadows, self._is_known)
         except AuditError:
             raise RebuildNeeded from None
         for old, new, changed in flips:
-            self._record("diagonal", (old,), (new,))
-            super()._recertify([h for h in changed if m.origin[h] >= 0])
-        if self._due:
+            self.log.record("diagonal", (old,), (new,))
+            certified.recertify([h for h in changed if m.origin[h] >= 0])
+        self._stale.clear()  # of flips, all that has changed is among their shadows
+        if certified.table.angles:
             raise RebuildNeeded
         for h in sorted(nearby | shadows.keys()):
-            if m.origin[h] < 0 or not self.mesh.is_flippable(h):
+            if m.origin[h] < 0 or not mesh.is_flippable(h):
                 self._cancel_shadow(h)
             elif h in shadows:
                 self._certify_shadow(h, shadows[h], after)
@@ -156,7 +164,7 @@ class FlippingTiling(PopulatedTiling):
 
     def _near(self, half_edges: Iterable[int]) -> set[int]:
         """The edges of the tiles on both sides of these."""
-        m = self.mesh.map
+        m = self.certified.mesh.map
         return {
             min(g, g ^ 1)
             for h in half_edges
@@ -164,10 +172,6 @@ class FlippingTiling(PopulatedTiling):
             for side in (h, h ^ 1)
             for g in m.face(side)
         }
-
-    def _cancel_edge(self, h: int) -> None:
-        super()._cancel_edge(h)
-        self._cancel_shadow(min(h, h ^ 1))
 
     def _certify_shadow(self, h: int, visits: tuple[int, int], after: OneSided) -> None:
         """Certify that a diagonal has smaller theta than its shadow, and what the shadow is.
@@ -178,39 +182,32 @@ class FlippingTiling(PopulatedTiling):
         if self._shadows.get(h) == new and h not in self._moved:
             return
         self._shadows[h] = new
-        slot = KINDS * h + SHADOW
-        self._certify_spin(slot, *new.diagonal, after)
-        self._certify_spin(slot + 1, *new.crossing, after)
+        self._certify_spin(pack(SHADOW, h), *new.diagonal, after)
+        self._certify_spin(pack(SHADOW + 1, h), *new.crossing, after)
         for i, triple in enumerate(new.tangencies):
-            self._certify_tangency(slot + 2 + i, triple)
+            self._certify_tangency(pack(SHADOW + 2 + i, h), triple)
 
     def _shadow_of(self, h: int, visits: tuple[int, int]) -> _Shadow:
-        m = self.mesh.map
-        corners = self.mesh.corner[visits[0]], self.mesh.corner[visits[1]]
-        crossing = m.origin[visits[0]], m.origin[visits[1]]
-        return _Shadow(self.mesh.ends(h), visits, corners, crossing, tangency(self.mesh, h, visits))
+        mesh = self.certified.mesh
+        corners = mesh.corner[visits[0]], mesh.corner[visits[1]]
+        crossing = mesh.map.origin[visits[0]], mesh.map.origin[visits[1]]
+        return _Shadow(mesh.ends(h), visits, corners, crossing, tangency(mesh, h, visits))
 
-    def _certify_spin(self, slot: int, u: int, v: int, after: OneSided) -> None:
+    def _certify_spin(self, certificate: int, u: int, v: int, after: OneSided) -> None:
         a, b = (u, v) if after.left_of(u, v) else (v, u)
-        time = None
-        if not self.certifier.keeps_x_order(a, b):
-            _, time = self.certifier.x_order(a, b)
-        if time is None:
-            self.queue.cancel(slot)
-        else:
-            self.queue.schedule(slot, time)
+        certifier, time = self.certified.certifier, None
+        if not certifier.keeps_x_order(a, b):
+            _, time = certifier.x_order(a, b)
+        self.certified.table.schedule(certificate, time)
 
-    def _certify_tangency(self, slot: int, triple: tuple[int, int, int]) -> None:
+    def _certify_tangency(self, certificate: int, triple: tuple[int, int, int]) -> None:
         a, b, c = triple
-        time = None
-        if len({a, b, c}) == 3 and not self.certifier.rigid(a, b, c):
-            _, time = self.certifier.orientation(a, b, c)
-        if time is None:
-            self.queue.cancel(slot)
-        else:
-            self.queue.schedule(slot, time)
+        certifier, time = self.certified.certifier, None
+        if len({a, b, c}) == 3 and not certifier.rigid(a, b, c):
+            _, time = certifier.orientation(a, b, c)
+        self.certified.table.schedule(certificate, time)
 
     def _cancel_shadow(self, h: int) -> None:
         self._shadows.pop(h, None)
         for i in range(6):
-            self.queue.cancel(KINDS * h + SHADOW + i)
+            self.certified.table.pending.cancel(pack(SHADOW + i, h))

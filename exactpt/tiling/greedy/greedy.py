@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import final
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.certificates.coincidence import coordinate_order
+from exactpt.certificates.certificate import CELL, kind_of, part_of
 from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
@@ -20,15 +20,16 @@ from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.build import build_mesh
 from exactpt.pseudotriangulation.flip import crosses, facing_visit, flip, flip_until_greedy, shadow
 from exactpt.pseudotriangulation.mesh import Mesh
-from exactpt.tiling.angles import CELL, EXTREME, KINDS
-from exactpt.tiling.greedy import cells
+from exactpt.tiling.angles import CertifiedMesh
+from exactpt.tiling.events import Log
+from exactpt.tiling.greedy.certified_cells import CertifiedCells
 from exactpt.tiling.greedy.sweep import greedy_diagonals
-from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition, is_above, lower_chain
-from exactpt.tiling.greedy.vertical_view import seen_from
-from exactpt.tiling.populated import PopulatedTiling
+from exactpt.tiling.greedy.vertical import VerticalDecomposition
 from exactpt.tiling.repairs import RebuildNeeded
+from exactpt.tiling.rules import Rules
+from exactpt.tiling.tiling import State
 
-__all__ = ["GreedyTiling", "greedy_mesh"]
+__all__ = ["VerticalRules", "greedy_mesh"]
 
 
 def greedy_mesh(instant: PredicatesAt, cells: VerticalDecomposition) -> tuple[Mesh, int]:
@@ -45,145 +46,88 @@ def greedy_mesh(instant: PredicatesAt, cells: VerticalDecomposition) -> tuple[Me
 
 
 @final
-class GreedyTiling(PopulatedTiling):
+class VerticalRules(Rules):
     """The canonical tiling of convex bodies: at any time the one that the sweep builds.
 
     Attributes:
-        cells: the vertical decomposition.
+        cells: the vertical decomposition, with its certificates.
     """
 
-    name = "greedy"
-    cells: VerticalDecomposition
+    def __init__(self, certified: CertifiedMesh, log: Log) -> None:
+        super().__init__(certified, log)
+        self.cells: CertifiedCells = CertifiedCells(certified)
 
-    def _build(self, time: QQ) -> None:
-        instant = PredicatesAt(self.vertices, time, exact_only=self.certifier.exact_only)
-        self.cells = VerticalDecomposition.at(instant)
-        self.mesh, flips = greedy_mesh(instant, self.cells.copy())
-        self.stats.flips += flips
-
-    def _close(self, mesh: Mesh, instant: PredicatesAt) -> None:
-        super()._close(mesh, instant)
-        flip_until_greedy(mesh, instant, mesh.diagonals())
-
-    @classmethod
-    def mesh_at(cls, instant: PredicatesAt) -> Mesh:
+    @staticmethod
+    def build(instant: PredicatesAt) -> Mesh:
         """The greedy tiling of an instant."""
         return greedy_mesh(instant, VerticalDecomposition.at(instant))[0]
 
-    def _clear_notes(self) -> None:
-        self._due_cells: set[int] = set()
-        self._due_extremes: set[int] = set()
+    def begin(self, instant: PredicatesAt) -> Mesh:
+        """See `Rules.begin`."""
+        self.cells.now = VerticalDecomposition.at(instant)
+        mesh, flips = greedy_mesh(instant, self.cells.now.copy())
+        self.log.stats.flips += flips
+        return mesh
 
-    def _certify_everything(self) -> None:
-        self._clear_notes()
-        super()._certify_everything()
-        for cell in range(len(self.cells.left)):
-            self._certify_cell(cell)
-        for i in range(len(self.vertices.bodies)):
-            self._certify_extremes(i)
+    def close(self, mesh: Mesh, instant: PredicatesAt) -> None:
+        """See `Rules.close`."""
+        super().close(mesh, instant)
+        flip_until_greedy(mesh, instant, mesh.diagonals())
 
-    # Certificates of the vertical decomposition
+    def audit(self, instant: PredicatesAt) -> None:
+        """See `Rules.audit`."""
+        static = VerticalDecomposition.at(instant)
+        if static.vertex != self.cells.now.vertex:
+            raise AuditError(f"t = {instant.time}: other extreme vertices than the static ones")
+        pairs = [sorted(zip(c.left, c.right, strict=True)) for c in (self.cells.now, static)]
+        if pairs[0] != pairs[1]:
+            raise AuditError(
+                f"t = {instant.time}: another vertical decomposition than the static one"
+            )
 
-    def _certify_cell(self, cell: int) -> None:
-        slot = KINDS * cell + CELL
-        self._due_cells.discard(cell)
-        left, right = self.cells.left[cell], self.cells.right[cell]
-        if NO_ARC in (left, right) or left >> 1 == right >> 1:
-            self.queue.cancel(slot)
-            return
-        a, b = self._cell_pair(cell)
-        if not self._certify_x_order(slot, a, b):
-            self._due_cells.add(cell)
+    def state(self) -> State:
+        """See `Rules.state`."""
+        return {"cells": self.cells.now.state()}
 
-    def _certify_x_order(self, slot: int, a: int, b: int) -> bool:
-        """Certify that a is left of b; whether it is so just after now."""
-        if self.certifier.keeps_x_order(a, b):
-            self.certifier.skipped += 1
-            self.queue.cancel(slot)
-            # What is kept may be wrong only in the midst of simultaneous events.
-            return not self._careful or OneSided(self.certifier, before=False).left_of(a, b)
-        s, time = self.certifier.x_order(a, b)
-        if s < 0 or time is None:
-            self.queue.cancel(slot)
-        else:
-            self.queue.schedule(slot, time)
-        return s > 0
+    def resume(self, state: State) -> None:
+        """See `Rules.resume`."""
+        self.cells.now.resume(state["cells"])
 
-    def _certify_extremes(self, i: int) -> None:
-        for arc in (2 * i, 2 * i + 1):
-            self._certify_extreme(2 * arc)
-            self._certify_extreme(2 * arc + 1)
+    def certify(self) -> None:
+        """See `Rules.certify`."""
+        self.cells.certify_everything()
 
-    def _certify_extreme(self, handle: int) -> None:
-        """Certify that an extreme vertex is so against one neighbour on its ring.
-
-        Args:
-            handle: twice the arc, plus 1 for the neighbour behind.
-        """
-        slot = KINDS * handle + EXTREME
-        self._due_extremes.discard(handle)
-        a, b = self._extreme_pair(handle)
-        if not self._certify_x_order(slot, a, b):
-            self._due_extremes.add(handle)
-
-    def _certify_body(self, i: int) -> list[int]:
-        vanishing = super()._certify_body(i)
-        self._certify_extremes(i)
-        for arc in (2 * i, 2 * i + 1):
-            for cell in sorted(self.cells.cells_of(arc)):
-                self._certify_cell(cell)
-        return vanishing
+    def certify_body(self, i: int) -> None:
+        """See `Rules.certify_body`."""
+        self.cells.certify_body(i)
 
     # Bodies that come and go
 
-    def takes(self, body: Body, t: QQ) -> bool:
-        """Whether a body can be added at a time: if it is convex from then on."""
-        alone = Vertices.of([body], t, self.certifier.end)
+    def allows_plan(self, body: Body, t: QQ) -> bool:
+        """See `Rules.allows_plan`: it must stay convex."""
+        alone = Vertices.of([body], t, self.certified.certifier.end)
+        return not alone.bodies[0].is_tiled
+
+    def allows_body(self, body: Body, t: QQ) -> bool:
+        """See `Rules.allows_body`: it must stay convex."""
+        alone = Vertices.of([body], t, self.certified.certifier.end)
         return PredicatesAt(alone, t).all_stay_convex()
 
-    def _enter_body(self, i: int) -> None:
-        after = OneSided(self.certifier, before=False)
-        chain = lower_chain(after, self.vertices.bodies[i].ring)
-        changed = cells.add_body(
-            self.cells,
-            after,
-            (chain[0], chain[-1]),
-            self._cell_around(chain[0], after),
-            lambda v: is_above(after, chain, v),
-        )
-        self._certify_extremes(i)
-        for cell in changed:
-            self._certify_cell(cell)
+    def enter(self, i: int) -> None:
+        """See `Rules.enter`."""
+        self.cells.enter(i)
 
-    def _cell_around(self, v: int, after: OneSided) -> int:
-        """The cell that a vertex which bounds none is in: over what it sees below, or under."""
-        for up in (False, True):
-            h = seen_from(self.mesh, after, v, up=up)
-            if h is not None:
-                arc = 2 * self.vertices.all[self.mesh.map.origin[h]].body
-                row = self.cells.right_down if up else self.cells.right_up
-                return cells.cell_along(self.cells, after, v, row[arc], over=not up)
-        return cells.cell_along(self.cells, after, v, self.cells.left.index(NO_ARC), over=True)
+    def leave(self, i: int) -> None:
+        """See `Rules.leave`."""
+        self.cells.leave(i)
 
-    def _leave_body(self, i: int) -> None:
-        last = len(self.vertices.bodies) - 1
-        changed, spare = cells.remove_body(self.cells, OneSided(self.certifier, before=False), i)
-        for k in range(4):
-            self._move_slot(KINDS * (4 * last + k) + EXTREME, KINDS * (4 * i + k) + EXTREME)
-        cells.rename_body(self.cells, last, i)
-        for cell in sorted(spare, reverse=True):
-            old = cells.rename_cell(self.cells, cell)
-            self._move_slot(KINDS * old + CELL, KINDS * cell + CELL)
-            changed = [cell if c == old else c for c in changed]
-        for cell in changed:
-            self._certify_cell(cell)
-
-    def _recheck(self, slots: list[int]) -> None:
-        for slot in slots:
-            if slot % KINDS == CELL:
-                self._certify_cell(slot // KINDS)
+    def failed(self, certificates: list[int]) -> None:
+        """See `Rules.failed`."""
+        for certificate in certificates:
+            if kind_of(certificate) == CELL:
+                self.cells.certify(part_of(certificate))
             else:
-                self._certify_extreme(slot // KINDS)
+                self.cells.certify_extreme(part_of(certificate))
         # In the plane turned by rho (`exactpt.certificates.perturbation`, step 1) x is x - rho y.
         # Two vertices l and r that exchange their order now, l the left one before, do so
         # when x(r) - x(l) has fallen to rho (y(r) - y(l)): before now, and so before the
@@ -192,68 +136,55 @@ class GreedyTiling(PopulatedTiling):
 
     # Repairs
 
-    def _has_more(self) -> bool:
-        return bool(self._due_extremes or self._due_cells)
+    def is_violated(self) -> bool:
+        """See `Rules.is_violated`."""
+        return bool(self.cells.violated_extremes or self.cells.violated)
 
-    def _repair_more(self) -> None:
-        after = OneSided(self.certifier, before=False)
-        if self._due_extremes:
-            self._move_extreme(min(self._due_extremes))
+    def repair(self) -> None:
+        """See `Rules.repair`."""
+        after = self.certified.after()
+        if self.cells.violated_extremes:
+            self._move_extreme(min(self.cells.violated_extremes))
         else:
-            self._pass_vertical(min(self._due_cells), after)
+            self._pass_vertical(min(self.cells.violated), after)
 
     def _repair_rising(self) -> None:
         """Exchange the pairs that do so just before now."""
-        before = OneSided(self.certifier, before=True)
+        before = OneSided(self.certified.certifier, before=True)
         rising = True
         while rising:
             rising = False
-            for handle in sorted(self._due_extremes):
-                if self._is_rising(*self._extreme_pair(handle)):
-                    self._batch.begin_repair()
+            for handle in sorted(self.cells.violated_extremes):
+                if self.cells.is_rising(*self.cells.extreme_pair(handle)):
+                    self.certified.batch.begin_repair()
                     self._move_extreme(handle)
                     rising = True
                     break
-            for cell in sorted(self._due_cells):
-                if self._is_rising(*self._cell_pair(cell)):
-                    self._batch.begin_repair()
+            for cell in sorted(self.cells.violated):
+                if self.cells.is_rising(*self.cells.pair(cell)):
+                    self.certified.batch.begin_repair()
                     self._pass_vertical(cell, before)
                     rising = True
                     break
 
-    def _is_rising(self, left: int, right: int) -> bool:
-        u, v = self.vertices.all[left], self.vertices.all[right]
-        return coordinate_order(self.certifier, u, v, 1) > 0
-
-    def _cell_pair(self, cell: int) -> tuple[int, int]:
-        vertex = self.cells.vertex
-        return vertex[self.cells.left[cell]], vertex[self.cells.right[cell]]
-
-    def _extreme_pair(self, handle: int) -> tuple[int, int]:
-        """An extreme vertex and its neighbour on the ring, as they should be from left to right."""
-        arc = handle >> 1
-        vertex = self.vertices.all[self.cells.vertex[arc]]
-        neighbour = vertex.behind if handle % 2 else vertex.ahead
-        return (vertex.id, neighbour) if arc % 2 == 0 else (neighbour, vertex.id)
-
     def _move_extreme(self, handle: int) -> None:
         arc = handle >> 1
-        vertex = self.vertices.all[self.cells.vertex[arc]]
-        self.cells.vertex[arc] = vertex.behind if handle % 2 else vertex.ahead
-        self.stats.count("internal")
-        self._certify_extreme(2 * arc)
-        self._certify_extreme(2 * arc + 1)
-        for cell in sorted(self.cells.cells_of(arc)):
-            self._certify_cell(cell)
+        vertex = self.certified.vertices.all[self.cells.now.vertex[arc]]
+        self.cells.now.vertex[arc] = vertex.behind if handle % 2 else vertex.ahead
+        self.log.stats.count("internal")
+        self.cells.certify_extreme(2 * arc)
+        self.cells.certify_extreme(2 * arc + 1)
+        for cell in sorted(self.cells.now.cells_of(arc)):
+            self.cells.certify(cell)
 
     def _pass_vertical(self, cell: int, moment: OneSided) -> None:
         """The two arcs of a cell exchange their order: their bitangent is vertical now."""
-        self._due_cells.discard(cell)
-        u, v = self._cell_pair(cell)
-        rising = self._is_rising(u, v)
-        a, b = self.cells.swap(cell, left_is_lower=rising)
+        self.cells.violated.discard(cell)
+        u, v = self.cells.pair(cell)
+        rising = self.cells.is_rising(u, v)
+        a, b = self.cells.now.swap(cell, left_is_lower=rising)
         for touched in sorted({cell, a, b}):
-            self._certify_cell(touched)
+            self.cells.certify(touched)
         # Rising from the left one to the right one, it goes from the smallest theta to the
         # largest; falling, from the largest to the smallest.
         if rising:
@@ -261,33 +192,33 @@ class GreedyTiling(PopulatedTiling):
         else:
             self._enter(u, v, moment)
 
-    def _check_batch(self, touched: list[int]) -> None:
-        super()._check_batch(touched)
-        m = self.mesh.map
+    def check(self, touched: list[int]) -> None:
+        """See `Rules.check`."""
+        m = self.certified.mesh.map
         nearby = [g for h in touched if m.origin[h] >= 0 for g in (*m.face(h), h)]
-        after = OneSided(self.certifier, before=False)
+        after = self.certified.after()
         try:
-            flips = flip_until_greedy(self.mesh, after, nearby)
+            flips = flip_until_greedy(self.certified.mesh, after, nearby)
         except AuditError:
             raise RebuildNeeded from None
         for old, new, changed in flips:
-            self.stats.flips += 1
-            self._record("diagonal", (old,), (new,))
-            self._recertify([h for h in changed if m.origin[h] >= 0])
-        if self._due:
+            self.log.stats.flips += 1
+            self.log.record("diagonal", (old,), (new,))
+            self.certified.recertify([h for h in changed if m.origin[h] >= 0])
+        if self.certified.table.angles:
             raise RebuildNeeded
 
     def _edge(self, u: int, v: int) -> int | None:
-        m = self.mesh.map
-        return next((h for h in m.fan(self.mesh.ring_edge[u]) if m.target(h) == v), None)
+        m = self.certified.mesh.map
+        return next((h for h in m.fan(self.certified.mesh.ring_edge[u]) if m.target(h) == v), None)
 
     def _leave(self, u: int, v: int, moment: OneSided) -> None:
         """A diagonal has become the one of largest theta: its shadow takes its place."""
         h = self._edge(u, v)
         if h is None:
             self._doubt_around(u)
-        elif not self.mesh.is_hull(h):
-            visits = shadow(self.mesh, h, moment)
+        elif not self.certified.mesh.is_hull(h):
+            visits = shadow(self.certified.mesh, h, moment)
             if visits is None:
                 raise RebuildNeeded
             self._flip(h, visits, moment)
@@ -296,21 +227,23 @@ class GreedyTiling(PopulatedTiling):
         """A bitangent has become the one of smallest theta: it replaces its diagonal."""
         if self._edge(u, v) is not None:
             return  # on the convex hull
-        m = self.mesh.map
-        around = m.fan(self.mesh.ring_edge[u])
-        g = facing_visit(self.mesh, around, v, moment)
-        tile = [] if g is None else [h for h in m.face(g) if self.mesh.is_flippable(h)]
+        m = self.certified.mesh.map
+        around = m.fan(self.certified.mesh.ring_edge[u])
+        g = facing_visit(self.certified.mesh, around, v, moment)
+        tile = [] if g is None else [h for h in m.face(g) if self.certified.mesh.is_flippable(h)]
         # It crosses its diagonal into the tile across, which v is in; or both share an end.
-        meeting = [h for h in tile if u in self.mesh.ends(h) or v in self.mesh.ends(h)]
+        meeting = [
+            h for h in tile if u in self.certified.mesh.ends(h) or v in self.certified.mesh.ends(h)
+        ]
         crossed = [
             h
             for h in tile
             if h not in meeting
             and v in [m.origin[e] for e in m.face(h ^ 1)]
-            and crosses(u, v, *self.mesh.ends(h), moment)
+            and crosses(u, v, *self.certified.mesh.ends(h), moment)
         ]
         for h in (*crossed, *meeting):
-            visits = shadow(self.mesh, h, moment)
+            visits = shadow(self.certified.mesh, h, moment)
             if visits is not None and {m.origin[visits[0]], m.origin[visits[1]]} == {u, v}:
                 self._flip(h, visits, moment)
                 return
@@ -327,19 +260,22 @@ class GreedyTiling(PopulatedTiling):
         (u, v) that is exchanged. If it is s, s was there and has been flipped. If it is s' (or
         what s' has become, on the same line), u is in a tile of s: s is an edge of a tile at u.
         """
-        self._batch.doubt(self.mesh.map.fan(self.mesh.ring_edge[u]))
+        mesh = self.certified.mesh
+        self.certified.batch.doubt(mesh.map.fan(mesh.ring_edge[u]))
 
     def _flip(self, h: int, visits: tuple[int, int], moment: OneSided) -> None:
-        old = self.mesh.ends(h)
-        new = (self.mesh.map.origin[visits[0]], self.mesh.map.origin[visits[1]])
-        changed = flip(self.mesh, h, visits, moment)
-        self._record("diagonal", (old,), (new,))
-        self._recertify(changed)
+        old = self.certified.mesh.ends(h)
+        new = (self.certified.mesh.map.origin[visits[0]], self.certified.mesh.map.origin[visits[1]])
+        changed = flip(self.certified.mesh, h, visits, moment)
+        self.log.record("diagonal", (old,), (new,))
+        self.certified.recertify(changed)
 
-    def _repair_convex_vertex(self, h: int, kind: str) -> None:  # noqa: ARG002
-        vertex = self.vertices.all[self.mesh.map.origin[h]]
-        body = self.vertices.bodies[vertex.body].body
+    def turns_reflex(self, h: int) -> None:
+        """See `Rules.turns_reflex`: none may."""
+        vertex = self.certified.vertices.all[self.certified.mesh.map.origin[h]]
+        body = self.certified.vertices.bodies[vertex.body].body
         raise AuditError(
             f"body {body.name!r}: stops being convex at vertex {vertex.index}, "
-            f"t = {float(self.now)}: this greedy tiling is for bodies that stay so"
+            f"t = {float(self.certified.certifier.exact_now)}: "
+            "this greedy tiling is for bodies that stay so"
         )

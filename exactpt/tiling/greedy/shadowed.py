@@ -9,98 +9,99 @@ certificates and without shadow events.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Final, final
+from typing import final
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.certificates.one_sided import OneSided
+from exactpt.certificates.certificate import TURN, kind_of, pack, part_of
 from exactpt.errors import AuditError
 from exactpt.pseudotriangulation.build import build_mesh
 from exactpt.pseudotriangulation.flip import flip_until_greedy
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.pseudotriangulation.plane_sweep import sweep_diagonals
 from exactpt.pseudotriangulation.pointed import make_pointed, point_vertex
-from exactpt.tiling.angles import KINDS
-from exactpt.tiling.greedy.flipping import FlippingTiling
+from exactpt.tiling.angles import CertifiedMesh
+from exactpt.tiling.events import Log
+from exactpt.tiling.greedy.flipping import FlippingRules
 from exactpt.tiling.repairs import RebuildNeeded
 
-__all__ = ["ShadowedTiling"]
-
-TURN: Final = 5
+__all__ = ["ShadowRules"]
 
 
 @final
-class ShadowedTiling(FlippingTiling):
+class ShadowRules(FlippingRules):
     """The canonical greedy tiling of simple polygons."""
 
-    name = "greedy"
+    def __init__(self, certified: CertifiedMesh, log: Log) -> None:
+        super().__init__(certified, log)
+        self._turned: set[int] = certified.table.violated[TURN]
 
-    @classmethod
-    def mesh_at(cls, instant: PredicatesAt) -> Mesh:
+    @staticmethod
+    def build(instant: PredicatesAt) -> Mesh:
         """The greedy tiling of an instant: swept, reduced, and flipped until it is."""
         mesh = build_mesh(instant, sweep_diagonals(instant))
         make_pointed(mesh, instant)
         flip_until_greedy(mesh, instant, mesh.flippable())
         return mesh
 
-    def _clear_notes(self) -> None:
-        super()._clear_notes()
-        self._turned: set[int] = set()
-
-    def _certify_everything(self) -> None:
+    def certify(self) -> None:
+        """See `Rules.certify`."""
         self._turned.clear()
-        super()._certify_everything()
-        for v in self.vertices.ids():
+        super().certify()
+        for v in self.certified.vertices.ids():
             self._certify_turn(v)
 
-    def _certify_body(self, i: int) -> list[int]:
-        self._turned.update(self.vertices.bodies[i].ring)
-        return super()._certify_body(i)
+    def certify_body(self, i: int) -> None:
+        """See `Rules.certify_body`."""
+        self._turned.update(self.certified.vertices.bodies[i].ring)
+        super().certify_body(i)
 
-    def _recheck(self, slots: list[int]) -> None:
-        self._turned.update(slot // KINDS for slot in slots if slot % KINDS == TURN)
-        super()._recheck([slot for slot in slots if slot % KINDS != TURN])
+    def failed(self, certificates: list[int]) -> None:
+        """See `Rules.failed`."""
+        self._turned.update(part_of(c) for c in certificates if kind_of(c) == TURN)
+        super().failed([c for c in certificates if kind_of(c) != TURN])
 
-    def _repair_convex_vertex(self, h: int, kind: str) -> None:
-        self._turned.add(self.mesh.map.origin[h])
-        super()._repair_convex_vertex(h, kind)
+    def turns_reflex(self, h: int) -> None:
+        """See `Rules.turns_reflex`."""
+        self._turned.add(self.certified.mesh.map.origin[h])
 
-    def _restore_greedy(self, after: OneSided, diagonals: Iterable[int] = ()) -> None:
+    def restore(self) -> None:
+        """See `Rules.restore`."""
         if self._turned:
-            self._point_turned(after)
-        super()._restore_greedy(after, diagonals)
+            self._point_turned()
+        super().restore()
 
-    def _enter_body(self, i: int) -> None:
-        for v in self.vertices.bodies[i].ring:
+    def enter(self, i: int) -> None:
+        """See `Rules.enter`."""
+        for v in self.certified.vertices.bodies[i].ring:
             self._certify_turn(v)
 
-    def _leave_body(self, i: int) -> None:
-        for v in self.vertices.bodies[i].ring:
-            self.queue.cancel(KINDS * v + TURN)
+    def leave(self, i: int) -> None:
+        """See `Rules.leave`."""
+        for v in self.certified.vertices.bodies[i].ring:
+            self.certified.table.pending.cancel(pack(TURN, v))
             self._turned.discard(v)
 
     def _certify_turn(self, v: int) -> None:
         """Certify that a vertex of a deforming polygon stays reflex, if it is."""
-        vertex = self.vertices.all[v]
-        slot = KINDS * v + TURN
-        self.queue.cancel(slot)
-        if not self.certifier.rigid(vertex.ahead, v, vertex.behind):
-            s, time = self.certifier.orientation(vertex.ahead, v, vertex.behind)
-            if s > 0 and time is not None:
-                self.queue.schedule(slot, time)
+        vertex, certifier = self.certified.vertices.all[v], self.certified.certifier
+        time = None
+        if not certifier.rigid(vertex.ahead, v, vertex.behind):
+            s, zero = certifier.orientation(vertex.ahead, v, vertex.behind)
+            time = zero if s > 0 else None
+        self.certified.table.schedule(pack(TURN, v), time)
 
-    def _point_turned(self, after: OneSided) -> None:
+    def _point_turned(self) -> None:
         """Free vertices that have become convex of their diagonals in mid-air."""
+        certified, mesh, after = self.certified, self.certified.mesh, self.certified.after()
         for v in sorted(self._turned):
-            first = self.mesh.ring_edge[v]
             try:
-                changes = point_vertex(self.mesh, first, after)
+                changes = point_vertex(mesh, mesh.ring_edge[v], after)
             except AuditError:
                 raise RebuildNeeded from None
             for change in changes:
-                self._cancel_edge(change.handle)
+                certified.cancel_edge(change.handle)
                 added = () if change.new is None else (change.new,)
-                self._record("corner", (change.old,), added)
-                self._recertify([h for h in change.angles if self.mesh.map.origin[h] >= 0])
+                self.log.record("corner", (change.old,), added)
+                certified.recertify([h for h in change.angles if mesh.map.origin[h] >= 0])
             self._certify_turn(v)
         self._turned.clear()

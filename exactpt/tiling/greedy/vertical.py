@@ -57,6 +57,25 @@ class VerticalDecomposition:
         other.right_up, other.right_down = self.right_up[:], self.right_down[:]
         return other
 
+    def state(self) -> dict[str, list[int]]:
+        """The cells and arcs as JSON data."""
+        return {
+            "vertex": self.vertex[:],
+            "left": self.left[:],
+            "right": self.right[:],
+            "left_up": self.left_up[:],
+            "left_down": self.left_down[:],
+            "right_up": self.right_up[:],
+            "right_down": self.right_down[:],
+        }
+
+    def resume(self, state: dict[str, list[int]]) -> None:
+        """Have these cells and arcs."""
+        self.vertex = state["vertex"]
+        self.left, self.right = state["left"], state["right"]
+        self.left_up, self.left_down = state["left_up"], state["left_down"]
+        self.right_up, self.right_down = state["right_up"], state["right_down"]
+
     def _new_cell(self, left: int) -> int:
         self.left.append(left)
         self.right.append(NO_ARC)

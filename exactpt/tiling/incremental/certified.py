@@ -1,24 +1,19 @@
 """A structure with its certificates: what is pending in the queue, what is violated now.
 
-A slot of the queue is ``KINDS * point + kind``. Kinds `UPPER` and `LOWER` are the edges on
-which the point hangs, `ORDER` is the point and the next one in x-order, `MOTION` the end of
-its piece of motion.
+Their kinds are those of `exactpt.certificates.certificate.PointKind`.
 """
 
 from __future__ import annotations
 
-from typing import Final, final
+from typing import final
 
+from exactpt.certificates.certificate import POINT_ORDER, pack_point
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.one_sided import OneSided
-from exactpt.certificates.queue import EventQueue
+from exactpt.certificates.table import CertificateTable
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
 
-__all__ = ["KINDS", "MOTION", "ORDER", "CertifiedStructure"]
-
-ORDER: Final = 2
-MOTION: Final = 3
-KINDS: Final = 4
+__all__ = ["CertifiedStructure"]
 
 
 @final
@@ -31,16 +26,16 @@ class CertifiedStructure:
         due: of each kind, the points whose certificate is violated just after now.
     """
 
-    __slots__ = ("_certifier", "_queue", "after", "due", "now")
+    __slots__ = ("_certifier", "_table", "after", "due", "now")
 
     def __init__(
-        self, structure: IncrementalStructure, certifier: Certifier, queue: EventQueue
+        self, structure: IncrementalStructure, certifier: Certifier, table: CertificateTable
     ) -> None:
         self.now = structure
         self._certifier = certifier
-        self._queue = queue
+        self._table = table
         self.after = OneSided(certifier, before=False)
-        self.due: tuple[set[int], set[int], set[int]] = (set(), set(), set())
+        self.due: list[set[int]] = [table.violated[kind] for kind in (UPPER, LOWER, POINT_ORDER)]
 
     def certify_everything(self) -> None:
         """Certify all edges and all neighbours in the x-order."""
@@ -51,12 +46,12 @@ class CertifiedStructure:
 
     def certify_edge(self, side: int, b: int) -> None:
         """Certify the edge on which b hangs."""
-        slot = KINDS * b + side
+        certificate_id = pack_point(side, b)
         due = self.due[side]
         due.discard(b)
         certificate = self.now.certificate(side, b)
         if certificate is None:
-            self._queue.cancel(slot)
+            self._table.schedule(certificate_id, None)
             return
         lo, mid, hi, bends = certificate
         certifier = self._certifier
@@ -69,20 +64,17 @@ class CertifiedStructure:
         if (s == (1 if side == UPPER else -1)) != bends:
             due.add(b)
             time = None
-        if time is None:
-            self._queue.cancel(slot)
-        else:
-            self._queue.schedule(slot, time)
+        self._table.schedule(certificate_id, time)
 
     def certify_order(self, p: int) -> None:
         """Certify that p is left of the next point."""
-        slot = KINDS * p + ORDER
-        due = self.due[ORDER]
+        certificate_id = pack_point(POINT_ORDER, p)
+        due = self.due[POINT_ORDER]
         due.discard(p)
         order = self.now.order
         i = self.now.rank[p] + 1
         if i == len(order):
-            self._queue.cancel(slot)
+            self._table.schedule(certificate_id, None)
             return
         q = order[i]
         certifier = self._certifier
@@ -96,10 +88,7 @@ class CertifiedStructure:
         if not is_left:
             due.add(p)
             time = None
-        if time is None:
-            self._queue.cancel(slot)
-        else:
-            self._queue.schedule(slot, time)
+        self._table.schedule(certificate_id, time)
 
     def certify_point(self, p: int) -> None:
         """Certify anew whatever depends on the motion of a point."""
@@ -126,5 +115,5 @@ class CertifiedStructure:
                     self.certify_edge(side, b)
         for i, p in enumerate(new.order):
             j = old.rank[p]
-            if p in self.due[ORDER] or new.order[i + 1 : i + 2] != old.order[j + 1 : j + 2]:
+            if p in self.due[POINT_ORDER] or new.order[i + 1 : i + 2] != old.order[j + 1 : j + 2]:
                 self.certify_order(p)

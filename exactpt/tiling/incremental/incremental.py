@@ -6,86 +6,76 @@ fails. What a failure changes is told in `exactpt.tiling.incremental.repairs`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import final
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.certificate import (
+    POINT_MOTION,
+    POINT_ORDER,
+    pack_point,
+    point_kind_of,
+    point_of,
+)
 from exactpt.certificates.queue import EventTime
-from exactpt.errors import AuditError, InputError
+from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
-from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.mesh import Mesh
-from exactpt.tiling.events import ContactFound, Stats, TilingEvent
-from exactpt.tiling.incremental.certified import KINDS, MOTION, ORDER
-from exactpt.tiling.incremental.chains import PATIENCE, ChainKind, Chains
+from exactpt.tiling.events import ContactFound, TilingEvent
+from exactpt.tiling.incremental.chains import Chains
 from exactpt.tiling.incremental.contacts import coinciding
 from exactpt.tiling.incremental.mesh import mesh_of
 from exactpt.tiling.incremental.repairs import RepairedStructure
 from exactpt.tiling.incremental.static import holds_at, sweep_at
+from exactpt.tiling.incremental.structure import IncrementalStructure
+from exactpt.tiling.tiling import State
 
 __all__ = ["IncrementalTiling"]
 
 
 @final
 class IncrementalTiling(RepairedStructure):
-    """The canonical tiling of points: at any time the one that the sweep builds."""
+    """The canonical tiling of points: at any time the one that the sweep builds.
 
-    name = "incremental"
+    It has the interface of the engine, not the engine: what it keeps and repairs are two
+    trees, of which the mesh is read off when it is asked for, so that there are no
+    certified angles of a mesh that rules could add to.
+    """
 
-    @classmethod
-    def begin(
-        cls,
-        vertices: Vertices,
-        start: QQ,
-        end: QQ,
-        *,
-        exact_only: bool = False,
-        chains: ChainKind = "auto",
-        fan: bool = False,
-    ) -> IncrementalTiling:
-        """The tiling of points just after a time at which no two are in one place.
-
-        Args:
-            vertices: the points.
-            start: the current time.
-            end: the last time of interest.
-            exact_only: decide everything by exact arithmetic.
-            chains: see `Chains`.
-            fan: count the changes of the fan triangulation too, in ``stats.fan``.
-        """
-        structure = sweep_at(PredicatesAt(vertices, start, exact_only=exact_only))
-        certifier = Certifier(vertices, start, end, exact_only=exact_only)
-        kept = Chains(chains, PATIENCE * len(vertices.all))
-        self = cls(vertices, certifier, Stats(), structure, kept, fan=fan)
+    def begin(self, start: QQ) -> None:
+        """See `Tiling.begin`."""
+        exact_only = self.certifier.exact_only
+        self._keep(sweep_at(PredicatesAt(self.vertices, start, exact_only=exact_only)))
         self._certified.certify_everything()
         if any(self._certified.due):
             raise AuditError(f"violated at the start: {self._certified.due}")
         self.stats.most = len(self.queue)
-        for p in range(len(vertices.all)):
+        for p in range(len(self.vertices.all)):
             self._schedule_piece(p)
-        return self
 
-    @classmethod
-    def vertices_of(cls, bodies: Sequence[Body], start: QQ, end: QQ) -> Vertices:
-        """One vertex a point.
+    def state(self) -> State:
+        """The trees, and how chains are kept."""
+        structure, chains = self.structure, self.chains
+        return {"structure": structure.state(), "chains": [chains.kind, chains.allowed]}
 
-        Raises:
-            InputError: if a body is no point.
-        """
-        for body in bodies:
-            if body.size > 1:
-                raise InputError(
-                    f"body {body.name!r}: has {body.size} vertices: "
-                    "the incremental tiling is for points"
-                )
-        return Vertices.of(bodies, start, end, plain=True)
+    def resume(self, state: State) -> None:
+        """See `Tiling.resume`."""
+        self.chains = Chains(*state["chains"])
+        self._keep(IncrementalStructure.resumed(state["structure"]))
 
-    @classmethod
-    def mesh_at(cls, instant: PredicatesAt) -> Mesh:
+    @staticmethod
+    def build(instant: PredicatesAt) -> Mesh:
         """The incremental tiling of an instant."""
         return mesh_of(sweep_at(instant))
+
+    def mesh_at(self, instant: PredicatesAt) -> Mesh:
+        """See `Tiling.mesh_at`."""
+        return self.build(instant)
+
+    def audit(self, mesh: Mesh, instant: PredicatesAt) -> None:  # noqa: ARG002
+        """See `Tiling.audit`; its points have no rings, around which angles are checked."""
+        mesh.audit()
 
     def mesh_after(self) -> Mesh:
         """The tiling just after the current time; made anew after every event."""
@@ -108,43 +98,53 @@ class IncrementalTiling(RepairedStructure):
 
     def _schedule_piece(self, p: int) -> None:
         """Schedule the end of the current piece of a point's motion."""
-        self._schedule_end(self.vertices.bodies[p], KINDS * p + MOTION)
+        end = self.clock.end_of_piece(self.vertices.bodies[p])
+        self.table.schedule(pack_point(POINT_MOTION, p), end)
+
+    def add_body(self, body: Body, t: QQ) -> None:
+        """See `Tiling.add_body`: the structure is swept anew."""
+
+    def remove_body(self, i: int, t: QQ) -> None:
+        """See `Tiling.remove_body`: the structure is swept anew."""
 
     def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent]:
         """See `Tiling.change_plans`."""
-        self._move_to(t)
+        self.clock.move_to(t)
         self._mesh = None
         for p in sorted(plans):
             self.vertices.set_plan(p, plans[p], t, self.certifier.end)
             self._schedule_piece(p)
-            self._record("motion", (), ())
+            self.log.record("motion", (), ())
         for p in sorted(plans):
             self._certified.certify_point(p)
         self._settle()
         self.stats.most = max(self.stats.most, len(self.queue))
-        return self._reported()
+        return self.log.take()
 
     # Events
 
     def _process(self, time: EventTime, entries: list[tuple[int, EventTime]]) -> None:
-        self._undo = self.certifier.now, entries
-        self.certifier.move_to(time, [(t.a, t.b, t.c) for _, t in entries])
+        self.clock.enter(time, entries)
         self._mesh = None
-        slots = [slot for slot, _ in entries]
-        level = [slot // KINDS for slot in slots if slot % KINDS == ORDER]
+        failed = [certificate for certificate, _ in entries]
+        level = [
+            point_of(certificate)
+            for certificate in failed
+            if point_kind_of(certificate) == POINT_ORDER
+        ]
         if level and (touches := coinciding(self.certifier, self.structure, level)):
             raise ContactFound(touches)
-        if len(slots) > 1:
+        if len(failed) > 1:
             self.stats.batches += 1
-        alone = len(slots) == 1 and time.crossing
+        alone = len(failed) == 1 and time.crossing
         certified = self._certified
-        for slot in slots:
-            p, kind = divmod(slot, KINDS)
-            if kind == MOTION:
+        for certificate in failed:
+            p, kind = point_of(certificate), point_kind_of(certificate)
+            if kind == POINT_MOTION:
                 self._change_motion(p)
             elif alone:
                 certified.due[kind].add(p)
-            elif kind == ORDER:
+            elif kind == POINT_ORDER:
                 certified.certify_order(p)
             else:
                 certified.certify_edge(kind, p)
@@ -165,5 +165,5 @@ class IncrementalTiling(RepairedStructure):
             raise AuditError(f"body {p} has no next piece")
         self.vertices.enter_piece(p, moving.until)
         self._schedule_piece(p)
-        self._record("motion", (), ())
+        self.log.record("motion", (), ())
         self._certified.certify_point(p)

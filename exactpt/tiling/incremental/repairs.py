@@ -17,14 +17,16 @@ from __future__ import annotations
 
 from functools import cmp_to_key
 
+from exactpt.certificates.certificate import POINT_ORDER
 from exactpt.certificates.certifier import Certifier
 from exactpt.errors import AuditError
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.mesh import Mesh
+from exactpt.tiling.catalogue import Entry
 from exactpt.tiling.events import Stats
-from exactpt.tiling.incremental.certified import ORDER, CertifiedStructure
-from exactpt.tiling.incremental.chains import Chains
+from exactpt.tiling.incremental.certified import CertifiedStructure
+from exactpt.tiling.incremental.chains import PATIENCE, ChainKind, Chains
 from exactpt.tiling.incremental.columns import resweep
 from exactpt.tiling.incremental.contacts import column_around
 from exactpt.tiling.incremental.fan import changes_of_exchange, fan_edges
@@ -38,11 +40,11 @@ class RepairedStructure(Tiling):
     """A structure of points whose violated certificates are mended.
 
     Args:
+        entry: its line in the catalogue.
         vertices: the points.
         certifier: at the current time.
         stats: counts.
-        structure: the tiling just after the current time; nothing of it is certified.
-        chains: how chains are kept.
+        chains: how chains are kept; see `Chains`.
         fan: count the changes of the fan triangulation too, in ``stats.fan``.
 
     Attributes:
@@ -51,21 +53,25 @@ class RepairedStructure(Tiling):
 
     def __init__(
         self,
+        entry: Entry,
         vertices: Vertices,
         certifier: Certifier,
         stats: Stats,
-        structure: IncrementalStructure,
-        chains: Chains,
         *,
+        chains: ChainKind = "auto",
         fan: bool = False,
     ) -> None:
-        super().__init__(vertices, certifier, stats)
-        if chains.kind == "searchable":
-            structure.make_searchable()
-        self.chains: Chains = chains
+        super().__init__(entry, vertices, certifier, stats)
+        self.chains: Chains = Chains(chains, PATIENCE * len(vertices.all))
         self._fan: bool = fan
         self._mesh: Mesh | None = None
-        self._certified = CertifiedStructure(structure, certifier, self.queue)
+        self._certified: CertifiedStructure
+
+    def _keep(self, structure: IncrementalStructure) -> None:
+        """Have this structure, of which nothing is certified."""
+        if self.chains.kind == "searchable":
+            structure.make_searchable()
+        self._certified = CertifiedStructure(structure, self.certifier, self.table)
 
     @property
     def structure(self) -> IncrementalStructure:
@@ -106,7 +112,7 @@ class RepairedStructure(Tiling):
         there = structure.trees[1 - side].parent[p]
         removed = () if there == old else (edge_key(p, old),)
         added = () if there == new else (edge_key(p, new),)
-        self._record(kind, removed, added)
+        self.log.record(kind, removed, added)
         if self._fan:
             # The edge past the middle point goes or comes; and so, if a tile lies beyond
             # the edge, does the one from the middle point to the tip of that tile.
@@ -136,7 +142,7 @@ class RepairedStructure(Tiling):
         if self._fan:
             self.stats.fan += changes_of_exchange(structure, exchanged, q)
         after = self._edges_of(p, q)
-        self._record("x-order", tuple(sorted(before - after)), tuple(sorted(after - before)))
+        self.log.record("x-order", tuple(sorted(before - after)), tuple(sorted(after - before)))
         for side, changed in enumerate(exchanged.edges):
             for c in changed:
                 self._certified.certify_edge(side, c)
@@ -149,8 +155,8 @@ class RepairedStructure(Tiling):
         """Put all points of one x that are in the wrong order into theirs; whether any could."""
         structure, certified = self.structure, self._certified
         order, found = structure.order, False
-        for p in sorted(certified.due[ORDER], key=structure.rank.__getitem__):
-            if p not in certified.due[ORDER]:
+        for p in sorted(certified.due[POINT_ORDER], key=structure.rank.__getitem__):
+            if p not in certified.due[POINT_ORDER]:
                 continue  # of a column that has been swept
             i, end = column_around(self.certifier, structure, p)
             old = order[i:end]
@@ -161,7 +167,7 @@ class RepairedStructure(Tiling):
                 continue
             found = True
             after = self._edges_of(*new)
-            self._record("x-order", tuple(sorted(before - after)), tuple(sorted(after - before)))
+            self.log.record("x-order", tuple(sorted(before - after)), tuple(sorted(after - before)))
             self.stats.fan += len(fan ^ self._fan_edges())
             for side, edges in enumerate(changed):
                 for c in sorted(edges):
@@ -193,7 +199,7 @@ class RepairedStructure(Tiling):
             raise AuditError(f"violated after a sweep: {self._certified.due}")
         after = self._edges_of(*order)
         kind = "reflex" if order == old.order else "x-order"
-        self._record(kind, tuple(sorted(edges - after)), tuple(sorted(after - edges)))
+        self.log.record(kind, tuple(sorted(edges - after)), tuple(sorted(after - edges)))
         self.stats.fan += len(fan ^ self._fan_edges())
 
     def _fan_edges(self) -> set[frozenset[int]]:

@@ -39,7 +39,7 @@ nearest one is the tangent point.
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple, final
+from typing import Any, Final, NamedTuple, final
 
 from exactpt.certificates.predicates import Predicates
 from exactpt.tiling.incremental.paths import SearchableTree
@@ -112,6 +112,23 @@ class IncrementalStructure:
             for p in order[1:]:
                 tree.append(parent[p], p)
         return cls(order, trees)
+
+    def state(self) -> dict[str, Any]:
+        """The structure as JSON data."""
+        return {
+            "order": list(self.order),
+            "parents": [list(tree.parent) for tree in self.trees],
+            "steps": [tree.steps for tree in self.trees],
+        }
+
+    @classmethod
+    def resumed(cls, state: dict[str, Any]) -> IncrementalStructure:
+        """The structure with that state."""
+        upper, lower = state["parents"]
+        structure = cls.of(state["order"], (upper, lower))
+        for tree, steps in zip(structure.trees, state["steps"], strict=True):
+            tree.steps = steps
+        return structure
 
     def make_searchable(self) -> None:
         """From now on, search chains in O(log n)."""

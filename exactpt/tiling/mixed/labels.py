@@ -23,13 +23,14 @@ of which neither edge or both edges give way.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import Final, NamedTuple, TypeAlias, final
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Final, NamedTuple, TypeAlias, final
 
 from exactpt.errors import AuditError
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import NOTHING
 from exactpt.pseudotriangulation.mesh import F2, FREE, INSIDE, Mesh, Tile
+from exactpt.tiling.mixed.loops import loop_along
 from exactpt.tiling.mixed.tree import ROOT, TOP, GeodesicTree, tree_of_size
 
 __all__ = ["NO_LABEL", "BodyTree", "Forest", "Label", "LabelledMesh"]
@@ -271,6 +272,24 @@ class LabelledMesh(Mesh):
         self._copy_to(other)
         other.labels = self.labels[:]
         return other
+
+    def state(self) -> dict[str, list[Any]]:
+        """As `Mesh.state`; with the labels."""
+        return {**super().state(), "labels": [sorted(label) for label in self.labels]}
+
+    def resume(self, state: dict[str, list[Any]]) -> None:
+        """As `Mesh.resume`; with the labels."""
+        super().resume(state)
+        self.labels = [frozenset(label) for label in state["labels"]]
+
+    def labelling(self) -> Sequence[Label]:
+        """The labels."""
+        return self.labels
+
+    def relative_hulls(self) -> Callable[[int], list[int]]:
+        """See `Mesh.relative_hulls`: the cycles that are pinned nowhere, of the bodies now."""
+        tops = [of.nodes[TOP] for of in self.forest.bodies]
+        return lambda i: loop_along(self.map, self.labels, tops[i])
 
     def audit_faces(self, half_edges: Iterable[int]) -> None:
         """Check corners, that labels are paths, and that the edges of a tile agree on its node.

@@ -13,37 +13,43 @@ from __future__ import annotations
 from typing import cast, final
 
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.conflict_zone import ConflictZone
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.pseudotriangulation.region import Region
-from exactpt.tiling.greedy.flipping import FlippingTiling
-from exactpt.tiling.mixed.labels import LabelledMesh
+from exactpt.tiling.greedy.flipping import FlippingRules
+from exactpt.tiling.mixed.labels import Forest, LabelledMesh
 from exactpt.tiling.mixed.region import region_left, region_met
 from exactpt.tiling.mixed.static import mixed_mesh
 
-__all__ = ["MixedTiling"]
+__all__ = ["MixedRules"]
 
 
 @final
-class MixedTiling(FlippingTiling):
+class MixedRules(FlippingRules):
     """The mixed tiling: O(kappa log n) certificates of rigid polygons."""
-
-    name = "mixed"
 
     @property
     def _labelled(self) -> LabelledMesh:
-        return cast(LabelledMesh, self.mesh)
+        return cast(LabelledMesh, self.certified.mesh)
 
-    def _region_met(self, site: ConflictZone) -> Region:
-        return region_met(self._labelled, site.faces)
-
-    def _region_left(self, i: int) -> Region:
-        return region_left(self._labelled, i, self._edges_at(i))
-
-    def _leave_body(self, i: int) -> None:
-        self._labelled.forest.remove(i)
-
-    @classmethod
-    def mesh_at(cls, instant: PredicatesAt) -> Mesh:
+    @staticmethod
+    def build(instant: PredicatesAt) -> Mesh:
         """The mixed tiling of an instant."""
         return mixed_mesh(instant)
+
+    def empty_mesh(self, vertices: Vertices) -> Mesh:
+        """See `Rules.empty_mesh`."""
+        return LabelledMesh(0, Forest(vertices))
+
+    def region_met(self, zone: ConflictZone) -> Region:
+        """See `Rules.region_met`."""
+        return region_met(self._labelled, zone.faces)
+
+    def region_left(self, i: int) -> Region:
+        """See `Rules.region_left`."""
+        return region_left(self._labelled, i, self.certified.edges_at(i))
+
+    def leave(self, i: int) -> None:
+        """See `Rules.leave`."""
+        self._labelled.forest.remove(i)

@@ -7,35 +7,26 @@ it closes a pocket; the free side, on its left, then determines the next half-ed
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from exactpt.errors import AuditError
-from exactpt.tiling.mixed.labels import LabelledMesh
-from exactpt.tiling.mixed.tree import TOP
+from exactpt.planar.halfedge import PlanarMap
 
-__all__ = ["relative_hull", "top_nodes"]
-
-
-def top_nodes(mesh: LabelledMesh) -> list[int]:
-    """For each body, the root node of its tree: the node whose cycle is its relative hull."""
-    return [tree.nodes[TOP] for tree in mesh.forest.bodies]
+__all__ = ["loop_along"]
 
 
-def relative_hull(mesh: LabelledMesh, top: int) -> list[int]:
-    """The vertex ids along the relative hull of a body, counter-clockwise.
-
-    Args:
-        mesh: a mixed tiling.
-        top: the root node of the body, see `top_nodes`.
+def loop_along(m: PlanarMap, labels: Sequence[frozenset[int]], top: int) -> list[int]:
+    """The vertex ids along the cycle of a node that is pinned nowhere, counter-clockwise.
 
     Raises:
         AuditError: if the labels do not form a single cycle.
     """
-    m = mesh.map
-    cycle = [h for h in m.half_edges() if top in mesh.labels[h]]
+    cycle = [h for h in m.half_edges() if top in labels[h]]
     ordered = [cycle[0]]
     while True:
         # The next half-edge is the first one clockwise from the reversed current one.
         g = m.following[ordered[-1]]
-        while top not in mesh.labels[g]:
+        while top not in labels[g]:
             g = m.following[g ^ 1]
         if g == ordered[0]:
             break

@@ -1,0 +1,303 @@
+"""The engine: keeps a pseudo-triangulation up to date, by the rules of its structure.
+
+It is composed of a clock, the table of certificates, a mesh with its certified angles, the
+repairs of these, and the rules. At the time of an event it looks for contacts, lets new
+pieces of motion begin, and repairs. A repair that is not possible, or an endless round of
+them, is answered by building the tiling anew.
+
+Source: the paper, section 2.2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Final, final
+
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certificate import ANGLE, MOTION, SHRINK, kind_of, pack, part_of
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.queue import EventTime
+from exactpt.errors import AuditError
+from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt.kernel.numbers import QQ, power_of_two
+from exactpt.motion.vertices import Vertices
+from exactpt.planar.halfedge import edge_key
+from exactpt.pseudotriangulation.audit import audit_angles
+from exactpt.pseudotriangulation.conflict_zone import find_conflict_zone
+from exactpt.pseudotriangulation.inside import tile_inside
+from exactpt.pseudotriangulation.mesh import Mesh
+from exactpt.tiling.angles import CertifiedMesh
+from exactpt.tiling.catalogue import Entry
+from exactpt.tiling.events import Stats, TilingEvent
+from exactpt.tiling.pieces import certify_piece
+from exactpt.tiling.population import add_ring, remove_ring
+from exactpt.tiling.repairs import RebuildNeeded, Repairs
+from exactpt.tiling.rules import Rules
+from exactpt.tiling.tiling import State, Tiling
+from exactpt.tiling.touching import look_for_contact, may_touch, report_touches
+
+if TYPE_CHECKING:
+    from exactpt.motion.body import Body
+
+__all__ = ["Engine"]
+
+MOST_TRIES: Final = 15
+"""How often a tiling is built anew before that is given up: 2^-(2^k) nearer at try k."""
+
+
+@final
+class Engine(Tiling):
+    """A pointed pseudo-triangulation of the free space, kept by the rules of its structure.
+
+    Attributes:
+        certified: the mesh just after the current time, with the certificates of its angles.
+        rules: of the structure.
+        repairs: of what is violated.
+    """
+
+    def __init__(
+        self,
+        entry: Entry,
+        rules: type[Rules],
+        vertices: Vertices,
+        certifier: Certifier,
+        stats: Stats,
+    ) -> None:
+        super().__init__(entry, vertices, certifier, stats)
+        self.certified: CertifiedMesh = CertifiedMesh(vertices, certifier, self.table)
+        self.rules: Rules = rules(self.certified, self.log)
+        self.certified.rules = self.rules
+        self.repairs: Repairs = Repairs(self.certified, self.rules, self.log)
+
+    # Building
+
+    def begin(self, start: QQ) -> None:
+        """See `Tiling.begin`."""
+        self._build(start)
+        if self.table.angles:
+            raise AuditError(f"violated at the start: {sorted(self.table.angles)}")
+        for i, moving in enumerate(self.vertices.bodies):
+            certify_piece(self.clock, moving, i)
+
+    def _build(self, time: QQ) -> None:
+        """Build and certify the tiling that holds just after a rational time."""
+        exact_only = self.certifier.exact_only
+        instant = PredicatesAt(self.vertices, time, exact_only=exact_only)
+        self.certified.mesh = self.rules.begin(instant)
+        self.stats.most = max(self.stats.most, self.certified.certify_everything())
+
+    def state(self) -> State:
+        """The flat angles, the mesh, and what the rules keep besides."""
+        flat = sorted(self.table.flat)
+        return {"flat": flat, "mesh": self.mesh.state(), **self.rules.state()}
+
+    def resume(self, state: State) -> None:
+        """See `Tiling.resume`."""
+        mesh = self.rules.empty_mesh(self.vertices)
+        mesh.resume(state["mesh"])
+        mesh.audit()
+        self.certified.mesh = mesh
+        self.table.flat.update(state["flat"])
+        self.rules.resume(state)
+
+    # The tiling
+
+    @property
+    def mesh(self) -> Mesh:
+        """The tiling just after the current time."""
+        return self.certified.mesh
+
+    def mesh_after(self) -> Mesh:
+        """The tiling just after the current time: not a copy."""
+        return self.certified.mesh
+
+    def mesh_at(self, instant: PredicatesAt) -> Mesh:
+        """See `Tiling.mesh_at`."""
+        return self.rules.build(instant)
+
+    def mesh_now(self, time: QQ) -> Mesh:
+        """The tiling at a rational time: the current one, or one before the next event.
+
+        It is the current one with corners closed; or, where corners close on each other
+        so that one by one they cannot, the one that is built at that time.
+        """
+        mesh = self.mesh.copy()
+        instant = PredicatesAt(self.vertices, time, after=False)
+        try:
+            self.rules.close(mesh, instant)
+        except AuditError:
+            mesh = self.rules.build(instant)
+            audit_angles(mesh, instant)
+        return mesh
+
+    def audit(self, mesh: Mesh, instant: PredicatesAt) -> None:
+        """See `Tiling.audit`."""
+        audit_angles(mesh, instant)
+
+    def audit_structure(self, instant: PredicatesAt) -> None:
+        """See `Tiling.audit_structure`."""
+        self.rules.audit(instant)
+
+    # Events
+
+    def _process(self, time: EventTime, entries: list[tuple[int, EventTime]]) -> None:
+        """Let all events of one time happen."""
+        certified, first = self.certified, entries[0][0]
+        self.table.angles.clear()
+        self.clock.enter(time, entries)
+        certified.batch.clear()
+        is_alone = len(entries) == 1 and time.crossing and kind_of(first) == ANGLE
+        try:
+            h = part_of(first)
+            if is_alone and not certified.has_flats(h):
+                if may_touch(certified, h):
+                    report_touches(certified, certified.angle(h))
+                self.table.angles.add(h)
+            else:
+                certified.is_careful = True
+                self.stats.batches += len(entries) > 1
+                self._begin_batch([certificate for certificate, _ in entries])
+            self.repairs.settle()
+        except RebuildNeeded:
+            self._rebuild()
+        self._end_batch()
+
+    def _end_batch(self) -> None:
+        self.certified.is_careful = False
+        self.stats.most = max(self.stats.most, len(self.table.pending))
+
+    def _begin_batch(self, failed: list[int]) -> None:
+        """Note what is violated just after now; report a contact if there is one."""
+        certified = self.certified
+        angles = [part_of(c) for c in failed if kind_of(c) == ANGLE]
+        moving = [part_of(c) for c in failed if kind_of(c) == MOTION]
+        # Before anything is changed, so that `retreat` finds everything as it was. What
+        # vanishes at the end of a piece has an event then, so that one look finds all.
+        shrinking = [part_of(c) for c in failed if kind_of(c) == SHRINK]
+        look_for_contact(certified, angles, shrinking)
+        if moving:
+            certified.batch.has_new_motions = True
+            self.clock.forget_way_back()
+            angles += [h for i in moving for h in self._change_motion(i)]
+        self.rules.failed([c for c in failed if kind_of(c) not in (ANGLE, MOTION, SHRINK)])
+        certified.certify_again(angles)
+
+    def _change_motion(self, i: int) -> list[int]:
+        """Let a body go on by its next piece of motion; the angles that vanish now."""
+        moving = self.vertices.bodies[i]
+        if moving.until is None:
+            raise AuditError(f"body {i} has no next piece")
+        changes = moving.until in moving.body._breakpoints  # else only its offsets do
+        self.vertices.enter_piece(i, moving.until)
+        certify_piece(self.clock, moving, i)
+        if changes:
+            self.log.record("motion", (), ())
+        return self.certified.certify_body(i)
+
+    # Plans, and bodies that come and go
+
+    def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent] | None:
+        """See `Tiling.change_plans`."""
+        if not all(self.rules.allows_plan(body, t) for body in plans.values()):
+            return None
+        certified = self.certified
+        self._pause(t)
+        certified.batch.has_new_motions = True
+        try:
+            for i in sorted(plans):
+                if self.vertices.set_plan(i, plans[i], t, self.certifier.end):
+                    first = self.mesh.ring_edge[self.vertices.bodies[i].ring[0]]
+                    tile_inside(self.mesh, first, certified.after())
+                certify_piece(self.clock, self.vertices.bodies[i], i)
+                self.log.record("motion", (), ())
+            angles = [h for i in sorted(plans) for h in certified.certify_body(i)]
+            self.rules.failed([])
+            certified.certify_again(angles)
+            self.repairs.settle()
+        except RebuildNeeded:
+            self._rebuild()
+        self._end_batch()
+        return self.log.take()
+
+    def add_body(self, body: Body, t: QQ) -> list[TilingEvent] | None:
+        """See `Tiling.add_body`."""
+        if not self.rules.allows_body(body, t):
+            return None
+        zone = find_conflict_zone(self.vertices, self.mesh, body, t)
+        self._pause(t)
+        i = self.vertices.add(body, t)
+        certify_piece(self.clock, self.vertices.bodies[i], i)
+        return self._go_on(is_whole=add_ring(self.certified, self.log, i, zone))
+
+    def remove_body(self, i: int, t: QQ) -> list[TilingEvent] | None:
+        """See `Tiling.remove_body`."""
+        self._pause(t)
+        is_whole = remove_ring(self.certified, self.log, i)
+        last = len(self.vertices.bodies) - 1
+        for kind in (MOTION, SHRINK):
+            self.table.move(pack(kind, last), pack(kind, i))
+        self.vertices.remove(i)
+        return self._go_on(is_whole=is_whole)
+
+    def _pause(self, t: QQ) -> None:
+        """Let a rational time be now; nothing is violated then."""
+        self.clock.move_to(t)
+        self.table.angles.clear()
+        self.certified.batch.clear()
+        self.certified.is_careful = True
+
+    def _go_on(self, *, is_whole: bool) -> list[TilingEvent]:
+        """Repair what is violated; or build the tiling anew if it is not whole."""
+        try:
+            if not is_whole:
+                raise RebuildNeeded
+            self.repairs.settle()
+            self.repairs.check_batch()
+        except RebuildNeeded:
+            self._rebuild()
+        self._end_batch()
+        return self.log.take()
+
+    # The last resort
+
+    def _rebuild(self) -> None:
+        """Build the tiling that holds from now on, and certify all of it.
+
+        A rational time is tried, and accepted if the tiling built there is valid just
+        after now and no certificate of it fails in between; else one nearer to now.
+
+        Raises:
+            AuditError: if none is found: a contact now has been missed.
+        """
+        self.stats.rebuilds += 1
+        before = self._diagonals()
+        now, following = self.now, self.next_number()
+        later = self.certifier.end
+        if now.compare_rational(later) >= 0:
+            later = rational_between(now, AlgebraicNumber(later + 1))  # plans run on as they are
+        elif following is not None and following.compare_rational(later) < 0:
+            later = rational_between(now, following)
+        for k in range(MOST_TRIES):
+            width = (later - now._low) * power_of_two(-(1 << k))
+            now.refine_to(width / 2)
+            if self._build_anew(rational_between(now, AlgebraicNumber(now._high + width / 2))):
+                break
+        else:
+            raise AuditError(f"no tiling holds just after t = {float(now)!r}")
+        after = self._diagonals()
+        self.log.record("reflex", tuple(sorted(before - after)), tuple(sorted(after - before)))
+
+    def _diagonals(self) -> set[tuple[int, int]]:
+        return {edge_key(*self.mesh.ends(h)) for h in self.mesh.diagonals()}
+
+    def _build_anew(self, later: QQ) -> bool:
+        """Build and certify the tiling of a later time; whether it has held since now."""
+        self.table.angles.clear()
+        try:
+            self._build(later)
+        except (AuditError, RebuildNeeded):
+            return False  # bodies overlap there, or the tiling was another one before
+        following = self.next_number()
+        return not (self.table.angles or self.rules.is_violated()) and (
+            following is None or following.compare_rational(later) > 0
+        )

@@ -1,0 +1,105 @@
+"""The catalogue: which tiling is meant, and a structure that is registered from outside."""
+
+from random import Random
+
+import pytest
+from ranked import RANKED
+
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.collision.allpairs import first_contact_allpairs
+from exactpt.collision.detector import first_contact
+from exactpt.collision.tilings import TILINGS, start_tiling, tilings_for
+from exactpt.errors import InputError
+from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt.scene.generate import generate
+from exactpt.simulation.simulation import Simulation
+from exactpt.tiling import catalogue
+from exactpt.tiling.events import ContactFound
+
+
+@pytest.fixture
+def registered(monkeypatch):
+    monkeypatch.setattr(catalogue, "ENTRIES", [*catalogue.ENTRIES, RANKED])
+
+
+def test_the_names_of_the_tilings():
+    assert TILINGS == ("greedy", "mixed", "lazy")
+    assert tilings_for(generate("convex", 0)) == ["greedy", "mixed", "lazy"]
+    assert tilings_for(generate("linear_points", 0)) == ["greedy", "mixed", "lazy", "incremental"]
+
+
+@pytest.mark.parametrize("is_convex", [False, True])
+def test_auto_asks_for_convex_bodies_only_where_it_matters(is_convex):
+    asked = []
+
+    def convex():
+        asked.append(1)
+        return is_convex
+
+    assert catalogue.choose("auto", points=True, convex=convex).name == "incremental"
+    assert catalogue.choose("mixed", points=False, convex=convex).name == "mixed"
+    assert asked == []
+    chosen = catalogue.choose("auto", points=False, convex=convex)
+    assert chosen.name == ("greedy" if is_convex else "mixed")
+    assert asked == [1]
+
+
+def test_an_unknown_tiling_is_refused_with_the_names_of_all():
+    with pytest.raises(
+        InputError,
+        match="no tiling 'x'; there are: auto, incremental, greedy, mixed, lazy",
+    ):
+        catalogue.find("x", convex=False)
+
+
+@pytest.mark.plain
+@pytest.mark.parametrize("family", ["convex", "stars", "pieces", "turning"])
+def test_a_structure_from_outside_is_kept_up_to_date(registered, family):
+    ranks = 0
+    for seed in range(3):
+        scene = generate(family, seed)
+        kinetic = start_tiling(scene, "ranked", scene.start)
+        try:
+            while True:
+                end = kinetic.next_number() or AlgebraicNumber(scene.end)
+                if kinetic.now.compare(end) < 0:
+                    at = rational_between(kinetic.now, end)
+                    kinetic.audit_structure(PredicatesAt(kinetic.vertices, at))
+                if kinetic.advance(scene.end) is None:
+                    break
+        except ContactFound:
+            pass
+        ranks += kinetic.stats.events.get("rank", 0)
+        expected, found = first_contact_allpairs(scene), first_contact(scene, tiling="ranked")
+        assert (expected and expected.time) == (found and found.time)
+    assert ranks > 0
+
+
+@pytest.mark.plain
+def test_a_structure_from_outside_is_saved_and_goes_on(registered, tmp_path):
+    scene = generate("convex", 3)
+    whole = [event.to_json() for event in Simulation(scene, tiling="ranked").run()]
+    simulation = Simulation(scene, tiling="ranked")
+    middle = simulation.run((scene.start + scene.end) / 4)
+    events = [event.to_json() for event in middle]
+
+    simulation.save(tmp_path / "run.json")
+    simulation = Simulation.restore(tmp_path / "run.json")
+
+    assert events + [event.to_json() for event in simulation.run()] == whole
+
+
+@pytest.mark.plain
+def test_bodies_come_and_go_in_a_structure_from_outside(registered):
+    scene = generate("small_grid", 0)
+    rng, simulation = Random(5), Simulation(scene, tiling="ranked")
+    names = [body.name for body in scene.bodies]
+    out = [simulation.body(name) for name in rng.sample(names, 3)]
+    kinetic = simulation.kinetic
+    for body in out:
+        simulation.remove(body.name)
+        kinetic.audit_structure(PredicatesAt(kinetic.vertices, scene.start))
+    for body in out:
+        simulation.add(body)
+        kinetic.audit_structure(PredicatesAt(kinetic.vertices, scene.start))
+    assert simulation.stats["rebuilds"] == 0
