@@ -117,7 +117,7 @@ class Certifier:
         Three vertices of one motion keep their distances, and the copies of one vertex their
         displacements, unless these turn independently of the motion. The copies of a point
         or a segment alone turn with it: their orientation is 0 only where the segment shrinks
-        to a point, which has an event of its own (`KineticTiling._schedule_piece`).
+        to a point, which has an event of its own (`exactpt.tiling.pieces`).
         """
         va, vb, vc = self.all[a], self.all[b], self.all[c]
         motion = va.image.motion

@@ -4,7 +4,6 @@ from fractions import Fraction
 from random import Random
 
 import pytest
-from exactpt.tiling.kinetic import KineticTiling
 from proving import accepted, agrees, proof_of, verdict
 
 from exactpt import Body, Scene, Translation
@@ -15,6 +14,7 @@ from exactpt.proof.changes import change, followers
 from exactpt.proof.emit import Proof, scene_bytes
 from exactpt.scene.format import loads
 from exactpt.scene.generate import generate
+from exactpt.tiling import engine, touching
 
 
 def points(*places):
@@ -279,7 +279,8 @@ def test_mutants(family):
 @pytest.mark.parametrize("tiling", ["lazy", "greedy", "mixed"])
 def test_an_engine_that_is_blind_to_contacts(tiling, monkeypatch):
     """Its wrong answers have no proof; its right ones do. (Or it notices that it is lost.)"""
-    monkeypatch.setattr(KineticTiling, "_report_touches", lambda *_: None)
+    for module in (engine, touching):
+        monkeypatch.setattr(module, "report_touches", lambda *_: None)
     random, right, wrong = Random(f"blind {tiling}"), 0, 0
     for _ in range(60):
         scene = touching_and_going(random)
