@@ -21,8 +21,10 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals and lim
 needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
 
 MAIN = "from exactpt.cli import main; main()"
+# What is started in the background of a shell ignores SIGINT, and so does what it starts.
 STUCK = """
-import time
+import signal, time
+signal.signal(signal.SIGINT, signal.default_int_handler)
 from exactpt.simulation.simulation import Simulation
 run = Simulation.run
 def stuck(self):
