@@ -35,8 +35,10 @@ def look_for_contact(
 def may_touch(certified: CertifiedMesh, h: int) -> bool:
     """Whether the vanishing of one angle alone may be a contact.
 
-    A corner that closes on a body edge is one; so are vertices that coincide, and a
-    bend that folds up instead of straightening (a spike of a deforming body).
+    A corner that closes on a body edge is one; so are vertices that coincide, and a reflex
+    angle that folds up instead of straightening (a spike of a deforming body). A corner that
+    closes on a diagonal is none: what it meets beyond the diagonal would pinch a face there,
+    with an angle that vanishes now too.
     """
     if certified.is_triangle(h):
         return True
