@@ -40,6 +40,7 @@ def test_kinds_of_more_than_one_code_overlap_no_others():
     assert sorted(codes) == CODES
 
 
+@pytest.mark.plain  # compiled classes have no docstrings
 def test_every_kind_has_a_reason_for_its_place_in_the_order_of_repair():
     for kinds in (Kind, PointKind):
         places = [kinds.__doc__.index(kind.name) for kind in kinds]
