@@ -102,7 +102,7 @@ class Certifier:
         low, high = frame.exact_time(time.low), frame.exact_time(time.high)
         p = square_free(f)
         number = (
-            AlgebraicNumber(low) if sign_at(p, low) == 0 else AlgebraicNumber.root(p, low, high)
+            AlgebraicNumber(low) if sign_at(p, low) == 0 else AlgebraicNumber._root(p, low, high)
         )
         time.exact = number
         time.low, time.high = frame.enclosure(number)

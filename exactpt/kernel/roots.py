@@ -72,7 +72,7 @@ def _roots_by_descartes(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterat
     for low, high, alone in single_roots(f, start._low, until):
         if alone:
             p = p or square_free(f)
-            root = AlgebraicNumber.root(p, low, high)
+            root = AlgebraicNumber._root(p, low, high)
             if root.compare(start) > 0:
                 yield Root(root, crossing=True)
         else:
@@ -87,7 +87,7 @@ def _roots_by_sturm(
     p = sequence[0]
     simple = len(p) == len(f)
     for left, right in isolating_intervals(sequence, low, high):
-        root = AlgebraicNumber.root(p, left, right)
+        root = AlgebraicNumber._root(p, left, right)
         if root.compare(start) > 0:
             yield Root(root, crossing=simple or root.sign_before(f) != root.sign_after(f))
 
