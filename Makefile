@@ -5,7 +5,7 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
-PACKAGES := g++ cmake libcgal-dev
+PACKAGES := g++ cmake libcgal-dev nlohmann-json3-dev
 JOBS ?= 2
 DATE ?= $(shell date -u +%F)
 LOWEST := $(VENV)/lowest
@@ -79,7 +79,7 @@ package: $(VENV)/developing ## build the wheel and the sdist in dist, and try th
 
 check-cgal: cgal_check/build/cgal_check ## build the independent witness
 
-cgal_check/build/cgal_check: $(wildcard cgal_check/*.cpp cgal_check/*.hpp) cgal_check/CMakeLists.txt
+cgal_check/build/cgal_check: $(wildcard cgal_check/*.cpp cgal_check/*.hpp cgal_check/proof/*.cpp cgal_check/proof/*.hpp) cgal_check/CMakeLists.txt
 	@.ci/apt-install $(PACKAGES)
 	cmake -S cgal_check -B cgal_check/build -DCMAKE_BUILD_TYPE=Release
 	cmake --build cgal_check/build --parallel $(JOBS)

@@ -15,6 +15,7 @@ from setuptools import Extension, setup
 
 ROOMS = [
     "exactpt/certificates/*.py",
+    "exactpt/indices.py",
     "exactpt/kernel/counters.py",
     "exactpt/kernel/filters.py",
     "exactpt/kernel/rounding.py",
@@ -24,6 +25,8 @@ ROOMS = [
     "exactpt/motion/vertices.py",
     "exactpt/planar/halfedge.py",
     "exactpt/pseudotriangulation/*.py",
+    "exactpt/simulation/event.py",
+    "exactpt/simulation/telling.py",
     "exactpt/tiling/*.py",
     "exactpt/tiling/*/*.py",
 ]
@@ -50,6 +53,8 @@ def extensions() -> list[Extension]:
     )
     for extension in compiled:
         extension.optional = True
+        if sys.platform != "win32":  # fused operations round once: enclosures would differ
+            extension.extra_compile_args.append("-ffp-contract=off")
     return compiled
 
 

@@ -1,5 +1,5 @@
 // cgal_check: an independent witness for exactpt. Reads requests from standard input and
-// writes one line of answer each; the protocol is in README.md.
+// writes one line of answer each; the protocol is in README.md. Or verifies a proof.
 #include <unistd.h>
 
 #include <cstdio>
@@ -11,6 +11,7 @@
 #include <CGAL/version.h>
 
 #include "algebra.hpp"
+#include "proof/verify.hpp"
 #include "reader.hpp"
 #include "tiling.hpp"
 
@@ -111,7 +112,12 @@ std::string reply(Reader& in) {
 
 }  // namespace
 
-int main() {
+int main(int count, char** arguments) {
+  if (count > 1) {
+    if (std::string(arguments[1]) == "proof") return proof::verify(count - 2, arguments + 2);
+    answer("error: usage: cgal_check [proof SCENE PROOF [--jobs N]]");
+    return 2;
+  }
   Reader in(STDIN_FILENO);
   try {
     in.expect("exactpt-check");

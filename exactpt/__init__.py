@@ -14,15 +14,20 @@ from typing import TYPE_CHECKING, Final
 from exactpt.extensions import register
 
 if TYPE_CHECKING:
+    from exactpt import arrays as arrays
     from exactpt.collision.contact import Contact, Pair
     from exactpt.collision.detector import first_contact
-    from exactpt.collision.proximity import first_within
+    from exactpt.collision.planner import Planner
     from exactpt.errors import AuditError, BudgetExceeded, ExactPTError, InputError
     from exactpt.exchange.files import read_shapes, write_shapes
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.polynomial import Polynomial
     from exactpt.motion.body import Body
     from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
+    from exactpt.proximity.clearance import Clearance, clearance
+    from exactpt.proximity.distance import Distance, distance
+    from exactpt.proximity.intervals import ContactInterval, contact_intervals, contacts
+    from exactpt.proximity.within import first_within
     from exactpt.query.answers import Hit, Path, Place
     from exactpt.query.space import FreeSpace
     from exactpt.scene.scene import Scene
@@ -38,7 +43,10 @@ __all__ = [
     "Body",
     "Bounce",
     "BudgetExceeded",
+    "Clearance",
     "Contact",
+    "ContactInterval",
+    "Distance",
     "Event",
     "ExactPTError",
     "FreeSpace",
@@ -48,11 +56,16 @@ __all__ = [
     "Path",
     "Pieces",
     "Place",
+    "Planner",
     "Polynomial",
     "Rigid",
     "Scene",
     "Simulation",
     "Translation",
+    "clearance",
+    "contact_intervals",
+    "contacts",
+    "distance",
     "first_contact",
     "first_within",
     "onward",
@@ -67,7 +80,7 @@ _ROOMS: Final = {
         "Pair",
     ),
     "exactpt.collision.detector": ("first_contact",),
-    "exactpt.collision.proximity": ("first_within",),
+    "exactpt.collision.planner": ("Planner",),
     "exactpt.errors": (
         "AuditError",
         "BudgetExceeded",
@@ -87,6 +100,20 @@ _ROOMS: Final = {
         "Rigid",
         "Translation",
     ),
+    "exactpt.proximity.clearance": (
+        "Clearance",
+        "clearance",
+    ),
+    "exactpt.proximity.distance": (
+        "Distance",
+        "distance",
+    ),
+    "exactpt.proximity.intervals": (
+        "ContactInterval",
+        "contact_intervals",
+        "contacts",
+    ),
+    "exactpt.proximity.within": ("first_within",),
     "exactpt.query.answers": (
         "Hit",
         "Path",
@@ -119,7 +146,9 @@ for _name, _place in {
 
 
 def __getattr__(name: str) -> object:
-    """A public name, imported on first use (PEP 562)."""
+    """A public name, imported on first use (PEP 562); `exactpt.arrays` too."""
+    if name == "arrays":
+        return import_module("exactpt.arrays")
     if name not in _ROOM_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value: object = getattr(import_module(_ROOM_OF[name]), name)

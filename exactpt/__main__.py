@@ -1,6 +1,21 @@
-"""``python -m exactpt``: the command line."""
+"""``python -m exactpt``, and the command ``exactpt``: the command line."""
 
-from exactpt.cli import main
+from __future__ import annotations
+
+import sys
+
+__all__ = ["main"]
+
+
+def main() -> None:
+    """Run the command line; Ctrl-C while its modules are imported ends it quietly."""
+    try:
+        from exactpt.cli import main as run
+    except KeyboardInterrupt:
+        sys.stderr.write("exactpt: interrupted\n")
+        sys.exit(130)
+    run()
+
 
 if __name__ == "__main__":
     main()

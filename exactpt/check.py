@@ -1,7 +1,8 @@
 """Verification of a scene's run by independent means.
 
-CGAL verifies every tiling and every event time. This does not prove that no contact was missed
-in between; a search over pairs of features, without a tiling, verifies that.
+First a proof of the first contact (docs/proofs.md) is written, and verified by `cgal_check`.
+Then CGAL verifies every tiling and every event time of a run, and a search over pairs of
+features, without a tiling, must find the same contact.
 """
 
 from __future__ import annotations
@@ -9,23 +10,26 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import final
 
-from exactpt.cgal import BodyShape, CgalCheck, IsolatedRoot
+from exactpt.cgal import BodyShape, CgalCheck, IsolatedRoot, ProofVerdict, check_proof
 from exactpt.collision.comparison import contrast, in_words
-from exactpt.collision.contact import Contact, contact_of, time_to_json
+from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.pairs import PairsSearch
 from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
+from exactpt.proof.emit import Proof, scene_bytes
 from exactpt.pseudotriangulation.snapshot import snapshot
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["Report", "check_scene"]
+__all__ = ["Report", "check_run", "check_scene"]
 
 
 @final
@@ -39,6 +43,7 @@ class Report:
         times: number of event times that CGAL has verified.
         events: number of events.
         contact: the time of the first contact, as in docs/format.md, or None.
+        proof: whether `cgal_check` accepts the proof of it; None if there has been none.
         pairs_agree: whether the search over pairs finds the same contact; None if it has not
             been run.
         failures: one line for each failure.
@@ -49,6 +54,7 @@ class Report:
     times: int = 0
     events: int = 0
     contact: dict[str, object] | None = None
+    proof: bool | None = None
     pairs_agree: bool | None = None
     failures: list[str] = field(default_factory=list)
 
@@ -66,6 +72,7 @@ class Report:
             "times": self.times,
             "events": self.events,
             "contact": self.contact,
+            "proof": self.proof,
             "pairs_agree": self.pairs_agree,
             "failures": self.failures,
         }
@@ -74,6 +81,8 @@ class Report:
         """The report as lines of text."""
         by_cgal = len(self.failures) - (self.pairs_agree is False)
         head = f"CGAL {'DISAGREES' if by_cgal else 'agrees'}: "
+        if self.proof is not None:
+            head += f"the proof is {'accepted' if self.proof else 'REJECTED'}; "
         head += f"{self.tilings} tilings ({self.tiling}), {self.times} event times"
         if not self.tilings:
             head += " (bodies touch at the start: there is nothing to tile)"
@@ -83,6 +92,48 @@ class Report:
 
 
 def check_scene(
+    scene: Scene,
+    *,
+    tiling: str = "auto",
+    scene_file: bytes | None = None,
+    max_events: int | None = None,
+    max_seconds: float | None = None,
+    reached: Callable[[AlgebraicNumber], None] | None = None,
+) -> Report:
+    """Prove the first contact of a scene, then check a run of it (`check_run`).
+
+    Args:
+        scene: the bodies, their motions and the time span.
+        tiling: the name of the tiling, or "auto".
+        scene_file: the bytes of the scene's file, of which the proof is made; by default those
+            that `Scene.save` writes.
+        max_events: maximum number of events; None for no limit.
+        max_seconds: see `exactpt.Simulation`.
+        reached: called with each event time after its verification.
+
+    Raises:
+        InputError: if the program cgal_check is missing.
+        BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
+    """
+    deadline = None if max_seconds is None else clock.monotonic() + max_seconds
+    name = plan_tiling(scene, tiling, scene._start).name
+    file = scene_bytes(scene) if scene_file is None else scene_file
+    proof = Proof(scene, tiling=name, scene_file=file, max_events=max_events)
+    verdict = _verdict(proof, file, deadline)
+    report = check_run(
+        scene,
+        tiling=name,
+        max_events=max_events,
+        max_seconds=_left(deadline),
+        reached=reached,
+    )
+    report.proof = verdict.accepted
+    if not verdict.accepted:
+        report.failures.insert(0, f"proof {verdict.line}")
+    return report
+
+
+def check_run(
     scene: Scene,
     *,
     tiling: str = "auto",
@@ -97,16 +148,7 @@ def check_scene(
     interval, and not earlier than the one before. Then a search over pairs of features must
     find the same first contact.
 
-    Args:
-        scene: the bodies, their motions and the time span.
-        tiling: the name of the tiling, or "auto".
-        max_events: maximum number of events; None for no limit.
-        max_seconds: see `exactpt.Simulation`.
-        reached: called with each event time after its verification.
-
-    Raises:
-        InputError: if the program cgal_check is missing.
-        BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
+    Args and raises: as `check_scene`.
     """
     plan = plan_tiling(scene, tiling, scene._start)
     report = Report(plan.name)
@@ -120,9 +162,8 @@ def check_scene(
             witness.time(contact.time)
         else:
             contact = _watch(plan.start(scene._start), witness, max_events, deadline, reached)
-    report.contact = None if contact is None else time_to_json(contact.time)
-    remaining = None if deadline is None else max(0.0, deadline - clock.monotonic())
-    expected = PairsSearch(scene, max_seconds=remaining).run_to_contact()
+    report.contact = None if contact is None else contact.time.to_json()
+    expected = PairsSearch(scene, max_seconds=_left(deadline)).run_to_contact()
     difference = contrast(expected, contact)
     report.pairs_agree = difference is None
     if difference is not None:
@@ -131,6 +172,24 @@ def check_scene(
             f"but the search over pairs {in_words(expected)}"
         )
     return report
+
+
+def _left(deadline: float | None) -> float | None:
+    """Seconds until a deadline."""
+    return None if deadline is None else max(0.0, deadline - clock.monotonic())
+
+
+def _verdict(proof: Proof, scene_file: bytes, deadline: float | None) -> ProofVerdict:
+    """Write a proof, and have it verified."""
+    with TemporaryDirectory() as folder:
+        scene_path, path = Path(folder) / "scene.json", Path(folder) / "proof"
+        scene_path.write_bytes(scene_file)
+        with path.open("w", encoding="utf-8") as file:
+            for line in proof.lines():
+                file.write(f"{line}\n")
+                if deadline is not None and clock.monotonic() > deadline:
+                    raise BudgetExceeded("the budget of the check is used up", proof.reached())
+        return check_proof(scene_path, path, max_seconds=_left(deadline))
 
 
 def _watch(

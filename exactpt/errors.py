@@ -3,9 +3,34 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
-__all__ = ["AuditError", "BudgetExceeded", "ExactPTError", "InputError", "TimeRangeError"]
+if TYPE_CHECKING:
+    from exactpt.scene.scene import Scene
+
+__all__ = [
+    "AuditError",
+    "BudgetExceeded",
+    "ExactPTError",
+    "InputError",
+    "TimeRangeError",
+    "carrying",
+    "printable",
+]
+
+
+def printable(text: str) -> str:
+    """The text with every unprintable character escaped: controls, line breaks, overrides.
+
+    Names and paths come from files. Written raw, their control characters would be commands to
+    the terminal that shows them, and their directional overrides would reorder its text.
+    """
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
 
 
 class ExactPTError(Exception):
@@ -13,7 +38,10 @@ class ExactPTError(Exception):
 
 
 class InputError(ExactPTError, ValueError):
-    """The input is not acceptable; the message says what is wrong and where."""
+    """The input is not acceptable; the message is one printable line: what is wrong, and where."""
+
+    def __init__(self, message: str) -> None:
+        super().__init__(printable(message))
 
 
 class TimeRangeError(InputError):
@@ -21,7 +49,27 @@ class TimeRangeError(InputError):
 
 
 class AuditError(ExactPTError, AssertionError):
-    """An invariant is broken: always a bug in exactpt, never a fault of the input."""
+    """An invariant is broken: always a bug in exactpt, never a fault of the input.
+
+    Attributes:
+        scene: the scene in which it broke, with the motions of that time; None if the error did
+            not come from a `Simulation` or `first_contact`. To report the bug:
+            ``error.scene.save("bug.json")``.
+    """
+
+    scene: Scene | None = None
+
+
+@contextmanager
+def carrying(scene: Callable[[], Scene]) -> Iterator[None]:
+    """Within the context, an `AuditError` that has no scene yet is given this one."""
+    try:
+        yield
+    except AuditError as error:
+        if error.scene is None:
+            error.scene = scene()
+            error.add_note('To report it, save the scene: error.scene.save("bug.json")')
+        raise
 
 
 class BudgetExceeded(ExactPTError):  # noqa: N818 - an outcome, named as one

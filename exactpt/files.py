@@ -1,4 +1,4 @@
-"""Output files that are either complete or not there."""
+"""Files: input of bounded size, output that is either complete or not there."""
 
 from __future__ import annotations
 
@@ -8,11 +8,52 @@ import secrets
 import stat
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, Final
 
 from exactpt.errors import InputError
 
-__all__ = ["write_atomically", "writing"]
+__all__ = ["MOST_BYTES", "read_bytes", "read_text", "write_atomically", "writing"]
+
+MOST_BYTES: Final = 100_000_000
+"""Maximum size of a file that is read, unless another limit is given."""
+
+
+def read_text(path: Path, most: int | None = None) -> str:
+    """The text of a file in UTF-8, with or without a byte order mark; see `read_bytes`."""
+    try:
+        return read_bytes(path, most).decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise InputError(f"{path}: cannot be read: not UTF-8") from None
+
+
+def read_bytes(path: Path, most: int | None = None) -> bytes:
+    """The content of a file, or of what comes through a pipe or from a terminal.
+
+    Args:
+        path: the file.
+        most: maximum number of bytes; by default `MOST_BYTES`.
+
+    Raises:
+        InputError: if it cannot be read, is a device, or is larger than that. A regular file is
+            refused by its size, before anything is read.
+    """
+    limit = MOST_BYTES if most is None else most
+    try:
+        with path.open("rb") as file:
+            kind = os.fstat(file.fileno())
+            if stat.S_ISBLK(kind.st_mode) or (stat.S_ISCHR(kind.st_mode) and not file.isatty()):
+                raise InputError(f"{path}: cannot be read: a device")
+            content = b"" if kind.st_size > limit else file.read(limit + 1)
+    except InputError:
+        raise
+    except (OSError, ValueError) as error:  # the latter: a null character in the path
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise InputError(f"{path}: cannot be read: {reason}") from None
+    if max(kind.st_size, len(content)) > limit:
+        raise InputError(
+            f"{path}: more than {limit} bytes: allow more by --max-bytes (in Python max_bytes)"
+        )
+    return content
 
 
 def write_atomically(path: Path, content: str | bytes) -> None:

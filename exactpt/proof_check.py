@@ -572,14 +572,13 @@ class PlanarMap:
     def change(self, removed: list[Dart], added: list[list[int]]) -> tuple[set[Dart], set[Angle]]:
         """Change the map but for its faces; half-edges that have gone, and angles that come."""
         fans = {v: self.clockwise(v) for d in [*removed, *added] for v in d[:2]}
-        gone, come = set[Dart](), set[Angle]()
+        gone, come = dict[Dart, Dart](), set[Angle]()  # what followed; an edge may come back
         for u, v in removed:
             require((u, v) in self.after, f"there is no edge {u} {v} that could go")
             for a, b in ((u, v), (v, u)):
                 fans[a].remove(b)
                 self.out[a].remove(b)
-                del self.after[a, b]
-                gone.add((a, b))
+                gone[a, b] = self.after.pop((a, b))
         places: list[tuple[int, int, int]] = []  # at a vertex, the new one stands before another
         for u, v, w, x in added:
             require(u != v and v not in self.out[u], f"the edge {u} {v} is there, or no edge")
@@ -595,9 +594,9 @@ class PlanarMap:
                 places.remove((v, u, w))
         for v, fan in fans.items():
             for u, w in pairwise([*fan, *fan[:1]]):
-                if self.after.get((u, v)) != (v, w):
-                    self.after[u, v] = v, w
+                if self.after.get((u, v), gone.get((u, v))) != (v, w):
                     come.add((u, v, w))
+                self.after[u, v] = v, w
         for u, v, w, x in added:
             placed = self.after[u, v] == (v, w) and self.after[v, u] == (u, x)
             require(placed, f"the edge {u} {v} does not stand where its item says")
@@ -1038,14 +1037,19 @@ def main(arguments: list[str]) -> int:
         if len(arguments) != 2:
             raise NoProofError("usage: python -m exactpt.proof_check SCENE PROOF")
         with open(arguments[0], "rb") as scene, open(arguments[1], "rb") as proof:
-            sys.stdout.write(check(scene.read(), proof.read()) + "\n")
+            sys.stdout.write(printable(check(scene.read(), proof.read())) + "\n")
     except Rejected as verdict:
-        sys.stdout.write(f"{verdict}\n")
+        sys.stdout.write(f"{printable(str(verdict))}\n")
         return 1
     except (NoProofError, OSError) as error:
-        sys.stderr.write(f"{error}\n")
+        sys.stderr.write(f"{printable(str(error))}\n")
         return 2
     return 0
+
+
+def printable(text: str) -> str:
+    """The text in ASCII, with escapes: names may hold controls for a terminal."""
+    return "".join(c if c.isascii() and c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
 if __name__ == "__main__":

@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
+import math
 import signal
 import sys
+import time as clock
 from pathlib import Path
+from types import FrameType
+from typing import Final
 
 import click
 
 from exactpt.cgal import find_program
+from exactpt.collision.tilings import TILINGS
 from exactpt.errors import InputError
 from exactpt.files import write_atomically
 from exactpt.scene.generate import FAMILIES as BODIES
 from exactpt.scene.generate import POINTS
-from fuzz import battery, corpus, planted
+from fuzz import battery, corpus, planted, soak
 from fuzz.campaign import Campaign, run
 from fuzz.cases import Outcome
+from fuzz.hostile import run as hostile_run
+from fuzz.hostile.files import FORMATS
 from fuzz.record import differences, record
 from fuzz.small_scope.command import small_scope
 from fuzz.thin import SUFFIX
@@ -24,6 +31,9 @@ from fuzz.witnesses import WITNESSES
 FAILED, INTERRUPTED = 1, 130
 FAMILIES = (*BODIES, *POINTS)
 
+
+IMPATIENT: Final = 3.0
+"""Seconds in which a second Ctrl-C is taken for the first one."""
 
 HELP = {"help_option_names": ["-h", "--help"]}
 
@@ -64,6 +74,8 @@ def fuzz(
       python -m fuzz battery
       python -m fuzz planted
       python -m fuzz small-scope
+      python -m fuzz --hostile --cases 100000
+      python -m fuzz --soak 60
     """
     if minutes is not None:
         seconds = 60 * minutes
@@ -79,10 +91,12 @@ def fuzz(
         seconds=seconds,
         shrink_seconds=shrink,
     )
-    if "cgal" in campaign.witnesses:
+    if not {"cgal", "proof"}.isdisjoint(campaign.witnesses):
         _require_cgal()
     click.echo(f"seed {seed}, from case {start} on, witnesses {', '.join(campaign.witnesses)}")
     summary = run(campaign, _report, jobs=jobs, scheduler=scheduler)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)  # whoever is impatient gets the table too
     click.echo("\n".join(summary.table()))
     rate = len(summary.outcomes) / summary.seconds if summary.seconds else 0.0
     click.echo(f"{len(summary.outcomes)} cases in {summary.seconds:.0f} s, {rate:.1f} a second")
@@ -164,7 +178,55 @@ def make_record(output: Path, count: int, seed: int, against: Path | None) -> No
         sys.exit(FAILED if changed else 0)
 
 
+@click.command("--hostile", context_settings=HELP)
+@click.option("--cases", "count", type=click.IntRange(min=1), default=10_000, show_default=True)
+@click.option("--seconds", type=click.FloatRange(min=0), help="Time limit.")
+@click.option("--seed", type=int, default=0, show_default=True)
+@click.option("--start", type=click.IntRange(min=0), default=0, help="Number of the first file.")
+@click.option("--format", "formats", multiple=True, type=click.Choice(FORMATS))
+@click.option(
+    "--keep",
+    type=click.Path(file_okay=False, path_type=Path),
+    default=Path("hostile-found"),
+    show_default=True,
+    help="Folder for files with a fault.",
+)
+def run_hostile(
+    count: int, seconds: float | None, seed: int, start: int, formats: tuple[str, ...], keep: Path
+) -> None:
+    """Have every command and reader read damaged files; half have one changed value."""
+    tallies = hostile_run.run(
+        formats or FORMATS,
+        count,
+        seed=seed,
+        start=start,
+        seconds=seconds,
+        report=click.echo,
+        keep=keep,
+    )
+    click.echo("\n".join(hostile_run.table(tallies)))
+    sys.exit(FAILED if any(tally.outcomes["FAULT"] for tally in tallies.values()) else 0)
+
+
+@click.command("--soak", context_settings=HELP)
+@click.argument("minutes", type=click.FloatRange(min=0, min_open=True))
+@click.option("--seed", type=int, default=0, show_default=True)
+@click.option("--tiling", default="lazy", show_default=True, type=click.Choice(TILINGS))
+def run_soak(minutes: float, seed: int, tiling: str) -> None:
+    """Let one simulation go on for MINUTES while motions, bodies and files come and go."""
+    soaked = soak.Soak(seed, tiling)
+    try:
+        soaked.run(60 * minutes, lambda _: None)
+    except KeyboardInterrupt:
+        click.echo("interrupted", err=True)
+    grown = soak.verdict(soaked)
+    click.echo("\n".join([*soak.table(soaked), *(f"GROWN: {line}" for line in grown)]))
+    sys.exit(FAILED if grown else 0)
+
+
 COMMANDS = {
+    "--soak": run_soak,
+    "--hostile": run_hostile,
     "record": make_record,
     "battery": run_battery,
     "planted": find_planted,
@@ -172,12 +234,28 @@ COMMANDS = {
 }
 
 
+class _Interrupted:
+    """A handler of signals: Ctrl-C again within seconds would lose what is printed by then."""
+
+    def __init__(self) -> None:
+        self._last = -math.inf
+
+    def __call__(self, signum: int, frame: FrameType | None) -> None:
+        now = clock.monotonic()
+        if now - self._last > IMPATIENT:
+            self._last = now
+            signal.default_int_handler(signum, frame)
+
+
 def main() -> None:
     """Run a subcommand; without its name, a campaign.
 
     A termination signal acts like Ctrl-C, so that worker processes are ended too.
     """
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    interrupted = _Interrupted()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        if signal.getsignal(number) is not signal.SIG_IGN:  # as in the background of a shell
+            signal.signal(number, interrupted)
     name, *rest = [*sys.argv[1:], ""]
     if name in COMMANDS:
         COMMANDS[name](rest[:-1], prog_name=f"python -m fuzz {name}")

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import time as clock
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from dataclasses import dataclass, field
 from functools import partial
-from multiprocessing import get_context
-from typing import TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
-from fuzz.cases import Case, Outcome, run_case
+from fuzz.cases import Case, Outcome, run_case, stopped
+from fuzz.workers import Job, outcomes_of
+
+if TYPE_CHECKING:
+    from distributed import Future
 
 __all__ = ["Campaign", "Summary", "cases", "run"]
 
-Job: TypeAlias = Callable[[Case], Outcome]
 T = TypeVar("T")
 
 
@@ -106,6 +108,9 @@ def run(
 ) -> Summary:
     """Run a campaign; every case counts once.
 
+    With a time limit, witnesses are interrupted at its end; cases that they have not finished do
+    not count, unless a failure was found.
+
     Args:
         campaign: its parameters.
         report: called with every outcome as it arrives.
@@ -116,15 +121,22 @@ def run(
     summary = Summary()
     began = clock.monotonic()
     job: Job = partial(
-        run_case, witnesses=campaign.witnesses, shrink_seconds=campaign.shrink_seconds
+        run_case,
+        witnesses=campaign.witnesses,
+        shrink_seconds=campaign.shrink_seconds,
+        ends=None if campaign.seconds is None else clock.time() + campaign.seconds,
     )
     todo = _until(cases(campaign), campaign.seconds)
     if scheduler is not None:
-        outcomes = _on_cluster(job, todo, scheduler)
+        outcomes = _on_cluster(job, todo, scheduler, campaign.seconds)
+    elif jobs == 1:
+        outcomes = (job(case, lambda _: None) for case in todo)
     else:
-        outcomes = map(job, todo) if jobs == 1 else _on_cores(job, todo, jobs)
+        outcomes = outcomes_of(job, todo, jobs, campaign.seconds)
     try:
         for outcome in outcomes:
+            if not outcome.complete and not outcome.failures:
+                continue
             if outcome.case.number not in summary.outcomes:
                 summary.outcomes[outcome.case.number] = outcome
                 report(outcome)
@@ -144,32 +156,36 @@ def _until(items: Iterable[T], seconds: float | None) -> Iterator[T]:
         yield item
 
 
-def _on_cores(job: Job, todo: Iterator[Case], jobs: int) -> Iterator[Outcome]:
-    """The outcomes as they arrive; a few cases are queued ahead of the running ones."""
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        pending: set[Future[Outcome]] = set()
-        try:
-            while True:
-                for case in itertools.islice(todo, 2 * jobs - len(pending)):
-                    pending.add(pool.submit(job, case))
-                if not pending:
-                    return
-                done, pending = wait(pending, return_when=FIRST_COMPLETED)
-                for future in done:
-                    yield future.result()
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
-
-
-def _on_cluster(job: Job, todo: Iterator[Case], scheduler: str) -> Iterator[Outcome]:
-    """As `_on_cores`, on a Dask cluster, which repeats the cases of a lost worker elsewhere."""
+def _on_cluster(
+    job: Job, todo: Iterator[Case], scheduler: str, seconds: float | None
+) -> Iterator[Outcome]:
+    """As `outcomes_of`, on a Dask cluster, which repeats the cases of a lost worker elsewhere."""
     from distributed import Client, as_completed
 
+    left = None if seconds is None else 1.03 * seconds
     with Client(scheduler) as client:
         ahead = 4 * max(1, sum(client.nthreads().values()))
-        submitted = (client.submit(job, case, pure=False) for case in todo)
-        running = as_completed(list(itertools.islice(submitted, ahead)))
-        for future in running:
-            yield future.result()
-            for following in itertools.islice(submitted, 1):
-                running.add(following)
+        case_of = {}
+
+        def submitted() -> Iterator[object]:
+            for case in todo:
+                future = client.submit(job, case, pure=False)
+                case_of[future.key] = case
+                yield future
+
+        waiting = submitted()
+        running = as_completed(list(itertools.islice(waiting, ahead)), timeout=left)
+        with contextlib.suppress(TimeoutError):
+            for future in running:
+                yield _result(future, case_of.pop(future.key))
+                for following in itertools.islice(waiting, 1):
+                    running.add(following)
+
+
+def _result(future: Future, case: Case) -> Outcome:
+    """The outcome of a case; a case that has ended several workers is a failure."""
+    try:
+        outcome: Outcome = future.result()
+    except Exception as error:  # of the cluster: a job raises nothing
+        return stopped(case, None, f"ends its workers ({type(error).__name__})")
+    return outcome

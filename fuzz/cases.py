@@ -4,27 +4,21 @@ from __future__ import annotations
 
 import contextlib
 import json
-import signal
-import threading
 import time as clock
 import traceback
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from types import FrameType
-from typing import Final, NamedTuple, NoReturn
+from typing import NamedTuple
 
 from exactpt.errors import InputError
 from exactpt.scene.format import loads, to_json
 from exactpt.scene.scene import Scene
+from fuzz.limits import HANGS, TimeIsUp, TooSlow, limit, patience_of
 from fuzz.shrink import shrink
 from fuzz.subscene import scene_of
 from fuzz.witnesses import WITNESSES, Difference
 
-__all__ = ["HANGS", "Case", "Failure", "Outcome", "failure_of", "limit", "run_case", "shrunk"]
-
-HANGS: Final = "hangs"
-PATIENCE: Final = 60.0
-"""Seconds of processor time after which a witness counts as hanging."""
+__all__ = ["Case", "Failure", "Outcome", "Step", "failure_of", "run_case", "shrunk", "stopped"]
 
 
 class Case(NamedTuple):
@@ -60,15 +54,49 @@ class Outcome:
         case: the case.
         seconds: time of each witness, by name.
         failures: the failures found.
+        complete: whether all witnesses have answered before the end of the campaign.
     """
 
     case: Case
     seconds: dict[str, float]
     failures: tuple[Failure, ...]
+    complete: bool = True
 
 
-def run_case(case: Case, witnesses: Sequence[str], shrink_seconds: float = 60.0) -> Outcome:
-    """Have witnesses check a case; each failure is shrunk for at most ``shrink_seconds``."""
+@dataclass(frozen=True, slots=True)
+class Step:
+    """What is done next with a case.
+
+    Attributes:
+        witness: name of the witness.
+        seconds: limit of its time, or of the time for shrinking.
+        scene: the scene as JSON.
+        failure: the failure that is being shrunk.
+    """
+
+    witness: str
+    seconds: float
+    scene: str
+    failure: Failure | None = None
+
+
+def run_case(
+    case: Case,
+    tell: Callable[[Step], None] = lambda _: None,
+    *,
+    witnesses: Sequence[str],
+    shrink_seconds: float = 60.0,
+    ends: float | None = None,
+) -> Outcome:
+    """Have witnesses check a case; each failure is shrunk for at most ``shrink_seconds``.
+
+    Args:
+        case: the case.
+        tell: called before each step.
+        witnesses: names of the witnesses.
+        shrink_seconds: time limit for shrinking a failure.
+        ends: the time (of ``time.time``) at which the campaign is over; None if it has no end.
+    """
     try:
         scene = scene_of(case.family, case.seed)
     except InputError as error:
@@ -76,26 +104,53 @@ def run_case(case: Case, witnesses: Sequence[str], shrink_seconds: float = 60.0)
             case, {}, (_failure("generator", "InputError", str(error), Scene([], (0, 1))),)
         )
     seconds: dict[str, float] = {}
-    failures = []
+    failures: list[Failure] = []
+    most, text = patience_of(scene), json.dumps(to_json(scene))
     for name in witnesses:
+        tell(Step(name, most, text))
         began = clock.perf_counter()
-        failure = failure_of(name, scene, case.seed)
+        try:
+            failure = failure_of(name, scene, case.seed, most, ends)
+        except TimeIsUp:
+            return Outcome(case, seconds, tuple(failures), complete=False)
         seconds[name] = clock.perf_counter() - began
         if failure is not None:
             # A failure that takes little time takes little time in a smaller scene, too.
-            hangs = failure.signature == HANGS
-            patience = 15.0 if hangs else min(PATIENCE, 2.0 + 4.0 * seconds[name])
-            failures.append(shrunk(failure, case.seed, shrink_seconds, patience))
+            patience = most if failure.signature == HANGS else min(most, 2.0 + 4.0 * seconds[name])
+            tell(Step(name, shrink_seconds + patience, text, failure))
+            failures.append(shrunk(failure, case.seed, shrink_seconds, patience, ends))
     return Outcome(case, seconds, tuple(failures))
 
 
+def stopped(case: Case, step: Step | None, what: str) -> Outcome:
+    """The outcome of a case whose process was stopped: what it was shrinking, or that it hangs."""
+    if step is None:
+        failure = _failure("generator", what, f"{what} before the first witness", Scene([], (0, 1)))
+    elif step.failure is not None:
+        failure = step.failure
+    else:
+        failure = Failure(step.witness, what, f"{what}, where no limit interrupts it", step.scene)
+    return Outcome(case, {}, (failure,))
+
+
 def failure_of(
-    name: str, scene: Scene, turn: int | None = None, patience: float = PATIENCE
+    name: str,
+    scene: Scene,
+    turn: int | None = None,
+    patience: float | None = None,
+    ends: float | None = None,
 ) -> Failure | None:
-    """The failure that a witness finds in a scene, or None; for ``turn`` see `Witness`."""
+    """The failure that a witness finds in a scene, or None; for ``turn`` see `Witness`.
+
+    Raises:
+        TimeIsUp: at the end of the campaign.
+    """
+    seconds = patience_of(scene) if patience is None else patience
     try:
-        with limit(patience):
+        with limit(seconds, ends):
             WITNESSES[name](scene, turn)
+    except TooSlow:
+        return _failure(name, HANGS, f"{HANGS}: no answer within {seconds:.1f} s", scene)
     except Difference as found:
         return _failure(name, found.kind, str(found), scene)
     except Exception as error:  # any exception is a finding
@@ -109,7 +164,9 @@ def _failure(name: str, signature: str, why: str, scene: Scene) -> Failure:
     return Failure(name, signature, why, json.dumps(to_json(scene)))
 
 
-def shrunk(failure: Failure, turn: int, seconds: float, patience: float) -> Failure:
+def shrunk(
+    failure: Failure, turn: int, seconds: float, patience: float, ends: float | None = None
+) -> Failure:
     """The same failure in the smallest scene found within the time limit."""
     best = failure
 
@@ -119,34 +176,12 @@ def shrunk(failure: Failure, turn: int, seconds: float, patience: float) -> Fail
             scene = loads(json.dumps(data))
         except InputError:
             return False
-        found = failure_of(failure.witness, scene, turn, patience)
+        found = failure_of(failure.witness, scene, turn, patience, ends)
         if found is None or found.signature != failure.signature:
             return False
         best = found
         return True
 
-    shrink(json.loads(failure.scene), still_fails, seconds)
+    with contextlib.suppress(TimeIsUp):
+        shrink(json.loads(failure.scene), still_fails, seconds)
     return best
-
-
-class _TooSlow(Difference):
-    pass
-
-
-@contextlib.contextmanager
-def limit(seconds: float) -> Iterator[None]:
-    """Interrupt what takes longer; only in the main thread, where signals are delivered."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-
-    def interrupt(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001
-        raise _TooSlow(HANGS, f"no answer within {seconds:.0f} s")
-
-    old = signal.signal(signal.SIGPROF, interrupt)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        signal.signal(signal.SIGPROF, old)

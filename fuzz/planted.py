@@ -6,6 +6,8 @@ patch of one function.
 
 from __future__ import annotations
 
+import inspect
+import textwrap
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -17,12 +19,15 @@ from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue
 from exactpt.collision import detector
 from exactpt.errors import InputError
-from exactpt.kernel import filters
+from exactpt.indices import CertificateId, HalfEdge
+from exactpt.kernel import filters, roots
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import negate
+from exactpt.motion.swept import SweptBoxes
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.tiling import engine
 from exactpt.tiling.angles import CertifiedMesh
+from exactpt.tiling.clock import Clock
 from exactpt.tiling.greedy.greedy import VerticalRules
 from exactpt.tiling.repairs import Repairs
 from fuzz.cases import Failure, failure_of
@@ -39,6 +44,17 @@ def _replaced(owner: object, name: str, make: Callable[[Function], Function]) ->
     return patch.object(owner, name, make(getattr(owner, name)))
 
 
+def _edited(owner: Any, name: str, old: str, new: str) -> Any:
+    """A context in which a function has another text, of which ``old`` is replaced by ``new``."""
+    right = getattr(owner, name)
+    text = textwrap.dedent(inspect.getsource(right))
+    if text.count(old) != 1:
+        raise InputError(f"planted: {name} has {text.count(old)} times the text {old!r}")
+    made: dict[str, Any] = {}
+    exec(text.replace(old, new), right.__globals__, made)
+    return patch.object(owner, name, made[name])
+
+
 def _sign_at_a_root(right: Function) -> Function:
     """A sign just before now is taken for the sign just after it, if the function vanishes now."""
 
@@ -52,7 +68,7 @@ def _sign_at_a_root(right: Function) -> Function:
 def _events_dropped(right: Function) -> Function:
     """Every fiftieth event is lost."""
 
-    def wrong(self: EventQueue, slot: int, time: object) -> None:
+    def wrong(self: EventQueue, slot: CertificateId, time: object) -> None:
         right(self, slot, time)
         if self._sequence % 50 == 0:
             self.cancel(slot)
@@ -116,7 +132,7 @@ def _no_meetings(right: Function) -> Function:  # noqa: ARG001
 def _wrong_diagonal(right: Function) -> Function:
     """Of two diagonals that become collinear, the wrong one is removed."""
 
-    def wrong(self: Repairs, h: int) -> None:
+    def wrong(self: Repairs, h: HalfEdge) -> None:
         mesh = self.certified.mesh
         before = mesh.map.previous[h]
         if mesh.is_boundary(before) or mesh.is_boundary(h):
@@ -124,7 +140,7 @@ def _wrong_diagonal(right: Function) -> Function:
             return
         a, p, b = self.certified.angle(h)
         mesh.straighten(h, origin_moves=True)
-        self._slid(h, before, "reflex", (p, b, a), origin_moves=True)
+        self._record_slide(h, before, "reflex", (p, b, a), origin_moves=True)
 
     return wrong
 
@@ -196,7 +212,9 @@ PLANTED: Final[dict[str, Callable[[], Any]]] = {
     "contact proof skipped": lambda: _replaced(engine, "may_touch", _always(False)),
     "straight chains not followed": lambda: _replaced(CertifiedMesh, "_is_flat", _always(False)),
     "vertex on vertex ignored": lambda: _replaced(incidences, "coincide", _no_meetings),
-    "the wrong diagonal gives way": lambda: _replaced(Repairs, "_repair_bend", _wrong_diagonal),
+    "the wrong diagonal gives way": lambda: _replaced(
+        Repairs, "_repair_reflex_angle", _wrong_diagonal
+    ),
     "pieces not certified anew": lambda: _replaced(CertifiedMesh, "certify_body", _always([])),
     "rigid by mistake": lambda: _replaced(Certifier, "rigid", _rigid_if_one_velocity),
     "order of ties swapped": lambda: _replaced(perturbation, "x_order_terms", _swapped),
@@ -206,6 +224,25 @@ PLANTED: Final[dict[str, Callable[[], Any]]] = {
     "x-order kept for ever": lambda: _replaced(Certifier, "keeps_x_order", _always(True)),
     "root enclosures too narrow": lambda: _replaced(filters, "linear", _narrow),
     "filter bound too small": lambda: _replaced(Certifier, "__init__", _unguarded),
+    "ties lost in the queue": lambda: _edited(
+        EventQueue, "pop", "heap[0][0] <= bound", "heap[0][0] < bound"
+    ),
+    "the wrong end of a corner gives way": lambda: _edited(
+        Repairs, "_repair_corner", "if side > 0", "if side < 0"
+    ),
+    "the angle across not certified": lambda: _edited(
+        Repairs, "_record_slide", "twin(h), before, m.following[before]]", "twin(h), before]"
+    ),
+    "ends of pieces missed": lambda: _replaced(Clock, "end_of_piece", _always(None)),
+    "swept boxes too small": lambda: _edited(
+        SweptBoxes, "_range", "r = np.maximum(", "r = 0.5 * np.maximum("
+    ),
+    "the last root taken for the first": lambda: _edited(
+        roots, "_quadratic_roots", "(middle - s, middle + s + 1)", "(middle + s + 1,)"
+    ),
+    "the end of the span left out": lambda: _edited(
+        Clock, "pop", "compare_rational(until) > 0", "compare_rational(until) >= 0"
+    ),
     "vertical bitangents ignored": lambda: _replaced(
         VerticalRules, "repair", lambda right: lambda self: self.cells.violated.clear()
     ),
@@ -247,7 +284,7 @@ def hunt(bug: str, most: int = 400, witnesses: Sequence[str] = WITNESSES, seed: 
         scene = generate(family, seed + number // len(families))
         with PLANTED[bug]():
             for witness in witnesses:
-                failure = failure_of(witness, scene, number, patience=10.0)
+                failure = failure_of(witness, scene, number, patience=5.0)
                 if failure is not None:
                     return Found(bug, failure, family, number + 1, clock.perf_counter() - began)
     return Found(bug, None, "", most, clock.perf_counter() - began)

@@ -8,6 +8,7 @@ from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import start_tiling
 from exactpt.errors import AuditError
+from exactpt.indices import Ends
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
@@ -104,7 +105,7 @@ def audit_now(kinetic: Tiling) -> None:
         raise AuditError(f"t = {now}: at the time itself, kinetic is not static")
 
 
-def _diagonals(mesh: Mesh) -> list[tuple[int, int]]:
+def _diagonals(mesh: Mesh) -> list[Ends]:
     """The diagonals in the free space; those inside bodies are not canonical."""
     pairs = (mesh.ends(h) for h in mesh.diagonals() if mesh.region[h] != INSIDE)
     return sorted((u, v) if u < v else (v, u) for u, v in pairs)

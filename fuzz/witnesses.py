@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Final, TypeAlias
 
-from exactpt.check import check_scene
+from exactpt import proof_check
+from exactpt.cgal import check_proof
+from exactpt.check import check_run
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.comparison import contrast, in_words
 from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
+from exactpt.collision.pairs import PairsSearch
 from exactpt.collision.tilings import tilings_for
+from exactpt.proof import prove
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from fuzz.statics import run_and_audit
@@ -39,9 +45,9 @@ class Difference(Exception):  # noqa: N818 - what was found, the purpose of it a
 
 
 def reference(scene: Scene, turn: int | None) -> None:  # noqa: ARG001 - always all
-    """The first contact is the same by every tiling, by pairs, and by the all-pairs reference."""
+    """The first contact is the same however it is asked for, and by the all-pairs reference."""
     expected = first_contact_allpairs(scene)
-    for name in ("pairs", *tilings_of(scene)):
+    for name in ("auto", "pairs", *tilings_of(scene)):
         found = contact_by(scene, name)
         if kind := contrast(expected, found):
             said = f"{in_words(found)}, but the reference {in_words(expected)}"
@@ -49,9 +55,11 @@ def reference(scene: Scene, turn: int | None) -> None:  # noqa: ARG001 - always 
 
 
 def contact_by(scene: Scene, name: str) -> Contact | None:
-    """The first contact by pairs, or by the tiling with this name."""
+    """The first contact by default, by pairs of features, or by the tiling with this name."""
+    if name == "auto":
+        return first_contact(scene)
     if name == "pairs":
-        return first_contact(scene, method="pairs")
+        return PairsSearch(scene).run_to_contact()
     return first_contact(scene, tiling=name)
 
 
@@ -103,9 +111,30 @@ def cgal(scene: Scene, turn: int | None) -> None:
     """CGAL accepts every tiling and every event time."""
 
     def check(name: str) -> None:
-        report = check_scene(scene, tiling=name)
+        report = check_run(scene, tiling=name)
         if not report.ok:
             raise Difference(f"{name}: cgal", report.failures[0])
+
+    _with_tilings(scene, check, turn)
+
+
+def proof(scene: Scene, turn: int | None) -> None:
+    """The proof is accepted by the checker in C++, and in every fourth turn by that in Python."""
+
+    def check(name: str) -> None:
+        proved = prove(scene, tiling=name)
+        with TemporaryDirectory() as folder:
+            paths = [Path(folder) / "scene.json", Path(folder) / "proof"]
+            for path, content in zip(paths, (proved.scene, proved.proof), strict=True):
+                path.write_bytes(content)
+            verdict = check_proof(*paths)
+        if not verdict.accepted:
+            raise Difference(f"{name}: proof", verdict.line)
+        if turn is None or turn % 4 == 0:
+            try:
+                proof_check.check(proved.scene, proved.proof)
+            except proof_check.Rejected as rejected:
+                raise Difference(f"{name}: proof in Python", str(rejected)) from None
 
     _with_tilings(scene, check, turn)
 
@@ -116,6 +145,7 @@ WITNESSES: Final[dict[str, Witness]] = {
     "filters": filters,
     "symmetry": symmetry,
     "cgal": cgal,
+    "proof": proof,
 }
 """The witnesses by name."""
 

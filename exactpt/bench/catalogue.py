@@ -12,12 +12,14 @@ __all__ = ["BENCHMARKS", "run"]
 
 BENCHMARKS: Final[dict[str, str]] = {
     "first-contact": "run time against error in the time of the first contact",
+    "small": "small questions, building scenes, plans among obstacles, many pieces of motion",
     "wrong-answers": "contacts missed, invented and late, close to degeneracy",
     "arithmetic": "wrong signs, orders and structures by kind of number",
     "stability": "the same answer, and its cost, for extreme input",
     "scaling": "events, certificates, time and memory against the size of a scene",
     "points": "changes of the tilings of moving points beside the paper's bounds",
     "skipping": "what is never computed, beside a run that computes all of it",
+    "arrays": "many small questions at once, beside one by one, ipctk and Box2D",
     "kernel": "first roots and their order, beside python-flint, SymPy and mpmath",
 }
 """Name of each benchmark, and what it shows."""

@@ -21,6 +21,7 @@ from exactpt.bench.root_finders import END, EXACT, FILTER, FINDERS, Finder, exac
 from exactpt.bench.timing import microseconds
 from exactpt.certificates.certifier import Certifier
 from exactpt.errors import AuditError
+from exactpt.indices import VertexId
 from exactpt.kernel import filters, vectorized
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly
@@ -179,7 +180,7 @@ def _batch_row(rng: Random, degree: int, count: int) -> Row:
 def _certificate_row(rng: Random, degree: int, count: int) -> Row:
     """Microseconds per certificate of three points in motion of a degree, filtered and exact."""
     bodies = [_random_point(rng, i, degree) for i in range(POINTS)]
-    triples = [rng.sample(range(POINTS), 3) for _ in range(count)]
+    triples = [[VertexId(v) for v in rng.sample(range(POINTS), 3)] for _ in range(count)]
     vertices = Vertices.of(bodies, QQ(0), QQ(SPAN), plain=True)
     filtered = Certifier(vertices, QQ(0), QQ(SPAN), exact_only=False)
     exact = Certifier(vertices, QQ(0), QQ(SPAN), exact_only=True)

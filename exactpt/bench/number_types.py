@@ -17,6 +17,7 @@ import gmpy2
 
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue, ExactQueue
+from exactpt.indices import CertificateId
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
@@ -141,7 +142,7 @@ class _Certified(Questions):
             a, b, c = (self._ids[i] for i in triple)
             time = self._certifier.orientation(a, b, c)[1]
             if time is not None:
-                queue.schedule(slot, time)
+                queue.schedule(CertificateId(slot), time)
         popped = queue.pop()
         slots = [] if popped is None else [slot for slot, _ in popped[1]]
         return 0 if len(slots) != 1 else -1 if slots[0] == 0 else 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from importlib import import_module
 from typing import Final
 
@@ -11,6 +12,7 @@ PEERS: Final = {
     "shapely": "shapely",
     "pymunk": "pymunk",
     "ipctk": "ipctk",
+    "box2d": "Box2D",
     "python-flint": "flint",
     "sympy": "sympy",
     "mpmath": "mpmath",
@@ -20,9 +22,14 @@ PEERS: Final = {
 
 
 def is_installed(package: str) -> bool:
-    """Whether a package can be imported."""
+    """Whether a package can be imported; what it warns of then is not shown.
+
+    (Modules by SWIG, such as Box2D, crash where Python makes their warnings errors.)
+    """
     try:
-        import_module(PEERS[package])
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            import_module(PEERS[package])
     except ImportError:
         return False
     return True

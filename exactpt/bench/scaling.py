@@ -7,7 +7,7 @@ logarithms, and compared with the paper's bounds.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from random import Random
 from typing import Final, NamedTuple
@@ -19,6 +19,7 @@ from exactpt.bench.shapes import TANGLES, TangleFamily, crowd, tangle
 from exactpt.bench.timing import exponent, memory_of, per_event, timed
 from exactpt.collision.tilings import TILINGS, start_tiling
 from exactpt.scene.scene import Scene
+from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.tiling import Tiling
 
@@ -63,6 +64,8 @@ class Measured(NamedTuple):
         most: maximum number of certificates in the queue.
         events: number of events up to the contact, the end, or the bound.
         seconds: processor time of these events.
+        alone: processor time of these events without the contact that may end them.
+        told: the same in a `Simulation`, at whose events nobody looks.
         exact: exact decisions per thousand decisions.
         kilobytes: memory of everything that the start has made.
     """
@@ -73,6 +76,8 @@ class Measured(NamedTuple):
     most: int
     events: int
     seconds: float
+    alone: float
+    told: float
     exact: float
     kilobytes: float
 
@@ -80,6 +85,11 @@ class Measured(NamedTuple):
     def per_event(self) -> float:
         """Microseconds per event."""
         return per_event(self.seconds, self.events)
+
+    @property
+    def ratio(self) -> float | None:
+        """How many times as long the events of a simulation take; None without events."""
+        return self.told / self.alone if self.events else None
 
 
 def run(output: Output, sizes: Sizes, seed: int) -> None:
@@ -118,30 +128,45 @@ def measure(scene: Scene, tiling: str, sizes: Sizes) -> Measured:
     best = min(runs, key=lambda m: m.start + m.seconds)
     given = fresh(scene)
     kilobytes = memory_of(lambda: start_tiling(given, tiling, given._start))
-    return best._replace(kilobytes=kilobytes)
+    alone, told = (min(times) for times in zip(*((m.alone, m.told) for m in runs), strict=True))
+    return best._replace(alone=alone, told=told, kilobytes=kilobytes)
 
 
 def _run_once(scene: Scene, tiling: str, events: int) -> Measured:
     kinetic, start = timed(lambda: start_tiling(scene, tiling, scene._start))
     certificates, pending = kinetic.certifier.made, len(kinetic.queue)
-    _, seconds = timed(lambda: _pass(kinetic, events))
+    _, seconds = timed(lambda: _pass(kinetic, kinetic.run(), events))
+    happened = kinetic.stats.total
     exact, filtered, _ = kinetic.vertices.counters.now()
     return Measured(
         start,
         certificates,
         pending,
         max(pending, kinetic.stats.most),
-        kinetic.stats.total,
+        happened,
         seconds,
+        *_alone_and_told(scene, tiling, happened),
         1000 * exact / max(1, exact + filtered),
         0.0,
     )
 
 
-def _pass(kinetic: Tiling, events: int) -> None:
+def _alone_and_told(scene: Scene, tiling: str, events: int) -> tuple[float, float]:
+    """Processor time of some events of a tiling, and of the same events of a simulation."""
+    kinetic = start_tiling(fresh(scene), tiling, scene._start)
+    simulation = Simulation(fresh(scene), tiling=tiling)
+    other = simulation.kinetic
+    if other is None or events == 0:
+        return 0.0, 0.0
+    _, alone = timed(lambda: _pass(kinetic, kinetic.run(), events))
+    _, told = timed(lambda: _pass(other, simulation.run(), events))
+    return alone, told
+
+
+def _pass(kinetic: Tiling, run: Iterable[object], events: int) -> None:
     """Process events up to a contact or a maximum number."""
     try:
-        for _ in kinetic.run():
+        for _ in run:
             if kinetic.stats.total >= events:
                 return
     except ContactFound:
@@ -169,6 +194,7 @@ def _row(family: str, tiling: str, scene: Scene, size: int, run: Measured) -> Ro
         "most": run.most,
         "events": run.events,
         "us an event": run.per_event,
+        "told": run.ratio,
         "exact in 1000": run.exact,
         "kilobytes": run.kilobytes,
     }

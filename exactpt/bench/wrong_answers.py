@@ -10,6 +10,7 @@ from typing import Final, NamedTuple, final
 from exactpt.bench.methods.closed_form import CLOSED_FORM
 from exactpt.bench.methods.method import Method, UnsuitableScene, error_of
 from exactpt.bench.methods.own import OWN
+from exactpt.bench.methods.with_arrays import ARRAYS
 from exactpt.bench.methods.with_ipctk import with_additive, with_tight_inclusion
 from exactpt.bench.methods.with_pymunk import with_pymunk
 from exactpt.bench.methods.with_shapely import with_shapely
@@ -19,6 +20,8 @@ from exactpt.errors import AuditError
 
 __all__ = ["FULL", "QUICK", "Sizes", "Wrong", "count_wrong", "run"]
 
+EXACT: Final = (*OWN, ARRAYS)
+"""The methods of exactpt: they may not be wrong."""
 OFF: Final = 1e-9
 """Minimum error of a time that counts as wrong."""
 
@@ -82,7 +85,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
             counts = f"{wrong.missed}/{wrong.invented}/{wrong.off}" if wrong.scenes else None
             short[_short_name(method)] = counts
             line.append(wrong.total / wrong.scenes if wrong.scenes else None)
-            if method in OWN and (wrong.total or wrong.scenes < len(scenes)):
+            if method in EXACT and (wrong.total or wrong.scenes < len(scenes)):
                 raise AuditError(f"{method.name} {method.setting}, {family}: {wrong}")
         shares.append(line)
         told.append(short)
@@ -105,13 +108,13 @@ def count_wrong(method: Method, scenes: Sequence[Planted]) -> Wrong:
             wrong.missed += 1
         else:
             error = error_of(answer, truth)
-            wrong.off += error > (0.0 if method in OWN else OFF)
+            wrong.off += error > (0.0 if method in EXACT else OFF)
     return wrong
 
 
 def _methods(steps: int) -> list[Method]:
     return [
-        *OWN,
+        *EXACT,
         CLOSED_FORM,
         with_shapely(steps, bisect=True),
         with_pymunk(steps),
@@ -121,4 +124,4 @@ def _methods(steps: int) -> list[Method]:
 
 
 def _short_name(method: Method) -> str:
-    return f"{method.name} {method.setting}" if method in OWN else method.name
+    return f"{method.name} {method.setting}" if method in EXACT else method.name

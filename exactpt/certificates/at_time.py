@@ -22,7 +22,9 @@ from exactpt.certificates.positions import K, cross_sign, positions_at
 from exactpt.certificates.predicates import Predicates
 from exactpt.certificates.reasons import reason
 from exactpt.geometry.predicates import Point, side
+from exactpt.indices import Triple, VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.budget import ask
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, sign
@@ -35,15 +37,15 @@ STEPS: Final = 2.0**30
 """Number of units per unit of slope, as slopes are first compared in floats."""
 
 
-def sorted_by_x(predicates: Predicates, ids: Iterable[int]) -> list[int]:
+def sorted_by_x(predicates: Predicates, ids: Iterable[VertexId]) -> list[VertexId]:
     """Distinct vertices from left to right."""
     if isinstance(predicates, PredicatesAt):
         return predicates.sorted_by_x(ids)
     return _sorted_exactly(predicates, ids)
 
 
-def _sorted_exactly(predicates: Predicates, ids: Iterable[int]) -> list[int]:
-    def order(a: int, b: int) -> int:
+def _sorted_exactly(predicates: Predicates, ids: Iterable[VertexId]) -> list[VertexId]:
+    def order(a: VertexId, b: VertexId) -> int:
         return -1 if predicates.left_of(a, b) else 1
 
     return sorted(ids, key=cmp_to_key(order))
@@ -81,14 +83,14 @@ class PredicatesAt(Predicates):
         if exact_only:
             self._largest_bound = INFINITY
 
-    def position(self, v: int) -> Point:
+    def position(self, v: VertexId) -> Point:
         """The exact unperturbed position of a vertex."""
         found = self._exact.get(v)
         if found is None:
             found = self._exact[v] = self.vertices.all[v].track._at(self.time)
         return found
 
-    def sign(self, a: int, b: int, c: int) -> int:
+    def sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
         """1 if a, b, c turn left, -1 if right, 0 if collinear (counts as right)."""
         x, y = self._x, self._y
         ax, ay = x[a], y[a]
@@ -101,7 +103,7 @@ class PredicatesAt(Predicates):
             return -1
         return self._sign_closely(a, b, c)
 
-    def _sign_closely(self, a: int, b: int, c: int) -> int:
+    def _sign_closely(self, a: VertexId, b: VertexId, c: VertexId) -> int:
         if not self._exact_only:
             x, y, d = self._x, self._y, self._d
             s = cross_sign(x[b] - x[a], y[b] - y[a], d, x[c] - x[a], y[c] - y[a], d)
@@ -111,7 +113,7 @@ class PredicatesAt(Predicates):
         return self._exact_sign(a, b, c)
 
     @np.errstate(all="ignore")
-    def signs(self, triples: Sequence[tuple[int, int, int]]) -> list[int]:
+    def signs(self, triples: Sequence[Triple]) -> list[int]:
         """The `sign` of each triple, in numpy."""
         if not triples:
             return []
@@ -134,7 +136,8 @@ class PredicatesAt(Predicates):
             signs[k] = self._exact_sign(*triples[k])
         return signs
 
-    def _exact_sign(self, a: int, b: int, c: int) -> int:
+    def _exact_sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
+        ask()
         u, v, w = (self.vertices.all[i] for i in (a, b, c))
         are_copies = u.track is v.track or v.track is w.track or w.track is u.track
         s = 0 if are_copies else side(self.position(a), self.position(b), self.position(c))
@@ -185,7 +188,7 @@ class PredicatesAt(Predicates):
                 return s
         return 0
 
-    def left_of(self, a: int, b: int) -> bool:
+    def left_of(self, a: VertexId, b: VertexId) -> bool:
         """Whether a is left of b; of equal x, the upper one counts as left."""
         difference = self._x[b] - self._x[a]
         bound = self._d + K * abs(difference)
@@ -203,7 +206,7 @@ class PredicatesAt(Predicates):
             return ax < bx
         return self.first_sign(x_order_terms(u, v)) > 0
 
-    def sorted_by_x(self, ids: Iterable[int]) -> list[int]:
+    def sorted_by_x(self, ids: Iterable[VertexId]) -> list[VertexId]:
         """Vertices from left to right: sorted by doubles, and exactly where these are close.
 
         In the order of the doubles, every vertex before a gap wider than the error bound is
@@ -224,7 +227,7 @@ class PredicatesAt(Predicates):
             first = last
         return order
 
-    def descent(self, a: int, b: int) -> float:
+    def descent(self, a: VertexId, b: VertexId) -> float:
         """Minus the slope of the line from a to b, a left of b, rounded down to 1 / `STEPS`.
 
         In units of 1 / `STEPS`. Rounding down is monotone, so if both ends of an enclosure
@@ -247,7 +250,7 @@ class PredicatesAt(Predicates):
         near = nearest_float((ay - by) / (bx - ax) * power_of_two(scale[0] - scale[1])) * STEPS
         return near if isinf(near) else near // 1.0
 
-    def turn(self, a: int, b: int, c: int, d: int) -> int:
+    def turn(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
         """1 if the direction from a to b turns left to that from c to d, -1 if right."""
         now = self.turn_now(a, b, c, d)
         if now or not self.after:
@@ -255,7 +258,7 @@ class PredicatesAt(Predicates):
         p, q, r, s = (self.vertices.all[i].track for i in (a, b, c, d))
         return self._number.sign_after(cross(p, q, r, s))
 
-    def turn_now(self, a: int, b: int, c: int, d: int) -> int:
+    def turn_now(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
         """The `turn` at the time itself; 0 if the directions are parallel then."""
         if not self._exact_only:
             x, y, off = self._x, self._y, self._d
@@ -268,13 +271,13 @@ class PredicatesAt(Predicates):
         self._count(*[self.vertices.all[i] for i in (a, b, c, d)], is_zero=now == 0)
         return now
 
-    def middle(self, a: int, b: int, c: int) -> int:
+    def middle(self, a: VertexId, b: VertexId, c: VertexId) -> int:
         """The middle one of three collinear vertices."""
         if self.nearer(a, b, c):
             return b if self.nearer(c, b, a) else a
         return c if self.nearer(b, c, a) else a
 
-    def nearer(self, p: int, a: int, b: int) -> bool:
+    def nearer(self, p: VertexId, a: VertexId, b: VertexId) -> bool:
         """Whether a is nearer to p than b is, for a and b in the same direction from p."""
         origin, u, v = self.position(p), self.position(a), self.position(b)
         if u == v:
@@ -282,13 +285,13 @@ class PredicatesAt(Predicates):
         axis = 0 if u[0] != origin[0] or v[0] != origin[0] else 1
         return abs(u[axis] - origin[axis]) < abs(v[axis] - origin[axis])
 
-    def _copy_is_nearer(self, p: int, a: int, b: int) -> bool:
+    def _copy_is_nearer(self, p: VertexId, a: VertexId, b: VertexId) -> bool:
         """Whether copy a of a vertex is displaced further towards p than its copy b."""
         (ax, ay), (bx, by) = self.offset(a), self.offset(b)
         (px, py), (x, y) = self.position(p), self.position(a)
         return (ax - bx) * (px - x) + (ay - by) * (py - y) > 0
 
-    def offset(self, vertex_id: int) -> Point:
+    def offset(self, vertex_id: VertexId) -> Point:
         """The direction of a vertex's infinitesimal displacement; (0, 0) if it has none."""
         offset = self.vertices.all[vertex_id].offset
         if offset is None:

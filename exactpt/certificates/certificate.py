@@ -9,7 +9,9 @@ part first; in which order certificates that fail at one time are *repaired* is 
 from __future__ import annotations
 
 from enum import IntEnum, unique
-from typing import Final, NewType, final
+from typing import Final, final
+
+from exactpt.indices import CertificateId, VertexId
 
 __all__ = [
     "ANGLE",
@@ -23,7 +25,6 @@ __all__ = [
     "SHADOW",
     "SHRINK",
     "TURN",
-    "CertificateId",
     "Kind",
     "PointKind",
     "kind_of",
@@ -33,9 +34,6 @@ __all__ = [
     "point_kind_of",
     "point_of",
 ]
-
-CertificateId = NewType("CertificateId", int)
-"""A certificate in the queue: its kind and its part in one integer."""
 
 KIND_COUNT: Final = 16
 """All packed codes of kinds are less."""
@@ -112,12 +110,12 @@ def pack(kind: int, part: int) -> CertificateId:
     return CertificateId(KIND_COUNT * part + kind)
 
 
-def kind_of(certificate: int) -> int:
+def kind_of(certificate: CertificateId) -> int:
     """The value of its `Kind`."""
     return certificate % KIND_COUNT
 
 
-def part_of(certificate: int) -> int:
+def part_of(certificate: CertificateId) -> int:
     """The part of the mesh that a certificate watches."""
     return certificate // KIND_COUNT
 
@@ -127,11 +125,11 @@ def pack_point(kind: int, point: int) -> CertificateId:
     return CertificateId(_POINT_KINDS * point + kind)
 
 
-def point_kind_of(certificate: int) -> int:
+def point_kind_of(certificate: CertificateId) -> int:
     """The value of its `PointKind`."""
     return certificate % _POINT_KINDS
 
 
-def point_of(certificate: int) -> int:
+def point_of(certificate: CertificateId) -> VertexId:
     """The point that a certificate watches."""
-    return certificate // _POINT_KINDS
+    return VertexId(certificate // _POINT_KINDS)

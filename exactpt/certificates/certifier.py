@@ -7,21 +7,22 @@ the answer is the same.
 
 from __future__ import annotations
 
-from itertools import chain
 from typing import TYPE_CHECKING, Final, final
 
-import numpy as np
-
 from exactpt.certificates import coefficients
+from exactpt.certificates.batches import linear_orientations
+from exactpt.certificates.moment import Moment, exact_time
 from exactpt.certificates.perturbation import orientation, x_order
 from exactpt.certificates.positions import Positions
 from exactpt.certificates.queue import EventTime
 from exactpt.certificates.reasons import reason
+from exactpt.certificates.rigidity import keeps_x_order, rigid
+from exactpt.indices import Triple, VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.integer_polynomial import IntPoly, sign_at, square_free
+from exactpt.kernel.budget import ask
+from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
-from exactpt.kernel.vectorized import Answers
 from exactpt.motion.incidence import difference
 from exactpt.motion.incidence import orientation as base_orientation
 
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from exactpt.kernel.counters import Counters
+    from exactpt.motion.track import Track
     from exactpt.motion.vertices import Vertex, Vertices
 
 __all__ = ["X_ORDER", "Certifier"]
@@ -38,7 +40,7 @@ INFINITY: Final = float("inf")
 BATCH: Final = 50
 """Minimum batch size for which numpy is faster."""
 
-X_ORDER: Final = -1
+X_ORDER: Final = VertexId(-1)
 """The third vertex of an event time that is a root of an x-order."""
 
 
@@ -92,66 +94,37 @@ class Certifier:
         """The current time as a number."""
         return self.now.exact or self.resolve(self.now)
 
+    def moment(self, time: EventTime) -> Moment:
+        """The time of an event, to be kept when the vertices get other motions.
+
+        Args:
+            time: of the event; its vertices still have the motions that lead up to it.
+        """
+        tracks = self._tracks_of(time) if time.exact is None else ()
+        return Moment(time, tracks, self._vertices.frame)
+
     def resolve(self, time: EventTime) -> AlgebraicNumber:
         """The exact time of an event; its enclosure is narrowed as far as doubles allow."""
-        vertices, frame = self.all, self._vertices.frame
-        if time.c == X_ORDER:
-            f = x_order(vertices[time.a], vertices[time.b])
-        else:
-            f = base_orientation(*(vertices[v].track for v in (time.a, time.b, time.c)))
-        low, high = frame.exact_time(time.low), frame.exact_time(time.high)
-        p = square_free(f)
-        number = (
-            AlgebraicNumber(low) if sign_at(p, low) == 0 else AlgebraicNumber._root(p, low, high)
-        )
-        time.exact = number
-        time.low, time.high = frame.enclosure(number)
+        number = exact_time(time, self._tracks_of(time), self._vertices.frame)
         if time is self.now:
             self.now_low, self.now_high = time.low, time.high
             self.positions.move_to(time.low, time.high)
         return number
 
-    def rigid(self, a: int, b: int, c: int) -> bool:
-        """Whether three vertices keep their orientation for ever, so that no zero is lost.
+    def _tracks_of(self, time: EventTime) -> tuple[Track, ...]:
+        every = self.all
+        a, b = every[time.a].track, every[time.b].track
+        return (a, b) if time.c == X_ORDER else (a, b, every[time.c].track)
 
-        Three vertices of one motion keep their distances, and the copies of one vertex their
-        displacements, unless these turn independently of the motion. The copies of a point
-        or a segment alone turn with it: their orientation is 0 only where the segment shrinks
-        to a point, which has an event of its own (`exactpt.tiling.pieces`).
-        """
-        va, vb, vc = self.all[a], self.all[b], self.all[c]
-        motion = va.image.motion
-        if motion >= 0 and motion == vb.image.motion and motion == vc.image.motion:
-            if va.track is vb.track or va.track is vc.track:
-                turns_apart = self._turns_apart(va)
-            else:
-                turns_apart = vb.track is vc.track and self._turns_apart(vb)
-            if not turns_apart:
-                return True
-        return (
-            va.offset is not None
-            and va.body == vb.body == vc.body
-            and self._vertices.bodies[va.body].body.size < 3
-        )
+    def rigid(self, a: VertexId, b: VertexId, c: VertexId) -> bool:
+        """Whether three vertices keep their orientation for ever, so that no zero is lost."""
+        return rigid(self._vertices.bodies, self.all[a], self.all[b], self.all[c])
 
-    def _turns_apart(self, copy: Vertex) -> bool:
-        """Whether the displacements of a vertex's copies do not turn with its motion.
-
-        Those of a point never turn, even if the point does; those of a segment or chain
-        that deforms may turn.
-        """
-        moving = self._vertices.bodies[copy.body]
-        return bool(copy.image.ws) if moving.body.size == 1 else moving.deforms
-
-    def keeps_x_order(self, a: int, b: int) -> bool:
+    def keeps_x_order(self, a: VertexId, b: VertexId) -> bool:
         """Whether two vertices keep the difference of their x coordinates for ever."""
-        va, vb = self.all[a], self.all[b]
-        p, q = va.image, vb.image
-        if va.offset is not None and self._vertices.bodies[va.body].deforms:
-            return False  # its displacements turn
-        return p.motion == q.motion and p.motion >= 0 and not p.ws
+        return keeps_x_order(self._vertices.bodies, self.all[a], self.all[b])
 
-    def orientation(self, a: int, b: int, c: int) -> tuple[int, EventTime | None]:
+    def orientation(self, a: VertexId, b: VertexId, c: VertexId) -> tuple[int, EventTime | None]:
         """The sign of the orientation just after now, and its first zero later.
 
         The sign is 0 if the orientation is zero for ever; then the time is the first at
@@ -180,20 +153,21 @@ class Certifier:
             return s, None
         return s, EventTime(low, high, a, b, c)
 
-    def orientations(
-        self, triples: Sequence[tuple[int, int, int]]
-    ) -> list[tuple[int, EventTime | None]]:
+    def orientations(self, triples: Sequence[Triple]) -> list[tuple[int, EventTime | None]]:
         """The `orientation` of each triple, in numpy for those in linear motion."""
         answers: list[tuple[int, EventTime | None]] = []
         if len(triples) < BATCH or self.exact_only or self.roots_now:
             for a, b, c in triples:
+                ask()
                 answers.append(self.orientation(a, b, c))
             return answers
-        signs, lows, highs = self._linear_orientations(triples)
+        now = self.now_low, self.now_high, self._end_high
+        signs, lows, highs = linear_orientations(self._vertices, triples, *now)
         for (a, b, c), s, low, high in zip(
             triples, signs.tolist(), lows.tolist(), highs.tolist(), strict=True
         ):
             if s == 0:
+                ask()
                 answers.append(self.orientation(a, b, c))
                 continue
             self.made += 1
@@ -201,28 +175,7 @@ class Certifier:
             answers.append((s, EventTime(low, high, a, b, c) if low < INFINITY else None))
         return answers
 
-    def _linear_orientations(self, triples: Sequence[tuple[int, int, int]]) -> Answers:
-        """The filter's answers for three different linear trajectories; unsure for others."""
-        vertices = self.all
-        bodies = [min(self._end_high, body.horizon) for body in self._vertices.bodies]
-        horizons = np.array([bodies[v.body] for v in vertices])
-        tracks = np.array([id(v.track) for v in vertices])
-        is_linear = np.array([v.image.degree <= 1 and not v.image.ws for v in vertices])
-        count = 3 * len(triples)
-        ids = np.fromiter(chain.from_iterable(triples), np.int64, count).reshape(-1, 3)
-        a, b, c = tracks[ids].T
-        are_linear = is_linear[ids].all(axis=1) & (a != b) & (b != c) & (c != a)
-        signs, lows, highs = coefficients.linear_orientations(
-            [v.image for v in vertices],
-            ids,
-            self.errors,
-            self.now_low,
-            self.now_high,
-            horizons[ids].min(axis=1),
-        )
-        return Answers(np.where(are_linear, signs, 0), lows, highs)
-
-    def vanishes_now(self, a: int, b: int, c: int) -> bool:
+    def vanishes_now(self, a: VertexId, b: VertexId, c: VertexId) -> bool:
         """Whether the function of these vertices is known to vanish now."""
         for i, j, k in self.roots_now:
             if a in (i, j, k) and b in (i, j, k) and c in (i, j, k):
@@ -263,13 +216,15 @@ class Certifier:
         root = self._first_root(f, until, a.id, b.id, c.id)
         return now.sign_after(f), _earlier(meeting, root)
 
-    def _first_root(self, f: IntPoly, until: QQ, a: int, b: int, c: int) -> EventTime | None:
+    def _first_root(
+        self, f: IntPoly, until: QQ, a: VertexId, b: VertexId, c: VertexId
+    ) -> EventTime | None:
         root = next(roots_after(f, self.exact_now, until), None)
         if root is None:
             return None
         return self._event_time(root.time, (a, b, c), crossing=root.crossing)
 
-    def first_coincidence(self, *ids: int) -> EventTime | None:
+    def first_coincidence(self, *ids: VertexId) -> EventTime | None:
         """The first time at which two of these vertices, collinear for ever, coincide.
 
         Two that share a motion keep their distance; it is not 0, or the scene would begin
@@ -297,7 +252,9 @@ class Certifier:
         low, high = self._vertices.frame.enclosure(number)
         return EventTime(low, high, *key, number, crossing)
 
-    def x_order(self, a: int, b: int, *, touching: bool = False) -> tuple[int, EventTime | None]:
+    def x_order(
+        self, a: VertexId, b: VertexId, *, touching: bool = False
+    ) -> tuple[int, EventTime | None]:
         """1 if a is left of b just after now, else -1; and the time at which that ends.
 
         With ``touching``, a time at which the two have equal x without passing counts too.

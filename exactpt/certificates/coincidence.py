@@ -37,16 +37,23 @@ def coordinate_order(certifier: Certifier, a: Vertex, b: Vertex, axis: int) -> i
     """The sign of x(b) - x(a) (axis 0) or of y(b) - y(a) (axis 1) at the current time."""
     if a.track is b.track:
         return 0
-    if not certifier.exact_only:
-        s = certifier.positions.order(a, b, axis)
-        if s:
-            certifier.counters.filtered += 1
-            return s
+    s = _filtered_order(certifier, a, b, axis)
+    if s:
+        return s
     p, q = a.track, b.track
     f = difference(p.y, p.w, q.y, q.w) if axis else difference(p.x, p.w, q.x, q.w)
-    s = certifier.exact_now.sign_of(f)
+    s = certifier.exact_now.sign_of(f) if f else 0
     why = reason(a, b, is_zero=s == 0, exact_only=certifier.exact_only)
     certifier.counters.count_exact("place", why)
+    return s
+
+
+def _filtered_order(certifier: Certifier, a: Vertex, b: Vertex, axis: int) -> int:
+    """`coordinate_order` if doubles decide that it is not 0; else 0."""
+    if certifier.exact_only:
+        return 0
+    s = certifier.positions.order(a, b, axis)
+    certifier.counters.filtered += s != 0
     return s
 
 
@@ -72,6 +79,13 @@ def nearer(certifier: Certifier, p: Vertex, a: Vertex, b: Vertex) -> int:
 
     Infinitesimal copies of one vertex coincide here, p included.
     """
+    # Any axis decides to which the line is not perpendicular. Doubles are tried on both axes
+    # first: on a vertical line, equal x coordinates would be proved by exact arithmetic.
+    for axis in (0, 1):
+        pa = _filtered_order(certifier, p, a, axis)
+        ab = _filtered_order(certifier, a, b, axis) if pa else 0
+        if ab:
+            return 1 if pa == ab else -1
     for axis in (0, 1):
         pa = coordinate_order(certifier, p, a, axis)
         ab = coordinate_order(certifier, a, b, axis)
@@ -106,6 +120,11 @@ def strictly_between(certifier: Certifier, a: Vertex, p: Vertex, b: Vertex) -> b
         return nearer_copy(certifier, b, p, a) > 0
     if p.track is b.track:
         return nearer_copy(certifier, a, p, b) > 0
+    for axis in (0, 1):  # by doubles first, as in `nearer`
+        ap = _filtered_order(certifier, a, p, axis)
+        pb = _filtered_order(certifier, p, b, axis) if ap else 0
+        if pb:
+            return ap == pb
     for axis in (0, 1):
         ap = coordinate_order(certifier, a, p, axis)
         if ap:

@@ -7,7 +7,7 @@ A coefficient of an orientation is a sum of at most eight products of difference
 relative error of a difference of doubles is at most one unit, of a product of two of them
 three, of the difference of two products four, of a sum of four of these seven. `K` is eight
 units, and covers the rounding of the bound itself. Coefficients of enclosures are 0 or of
-size at least 2^-100: nothing underflows, and a bound is 0 only if its coefficient is.
+size at least 2^-300: nothing underflows, and a bound is 0 only if its coefficient is.
 """
 
 from __future__ import annotations

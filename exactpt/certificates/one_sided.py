@@ -10,6 +10,7 @@ from exactpt.certificates.coincidence import nearer, nearer_copy
 from exactpt.certificates.perturbation import cross, orientation, x_order
 from exactpt.certificates.predicates import Predicates
 from exactpt.certificates.reasons import reason
+from exactpt.indices import VertexId
 
 if TYPE_CHECKING:
     from exactpt.certificates.certifier import Certifier
@@ -28,7 +29,7 @@ class OneSided(Predicates):
         self._all: list[Vertex] = certifier.all
         self._before: bool = before
 
-    def sign(self, a: int, b: int, c: int) -> int:
+    def sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
         """1 if a, b, c turn left, -1 if they turn right, 0 if collinear for ever (counts as -1)."""
         certifier, v = self._certifier, self._all
         va, vb, vc = v[a], v[b], v[c]
@@ -55,7 +56,7 @@ class OneSided(Predicates):
                 return s
         return self._exact(orientation(va, vb, vc), va, vb, vc)
 
-    def left_of(self, a: int, b: int) -> bool:
+    def left_of(self, a: VertexId, b: VertexId) -> bool:
         """Whether a is left of b."""
         certifier = self._certifier
         va, vb = self._all[a], self._all[b]
@@ -81,7 +82,7 @@ class OneSided(Predicates):
                 return s > 0
         return self._exact(x_order(va, vb), va, vb) > 0
 
-    def turn(self, a: int, b: int, c: int, d: int) -> int:
+    def turn(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
         """1 if the direction from a to b turns left to that from c to d, -1 if right."""
         certifier = self._certifier
         v = self._all
@@ -93,7 +94,7 @@ class OneSided(Predicates):
                 return s
         return self._exact(cross(p.track, q.track, r.track, t.track), p, q, r, t)
 
-    def nearer(self, p: int, a: int, b: int) -> bool:
+    def nearer(self, p: VertexId, a: VertexId, b: VertexId) -> bool:
         """Whether a is nearer to p than b is, for a and b in the same direction from p."""
         certifier = self._certifier
         o, u, v = (certifier.all[i] for i in (p, a, b))

@@ -7,7 +7,7 @@ from typing import Final, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.certificates.coefficients import linear_parts
+from exactpt.certificates.batches import linear_parts
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.motion.image import Image
 from exactpt.motion.vertices import Vertex, Vertices

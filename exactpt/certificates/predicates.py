@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from abc import abstractmethod
 
+from exactpt.indices import VertexId
+
 __all__ = ["Predicates"]
 
 
@@ -14,17 +16,17 @@ class Predicates:
     """Signs at a time, just after it, or just before it."""
 
     @abstractmethod
-    def sign(self, a: int, b: int, c: int) -> int:
+    def sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
         """1 if a, b, c turn left, -1 if they turn right, 0 if collinear for ever (counts as -1)."""
 
     @abstractmethod
-    def left_of(self, a: int, b: int) -> bool:
+    def left_of(self, a: VertexId, b: VertexId) -> bool:
         """Whether a is left of b."""
 
     @abstractmethod
-    def turn(self, a: int, b: int, c: int, d: int) -> int:
+    def turn(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
         """1 if the direction from a to b turns left to that from c to d, -1 if right."""
 
     @abstractmethod
-    def nearer(self, p: int, a: int, b: int) -> bool:
+    def nearer(self, p: VertexId, a: VertexId, b: VertexId) -> bool:
         """Whether a is nearer to p than b is, for a and b in the same direction from p."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import heapq
 from typing import Protocol, final
 
+from exactpt.indices import CertificateId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.integer_polynomial import IntPoly
@@ -62,14 +63,14 @@ class EventQueue:
     def __init__(self, resolver: Resolver, counters: Counters) -> None:
         self._resolver = resolver
         self._counters: Counters = counters
-        self._heap: list[tuple[float, int, int, EventTime]] = []
-        self._live: dict[int, EventTime] = {}
+        self._heap: list[tuple[float, int, CertificateId, EventTime]] = []
+        self._live: dict[CertificateId, EventTime] = {}
         self._sequence: int = 0
 
     def __len__(self) -> int:
         return len(self._live)
 
-    def schedule(self, slot: int, time: EventTime) -> None:
+    def schedule(self, slot: CertificateId, time: EventTime) -> None:
         """Put an event into a slot, replacing the one there."""
         self._live[slot] = time
         self._sequence += 1
@@ -77,15 +78,15 @@ class EventQueue:
         if len(self._heap) > 4 * len(self._live) + 256:
             self._compact()
 
-    def cancel(self, slot: int) -> None:
+    def cancel(self, slot: CertificateId) -> None:
         """Empty a slot."""
         self._live.pop(slot, None)
 
-    def pending(self, slot: int) -> EventTime | None:
+    def pending(self, slot: CertificateId) -> EventTime | None:
         """The time of the event in a slot, or None."""
         return self._live.get(slot)
 
-    def slots(self) -> list[int]:
+    def slots(self) -> list[CertificateId]:
         """All slots with a pending event, in increasing order."""
         return sorted(self._live)
 
@@ -93,7 +94,7 @@ class EventQueue:
         self._heap = [entry for entry in self._heap if self._live.get(entry[2]) is entry[3]]
         heapq.heapify(self._heap)
 
-    def pop(self) -> tuple[EventTime, list[tuple[int, EventTime]]] | None:
+    def pop(self) -> tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None:
         """The earliest time and all slots with an event then; None if the queue is empty.
 
         The slots are in increasing order, each with its own `EventTime`.
@@ -108,7 +109,7 @@ class EventQueue:
             return None
         _, _, slot, time = heapq.heappop(heap)
         bound = time.high
-        candidates: list[tuple[float, int, int, EventTime]] = []
+        candidates: list[tuple[float, int, CertificateId, EventTime]] = []
         while heap and heap[0][0] <= bound:
             entry = heapq.heappop(heap)
             if live.get(entry[2]) is entry[3]:
@@ -121,11 +122,11 @@ class EventQueue:
         return self._pop_exactly([(slot, time), *((e[2], e[3]) for e in candidates)])
 
     def _pop_exactly(
-        self, entries: list[tuple[int, EventTime]]
-    ) -> tuple[EventTime, list[tuple[int, EventTime]]]:
+        self, entries: list[tuple[CertificateId, EventTime]]
+    ) -> tuple[EventTime, list[tuple[CertificateId, EventTime]]]:
         entries.sort()  # slots are distinct
-        best: list[tuple[int, EventTime]] = []
-        later: list[tuple[int, EventTime]] = []
+        best: list[tuple[CertificateId, EventTime]] = []
+        later: list[tuple[CertificateId, EventTime]] = []
         for slot, time in entries:
             order = -1 if not best else self._compare(time, best[0][1])
             if order < 0:
@@ -166,19 +167,19 @@ class ExactQueue(EventQueue):
 
     def __init__(self, resolver: Resolver, counters: Counters) -> None:
         super().__init__(resolver, counters)
-        self._exact_heap: list[tuple[AlgebraicNumber, int, int, EventTime]] = []
+        self._exact_heap: list[tuple[AlgebraicNumber, int, CertificateId, EventTime]] = []
 
-    def schedule(self, slot: int, time: EventTime) -> None:
+    def schedule(self, slot: CertificateId, time: EventTime) -> None:
         """Put an event into a slot, replacing the one there."""
         self._live[slot] = time
         self._sequence += 1
         number = time.exact or self._resolver.resolve(time)
         heapq.heappush(self._exact_heap, (number, self._sequence, slot, time))
 
-    def pop(self) -> tuple[EventTime, list[tuple[int, EventTime]]] | None:
+    def pop(self) -> tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None:
         """The earliest time and all slots with an event then; None if the queue is empty."""
         heap, live = self._exact_heap, self._live
-        entries: list[tuple[int, EventTime]] = []
+        entries: list[tuple[CertificateId, EventTime]] = []
         first: AlgebraicNumber | None = None
         while heap:
             number, _, slot, time = heap[0]

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import final
+from typing import cast, final
 
 from exactpt.certificates.certificate import ANGLE, KIND_COUNT, kind_of
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue, EventTime, ExactQueue
+from exactpt.indices import CertificateId, HalfEdge
 
 __all__ = ["CertificateTable"]
 
@@ -30,17 +31,17 @@ class CertificateTable:
             else EventQueue(certifier, counters)
         )
         self.violated: list[set[int]] = [set() for _ in range(KIND_COUNT)]
-        self.angles: set[int] = self.violated[ANGLE]
-        self.flat: set[int] = set()
+        self.angles: set[HalfEdge] = cast("set[HalfEdge]", self.violated[ANGLE])
+        self.flat: set[HalfEdge] = set()
 
-    def schedule(self, certificate: int, time: EventTime | None) -> None:
+    def schedule(self, certificate: CertificateId, time: EventTime | None) -> None:
         """Let a certificate fail at a time, or never."""
         if time is None:
             self.pending.cancel(certificate)
         else:
             self.pending.schedule(certificate, time)
 
-    def move(self, old: int, new: int) -> None:
+    def move(self, old: CertificateId, new: CertificateId) -> None:
         """Let a certificate have the time of another one, which is forgotten."""
         time = self.pending.pending(old)
         self.pending.cancel(old)

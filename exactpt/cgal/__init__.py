@@ -3,19 +3,22 @@
 The program and its line protocol are described in cgal_check/README.md. This package finds the
 program (`client`), writes requests with exact rationals (`requests`) about `claims`, and reads
 the verdicts; it decides nothing itself. Tilings are given as the ``tile`` dictionary of
-docs/format.md.
+docs/format.md. Proofs are verified by a call of their own (`proofs`).
 """
 
 from exactpt.cgal.claims import BodyShape, IsolatedRoot, RootClaim, Signs, Tile, Verdict
 from exactpt.cgal.client import CgalCheck, find_program
+from exactpt.cgal.proofs import ProofVerdict, check_proof
 
 __all__ = [
     "BodyShape",
     "CgalCheck",
     "IsolatedRoot",
+    "ProofVerdict",
     "RootClaim",
     "Signs",
     "Tile",
     "Verdict",
+    "check_proof",
     "find_program",
 ]

@@ -47,7 +47,8 @@ def find_program() -> Path:
     if on_path := shutil.which("cgal_check"):
         return Path(on_path)
     raise InputError(
-        "the program cgal_check is missing; build it in the checkout (it needs CGAL 5.5): "
+        "the program cgal_check is missing; build it in the checkout (it needs CGAL 5.5 and "
+        "nlohmann-json 3.11, Debian's libcgal-dev and nlohmann-json3-dev): "
         "cmake -S cgal_check -B cgal_check/build -DCMAKE_BUILD_TYPE=Release "
         f"&& cmake --build cgal_check/build, or let {_VARIABLE} name it"
     )

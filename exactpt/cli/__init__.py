@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import sys
 import tempfile
 import traceback
@@ -13,9 +14,10 @@ import click
 from exactpt.cli.alarm import endings
 from exactpt.cli.bench import bench
 from exactpt.cli.files import convert, generate
-from exactpt.cli.options import SCENE_FILE, drop_standard_output
+from exactpt.cli.options import SCENE_FILE
 from exactpt.cli.pictures import demo, draw
 from exactpt.cli.runs import collide, simulate
+from exactpt.cli.terminal import drop_standard_output, encodable, tell
 from exactpt.cli.tilings import check, tile
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 
@@ -41,7 +43,7 @@ class _Commands(click.Group):
             raise
         except Exception as error:
             if not isinstance(error, AuditError):
-                traceback.print_exc()
+                tell(*traceback.format_exc().splitlines())
             _report_bug(error, ctx.meta.get(SCENE_FILE))
             return BROKEN
 
@@ -72,17 +74,24 @@ for _command in (demo, collide, simulate, tile, check, draw, convert, generate, 
 
 def _report_bug(error: Exception, scene: Path | None) -> None:
     """Report a broken invariant, and save the scene that caused it."""
-    click.echo(f"exactpt: an invariant broke: {error}", err=True)
-    if scene is not None:
+    tell(f"exactpt: an invariant broke: {error}")
+    content = _scene_of(error, scene)
+    if content is not None:
         with tempfile.NamedTemporaryFile(
             "wb", prefix="exactpt-bug-", suffix=".json", delete=False
         ) as file:
-            file.write(scene.read_bytes())
-        click.echo(f"exactpt: the scene is saved in {file.name}", err=True)
-    click.echo(
-        "exactpt: this is a bug in exactpt; please report it with the command and the scene",
-        err=True,
-    )
+            file.write(content)
+        tell(f"exactpt: the scene is saved in {file.name}")
+    tell("exactpt: this is a bug in exactpt; please report it with the command and the scene")
+
+
+def _scene_of(error: Exception, scene: Path | None) -> bytes | None:
+    """The scene file; if it came through a pipe or from nowhere, the scene that the error has."""
+    if scene is not None and scene.is_file():
+        return scene.read_bytes()
+    if isinstance(error, AuditError) and error.scene is not None:
+        return json.dumps(error.scene.to_json()).encode()
+    return None
 
 
 def _where_to_look(error: click.ClickException) -> str:
@@ -94,24 +103,24 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit with its code."""
     given = None if arguments is None else list(arguments)
     try:
-        with endings():
+        with endings(), encodable():
             code = cli.main(given, prog_name="exactpt", standalone_mode=False)
     except click.exceptions.NoArgsIsHelpError as error:
         error.show()
         code = BAD_INPUT
     except click.ClickException as error:
-        click.echo(f"exactpt: {error.format_message()}{_where_to_look(error)}", err=True)
+        tell(f"exactpt: {error.format_message()}{_where_to_look(error)}")
         code = BAD_INPUT
     except InputError as error:
-        click.echo(f"exactpt: {error}", err=True)
+        tell(f"exactpt: {error}")
         code = BAD_INPUT
     except BudgetExceeded as error:
-        click.echo(f"exactpt: {error}", err=True)
+        tell(f"exactpt: {error}")
         code = SPENT
     except OSError as error:
-        click.echo(f"exactpt: {error.strerror or error}", err=True)
+        tell(f"exactpt: {error.strerror or error}")
         code = BAD_INPUT
     except (KeyboardInterrupt, click.Abort):
-        click.echo("exactpt: interrupted", err=True)
+        tell("exactpt: interrupted")
         code = INTERRUPTED
     sys.exit(code if isinstance(code, int) else OK)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import signal
 import threading
+import time as clock
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 from typing import Final, NoReturn
 
 from exactpt.errors import BudgetExceeded
+from exactpt.kernel.budget import within
 
 __all__ = ["endings", "time_limit"]
 
@@ -24,8 +26,10 @@ AGAIN: Final = 1.0
 
 
 @contextmanager
-def time_limit(seconds: float | None) -> Iterator[None]:
+def time_limit(seconds: float | None, memory: int | None = None) -> Iterator[None]:
     """Raise `BudgetExceeded` inside the context when the time limit and a grace period are over.
+
+    Or when the process has more ``memory`` than that, in bytes.
 
     The library checks the time between events and then reports how far it has come. Reading a
     scene, building a tiling, or isolating roots of polynomials with long coefficients may
@@ -33,11 +37,22 @@ def time_limit(seconds: float | None) -> Iterator[None]:
     call of code that is not compiled; exact arithmetic is not compiled). An interrupted
     computation cannot be resumed; so this belongs in a process that ends, not in the library.
 
-    Only for the main thread. Windows has no such signal: only the library's checks apply there.
+    Only the main thread receives signals, and Windows has no such signal: elsewhere the long
+    loops of the library ask for the time.
     """
-    if seconds is None or not hasattr(signal, "setitimer"):
-        yield
-        return
+    main = threading.current_thread() is threading.main_thread()
+    deadline = None if seconds is None else clock.monotonic() + seconds + GRACE
+    with within(deadline, memory):
+        if seconds is None or not main or not hasattr(signal, "setitimer"):
+            yield
+        else:
+            with _alarm(seconds):
+                yield
+
+
+@contextmanager
+def _alarm(seconds: float) -> Iterator[None]:
+    """Raise `BudgetExceeded` by a signal."""
 
     def ring(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001
         raise BudgetExceeded("the time is used up", None)

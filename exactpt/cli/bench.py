@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import click
 
 from exactpt.bench.catalogue import BENCHMARKS
 from exactpt.cli.options import output
+from exactpt.cli.terminal import is_terminal, say, tell
 
 __all__ = ["bench"]
 
@@ -43,17 +43,21 @@ def bench(names: tuple[str, ...], output: Path, quick: bool, seed: int) -> int:
     from exactpt.errors import InputError
 
     def progress(line: str) -> None:
-        if sys.stderr.isatty():
-            click.echo(line, err=True)
+        if is_terminal():
+            tell(line)
 
     try:
-        results = Output(output, click.echo, progress)
+        results = Output(output, _say_lines, progress)
     except OSError as error:
         raise InputError(f"{output}: {error.strerror}") from None
     about = [*machine(), f"seed {seed}, {'quick' if quick else 'full'} sizes"]
-    click.echo("\n".join(about))
+    say(*about)
     results.write("machine.txt", "\n".join(about) + "\n")
     for name in names or BENCHMARKS:
         run(name, results, quick=quick, seed=seed)
-    click.echo(f"\n{len(results.written)} files are in {output}")
+    say("", f"{len(results.written)} files are in {output}")
     return 0
+
+
+def _say_lines(text: str) -> None:
+    say(*text.split("\n"))

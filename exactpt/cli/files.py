@@ -10,8 +10,11 @@ from typing import TYPE_CHECKING, Literal
 import click
 from click.core import ParameterSource
 
-from exactpt.cli.options import RATIONAL, output
+from exactpt.cli.alarm import time_limit
+from exactpt.cli.options import RATIONAL, bounded, max_bytes, max_memory, output
 from exactpt.cli.progress import QUIET
+from exactpt.cli.terminal import say, tell
+from exactpt.cli.words import name_in_words
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, show
 
@@ -53,6 +56,7 @@ _FEW = 3
 )
 @click.option("--skip-invalid", is_flag=True, help="Leave out invalid shapes, with a message.")
 @QUIET
+@bounded
 def convert(
     source: Path,
     target: Path,
@@ -62,6 +66,7 @@ def convert(
     holes: Literal["refuse", "fill"],
     skip_invalid: bool,
     quiet: bool,
+    max_seconds: float | None,
 ) -> int:
     """Turn shapes into a scene at rest, or a scene at a time into shapes.
 
@@ -86,24 +91,26 @@ def convert(
     if time[0] >= time[1]:
         raise InputError(f"--time: the span from {show(time[0])} to {show(time[1])} is empty")
     idle = _typed("time", "tolerance", "holes", "skip_invalid")
-    if idle and holds_scene(source):
-        raise InputError(f"{idle[0]}: {source} is a scene, which is read as it is")
 
-    def say(line: str) -> None:
+    def leave_out(line: str) -> None:
         if not quiet:
-            click.echo(f"left out: {line}", err=True)
+            tell(f"left out: {line}")
 
-    scene = read_shapes(
-        source,
-        time=time,
-        tolerance=tolerance,
-        holes=holes,
-        skipped=say if skip_invalid else None,
-    )
-    write_shapes(scene, target, at)
-    if target.suffix.lower() == ".json" and not quiet:
-        click.echo(f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices: {target}")
-        _say_what_touches(scene)
+    with time_limit(max_seconds, max_memory()):
+        if idle and holds_scene(source, max_bytes()):
+            raise InputError(f"{idle[0]}: {source} is a scene, which is read as it is")
+        scene = read_shapes(
+            source,
+            time=time,
+            tolerance=tolerance,
+            holes=holes,
+            skipped=leave_out if skip_invalid else None,
+            max_bytes=max_bytes(),
+        )
+        write_shapes(scene, target, at)
+        if target.suffix.lower() == ".json" and not quiet:
+            say(f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices: {target}")
+            _say_what_touches(scene)
     return 0
 
 
@@ -117,15 +124,18 @@ def _typed(*names: str) -> list[str]:
 def _say_what_touches(scene: Scene) -> None:
     from exactpt.collision.initial import initial_touches
 
-    _, pairs = initial_touches(scene)
+    try:
+        _, pairs = initial_touches(scene)
+    except InputError as error:  # too many to be listed
+        tell(str(error))
+        return
     if pairs:
-        names = [body.name for body in scene.bodies]
+        names = [name_in_words(body.name) for body in scene.bodies]
         some = [f"{names[i]} and {names[j]}" for i, j in pairs[:_FEW]]
         more = [f"{len(pairs) - _FEW} more pairs"] if len(pairs) > _FEW else []
-        click.echo(
+        tell(
             f"bodies touch at the start, so that the first contact is there: "
-            f"{', '.join(some + more)}",
-            err=True,
+            f"{', '.join(some + more)}"
         )
 
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 import click
 
 from exactpt.errors import InputError, TimeRangeError
+from exactpt.files import MOST_BYTES
 from exactpt.kernel.numbers import QQ, parse_rational
 from exactpt.tiling import catalogue
 
@@ -30,9 +29,11 @@ __all__ = [
     "SCENE",
     "SCENE_FILE",
     "TILING",
+    "bounded",
     "budget",
-    "drop_standard_output",
     "load",
+    "max_bytes",
+    "max_memory",
     "naming_at",
     "output",
 ]
@@ -95,11 +96,50 @@ TILING = click.option(
 )
 
 
-def budget(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options that bound a run to a command."""
+def _keep_bound(ctx: click.Context, param: click.Parameter, value: int | None) -> None:
+    ctx.meta[f"exactpt.{param.name}"] = value
+
+
+def bounded(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options that bound the time and memory of a command, and the size of its input.
+
+    Memory and size are kept in the context, for `max_memory` and `max_bytes`.
+    """
     command = click.option(
+        "--max-bytes",
+        type=click.IntRange(min=0),
+        help=f"Refuse larger input files; by default {MOST_BYTES}.",
+        callback=_keep_bound,
+        expose_value=False,
+    )(command)
+    command = click.option(
+        "--max-memory",
+        type=click.IntRange(min=1),
+        metavar="MEGABYTES",
+        help="Stop when the process has more memory than this (exit code 4).",
+        callback=_keep_bound,
+        expose_value=False,
+    )(command)
+    return click.option(
         "--max-seconds", type=_Seconds(min=0), help="Stop after this time (exit code 4)."
     )(command)
+
+
+def max_memory() -> int | None:
+    """The maximum memory of the current command in bytes, if one is given."""
+    megabytes: int | None = click.get_current_context().meta.get("exactpt.max_memory")
+    return None if megabytes is None else megabytes * 10**6
+
+
+def max_bytes() -> int | None:
+    """The maximum size of the input file of the current command, if one is given."""
+    bound: int | None = click.get_current_context().meta.get("exactpt.max_bytes")
+    return bound
+
+
+def budget(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options that bound a run to a command."""
+    command = bounded(command)
     return click.option(
         "--max-events",
         type=click.IntRange(min=0),
@@ -123,7 +163,7 @@ def load(path: Path, until: QQ | None = None) -> Scene:
     from exactpt.scene.scene import Scene
 
     click.get_current_context().meta[SCENE_FILE] = path
-    scene = Scene.load(path)
+    scene = Scene.load(path, max_bytes=max_bytes())
     if until is None:
         return scene
     try:
@@ -139,8 +179,3 @@ def naming_at() -> Iterator[None]:
         yield
     except TimeRangeError as error:
         raise InputError(f"--at: {error}") from None
-
-
-def drop_standard_output() -> None:
-    """Discard further output, after a broken pipe."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

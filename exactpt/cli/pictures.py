@@ -8,8 +8,9 @@ from typing import Literal
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import MOMENT, SCENE, TILING, budget, load, naming_at, output
+from exactpt.cli.options import MOMENT, SCENE, TILING, budget, load, max_memory, naming_at, output
 from exactpt.cli.progress import QUIET, progress
+from exactpt.cli.terminal import say
 from exactpt.cli.words import answer_in_words
 from exactpt.kernel.numbers import QQ
 
@@ -58,7 +59,7 @@ def draw(
     """
     from exactpt.render.draw import draw as draw_scene
 
-    with time_limit(max_seconds), naming_at():
+    with time_limit(max_seconds, max_memory()), naming_at():
         given = load(scene)
         with progress(given, "drawing", quiet=quiet) as reached:
             draw_scene(
@@ -93,8 +94,7 @@ def demo(output: Path) -> int:
     given = loads((files("exactpt") / "data" / "demo.json").read_text(encoding="utf-8"))
     film = film_of(given, tiling="auto")
     bodies = ", ".join(body.name for body in given.bodies)
-    click.echo(f"{len(given.bodies)} bodies: {bodies}")
-    click.echo("\n".join(answer_in_words(given, film.contact)))
+    say(f"{len(given.bodies)} bodies: {bodies}", *answer_in_words(given, film.contact))
     write_atomically(output, page_of(film, title="exactpt demo"))
-    click.echo(f"the animation is in {output}: open it in a browser")
+    say(f"the animation is in {output}: open it in a browser")
     return 0

@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
+from exactpt.cli.terminal import is_terminal
+from exactpt.kernel.numbers import floor
+
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.scene.scene import Scene
@@ -32,9 +35,14 @@ def progress(
         label: the text beside the bar.
         quiet: whether to show no bar.
     """
-    if quiet or not sys.stderr.isatty():
+    if quiet or not is_terminal():
         yield None
         return
-    start, span = float(scene._start), float(scene._end - scene._start)
+    start, step = scene._start, (scene._end - scene._start) / _STEPS
     with click.progressbar(length=_STEPS, label=label, file=sys.stderr) as bar:
-        yield lambda time: bar.update(int(_STEPS * (float(time) - start) / span) - bar.pos)
+
+        def reached(time: AlgebraicNumber) -> None:
+            time.refine_to(step)  # exactly: a span may be too long or too short for doubles
+            bar.update(max(0, int(floor((time._low - start) / step)) - bar.pos))
+
+        yield reached

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 from collections.abc import Callable
 from contextlib import nullcontext
@@ -11,11 +12,13 @@ from typing import TYPE_CHECKING
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, drop_standard_output, load
+from exactpt.cli.intervals import collide_all
+from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, max_memory
 from exactpt.cli.progress import QUIET, progress
+from exactpt.cli.terminal import drop_standard_output, say
 from exactpt.cli.words import answer_in_words, event_in_words, stats_in_words
 from exactpt.errors import BudgetExceeded, InputError
-from exactpt.kernel.numbers import QQ, rational
+from exactpt.kernel.numbers import QQ, rational, shorten
 
 if TYPE_CHECKING:
     from exactpt.collision.pairs import PairsSearch
@@ -31,19 +34,22 @@ __all__ = ["collide", "simulate"]
 @SCENE
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 @click.option("--until", type=RATIONAL, help="Search up to this time.")
+@click.option("--all", "every", is_flag=True, help="Print all intervals in which bodies meet.")
 @TILING
 @click.option(
     "--method",
-    default="kinetic",
+    default="auto",
     show_default=True,
     type=click.Choice(["kinetic", "pairs", "auto"]),
-    help="A tiling, a search over pairs, or whichever is expected to be faster.",
+    help="A tiling, a search over pairs, or whichever is expected to be faster: pairs, unless "
+    "a tiling or --max-events is given.",
 )
 @click.option(
     "--ignore",
     multiple=True,
     metavar="NAME,NAME...",
-    help="Bodies whose contacts with each other are ignored; for --method pairs or auto.",
+    help="Bodies whose contacts with each other are ignored; for --method pairs or auto. "
+    'A name with a comma stands in double quotes: "a,b",c.',
 )
 @click.option(
     "--proof",
@@ -58,6 +64,7 @@ def collide(
     scene: Path,
     as_json: bool,
     until: QQ | None,
+    every: bool,
     tiling: str,
     method: str,
     ignore: tuple[str, ...],
@@ -75,22 +82,27 @@ def collide(
       exactpt collide scene.json
       exactpt collide scene.json --json
       exactpt collide scene.json --stats
+      exactpt collide scene.json --all
       exactpt collide scene.json --until 7/2 --exit-code && echo "no contact"
       exactpt collide scene.json --proof answer.proof
       exactpt collide scene.json --method pairs --ignore boat,buoy --ignore ball,wheel
     """
+    if every:
+        return collide_all(
+            scene, until, as_json=as_json, exit_code=exit_code, max_seconds=max_seconds
+        )
     given: Scene | None = None
     search: Simulation | PairsSearch | ProvedSearch | None = None
     answer: dict[str, object] = {"contact": None}
     try:
-        with time_limit(max_seconds):
+        with time_limit(max_seconds, max_memory()):
             given = load(scene, until)
             answer |= {"until": str(given._end), "tiling": tiling}
             search = _search(
                 given,
                 method,
                 tiling,
-                ignoring=[names.split(",") for names in ignore],
+                ignoring=[_names(text) for text in ignore],
                 exact_only=exact_only,
                 max_events=max_events,
                 max_seconds=max_seconds,
@@ -108,16 +120,25 @@ def collide(
             answer |= {"stats": {} if search is None else search.stats, "reached": reached}
             click.echo(json.dumps(answer, indent=1))
         elif reached is not None:
-            click.echo(f"no contact up to t = {reached}")
+            say(f"no contact up to t = {reached}")
         raise
     if as_json:
         answer |= {"contact": stated, "stats": search.stats}
         click.echo(json.dumps(answer, indent=1))
     else:
-        click.echo("\n".join(told))
+        say(*told)
         if stats:
-            click.echo("\n".join(stats_in_words(search.stats)))
+            say(*stats_in_words(search.stats))
     return 1 if exit_code and contact is not None else 0
+
+
+def _names(text: str) -> list[str]:
+    """The names in a text, separated by commas; a name may stand in double quotes, as in CSV."""
+    try:
+        (names,) = csv.reader([text], strict=True)
+    except (csv.Error, ValueError):
+        raise InputError(f"--ignore: quotes that do not match: {shorten(text)}") from None
+    return names
 
 
 @click.command()
@@ -166,14 +187,14 @@ def simulate(
             max_seconds=max_seconds,
         )
     if not quiet:
-        click.echo("\n".join(told))
+        say(*told)
     return 0
 
 
 def _say(line: str, *, go_on: bool) -> None:
     """Print a line; if the reader is gone, continue only if there is a file to complete."""
     try:
-        click.echo(line)
+        say(line)
     except BrokenPipeError:
         if not go_on:
             raise
@@ -195,7 +216,7 @@ def _run(
 
     simulation: Simulation | None = None
     try:
-        with time_limit(max_seconds):
+        with time_limit(max_seconds, max_memory()):
             given = load(path, until)
             simulation = Simulation(
                 given, tiling=tiling, max_events=max_events, max_seconds=max_seconds
@@ -248,11 +269,17 @@ def _search(
         )
 
     if ignoring and method == "kinetic":
-        raise InputError("--ignore: a tiling watches all bodies: add --method pairs")
+        raise InputError("--ignore: a tiling watches all bodies; --method pairs need not")
+    if method == "auto" and max_events is not None and not ignoring:
+        method = "kinetic"
     if searches_pairs(method, tiling, ignoring):
         from exactpt.collision.pairs import PairsSearch
 
-        return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds, ignoring=ignoring)
+        search = PairsSearch(
+            scene, exact_only=exact_only, max_seconds=max_seconds, ignoring=ignoring
+        )
+        if method == "pairs" or ignoring or not search.is_blind():
+            return search
     from exactpt.collision.tilings import tiling_for_contact
     from exactpt.simulation.simulation import Simulation
 

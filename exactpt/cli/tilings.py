@@ -8,8 +8,9 @@ from pathlib import Path
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, naming_at, output
+from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, max_memory, naming_at, output
 from exactpt.cli.progress import QUIET, progress
+from exactpt.cli.terminal import say
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.numbers import QQ, rational
 
@@ -46,7 +47,7 @@ def tile(
     from exactpt.files import write_atomically
     from exactpt.simulation.tile import tile_at
 
-    with time_limit(max_seconds), naming_at():
+    with time_limit(max_seconds, max_memory()), naming_at():
         given = load(scene)
         snapshot = tile_at(
             given,
@@ -78,7 +79,7 @@ def check(
     max_events: int | None,
     max_seconds: float | None,
 ) -> int:
-    """Simulate, and have CGAL verify every tiling and every event time.
+    """Have an independent program verify a proof, every tiling and every event time.
 
     \b
     Examples:
@@ -91,12 +92,13 @@ def check(
     from exactpt.check import check_scene
 
     try:
-        with time_limit(max_seconds):
+        with time_limit(max_seconds, max_memory()):
             given = load(scene)
             with progress(given, "checking", quiet=quiet) as reached:
                 report = check_scene(
                     given,
                     tiling=tiling,
+                    scene_file=scene.read_bytes(),
                     max_events=max_events,
                     max_seconds=max_seconds,
                     reached=reached,
@@ -107,5 +109,5 @@ def check(
             click.echo(json.dumps({"ok": None, "reached": reached_by}))
         raise
     if not quiet:
-        click.echo(json.dumps(report.to_json(), indent=1) if as_json else "\n".join(report.lines()))
+        say(*(json.dumps(report.to_json(), indent=1).split("\n") if as_json else report.lines()))
     return 0 if report.ok else 1

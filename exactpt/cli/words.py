@@ -2,40 +2,66 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from exactpt.kernel.numbers import shorten
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact
+    from exactpt.kernel.algebraic import AlgebraicNumber
+    from exactpt.proximity.intervals import ContactInterval
     from exactpt.scene.scene import Scene
     from exactpt.simulation.event import Event
 
-__all__ = ["answer_in_words", "event_in_words", "stats_in_words"]
+__all__ = [
+    "answer_in_words",
+    "event_in_words",
+    "intervals_in_words",
+    "name_in_words",
+    "stats_in_words",
+]
 
 
 def answer_in_words(scene: Scene, contact: Contact | None) -> list[str]:
     """The first contact in words: time, kind, and all incidences with their points."""
-    from exactpt.render.words import polynomial_in_words
-
     if contact is None:
         return [f"no contact from t = {scene._start} to t = {scene._end}"]
-    time = contact.time
-    root = f"root of {polynomial_in_words(time._polynomial)}"
-    exactly = str(time._low) if time.is_rational else root
-    lines = [f"first contact at t = {float(time)!r} ({exactly}), kind {contact.kind}"]
+    lines = [f"first contact at t = {_when(contact.time)}, kind {contact.kind}"]
     for pair in contact.pairs:
         feature = f"vertex {pair.other_vertex}" if pair.edge is None else f"edge {pair.edge}"
         x, y = pair.point
         lines.append(
-            f"  vertex {pair.vertex} of {_shown(pair.body)} on {feature} "
-            f"of {_shown(pair.other)} at ({x}, {y})"
+            f"  vertex {pair.vertex} of {name_in_words(pair.body)} on {feature} "
+            f"of {name_in_words(pair.other)} at ({x}, {y})"
         )
-    lines += [f"  {_shown(a)} and {_shown(b)} share a point" for a, b in contact.overlaps]
+    lines += [
+        f"  {name_in_words(a)} and {name_in_words(b)} share a point" for a, b in contact.overlaps
+    ]
     return lines
 
 
-def _shown(name: str) -> str:
+def intervals_in_words(scene: Scene, intervals: Sequence[ContactInterval]) -> list[str]:
+    """The intervals in which bodies meet, one line each."""
+    if not intervals:
+        return answer_in_words(scene, None)
+    return [
+        f"{name_in_words(i.a)} and {name_in_words(i.b)} meet "
+        + (f"at t = {begin}" if i.start == i.end else f"from t = {begin} to t = {_when(i.end)}")
+        for i in intervals
+        for begin in [_when(i.start)]
+    ]
+
+
+def _when(time: AlgebraicNumber) -> str:
+    """The nearest double, and the exact number."""
+    from exactpt.render.words import polynomial_in_words
+
+    root = f"root of {polynomial_in_words(time._polynomial)}"
+    return f"{float(time)!r} ({time._low if time.is_rational else root})"
+
+
+def name_in_words(name: str) -> str:
     """A name; quoted and escaped if it contains unprintable characters."""
     return name if name.isprintable() else shorten(name)
 
@@ -43,7 +69,7 @@ def _shown(name: str) -> str:
 def event_in_words(event: Event) -> str:
     """An event in words: time, kind, and the edges of the tiling that were removed and added."""
     changes = [f"-{u}~{v}" for u, v in event.removed] + [f"+{u}~{v}" for u, v in event.added]
-    words = [f"t = {float(event.time)!r}", event.kind, *map(_shown, changes)]
+    words = [f"t = {float(event.time)!r}", event.kind, *map(name_in_words, changes)]
     return " ".join(words)
 
 

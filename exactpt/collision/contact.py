@@ -6,7 +6,7 @@ import math
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import final
+from typing import ClassVar, NamedTuple, final
 
 from exactpt.extensions import extension
 from exactpt.geometry.polygon import signed_area2
@@ -19,13 +19,13 @@ from exactpt.kernel.integer_polynomial import (
     scale,
     subtract,
 )
-from exactpt.kernel.numbers import QQ, ZZ, nearest_float
+from exactpt.kernel.numbers import QQ, ZZ, finite, nearest_float
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, difference, orientation
 from exactpt.motion.track import Track
 from exactpt.scene.scene import Scene
 
-__all__ = ["Contact", "Pair", "contact_of", "nearest_value", "time_to_json", "tracks_before"]
+__all__ = ["Contact", "Pair", "contact_of", "nearest_value", "tracks_before"]
 
 
 @final
@@ -68,28 +68,85 @@ class Pair:
         }
 
 
+class Found(NamedTuple):
+    """The touches from which the incidences, points and normals, are computed on demand."""
+
+    scene: Scene
+    touches: Sequence[Touch]
+
+
 @final
-@dataclass(frozen=True, slots=True, eq=False)
 class Contact:
-    """A contact of a scene: its time and all incidences at that time.
+    """A contact of a scene: its time and all incidences at that time. It cannot be changed.
+
+    Args:
+        time: the exact time.
+        kind: see below.
+        pairs: every incidence at that time.
+        overlaps: see below.
 
     Attributes:
-        time: the exact time.
         kind: "initial" at the start of the scene; "self" if only one body is involved;
             "vertex-vertex" if every incidence is one of two vertices; otherwise "vertex-edge".
-        pairs: every incidence at that time.
         overlaps: at the start, the names of the pairs of bodies that share a point.
     """
 
-    time: AlgebraicNumber
+    __slots__ = ("_pairs", "_time", "kind", "overlaps")
+    __match_args__: ClassVar = ("time", "kind", "pairs", "overlaps")
     kind: str
-    pairs: tuple[Pair, ...]
-    overlaps: tuple[tuple[str, str], ...] = ()
+    overlaps: tuple[tuple[str, str], ...]
+    _time: AlgebraicNumber
+    _pairs: tuple[Pair, ...] | Found
+
+    def __init__(
+        self,
+        time: AlgebraicNumber,
+        kind: str,
+        pairs: tuple[Pair, ...] | Found,
+        overlaps: tuple[tuple[str, str], ...] = (),
+    ) -> None:
+        keep = object.__setattr__
+        keep(self, "_time", time)
+        keep(self, "kind", kind)
+        keep(self, "_pairs", pairs)
+        keep(self, "overlaps", overlaps)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a Contact cannot be changed: {name}")
+
+    @property
+    def time(self) -> AlgebraicNumber:
+        """The exact time."""
+        if not self._time.is_rational:
+            self._complete()  # an irrational time has another form then
+        return self._time
+
+    @property
+    def pairs(self) -> tuple[Pair, ...]:
+        """Every incidence at that time."""
+        return self._complete()
+
+    def _complete(self) -> tuple[Pair, ...]:
+        pairs = self._pairs
+        if isinstance(pairs, Found):
+            time, pairs = _details(pairs.scene, self._time, pairs.touches)
+            object.__setattr__(self, "_time", time)
+            object.__setattr__(self, "_pairs", pairs)
+        return pairs
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Contact, (self.time, self.kind, self.pairs, self.overlaps)
+
+    def __repr__(self) -> str:
+        return (
+            f"Contact(time={self.time!r}, kind={self.kind!r}, pairs={self.pairs!r}, "
+            f"overlaps={self.overlaps!r})"
+        )
 
     def to_json(self) -> dict[str, object]:
         """The contact as a JSON object, see docs/format.md."""
         data: dict[str, object] = {
-            "time": time_to_json(self.time),
+            "time": self.time.to_json(),
             "kind": self.kind,
             "pairs": [pair.to_json() for pair in self.pairs],
         }
@@ -100,23 +157,6 @@ class Contact:
     def _repr_html_(self) -> str:
         """An HTML table of the time and the incidences, for notebooks."""
         return str(extension("table of a contact")(self))
-
-
-def time_to_json(time: AlgebraicNumber) -> dict[str, object]:
-    """A time as a JSON object, see docs/format.md; a canonical form of the number."""
-    number = time.simplified()
-    low, high = number._canonical_interval()
-    return {
-        "approx": _finite(float(number)),
-        "low": str(low),
-        "high": str(high),
-        "polynomial": [str(c) for c in number._polynomial],
-    }
-
-
-def _finite(x: float) -> float:
-    """x, with infinities replaced by the largest finite double: JSON has no infinity."""
-    return min(max(x, -sys.float_info.max), sys.float_info.max)
 
 
 def tracks_before(scene: Scene, time: AlgebraicNumber) -> list[tuple[Track, ...]]:
@@ -147,13 +187,20 @@ def contact_of(
         overlaps: pairs of indices of bodies that share a point at the start.
     """
     touches = sorted(touches)
+    names = tuple((scene.bodies[i].name, scene.bodies[j].name) for i, j in overlaps)
+    return Contact(time, _kind(scene, time, touches), Found(scene, touches), names)
+
+
+def _details(
+    scene: Scene, time: AlgebraicNumber, touches: Sequence[Touch]
+) -> tuple[AlgebraicNumber, tuple[Pair, ...]]:
+    """The time in the form that does not depend on the search, and the incidences."""
     outward = {i: _outward(scene, i) for i in {touch.other for touch in touches}}
     involved = sorted({i for touch in touches for i in (touch.body, touch.other)})
     tracks = {i: _tracks_of(scene.bodies[i], time, scene._start) for i in involved}
     number = _as_root(time, tracks, touches)
     pairs = tuple(_pair(scene, tracks, touch, number, outward[touch.other]) for touch in touches)
-    names = tuple((scene.bodies[i].name, scene.bodies[j].name) for i, j in overlaps)
-    return Contact(number, _kind(scene, number, pairs), pairs, names)
+    return number, pairs
 
 
 def _as_root(
@@ -177,13 +224,13 @@ def _coincidence(v: Track, w: Track) -> IntPoly:
     return greatest_common_divisor(dx, dy) if dx and dy else dx or dy
 
 
-def _kind(scene: Scene, time: AlgebraicNumber, pairs: Sequence[Pair]) -> str:
+def _kind(scene: Scene, time: AlgebraicNumber, touches: Sequence[Touch]) -> str:
     if time.compare_rational(scene._start) == 0:
         return "initial"
-    kinds = {pair.kind for pair in pairs if pair.body != pair.other}
-    if not kinds:
+    of_two = [touch for touch in touches if touch.body != touch.other]
+    if not of_two:
         return "self"
-    return "vertex-edge" if "vertex-edge" in kinds else "vertex-vertex"
+    return "vertex-edge" if any(touch.edge >= 0 for touch in of_two) else "vertex-vertex"
 
 
 def _pair(
@@ -206,7 +253,7 @@ def _pair(
         other=scene.bodies[touch.other].name,
         edge=touch.edge if touch.edge >= 0 else None,
         other_vertex=touch.other_vertex if touch.edge < 0 else None,
-        point=(_finite(nearest_value(v.x, v.w, time)), _finite(nearest_value(v.y, v.w, time))),
+        point=(finite(nearest_value(v.x, v.w, time)), finite(nearest_value(v.y, v.w, time))),
         normal=normal,
     )
 

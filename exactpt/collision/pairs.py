@@ -26,10 +26,13 @@ from exactpt.certificates.coincidence import lies_on
 from exactpt.certificates.incidences import touches
 from exactpt.certificates.queue import EventTime
 from exactpt.collision.contact import Contact, contact_of
+from exactpt.collision.ignoring import groups_of
 from exactpt.collision.initial import initial_touches
-from exactpt.errors import BudgetExceeded, InputError
+from exactpt.errors import BudgetExceeded
 from exactpt.geometry.boxes import overlapping_pairs
+from exactpt.indices import Triple
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.budget import GRACE, ask, within
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, fraction, power_of_two
 from exactpt.motion.swept import SweptBoxes
@@ -42,6 +45,9 @@ Indices: TypeAlias = NDArray[np.int64]
 
 SLABS: Final = 32
 """Number of initial slabs in the time span, if the speeds of the bodies are not known."""
+
+FEW: Final = 64
+"""Number of pairs that are compared exactly before a tiling would have been built."""
 
 SMALLEST_SLAB: Final = 1 << 40
 """The shortest slab is the time span divided by this."""
@@ -56,6 +62,7 @@ class PairsSearch:
         exact_only: whether exact arithmetic decides everything, without the float filters.
         max_seconds: time limit, in seconds; None for no limit.
         ignoring: groups of body names; contacts within a group are ignored.
+        ignoring_self: names of bodies whose contacts with themselves are ignored.
 
     Attributes:
         name: the name of the tiling: None.
@@ -71,13 +78,17 @@ class PairsSearch:
         exact_only: bool = False,
         max_seconds: float | None = None,
         ignoring: Iterable[Collection[str]] = (),
+        ignoring_self: Collection[str] = (),
     ) -> None:
         self._scene = scene
         self._exact_only = exact_only
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
         self._counters = Counters()
-        self._group: Indices = np.array(_groups(scene, ignoring), dtype=np.int64)
+        self._group: Indices = np.array(groups_of(scene, ignoring), dtype=np.int64)
+        alone = [body.name in ignoring_self for body in scene.bodies]
+        self._ignores_self: NDArray[np.bool_] = np.array(alone, dtype=np.bool_)
         self.certificates = 0
+        self._prepared = False
         self._passed: QQ | None = None
 
     @property
@@ -97,6 +108,19 @@ class PairsSearch:
         """A rational time up to which there is no contact; None if nothing has been proved."""
         return None if self._passed is None else fraction(self._passed)
 
+    def is_blind(self) -> bool:
+        """Whether a tiling is expected to decide less exactly: many vertices have no boxes.
+
+        Such a vertex is compared with all edges, and its edges with all vertices. The tiling
+        has about three certificates for each vertex.
+        """
+        if not self._scene.bodies:
+            return False
+        self._prepare()
+        count = len(self._ids)
+        unknown = sum(math.isnan(self._vertices.all[v].image.xs[0]) for v in self._ids)
+        return 2 * unknown * count > 3 * count + FEW
+
     def run_to_contact(self) -> Contact | None:
         """The first contact in the closed time span of the scene; None if there is none.
 
@@ -104,6 +128,15 @@ class PairsSearch:
             BudgetExceeded: when the time limit is reached; its ``reached`` is a time up to which
                 there is no contact.
         """
+        with within(None if self._deadline is None else self._deadline + GRACE):
+            try:
+                return self._first_contact()
+            except BudgetExceeded as spent:
+                if spent.reached is None:
+                    spent.reached = self.passed()
+                raise
+
+    def _first_contact(self) -> Contact | None:
         scene = self._scene
         initial, overlaps = initial_touches(scene)
         overlaps = [(i, j) for i, j in overlaps if not self._ignores(i, j)]
@@ -116,7 +149,10 @@ class PairsSearch:
         return self._run()
 
     def _prepare(self) -> None:
-        """Number the vertices and edges, and read the trajectories of the first pieces."""
+        """Number the vertices and edges, and read the trajectories of the first pieces: once."""
+        if self._prepared:
+            return
+        self._prepared = True
         scene = self._scene
         self._vertices = Vertices.of(scene.bodies, scene._start, scene._end, plain=True)
         self._counters = self._vertices.counters
@@ -186,8 +222,17 @@ class PairsSearch:
         ended = [i for i, m in enumerate(self._vertices.bodies) if m.until == now]
         for i in ended:
             self._vertices.enter_piece(i, now)
-        if ended:
+        if not all(self._replace_tracks(i) for i in ended):
             self._read_tracks()
+
+    def _replace_tracks(self, i: int) -> bool:
+        """Read the trajectories of a body that has entered a piece; false if there is no room."""
+        moving = self._vertices.bodies[i]
+        images = [self._vertices.all[v].image for v in moving.ring]
+        first = moving.ring[0]  # ids are numbered in order
+        self._motion[first : first + len(images)] = [image.motion for image in images]
+        self._deforms[i] = moving.deforms
+        return self._swept.replace(first, images, self._vertices.frame.errors)
 
     def _near(self, now: QQ, later: QQ) -> tuple[Indices, Indices]:
         """Candidate pairs in a slab: numbers of vertices and of edges whose swept boxes meet."""
@@ -221,19 +266,20 @@ class PairsSearch:
         meet = (np.maximum(p, q)[:, ::2] <= np.minimum(p, q)[:, 1::2]).all(axis=1)
         lasts = (v == b) | ((v == a) & ~meet)
         i, j = self._body[v], self._body[a]
-        ignored = (self._group[i] == self._group[j]) & (i != j)
+        ignored = (self._group[i] == self._group[j]) & ((i != j) | self._ignores_self[i])
         may: NDArray[np.bool_] = ~(together | rigid | ignored | lasts)
         return may
 
     def _ignores(self, i: int, j: int) -> bool:
-        return i != j and bool(self._group[i] == self._group[j])
+        return bool(self._group[i] == self._group[j] and (i != j or self._ignores_self[i]))
 
     def _search(self, now: QQ, later: QQ, near: tuple[Indices, Indices]) -> Contact | None:
         """The first contact in (now, later]."""
         certifier = Certifier(self._vertices, now, later, exact_only=self._exact_only)
         ids = self._ids
-        pending: list[tuple[float, int, EventTime, tuple[int, int, int]]] = []
+        pending: list[tuple[float, int, EventTime, Triple]] = []
         for k, (v, e) in enumerate(zip(near[0].tolist(), near[1].tolist(), strict=True)):
+            ask()
             a, b = self._edges[e].tolist()
             triple = (ids[b], ids[v], ids[b]) if v == a else (ids[a], ids[v], ids[b])
             _, time = certifier.orientation(*triple)
@@ -244,6 +290,7 @@ class PairsSearch:
         best: AlgebraicNumber | None = None
         best_high = float("inf")
         while pending and pending[0][0] <= best_high:
+            ask()
             _, k, time, triple = heapq.heappop(pending)
             certifier.move_to(time, [triple])
             a, v, b = (self._vertices.all[i] for i in triple)
@@ -265,17 +312,3 @@ class PairsSearch:
         return contact_of(
             self._scene, best, [t for t in found if not self._ignores(t.body, t.other)]
         )
-
-
-def _groups(scene: Scene, ignoring: Iterable[Collection[str]]) -> list[int]:
-    """The group number of each body; a body in no group has a number of its own."""
-    number = {body.name: i for i, body in enumerate(scene.bodies)}
-    group = list(range(len(number)))
-    for k, names in enumerate(ignoring, start=len(group)):
-        for name in names:
-            if name not in number:
-                raise InputError(f"there is no body {name!r} to ignore others")
-            if group[number[name]] >= len(number):
-                raise InputError(f"body {name!r} is in two groups that ignore each other")
-            group[number[name]] = k
-    return group

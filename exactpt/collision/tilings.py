@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Final, NamedTuple
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certifier import Certifier
-from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.scene.scene import Scene
 from exactpt.tiling import catalogue, loading
-from exactpt.tiling.catalogue import Bodies, Entry
+from exactpt.tiling.catalogue import Entry
 from exactpt.tiling.events import Stats
 from exactpt.tiling.tiling import Tiling
 
@@ -84,20 +82,7 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
     Raises:
         InputError: if there is no such tiling, or it does not support these bodies.
     """
-
-    @cache
-    def of_bodies() -> Vertices:
-        return Vertices.of(scene.bodies, start, scene._end)
-
-    def convex() -> bool:
-        return PredicatesAt(of_bodies(), start).all_stay_convex()
-
-    entry = catalogue.choose(name, points=_are_points(scene), convex=convex)
-    if entry.bodies is Bodies.POINTS:
-        vertices = loading.vertices_of_points(entry, scene.bodies, start, scene._end)
-    else:
-        vertices = of_bodies()
-        vertices.counters = Counters()  # decisions made for the choice are not part of the run
+    entry, vertices = loading.plan(name, scene.bodies, start, scene._end)
     return TilingPlan(entry, vertices, scene._end)
 
 

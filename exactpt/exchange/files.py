@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 from exactpt.errors import InputError
 from exactpt.exchange import geojson, svg, wkt
 from exactpt.exchange.shapes import Holes, Shape, scene_of, shapes_at
-from exactpt.files import write_atomically
+from exactpt.files import read_text, write_atomically
 from exactpt.kernel.numbers import rational
 from exactpt.scene.format import loads, save
 from exactpt.scene.json_values import parse_json
@@ -38,6 +38,7 @@ def read_shapes(
     tolerance: float = 0.1,
     holes: Holes = "refuse",
     skipped: Callable[[str], None] | None = None,
+    max_bytes: int | None = None,
 ) -> Scene:
     """The scene at rest of a GeoJSON, WKT or SVG file: one body for each part of a shape.
 
@@ -51,6 +52,7 @@ def read_shapes(
         holes: "refuse" polygons with holes, or "fill" them.
         skipped: called with a message for each shape that cannot be a body and is left out;
             if None, such a shape is an error.
+        max_bytes: maximum size of the file, which is refused otherwise; by default 10^8.
 
     Raises:
         InputError: one line that names the file, the shape and what is wrong with it.
@@ -58,7 +60,7 @@ def read_shapes(
     if holes not in ("refuse", "fill"):
         raise InputError(f"holes: either refuse or fill: {holes!r}")
     file = Path(path)
-    kind, text = _format(file), _text_of(file)
+    kind, text = _format(file), read_text(file, max_bytes)
 
     def tell(line: str) -> None:
         if skipped is not None:
@@ -73,21 +75,17 @@ def read_shapes(
         raise InputError(f"{file}: {error}") from None
 
 
-def holds_scene(path: Path) -> bool:
+def holds_scene(path: Path, max_bytes: int | None = None) -> bool:
     """Whether a file is a scene file.
 
     Raises:
         InputError: if it cannot be read.
     """
-    return _format(path) == "scene" and not _is_geojson(_text_of(path))
-
-
-def _text_of(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
-        raise InputError(f"{path}: cannot be read: {reason}") from None
+        return _format(path) == "scene" and not _is_geojson(read_text(path, max_bytes))
+    except InputError as error:
+        told = str(error)
+        raise InputError(told if told.startswith(str(path)) else f"{path}: {told}") from None
 
 
 def _format(path: Path) -> Format:
@@ -98,11 +96,8 @@ def _format(path: Path) -> Format:
 
 
 def _is_geojson(text: str) -> bool:
-    try:
-        data = parse_json(text)
-    except RecursionError:
-        return False
-    return isinstance(data, dict) and "exactpt" not in data and data.get("type") in geojson.TYPES
+    data = parse_json(text)
+    return isinstance(data, dict) and "exactpt" not in data and geojson.is_type(data.get("type"))
 
 
 def _shapes_of(kind: Format, text: str, tolerance: float) -> Iterator[Shape]:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Final
 
 from exactpt.errors import InputError
-from exactpt.exchange.shapes import Kind, Shape, rounded
+from exactpt.exchange.shapes import DEEPEST, Kind, Shape, rounded
 from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.numbers import shorten
 from exactpt.scene.json_values import Json, Number, a_list, exact_number, parse_json, shown
@@ -19,7 +19,7 @@ from exactpt.scene.json_values import Json, Number, a_list, exact_number, parse_
 if TYPE_CHECKING:
     from exactpt.geometry.predicates import Point
 
-__all__ = ["TYPES", "geojson_of", "shapes_of"]
+__all__ = ["TYPES", "geojson_of", "is_type", "shapes_of"]
 
 _PARTS: Final[dict[str, Kind]] = {"Point": "point", "LineString": "line", "Polygon": "polygon"}
 TYPES: Final = {
@@ -31,6 +31,11 @@ TYPES: Final = {
 }
 """Possible values of the key "type" of a GeoJSON object."""
 _TYPE_OF: Final = {kind: name for name, kind in _PARTS.items()}
+
+
+def is_type(word: Json) -> bool:
+    """Whether it is the type of a GeoJSON object."""
+    return isinstance(word, str) and word in TYPES
 
 
 def shapes_of(text: str) -> Iterator[Shape]:
@@ -49,7 +54,7 @@ def shapes_of(text: str) -> Iterator[Shape]:
     """
     try:
         data = parse_json(text)
-        if not isinstance(data, dict) or data.get("type") not in TYPES:
+        if not isinstance(data, dict) or not is_type(data.get("type")):
             raise InputError(f"not GeoJSON: {shown(data)}")
         if data["type"] == "FeatureCollection":
             for i, feature in enumerate(a_list(data.get("features"), '"features"')):
@@ -83,13 +88,15 @@ def _name(feature: dict[str, Json]) -> str:
     return ""
 
 
-def _of_geometry(data: Json, where: str, name: str) -> Iterator[Shape]:
-    if not isinstance(data, dict) or data.get("type") not in TYPES:
+def _of_geometry(data: Json, where: str, name: str, depth: int = 0) -> Iterator[Shape]:
+    if depth > DEEPEST:
+        raise InputError(f"{where[:60]}...: nested more than {DEEPEST} deep")
+    if not isinstance(data, dict) or not is_type(data.get("type")):
         raise InputError(f"{where}: not a geometry: {shown(data)}")
     kind = str(data["type"])
     if kind == "GeometryCollection":
         for i, part in enumerate(a_list(data.get("geometries"), f'{where}: "geometries"')):
-            yield from _of_geometry(part, f"{where}, geometry {i}", name)
+            yield from _of_geometry(part, f"{where}, geometry {i}", name, depth + 1)
         return
     at = f'{where}: "coordinates"'
     coordinates = data.get("coordinates")

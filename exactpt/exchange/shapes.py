@@ -11,9 +11,12 @@ from collections.abc import Callable, Container, Iterable, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
+import numpy as np
+
 from exactpt.errors import InputError
+from exactpt.geometry.boxes import Boxes, Indices, boxes_of_points, overlapping_pairs
 from exactpt.geometry.polygon import contains, signed_area2
-from exactpt.kernel.numbers import nearest_float
+from exactpt.kernel.numbers import nearest_float, shorten, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import REST, Motion
 from exactpt.scene.scene import Scene
@@ -22,11 +25,28 @@ if TYPE_CHECKING:
     from exactpt.geometry.predicates import Point
     from exactpt.kernel.numbers import QQ, Rational
 
-__all__ = ["Holes", "Kind", "Shape", "body_of", "nested", "rounded", "scene_of", "shapes_at"]
+__all__ = [
+    "DEEPEST",
+    "Holes",
+    "Kind",
+    "Shape",
+    "body_of",
+    "nested",
+    "rounded",
+    "scene_of",
+    "shapes_at",
+]
+
+DEEPEST: Final = 100
+"""Maximum depth to which collections and groups may be nested in a file."""
+
+_MOST_NESTED: Final = 10_000_000
+"""Maximum number of pairs of rings of one outline with one box inside the other."""
 
 Kind: TypeAlias = Literal["point", "line", "polygon"]
 Holes: TypeAlias = Literal["refuse", "fill"]
 
+_NONE: Final[Indices] = np.empty(0, dtype=np.int64)
 _FEWEST: Final[dict[Kind, int]] = {"point": 1, "line": 2, "polygon": 3}
 
 
@@ -69,9 +89,10 @@ def scene_of(
     """
     empty = Scene([], time)
     bodies: dict[str, Body] = {}
+    last: dict[str, int] = {}
     for shape in shapes:
         try:
-            body = body_of(shape, _free_name(shape.name, bodies), holes=holes)
+            body = body_of(shape, _free_name(shape.name, bodies, last), holes=holes)
             _check_simple(shape, body, time)
         except InputError as error:
             if skipped is None:
@@ -94,8 +115,9 @@ def body_of(shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "r
     if shape.holes and holes == "refuse":
         count = len(shape.holes)
         raise InputError(
-            f"{shape.where}: polygon {shape.name!r} has {_counted(count, 'hole')}, and a body "
-            "has none: fill them (--holes fill, in Python holes='fill') or cut the polygon open"
+            f"{shape.where}: polygon {shorten(shape.name)} has {_counted(count, 'hole')}, "
+            "and a body has none: fill them (--holes fill, in Python holes='fill') "
+            "or cut the polygon open"
         )
     points = _distinct_neighbours(shape.points)
     closes = shape.kind != "point" and len(points) > 1 and points[0] == points[-1]
@@ -106,7 +128,7 @@ def body_of(shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "r
     if len(points) < _FEWEST[kind] or (is_polygon and signed_area2(points) == 0):
         lacks = {"point": "position", "line": "length", "polygon": "area"}[kind]
         raise InputError(
-            f"{shape.where}: {kind} {shape.name!r} has no {lacks}: "
+            f"{shape.where}: {kind} {shorten(shape.name)} has no {lacks}: "
             "remove it, or leave such shapes out (--skip-invalid)"
         )
     return Body(name, points, motion, closed=is_polygon or len(points) < 3)
@@ -119,9 +141,11 @@ def shapes_at(scene: Scene, at: QQ) -> list[Shape]:
         InputError: if the time is outside the time span.
     """
     if not scene._start <= at <= scene._end:
-        raise InputError(f"t = {at} is outside the time span from {scene._start} to {scene._end}")
+        span = f"from {show(scene._start)} to {show(scene._end)}"
+        raise InputError(f"t = {show(at)} is outside the time span {span}")
     return [
-        Shape(f"body {body.name!r}", body.name, _kind(body), body._at(at)) for body in scene.bodies
+        Shape(f"body {shorten(body.name)}", body.name, _kind(body), body._at(at))
+        for body in scene.bodies
     ]
 
 
@@ -157,16 +181,52 @@ def nested(rings: Sequence[Sequence[Point]]) -> list[tuple[int, list[int]]]:
 
     By the even-odd rule, a ring inside an odd number of others is a hole; it belongs to the
     innermost outer ring around it.
+
+    Of rings that do not cross, those around a ring are around each other too. So they are the
+    innermost one and those around that, and only boxes around a ring's box need to be tried,
+    from the innermost on. A box around another one contains more boxes than that.
+
+    Raises:
+        InputError: if too many boxes are inside others.
     """
-    around = [
-        [j for j, other in enumerate(rings) if j != i and _inside(ring, other)]
-        for i, ring in enumerate(rings)
-    ]
-    return [
-        (i, [h for h, outer in enumerate(around) if i in outer and len(outer) == len(mine) + 1])
-        for i, mine in enumerate(around)
-        if len(mine) % 2 == 0
-    ]
+    around = _boxes_around(boxes_of_points(rings))
+    size = [0] * len(rings)
+    for outside in around.values():
+        for j in outside:
+            size[j] += 1
+    outer: list[int | None] = [None] * len(rings)
+    depth = [0] * len(rings)
+    for i in sorted(range(len(rings)), key=lambda i: -size[i]):  # each after its outer ring
+        for j in sorted(around.get(i, ()), key=size.__getitem__):
+            if _inside(rings[i], rings[j]):
+                outer[i], depth[i] = j, depth[j] + 1
+                break
+    holes: dict[int, list[int]] = {i: [] for i in range(len(rings)) if depth[i] % 2 == 0}
+    for i, its in enumerate(outer):
+        if its is not None and depth[i] % 2:
+            holes[its].append(i)
+    return list(holes.items())
+
+
+def _boxes_around(boxes: Boxes) -> dict[int, list[int]]:
+    """For each box, the boxes that contain it; of equal boxes the first contains the second."""
+    inner: list[Indices] = []
+    outer: list[Indices] = []
+    count = 0
+    for first, second in overlapping_pairs(boxes):
+        for a, b in ((first, second), (second, first)):
+            p, q = boxes[a], boxes[b]  # is q inside p
+            inside = (p[:, ::2] <= q[:, ::2]).all(axis=1) & (p[:, 1::2] >= q[:, 1::2]).all(axis=1)
+            inside &= (p != q).any(axis=1) | (a < b)
+            inner.append(b[inside])
+            outer.append(a[inside])
+            count += len(inner[-1])
+        if count > _MOST_NESTED:
+            raise InputError(f"more than {_MOST_NESTED} pairs of its outlines are nested")
+    around: dict[int, list[int]] = {}
+    for b, a in zip(np.concatenate([_NONE, *inner]), np.concatenate([_NONE, *outer]), strict=True):
+        around.setdefault(int(b), []).append(int(a))
+    return around
 
 
 def _inside(ring: Sequence[Point], other: Sequence[Point]) -> bool:
@@ -179,11 +239,17 @@ def _distinct_neighbours(points: Sequence[Point]) -> list[Point]:
     return [p for i, p in enumerate(points) if i == 0 or p != points[i - 1]]
 
 
-def _free_name(wanted: str, taken: Container[str]) -> str:
-    name, number = wanted, 1
+def _free_name(wanted: str, taken: Container[str], last: dict[str, int]) -> str:
+    """The wanted name, or the first free one of "wanted 2", "wanted 3", ...
+
+    ``last`` has the last number tried for each name: those below it stay taken.
+    """
+    number = last.get(wanted, 1)
+    name = wanted if number == 1 else f"{wanted} {number}"
     while name in taken:
         number += 1
         name = f"{wanted} {number}"
+    last[wanted] = number
     return name
 
 

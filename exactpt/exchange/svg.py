@@ -13,7 +13,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Final
 from xml.etree import ElementTree as Xml
 
-from exactpt.errors import InputError
+from exactpt.errors import ExactPTError, InputError
+from exactpt.exchange.drawing import NAMESPACE, read_drawing, valid_text
 from exactpt.exchange.shapes import Shape, nested, rounded
 from exactpt.kernel.numbers import rational, shorten
 
@@ -24,9 +25,10 @@ if TYPE_CHECKING:
 
 __all__ = ["shapes_of", "svg_of"]
 
-_NAMESPACE: Final = "http://www.w3.org/2000/svg"
 _MOST_CHORDS: Final = 100_000
 """Maximum number of chords of one curve; more indicate a mistaken tolerance."""
+_MOST_POINTS: Final = 2_000_000
+"""Maximum number of points of a drawing."""
 
 
 def shapes_of(text: str, tolerance: float) -> Iterator[Shape]:
@@ -44,10 +46,15 @@ def shapes_of(text: str, tolerance: float) -> Iterator[Shape]:
     """
     if not (math.isfinite(tolerance) and tolerance > 0):
         raise InputError(f"the tolerance is a positive number: {tolerance}")
+    left = _MOST_POINTS
     for i, (name, path) in enumerate(_paths(text)):
-        where = f"outline {i}" + (f" (id {name})" if name else "")
+        where = f"outline {i}" + (f" (id {shorten(name)[1:-1]})" if name else "")
         try:
-            subpaths = [(_points(sub, tolerance), sub[-1]) for sub in path.as_subpaths()]
+            subpaths = []
+            for sub in path.as_subpaths():
+                points = _points(sub, tolerance, left)
+                left -= len(points)
+                subpaths.append((points, sub[-1]))
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
         yield from _of_subpaths(subpaths, where, name or f"outline {i}")
@@ -69,9 +76,16 @@ def _of_subpaths(
             rings.append(points)
         else:
             others.append(Shape(where, name, "line", points))
-    for outer, holes in nested(rings):
+    for outer, holes in _nested(rings, where):
         yield Shape(where, name, "polygon", rings[outer], [rings[h] for h in holes])
     yield from others
+
+
+def _nested(rings: Sequence[list[Point]], where: str) -> list[tuple[int, list[int]]]:
+    try:
+        return nested(rings)
+    except InputError as error:
+        raise InputError(f"{where}: {error}") from None
 
 
 def _paths(text: str) -> Iterator[tuple[str, svgelements.Path]]:
@@ -81,12 +95,7 @@ def _paths(text: str) -> Iterator[tuple[str, svgelements.Path]]:
     except ImportError:
         raise InputError("this needs svgelements: pip install 'exactpt[svg]'") from None
 
-    try:
-        root = Xml.fromstring(text)
-    except Xml.ParseError as error:
-        raise InputError(f"not XML: {error}") from None
-    if root.tag not in ("svg", f"{{{_NAMESPACE}}}svg"):
-        raise InputError(f"not a drawing: its first element is {root.tag}")
+    root = read_drawing(text)
     box = root.get("viewBox", "").replace(",", " ").split()
     if len(box) == 4:  # drawn at this size, one pixel is one unit of the drawing
         root.set("viewBox", f"0 0 {box[2]} {box[3]}")
@@ -100,12 +109,14 @@ def _paths(text: str) -> Iterator[tuple[str, svgelements.Path]]:
                 path = svgelements.Path(element)
                 path.reify()
                 yield element.id or "", path
-    except (ValueError, TypeError, IndexError) as error:
+    except (ExactPTError, MemoryError):
+        raise
+    except Exception as error:  # what a damaged drawing raises in a parser that trusts it
         raise InputError(f"not a drawing that can be read: {shorten(error)}") from None
 
 
-def _points(subpath: svgelements.Subpath, tolerance: float) -> list[Point]:
-    """The corners of a subpath and the ends of its chords, with y upwards."""
+def _points(subpath: svgelements.Subpath, tolerance: float, most: int) -> list[Point]:
+    """The corners of a subpath and the ends of its chords, with y upwards: at most ``most``."""
     import svgelements
 
     first = subpath[0]
@@ -116,6 +127,8 @@ def _points(subpath: svgelements.Subpath, tolerance: float) -> list[Point]:
             found += [segment.point(k / count) for k in range(1, count)]
         if segment.end is not None:
             found.append(segment.end)
+        if len(found) > most:
+            raise InputError(f"more than {_MOST_POINTS} points: raise the tolerance")
     return [(rational(float(p.x)), rational(-float(p.y))) for p in found]
 
 
@@ -150,14 +163,16 @@ def svg_of(shapes: Iterable[Shape]) -> str:
     drawn = [(shape, [(x, 0.0 - y) for x, y in rounded(shape)]) for shape in shapes]
     xs, ys = ([p[axis] for _, points in drawn for p in points] or [0.0] for axis in (0, 1))
     box = (min(xs), min(ys), (max(xs) - min(xs)) or 1.0, (max(ys) - min(ys)) or 1.0)
-    root = Xml.Element("svg", xmlns=_NAMESPACE, viewBox=" ".join(map(repr, box)))
+    root = Xml.Element("svg", xmlns=NAMESPACE)
+    if all(map(math.isfinite, box)):
+        root.set("viewBox", " ".join(map(repr, box)))
     for shape, points in drawn:
         end = "" if shape.kind == "line" else " Z"
         Xml.SubElement(
             root,
             "path",
             {
-                "id": shape.name,
+                "id": valid_text(shape.name),
                 "d": f"M {' L '.join(f'{x!r} {y!r}' for x, y in points)}{end}",
                 "fill": "silver" if shape.kind == "polygon" else "none",
                 "stroke": "black",

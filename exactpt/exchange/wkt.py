@@ -8,16 +8,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from itertools import accumulate
 from typing import Final
 
 from exactpt.errors import InputError
-from exactpt.exchange.shapes import Shape, rounded
+from exactpt.exchange.shapes import DEEPEST, Shape, rounded
 from exactpt.scene.json_values import exact_number
 
 __all__ = ["shapes_of", "wkt_of"]
 
 _NEXT: Final = re.compile(r"(?:(?<=\))|(?<=EMPTY))[\s;]+(?=[A-Z])", re.IGNORECASE)
 """The separator between two geometries; parts of one geometry are separated by a comma."""
+_PARENTHESIS: Final = re.compile(r"[()]")
 _NUMBER: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 
 
@@ -31,6 +33,8 @@ def shapes_of(text: str) -> Iterator[Shape]:
 
     for i, part in enumerate(_NEXT.split(text.strip())):
         where = f"geometry {i}"
+        if _depth(part) > DEEPEST:
+            raise InputError(f"{where}: nested more than {DEEPEST} deep")
         geometry, size, dimensions = read_wkt(part, where)
         numbers = _NUMBER.findall(part)
         if len(numbers) != size * dimensions:
@@ -40,9 +44,15 @@ def shapes_of(text: str) -> Iterator[Shape]:
         yield from shapes_of_geometry(geometry, where, f"body {i}", points)
 
 
+def _depth(text: str) -> int:
+    """The depth to which parentheses are nested: shapely recurses, and copies at every level."""
+    steps = (1 if mark[0] == "(" else -1 for mark in _PARENTHESIS.finditer(text))
+    return max(accumulate(steps), default=0)
+
+
 def wkt_of(shapes: Iterable[Shape]) -> str:
     """Shapes, one per line, without names; coordinates are the nearest doubles."""
-    return "".join(f"{_text(shape)}\n" for shape in shapes)
+    return "".join(f"{_text(shape)}\n" for shape in shapes) or "GEOMETRYCOLLECTION EMPTY\n"
 
 
 def _text(shape: Shape) -> str:

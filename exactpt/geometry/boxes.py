@@ -9,15 +9,17 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, nearest_float
 
-__all__ = ["Boxes", "boxes_of_points", "overlapping_pairs", "widen_unknown"]
+__all__ = ["Boxes", "Indices", "boxes_of_points", "overlapping_pairs", "widen_unknown"]
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
 
 Boxes: TypeAlias = NDArray[np.float64]
-"""Shape (n, 4): low x, high x, low y, high y, each rounded outward, without NaN."""
+"""Shape (n, 4), or (k, n, 4) for k times: low x, high x, low y, high y, each rounded outward,
+without NaN."""
 
 FAR: Final = 2.0**20
 """Ratio of distance from the origin to extent above which boxes are relative to a point."""
@@ -53,7 +55,7 @@ def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
 
 def widen_unknown(boxes: Boxes) -> None:
     """Replace every box with a NaN side by the whole plane."""
-    boxes[np.isnan(boxes).any(axis=1)] = (-np.inf, np.inf, -np.inf, np.inf)
+    boxes[np.isnan(boxes).any(axis=-1)] = (-np.inf, np.inf, -np.inf, np.inf)
 
 
 def overlapping_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
@@ -77,6 +79,7 @@ def overlapping_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
     stop = np.searchsorted(place, place - box + ends[box])
     first = 0
     while first < len(box):
+        ask()
         # As many boxes as fit in a chunk, but at least one.
         total = np.cumsum(stop[first:] - after[first:])
         last = first + max(1, int(np.searchsorted(total, _CHUNK, side="right")))

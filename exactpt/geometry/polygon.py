@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.geometry.predicates import Point, between, side
+from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
 
 __all__ = [
@@ -79,6 +80,7 @@ def first_self_touch(points: Sequence[Point], *, closed: bool) -> tuple[int, int
     found: list[tuple[int, int]] = []
     for first, second in overlapping_pairs(boxes):
         for i, j in zip(first.tolist(), second.tolist(), strict=True):
+            ask()
             if _touch(points, pairs[i], pairs[j]):
                 found.append((i, j))
     return min(found, default=None)

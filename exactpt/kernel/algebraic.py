@@ -21,6 +21,7 @@ from exactpt.kernel.approximation import (
     nearest_double,
     rational_between,
 )
+from exactpt.kernel.budget import ask
 from exactpt.kernel.integer_polynomial import (
     IntPoly,
     derivative,
@@ -31,7 +32,7 @@ from exactpt.kernel.integer_polynomial import (
     square_free,
 )
 from exactpt.kernel.isolated_root import IsolatedRoot
-from exactpt.kernel.numbers import QQ, Rational, place, power_of_two, rational, sign
+from exactpt.kernel.numbers import QQ, Rational, finite, place, power_of_two, rational, sign
 
 if TYPE_CHECKING:
     from exactpt.kernel.sympy_door import Expression
@@ -58,6 +59,7 @@ class AlgebraicNumber(IsolatedRoot):
         """-1, 0 or 1 as this number is smaller than, equal to, or larger than ``other``."""
         differ = False
         while True:
+            ask()
             if self._high < other._low:
                 return -1
             if self._low > other._high:
@@ -104,6 +106,7 @@ class AlgebraicNumber(IsolatedRoot):
         if len(common) > 1 and sign_at(common, self._low) * sign_at(common, self._high) < 0:
             return 0
         while not s:
+            ask()
             self.refine()
             if self._low == self._high:
                 return sign_at(f, self._low)
@@ -116,6 +119,7 @@ class AlgebraicNumber(IsolatedRoot):
         It is the sign of the first of f, f', f'', ... that is not 0 here.
         """
         while f:
+            ask()
             s = self.sign_of(f)
             if s:
                 return s
@@ -126,6 +130,7 @@ class AlgebraicNumber(IsolatedRoot):
         """The sign of f just before this number: 0 if and only if f is the zero polynomial."""
         factor = 1
         while f:
+            ask()
             s = self.sign_of(f)
             if s:
                 return factor * s
@@ -167,6 +172,7 @@ class AlgebraicNumber(IsolatedRoot):
         slope = derivative(p)
         # An interval on which p is monotone isolates the root.
         while not sign_on(slope, self._low, self._high):
+            ask()
             self.refine()
         return AlgebraicNumber._root(p, self._low, self._high)
 
@@ -225,6 +231,17 @@ class AlgebraicNumber(IsolatedRoot):
         if isinstance(other, AlgebraicNumber):
             return self.compare(other)
         return self.compare_rational(rational(other))
+
+    def to_json(self) -> dict[str, object]:
+        """The number as a JSON object, see docs/format.md; a canonical form of it."""
+        number = self.simplified()
+        low, high = number._canonical_interval()
+        return {
+            "approx": finite(float(number)),
+            "low": str(low),
+            "high": str(high),
+            "polynomial": [str(c) for c in number._polynomial],
+        }
 
     def __repr__(self) -> str:
         if self._low == self._high:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Final
 
+from exactpt.kernel.budget import ask
 from exactpt.kernel.integer_polynomial import sign_at
 from exactpt.kernel.numbers import QQ, ZZ, enclosing_floats, floor, nearest_float, power_of_two
 from exactpt.kernel.sturm import count_roots, sturm_sequence
@@ -121,6 +122,7 @@ def canonical_interval(x: IsolatedRoot) -> tuple[QQ, QQ]:
         return x._low, x._high
     bits = 64
     while True:
+        ask()
         grid = power_of_two(-bits)
         m = _floor_on_grid(x, grid)
         low, high = m * grid, (m + 1) * grid
@@ -146,6 +148,7 @@ def rational_between(x: IsolatedRoot, y: IsolatedRoot) -> QQ:
     # A grid point between x and y belongs to all finer grids too: gallop, then bisect.
     coarse, bits = -1, 0
     while y.compare_rational(found := _next_on_grid(x, bits)) <= 0:
+        ask()  # of a forged state, x need not be smaller than y
         coarse, bits = bits, 2 * bits + 1
     while bits - coarse > 1:
         middle = (coarse + bits) // 2

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from itertools import accumulate
 from typing import Final
 
+from exactpt.kernel.budget import LONG, ask
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, ZZ, sign
 from exactpt.kernel.sturm import sign_changes
@@ -61,6 +62,8 @@ def _on_unit_interval(f: IntPoly, low: QQ, high: QQ) -> list[ZZ]:
     by = ZZ(low.numerator * width.denominator)
     if by:
         for i in range(len(g) - 1):
+            if len(g) > LONG:
+                ask()
             for j in range(len(g) - 2, i - 1, -1):
                 g[j] += by * g[j + 1]
     return _stretch(g, ZZ(width.numerator * low.denominator))
@@ -89,7 +92,10 @@ def _stretch(g: Sequence[ZZ], factor: ZZ) -> list[ZZ]:
 def _shifted_by_one(g: list[ZZ]) -> list[ZZ]:
     """The coefficients of g(s + 1), by repeated Horner."""
     rest, result = g[::-1], []
+    is_long = len(rest) > LONG
     while rest:
+        if is_long:
+            ask()
         rest = list(accumulate(rest))
         result.append(rest.pop())
     return result

@@ -17,11 +17,33 @@ from typing import Final
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, UNSURE, Answer, U
 from exactpt.kernel.windows import polynomial
 
-__all__ = ["SLACK", "UNSURE", "Answer", "linear", "polynomial", "quadratic"]
+__all__ = ["SLACK", "UNSURE", "Answer", "any_degree", "linear", "polynomial", "quadratic"]
 
 U2: Final = 2.0 * U
 U4: Final = 4.0 * U
 U8: Final = 8.0 * U
+
+
+def any_degree(
+    c: list[float],
+    e: list[float],
+    now_low: float,
+    now_high: float,
+    horizon: float,
+    at_root: bool,  # noqa: FBT001 - positional for speed
+) -> Answer:
+    """The answer for sum(c[i] t^i), whose leading coefficients may be 0."""
+    n = len(c)
+    while n > 1 and c[n - 1] == 0.0 and e[n - 1] == 0.0:
+        n -= 1
+    if n <= 2:
+        c1, e1 = (c[1], e[1]) if n == 2 else (0.0, 0.0)
+        return linear(c[0], c1, e[0], e1, now_low, now_high, horizon, at_root)
+    if n == 3:
+        return quadratic(
+            c[0], c[1], c[2], e[0], e[1], e[2], now_low, now_high, horizon, at_root
+        )  # fmt: skip
+    return polynomial(c[:n], e[:n], now_low, now_high, horizon, at_root)
 
 
 def linear(
@@ -94,6 +116,9 @@ def quadratic(
     above 2^-252, and any underflow before the quotients is far below the rounding of
     sqrt(D) and q. The quotients' own bounds are those of `linear`.
 
+    If c2 may be 0, the bound of c0 / q holds as it stands, and the root q / c2, if there is
+    one, is of size at least (|q| - eq) / (|c2| + e2): see `_near_alone`.
+
     ``at_root``: the polynomial is known to vanish now. The two enclosures are of two
     different roots; so if only one of them meets [now_low, now_high], that root is now.
     """
@@ -112,18 +137,26 @@ def quadratic(
         # Then 4 c0 c2 > eD >= 4 |c0| e2, so the sign of c2 is certain.
         return (1 if c2 > 0.0 else -1, INFINITY, INFINITY)
     if not d > error_d:
-        return UNSURE
+        return _constant(c0, c1, c2, e0, e1, e2, now_low, now_high, horizon)
     root_d = math.sqrt(d)
     error_root = error_d / root_d * SLACK + U2 * root_d
     q = -0.5 * (c1 + root_d) if c1 >= 0.0 else -0.5 * (c1 - root_d)
     size = abs(q)
     error_q = (0.5 * (e1 + error_root) + U2 * size) * SLACK
     gap_q, gap_2 = size - error_q, a2 - e2
-    if not (gap_q > SMALL and gap_2 > SMALL):
-        return UNSURE
+    if not gap_q > SMALL:
+        return _constant(c0, c1, c2, e0, e1, e2, now_low, now_high, horizon)
     near = c0 / q
     size = abs(near)
     error_near = ((e0 + size * error_q) / gap_q + U8 * size) * SLACK + TINY
+    if not (gap_2 > SMALL and a2 > 4.0 * e2):
+        s = 1 if c1 >= 0.0 else -1
+        reach = gap_q / ((a2 + e2) * SLACK + TINY) - TINY
+        answer = _near_alone(
+            s, near - error_near, near + error_near, reach, now_low, now_high, horizon, at_root
+        )
+        if answer[0] != 0 or not gap_2 > SMALL:
+            return answer
     far = q / c2
     size = abs(far)
     error_far = ((error_q + size * e2) / gap_2 + U8 * size) * SLACK + TINY
@@ -149,3 +182,53 @@ def quadratic(
     if after2:
         return (-s, low2, high2) if low2 <= horizon else (-s, INFINITY, INFINITY)
     return (s, INFINITY, INFINITY)
+
+
+def _near_alone(
+    s: int,
+    low: float,
+    high: float,
+    reach: float,
+    now_low: float,
+    now_high: float,
+    horizon: float,
+    at_root: bool,  # noqa: FBT001 - positional for speed
+) -> Answer:
+    """The answer for a quadratic whose other root, if any, is of size at least ``reach``.
+
+    ``s`` is the sign of the slope at the root in [low, high]. That is the sign of c1: with
+    s = sgn(c1) the root is t = (-c1 + s sqrt(D)) / (2 c2), so c1 + 2 c2 t = s sqrt(D). (For
+    c2 = 0, t = -c0 / c1, and s sqrt(D) = c1.) Should the sign of the double c1 be wrong,
+    both formulas hold with the wrong sign too, as long as q is not 0.
+
+    Between -reach and reach the polynomial vanishes in [low, high] alone, and only once. If
+    it vanishes now, the vanishing root is that one.
+    """
+    if not (-reach < low and high < reach and -reach < now_low and now_high < reach):
+        return UNSURE
+    if at_root or high <= now_low:
+        return (s, INFINITY, INFINITY) if horizon < reach else UNSURE
+    if low > now_high:
+        if low <= horizon:
+            return (-s, low, high)
+        return (-s, INFINITY, INFINITY)
+    return UNSURE
+
+
+def _constant(
+    c0: float,
+    c1: float,
+    c2: float,
+    e0: float,
+    e1: float,
+    e2: float,
+    now_low: float,
+    now_high: float,
+    horizon: float,
+) -> Answer:
+    """The sign of a quadratic that has no root up to the horizon as its constant dominates."""
+    reach = max(abs(now_low), abs(now_high), abs(horizon))
+    rest = (e0 + ((abs(c1) + e1) + (abs(c2) + e2) * reach) * reach) * SLACK + TINY
+    if INFINITY > abs(c0) > rest:
+        return (1 if c0 > 0.0 else -1, INFINITY, INFINITY)
+    return UNSURE

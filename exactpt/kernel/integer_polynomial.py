@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Final, TypeAlias
 
+from exactpt.kernel.budget import LONG, ask
 from exactpt.kernel.numbers import QQ, ZZ, gcd, sign
 
 __all__ = [
@@ -90,7 +91,10 @@ def multiply(f: IntPoly, g: IntPoly) -> IntPoly:
         a = f[0]
         return tuple([a * b for b in g])
     product = [ZZ(0)] * (len(f) + len(g) - 1)
+    is_long = len(g) > LONG
     for i, a in enumerate(f):
+        if is_long:
+            ask()
         if a:
             for j, b in enumerate(g):
                 product[i + j] += a * b
@@ -159,6 +163,8 @@ def positive_remainder(f: IntPoly, g: IntPoly) -> IntPoly:
     positive, lead = (lead, lead) if lead > 0 else (-lead, lead)
     remainder = list(f)
     while len(remainder) >= size:
+        if size > LONG:
+            ask()
         top = remainder.pop()
         if top == 0:
             continue
@@ -176,6 +182,8 @@ def quotient(f: IntPoly, g: IntPoly) -> IntPoly:
     remainder, result = list(f), [ZZ(0)] * (len(f) - size + 1)
     positive = abs(lead)
     for shift in range(len(f) - size, -1, -1):
+        if size > LONG:
+            ask()
         # Multiply everything by |lead|, so that the next coefficient is an integer.
         remainder = [positive * c for c in remainder]
         result = [positive * c for c in result]

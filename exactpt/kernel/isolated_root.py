@@ -15,6 +15,7 @@ from collections.abc import Iterable
 from fractions import Fraction
 from typing import Final, Self
 
+from exactpt.kernel.budget import ask
 from exactpt.kernel.integer_polynomial import (
     IntPoly,
     derivative,
@@ -118,6 +119,7 @@ class IsolatedRoot:
         # just right of it is that of the derivative. Bisect until low is not a root.
         self._below = sign_at(derivative(self._polynomial), self._low)
         while True:
+            ask()
             middle = (self._low + self._high) / 2
             s = sign_at(self._polynomial, middle)
             if s == 0:
@@ -205,6 +207,7 @@ class IsolatedRoot:
     def refine_to(self, width: QQ) -> None:
         """Refine until ``high - low <= width`` (positive)."""
         while self._high - self._low > width:
+            ask()
             self.refine()
 
     def compare_rational(self, number: Rational) -> int:

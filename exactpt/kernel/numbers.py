@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import operator
 import re
+import sys
 from collections.abc import Iterable
 from fractions import Fraction
 from numbers import Real
@@ -52,9 +53,11 @@ __all__ = [
     "QQ",
     "ZZ",
     "Rational",
+    "as_doubles",
     "ceil",
     "digits",
     "enclosing_floats",
+    "finite",
     "floor",
     "fraction",
     "fractions",
@@ -79,6 +82,7 @@ _NUMBER: Final = re.compile(
     r"([+-]?\d++)(?:/(\d++))?\Z|([+-]?)(\d*+)\.?(\d*+)(?:[eE]([+-]?\d{1,18}))?\Z", re.ASCII
 )  # possessive quantifiers: no backtracking, so a long invalid text takes linear time
 _EXPONENT_LIMIT: Final = 100_000
+_INTEGERS: Final = 1 << 53
 _EXACT: Final[type[QQ]] = type(QQ())
 _INEXACT: Final = ("bool", "mpfr")
 """Names of refused types; before numpy 2.3 its booleans have an ``__index__``."""
@@ -199,6 +203,25 @@ def rational(value: Rational) -> QQ:
         raise InputError(f"not a number: {shorten(value)}") from None
 
 
+def as_doubles(values: Iterable[object]) -> list[float] | None:
+    """The values as doubles; None if one of them is not a finite ``float`` or a small ``int``.
+
+    Only the types themselves count, not those derived from them; integers are small if all
+    of their size are doubles.
+    """
+    result: list[float] = []
+    for value in values:
+        if type(value) is float:
+            if not -math.inf < value < math.inf:
+                return None
+            result.append(value)
+        elif type(value) is int and -_INTEGERS <= value <= _INTEGERS:
+            result.append(float(value))
+        else:
+            return None
+    return result
+
+
 def rationals(values: object, count: int, what: str) -> tuple[QQ, ...]:
     """Exactly ``count`` rationals.
 
@@ -221,6 +244,11 @@ def nearest_float(value: QQ) -> float:
         return float(value)
     except OverflowError:
         return math.inf if value > 0 else -math.inf
+
+
+def finite(x: float) -> float:
+    """x, with infinities replaced by the largest finite double: JSON has no infinity."""
+    return min(max(x, -sys.float_info.max), sys.float_info.max)
 
 
 def enclosing_floats(value: QQ) -> tuple[float, float]:

@@ -8,7 +8,8 @@ from numbers import Real
 from typing import TYPE_CHECKING, ClassVar, Final, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, fraction, fractions, rational, shorten
+from exactpt.kernel.budget import LONG, ask
+from exactpt.kernel.numbers import QQ, Rational, as_doubles, fraction, fractions, rational, shorten
 
 if TYPE_CHECKING:
     from exactpt.kernel.sympy_door import Expression, Variable
@@ -20,6 +21,8 @@ __all__ = ["ONE", "ZERO", "Polynomial", "polynomial"]
 class Polynomial:
     """A polynomial in t over the rationals: dense, immutable, hashable.
 
+    Coefficients given as doubles are kept, and become rationals when these are asked for.
+
     >>> f = Polynomial([0, "1/2", -1])
     >>> f(3)
     Fraction(-15, 2)
@@ -27,28 +30,48 @@ class Polynomial:
     Polynomial(['1/2', '-2'])
     """
 
-    __slots__ = ("_coefficients",)
-    _coefficients: tuple[QQ, ...]
+    __slots__ = ("_doubles", "_exact")
+    _doubles: tuple[float, ...] | None
+    _exact: tuple[QQ, ...] | None
     __match_args__: ClassVar = ("coefficients",)
 
     def __init__(self, coefficients: Iterable[Rational] = ()) -> None:
+        # `_doubles` are the coefficients if all were given as doubles; `_exact` are rational.
         if isinstance(coefficients, str) or not isinstance(coefficients, Iterable):
             raise InputError(f"a polynomial has a list of coefficients: {shorten(coefficients)}")
-        values = [rational(c) for c in coefficients]
+        given = list(coefficients)
+        near = as_doubles(given)
+        if near is None:
+            self._keep([rational(c) for c in given])
+            return
+        while near and near[-1] == 0.0:
+            near.pop()
+        object.__setattr__(self, "_doubles", tuple(near))
+        object.__setattr__(self, "_exact", None)
+
+    def _keep(self, values: list[QQ]) -> None:
         while values and values[-1] == 0:
             values.pop()
-        object.__setattr__(self, "_coefficients", tuple(values))
+        object.__setattr__(self, "_doubles", None)
+        object.__setattr__(self, "_exact", tuple(values))
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a Polynomial cannot be changed: {name}")
 
     @classmethod
     def _of(cls, values: list[QQ]) -> Polynomial:
-        while values and values[-1] == 0:
-            values.pop()
         self = cls.__new__(cls)
-        object.__setattr__(self, "_coefficients", tuple(values))
+        self._keep(values)
         return self
+
+    @property
+    def _coefficients(self) -> tuple[QQ, ...]:
+        """The coefficients; the last is not 0."""
+        values = self._exact
+        if values is None:
+            values = tuple([rational(c) for c in self._doubles or ()])
+            object.__setattr__(self, "_exact", values)
+        return values
 
     @classmethod
     def from_sympy(cls, expression: Expression, variable: Variable) -> Polynomial:
@@ -75,7 +98,7 @@ class Polynomial:
     @property
     def degree(self) -> int:
         """The degree; -1 for the zero polynomial."""
-        return len(self._coefficients) - 1
+        return len(self._coefficients if self._doubles is None else self._doubles) - 1
 
     def __call__(self, t: Rational) -> Fraction:
         """The value at a rational t."""
@@ -105,6 +128,8 @@ class Polynomial:
             return ZERO
         product = [QQ(0)] * (len(f) + len(g) - 1)
         for i, a in enumerate(f):
+            if len(g) > LONG:
+                ask()
             for j, b in enumerate(g):
                 product[i + j] += a * b
         return Polynomial._of(product)
@@ -119,6 +144,8 @@ class Polynomial:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Polynomial):
             return NotImplemented
+        if self._doubles is not None and other._doubles is not None:
+            return self._doubles == other._doubles
         return self._coefficients == other._coefficients
 
     def __hash__(self) -> int:

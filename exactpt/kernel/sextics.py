@@ -19,9 +19,10 @@ derivative p', each at five arguments r and b. What is computed is that sum time
 with arguments a and a + h: Bernstein coefficients without the constant term, divided by
 k. The terms of c[i] have sizes of at most (h / 6) i |c[i]| T^(i-1) <= (h / T) |c[i]| T^i
 and go through one operation more. Each of the five arguments is off by at most u T, or by
-the width w of now, which changes p' by at most i (i - 1) / 5 |c[i]| T^(i-2) times that. The
-bound is
-    (h / T) (1 + 5 w / (32 u T)) sum(g[i] T^i), without i = 0.
+the width w of now, which changes p' by at most i (i - 1) / 5 |c[i]| T^(i-2) times that. With
+|c[i]| + g[i], which bounds the true coefficient, the bound is
+    (h / T) (sum(g[i] T^i) + 5 (w / T) sum((|c[i]| + g[i]) T^i)), without i = 0,
+and without i = 1 in the second sum.
 (For r = b too, since q(r) = p'(r).)
 
 Range. T < 2^66 and h > 2^-150, so max(1, T)^6 < 2^400 and h^6 > 2^-900: powers of h
@@ -88,8 +89,11 @@ def sextic(
     g3, g4 = UNIT * abs(c3) + e3, UNIT * abs(c4) + e4
     g5, g6 = UNIT * abs(c5) + e5, UNIT * abs(c6) + e6
     q0, q1, q2, q3, q4, q5, q6 = _scaled(c0, c1, c2, c3, c4, c5, c6, a, h)
+    m2 = m3 = m4 = m5 = m6 = 0.0
     if at_root:
         q0 = 0.0
+        m2, m3, m4 = abs(c2) + g2, abs(c3) + g3, abs(c4) + g4
+        m5, m6 = abs(c5) + g5, abs(c6) + g6
     rising = (q1 if at_root else q0) > 0.0  # the sign after now, if it is certain
     s = 1.0 if rising else -1.0
     known, last = False, True
@@ -101,7 +105,8 @@ def sextic(
         if at_root:
             b2, b3, b4, b5, b6 = b2 / 2.0, b3 / 3.0, b4 / 4.0, b5 / 5.0, b6 / 6.0
             error = _bound(0.0, g1, g2, g3, g4, g5, g6, t)
-            error = error * (h / t) * (1.0 + 5.0 * (now_high - now_low) / (UNIT * t)) + TINY
+            error += 5.0 * ((now_high - now_low) / t) * _bound(0.0, 0.0, m2, m3, m4, m5, m6, t)
+            error = error * (h / t) * SLACK + TINY
         else:
             error = _bound(g0, g1, g2, g3, g4, g5, g6, t)
         # The first coefficient that is not certainly positive is the k-th.

@@ -114,11 +114,47 @@ def quadratics(
     signs = np.where(no_root, s, np.where(clear, np.where(between, -s, s), 0))
     low, high = np.where(after1, (low1, high1), (low2, high2))
     answers = _answers(signs, clear & (after1 | after2) & (low <= horizon), low, high)
+    flat = (d > error_d) & (gap_q > SMALL) & ~((gap_2 > SMALL) & (a2 > 4.0 * e2))
+    if flat.any():
+        reach = gap_q / ((a2 + e2) * SLACK + TINY) - TINY
+        rising = np.where(c1 >= 0.0, 1, -1)
+        ends = near - error_near, near + error_near
+        alone = _near_alone(rising, *ends, reach, now_low, now_high, horizon, at_root)
+        wanted = flat & ((alone.signs != 0) | ~(gap_2 > SMALL))
+        answers = Answers(*map(np.where, [wanted] * 3, alone, answers))
+    steady = ~no_root & ~((d > error_d) & (gap_q > SMALL))
+    if steady.any():
+        reach = np.maximum(np.maximum(np.abs(now_low), np.abs(now_high)), np.abs(horizon))
+        rest = (e0 + ((abs(c1) + e1) + (a2 + e2) * reach) * reach) * SLACK + TINY
+        steady &= (abs(c0) < INFINITY) & (abs(c0) > rest)
+        nothing = np.full(len(c0), INFINITY)
+        answers = Answers(
+            *map(np.where, [steady] * 3, Answers(_sign(c0), nothing, nothing), answers)
+        )
     straight = (c2 == 0.0) & (e2 == 0.0)
     if straight.any():
         others = linears(c0, c1, e0, e1, now_low, now_high, horizon, at_root)
         return Answers(*map(np.where, [straight] * 3, others, answers))
     return answers
+
+
+def _near_alone(
+    s: NDArray[np.int64],
+    low: Floats,
+    high: Floats,
+    reach: Floats,
+    now_low: Floats | float,
+    now_high: Floats | float,
+    horizon: Floats | float,
+    at_root: Flags,
+) -> Answers:
+    """The answers with one root alone: see `exactpt.kernel.filters._near_alone`."""
+    alone = (-reach < low) & (high < reach) & (-reach < now_low) & (now_high < reach)
+    past = at_root | (high <= now_low)
+    before = alone & past & (horizon < reach)
+    later = alone & ~past & (low > now_high)
+    signs = np.where(before, s, np.where(later, -s, 0))
+    return _answers(signs, later & (low <= horizon), low, high)
 
 
 def _sign(x: Floats) -> NDArray[np.int64]:

@@ -37,7 +37,9 @@ def polynomial(
     """The answer for sum(c[i] t^i) of degree 1 or more.
 
     The window starts now, as wide as the horizon allows; it is doubled after a success
-    and cut to a quarter after a failure. Up to degree 6 see `exactpt.kernel.sextics`.
+    and cut to a quarter after a failure. The last window ends at the horizon, from which
+    a + h differs by rounding; `_bernstein_error` counts that. Up to degree 6 see
+    `exactpt.kernel.sextics`.
 
     ``at_root``: the polynomial is known to vanish now. If its derivative has one sign on
     [now_low, b], the polynomial has no other root there and, after now, the sign of the
@@ -83,10 +85,12 @@ def polynomial(
                 h *= 0.125
                 if not h > shortest or not a + h > now_high:
                     return UNSURE
-        a = (a + h) if h < length else horizon
+        if not h < length:
+            return (s, INFINITY, INFINITY)
+        a += h
     h = horizon - a
     step = 0
-    while a < horizon:
+    while True:
         step += 1
         if step > 80 or not h > shortest:
             return UNSURE
@@ -97,6 +101,8 @@ def polynomial(
         if first == 0 or first != s:
             return UNSURE
         if _one_sign(b, error) == s:
+            if not h < horizon - a:
+                break
             a += h
             h = min(2.0 * h, horizon - a)
         elif _one_change(b, error):

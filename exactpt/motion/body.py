@@ -2,16 +2,38 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, final
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple, TypeAlias, final
 
 from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.geometry.polygon import edges
-from exactpt.kernel.numbers import QQ, Rational, fraction, fractions, place, rational, shorten, show
+from exactpt.kernel.budget import ask
+from exactpt.kernel.numbers import (
+    QQ,
+    Rational,
+    as_doubles,
+    fraction,
+    fractions,
+    place,
+    rational,
+    shorten,
+    show,
+)
 from exactpt.kernel.polynomial import Polynomial, polynomial
-from exactpt.motion.motions import REST, Coefficients, Motion, Pieces, Position, SimpleMotion, made
+from exactpt.motion.motions import (
+    REST,
+    Coefficients,
+    Motion,
+    Pieces,
+    Position,
+    SimpleMotion,
+    Translation,
+    made,
+)
 from exactpt.motion.track import Track
 
 if TYPE_CHECKING:
@@ -23,6 +45,10 @@ VertexLike: TypeAlias = (
     "Sequence[Rational] | Mapping[str, Coefficients] | tuple[Polynomial, Polynomial]"
 )
 """A vertex as a caller may write it: (x, y), or {"x": polynomial, "y": polynomial}."""
+
+
+_PAIRS: Final = (tuple, list)
+_SHAPE: Final = ("_doubles", "_keyframes", "_positions", "_shapes", "_size", "closed", "name")
 
 
 def is_text(name: object) -> bool:
@@ -56,6 +82,8 @@ class BodyPiece(NamedTuple):
 class Body:
     """A closed set that moves: a point, a segment, an open chain, or a simple polygon.
 
+    Vertices given as doubles are kept, and become rationals when these are needed.
+
     Args:
         name: unique in its scene.
         vertices: one (a point), two (a segment) or more; each a pair of numbers, or a
@@ -74,14 +102,16 @@ class Body:
 
     __slots__ = (
         "_breakpoints",
+        "_doubles",
         "_keyframes",
         "_last",
         "_pieces",
+        "_positions",
         "_shapes",
+        "_size",
         "closed",
         "motion",
         "name",
-        "vertices",
     )
 
     def __init__(
@@ -95,31 +125,28 @@ class Body:
     ) -> None:
         if not is_text(name):
             raise InputError(f"a body's name is a text that is not empty: {shorten(name)}")
-        if not (isinstance(motion, Pieces) or hasattr(motion, "track")):
-            raise InputError(f"body {shorten(name)}: not a motion: {shorten(motion)}")
+        _check_motion(name, motion)
         if (vertices is None) == (keyframes is None):
             raise InputError(f"body {shorten(name)}: give either vertices or keyframes")
         self.name = name
-        self.motion = motion
         self.closed = closed
         self._keyframes: tuple[Keyframe, ...] = ()
-        self.vertices: tuple[Position, ...] = ()
+        self._doubles: tuple[list[float], list[float]] | None = None
+        self._positions: tuple[Position, ...] | None = None
         if keyframes is not None:
             self._keyframes = _read_keyframes(name, keyframes)
+            self._positions = ()
+            self._size = len(self._keyframes[0].vertices)
         else:
-            self.vertices = tuple(
-                _read_vertex(name, i, v) for i, v in enumerate(_listed(name, "vertices", vertices))
-            )
-        self._shapes = self._shape_pieces()
-        ends = {until for until, _ in self._shapes if until is not None}
-        if isinstance(motion, Pieces):
-            ends.update(motion._until)
-        self._breakpoints: tuple[QQ, ...] = tuple(sorted(ends))
-        self._pieces: dict[QQ | None, BodyPiece] = {}
-        self._last: tuple[QQ, list[tuple[QQ, QQ]]] | None = None
-        if not self._shapes[0][1]:
+            given = _listed(name, "vertices", vertices)
+            self._doubles = _read_doubles(given)
+            if self._doubles is None:
+                self._positions = tuple(_read_vertex(name, i, v) for i, v in enumerate(given))
+            self._size = len(given)
+        self._shapes = self._shape_pieces() if self._keyframes else []
+        if not self._size:
             raise InputError(f"body {shorten(name)}: at least one vertex is needed")
-        self._check_continuity()
+        self._set_motion(motion)
 
     @classmethod
     def from_shapely(
@@ -144,10 +171,44 @@ class Body:
         body: Body = extension("body from shapely")(geometry, name, motion, holes)
         return body
 
+    def with_motion(self, motion: Motion) -> Body:
+        """A body of the same name and shape with another motion.
+
+        Raises:
+            InputError: if it is no motion, or jumps.
+        """
+        _check_motion(self.name, motion)
+        other = Body.__new__(Body)
+        for name in _SHAPE:
+            setattr(other, name, getattr(self, name))
+        other._set_motion(motion)  # noqa: SLF001
+        return other
+
+    def _set_motion(self, motion: Motion) -> None:
+        self.motion = motion
+        ends = {frame.t for frame in self._keyframes}
+        if isinstance(motion, Pieces):
+            ends.update(motion._until)
+        self._breakpoints: tuple[QQ, ...] = tuple(sorted(ends))
+        self._pieces: dict[QQ | None, BodyPiece] = {}
+        self._last: tuple[QQ, list[tuple[QQ, QQ]]] | None = None
+        if isinstance(motion, Pieces):
+            self._check_continuity(motion)
+
     @property
     def size(self) -> int:
         """The number of vertices."""
-        return len(self._shapes[0][1])
+        return self._size
+
+    @property
+    def vertices(self) -> tuple[Position, ...]:
+        """The positions in the body's rest frame; none if the body was given by keyframes."""
+        if self._positions is None:
+            xs, ys = self._doubles or ([], [])
+            self._positions = tuple(
+                (Polynomial([x]), Polynomial([y])) for x, y in zip(xs, ys, strict=True)
+            )
+        return self._positions
 
     @property
     def edges(self) -> list[tuple[int, int]]:
@@ -174,7 +235,8 @@ class Body:
 
     def _piece_after(self, t: QQ) -> BodyPiece:
         """The piece of motion just after a rational time."""
-        end = next((b for b in self._breakpoints if b > t), None)
+        ended = bisect_right(self._breakpoints, t)
+        end = self._breakpoints[ended] if ended < len(self._breakpoints) else None
         if end not in self._pieces:
             tracks = self._tracks(self._shape_after(t), self._motion_after(t))
             self._pieces[end] = BodyPiece(end, tracks)
@@ -192,34 +254,36 @@ class Body:
         return last[1][:]
 
     def _tracks(self, shape: Sequence[Position], motion: SimpleMotion) -> tuple[Track, ...]:
-        return tuple(motion.track(position) for position in shape)
+        tracks = []
+        for position in shape:
+            ask()
+            tracks.append(motion.track(position))
+        return tuple(tracks)
 
-    def _shape_pieces(self) -> list[tuple[QQ | None, tuple[Position, ...]]]:
-        if not self._keyframes:
-            return [(None, self.vertices)]
-        first, last = self._keyframes[0], self._keyframes[-1]
-        pieces: list[tuple[QQ | None, tuple[Position, ...]]] = [(first.t, _at_rest(first))]
-        for before, after in zip(self._keyframes, self._keyframes[1:], strict=False):
-            pieces.append((after.t, _between(before, after)))
-        pieces.append((None, _at_rest(last)))
-        return pieces
+    def _shape_pieces(self) -> list[tuple[Position, ...]]:
+        """The shape before the first keyframe, between each two, and after the last."""
+        frames = self._keyframes
+        between = [_between(*pair) for pair in pairwise(frames)]
+        return [_at_rest(frames[0]), *between, _at_rest(frames[-1])]
 
     def _shape_after(self, t: QQ) -> tuple[Position, ...]:
-        return next(shape for until, shape in self._shapes if until is None or until > t)
+        if not self._keyframes:
+            return self.vertices
+        return self._shapes[bisect_right(self._keyframes, t, key=lambda frame: frame.t)]
 
     def _motion_after(self, t: QQ) -> SimpleMotion:
         if not isinstance(self.motion, Pieces):
             return self.motion
-        for until, motion in zip(self.motion._until, self.motion.motions, strict=False):
-            if until > t:
-                return motion
-        return self.motion.motions[-1]
+        return self.motion.motions[bisect_right(self.motion._until, t)]
 
-    def _check_continuity(self) -> None:
-        if not isinstance(self.motion, Pieces):
-            return
-        pairs = zip(self.motion.motions, self.motion.motions[1:], strict=False)
-        for t, (before, after) in zip(self.motion._until, pairs, strict=True):
+    def _check_continuity(self, motion: Pieces) -> None:
+        for t, (before, after) in zip(motion._until, pairwise(motion.motions), strict=True):
+            if (
+                isinstance(before, Translation)
+                and isinstance(after, Translation)
+                and before._at(t) == after._at(t)
+            ):
+                continue
             shape = self._shape_after(t)
             for i, (a, b) in enumerate(
                 zip(self._tracks(shape, before), self._tracks(shape, after), strict=True)
@@ -233,15 +297,21 @@ class Body:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Body):
             return NotImplemented
-        return (self.name, self.closed, self.vertices, self._keyframes, self.motion) == (
-            other.name, other.closed, other.vertices, other._keyframes, other.motion
-        )  # fmt: skip
+        return (
+            (self.name, self.closed, self.size) == (other.name, other.closed, other.size)
+            and self.vertices == other.vertices
+            and (self._keyframes, self.motion) == (other._keyframes, other.motion)
+        )
 
     def __hash__(self) -> int:
         return hash((self.name, self.closed, self.size))
 
     def __reduce__(self) -> tuple[object, ...]:
-        shape: dict[str, object] = {"vertices": tuple(map(_given, self.vertices))}
+        shape: dict[str, object]
+        if self._doubles is not None:
+            shape = {"vertices": tuple(zip(*self._doubles, strict=True))}
+        else:
+            shape = {"vertices": tuple(map(_given, self.vertices))}
         if self._keyframes:
             shape = {"keyframes": tuple(
                 (str(frame.t), tuple((str(x), str(y)) for x, y in frame.vertices))
@@ -252,6 +322,11 @@ class Body:
     def __repr__(self) -> str:
         what = {1: "point", 2: "segment"}.get(self.size, "polygon" if self.closed else "chain")
         return f"<Body {self.name!r}: {what} of {self.size} vertices>"
+
+
+def _check_motion(name: str, motion: object) -> None:
+    if not (isinstance(motion, Pieces) or hasattr(motion, "track")):
+        raise InputError(f"body {shorten(name)}: not a motion: {shorten(motion)}")
 
 
 def _listed(name: str, what: str, values: object) -> list[Any]:
@@ -265,6 +340,17 @@ def _pair(point: object) -> tuple[Any, Any]:
     if isinstance(point, str) or len(coordinates) != 2:
         raise InputError(f"a vertex has two coordinates: {shorten(point)}")
     return coordinates[0], coordinates[1]
+
+
+def _read_doubles(vertices: Sequence[object]) -> tuple[list[float], list[float]] | None:
+    """The coordinates x and y of vertices; None unless all are pairs of doubles."""
+    flat: list[object] = []
+    for vertex in vertices:
+        if type(vertex) not in _PAIRS or len(vertex) != 2:  # type: ignore[arg-type]
+            return None
+        flat += vertex  # type: ignore[arg-type]
+    near = as_doubles(flat)
+    return None if near is None else (near[::2], near[1::2])
 
 
 def _read_vertex(name: str, index: int, vertex: VertexLike) -> Position:

@@ -10,11 +10,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Hashable, Iterable, Sequence
+from itertools import chain
 from typing import TYPE_CHECKING, Final, final
 
+from exactpt.kernel.budget import LONG, ask
 from exactpt.kernel.numbers import QQ, ZZ, enclosing_floats, nearest_float, power_of_two
+from exactpt.kernel.polynomial import ONE
 from exactpt.kernel.rounding import U
-from exactpt.motion.image import Image
+from exactpt.motion.image import Arm, Image
+from exactpt.motion.track import Turning
 
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
@@ -22,9 +26,15 @@ if TYPE_CHECKING:
 
 __all__ = ["Frame", "frame_for"]
 
-SMALLEST: Final = 2.0**-100
+SMALLEST: Final = 2.0**-300
 LARGEST: Final = 2.0**100
-"""Range of the size of nonzero coefficients that the filters accept."""
+"""Range of the size of nonzero coefficients that the filters accept.
+
+Certificates are sums of products of two differences, or of three coefficients. A difference
+of doubles of size 2^-300 or more is 0 or at least 2^-352. So no product underflows.
+"""
+SMALLEST_OF_ARMS: Final = 2.0**-100
+"""The same for `Arm`: certificates with arms have products of four coefficients."""
 INTEGERS: Final = 2.0**53
 """All integers of smaller absolute value are doubles."""
 
@@ -91,6 +101,7 @@ class Frame:
         motion, last = -1, None
         tails: tuple[list[float], list[float]] | None = None
         for track in tracks:
+            ask()
             if last is None or track.motion != last:
                 motion, last = self._number(track.motion), track.motion
                 tails = self._integer_tails(track)
@@ -126,7 +137,9 @@ class Frame:
         size = max(len(x), len(y), 1)
         if len(w) > 1:
             size = max(size, len(w))
-            ws, divisor = _floats(w, QQ(1), size), QQ(1)
+            # A common factor of x, y and w is free. The power of two rounds nothing.
+            divisor = power_of_two(_exponent(QQ(max(map(abs, w)))))
+            ws = _floats(w, divisor, size)
         else:
             ws, divisor = [], QQ(w[0])
         xs, ys = _floats(x, divisor, size), _floats(y, divisor, size)
@@ -137,7 +150,45 @@ class Frame:
         if not ws:
             self._note_errors(x, xs, divisor)
             self._note_errors(y, ys, divisor)
-        return Image(xs, ys, ws, motion)
+        image = Image(xs, ys, ws, motion)
+        if isinstance(track.motion, Turning):
+            image.arm = self._arm(track, track.motion)
+        return image
+
+    def _arm(self, track: Track, turning: Turning) -> Arm | None:
+        """The trajectory as a pivot and an arm, with w = 1 + h^2 for the half turn h.
+
+        (The denominators of trajectories of one motion differ by constants.) None if the
+        degrees are too large, or a coefficient is out of range.
+        """
+        paths = turning.x._coefficients, turning.y._coefficients
+        w = (ONE + turning.half_turn * turning.half_turn)._coefficients
+        if len(w) > 3 or max(map(len, paths)) > 3:
+            return None
+        factor = w[0] / track.w[0]
+        w_now = self._in_time(list(w))
+        divisor = power_of_two(_exponent(max(map(abs, w_now))))
+        parts: list[list[float]] = []
+        for path, x, c, scale in zip(
+            paths, (track.x, track.y), self.center, self.scale, strict=True
+        ):
+            unit = power_of_two(-scale)
+            r = [a * factor for a in x] + [QQ(0)] * (len(path) + 3)
+            for i, a in enumerate(w):
+                for j, b in enumerate(path):
+                    r[i + j] -= a * b
+            r = self._in_time([a * unit for a in r[:3]])
+            p = self._in_time(_combine(list(path), [QQ(1)], -c, unit))
+            parts.append(_floats(p, QQ(1), 3))
+            parts.append([*_floats(r, divisor, 3), *_floats([r[0] / w_now[0]], QQ(1), 1)])
+        parts.append(_floats(w_now, divisor, 3))
+        if not all(map(_fits_in_arms, chain.from_iterable(parts))):
+            return None
+        pivot_x, arm_x, pivot_y, arm_y, denominator = parts
+        return Arm(pivot_x, pivot_y, arm_x, arm_y, denominator)
+
+    def _in_time(self, f: list[QQ]) -> list[QQ]:
+        return _substituted(f, self.origin, power_of_two(self.time_scale))
 
     @property
     def motion_count(self) -> int:
@@ -156,10 +207,12 @@ class Frame:
         x, y, w = ([QQ(c) for c in part] for part in (track.x, track.y, track.w))
         x = _combine(x, w, -cx, power_of_two(-self.scale[0]))
         y = _combine(y, w, -cy, power_of_two(-self.scale[1]))
-        step = power_of_two(self.time_scale)
-        return tuple(_substituted(f, self.origin, step) for f in (x, y, w))  # type: ignore[return-value]
+        return self._in_time(x), self._in_time(y), self._in_time(w)
 
     def _note_errors(self, exact: Sequence[QQ], floats: list[float], divisor: QQ) -> None:
+        # Rounding to nearest errs by at most U |c| / (1 + U), and so by at most U times the
+        # double; doubled, for a margin. A third of it would be wrong: 1 + U (1 - epsilon)
+        # becomes 1, with an error of nearly U.
         for i, c in enumerate(exact):
             error = abs(floats[i]) * (2.0 * U)
             if error > self.errors[i] and QQ(*floats[i].as_integer_ratio()) * divisor != c:
@@ -193,6 +246,11 @@ def _moderate(values: list[float]) -> bool:
     return all(v == 0.0 or SMALLEST <= abs(v) <= LARGEST for v in values)
 
 
+def _fits_in_arms(v: float) -> bool:
+    """Whether products of four such numbers do not underflow."""
+    return v == 0.0 or SMALLEST_OF_ARMS <= abs(v) <= LARGEST
+
+
 def _combine(f: list[QQ], g: list[QQ], a: QQ, factor: QQ) -> list[QQ]:
     """(f + a g) * factor."""
     size = max(len(f), len(g))
@@ -207,6 +265,8 @@ def _substituted(f: list[QQ], origin: QQ, step: QQ) -> list[QQ]:
     n = len(f)
     if origin:
         for i in range(n - 1):
+            if n > LONG:
+                ask()
             for j in range(n - 2, i - 1, -1):
                 f[j] += origin * f[j + 1]
     factor = QQ(1)
@@ -226,18 +286,22 @@ def frame_for(points: Sequence[tuple[QQ, QQ]], start: QQ, end: QQ) -> Frame:
     cy, sy = _axis([p[1] for p in points])
     span = end - start
     r = _exponent(span)
-    r = 0 if -30 <= r <= 30 else r
-    far = max(abs(start), abs(end)) > 64 * span
+    r = 0 if -10 <= r <= 10 else r
+    far = max(abs(start), abs(end)) > 16 * span
     return Frame((cx, cy), (sx, sy), start if far else QQ(0), r)
 
 
 def _axis(values: list[QQ]) -> tuple[QQ, int]:
-    low, high = min(values), max(values)
-    extent = max(high - low, QQ(0))
-    size = max(abs(low), abs(high))
-    center = low if size > extent * power_of_two(20) and size > power_of_two(40) else QQ(0)
-    exponent = _exponent(extent or size)
-    return center, (0 if -40 <= exponent <= 40 else exponent)
+    """The center and the scale of one coordinate.
+
+    The center is the value of least size if the others are near it: then doubles stay
+    doubles, being multiples of its last bit.
+    """
+    extent = max(values) - min(values)
+    least = min(values, key=abs)
+    center = least if abs(least) > 16 * extent else QQ(0)
+    exponent = _exponent(extent or max(map(abs, values)))
+    return center, (0 if -20 <= exponent <= 20 else exponent)
 
 
 def _exponent(value: QQ) -> int:

@@ -4,7 +4,48 @@ from __future__ import annotations
 
 from typing import final
 
-__all__ = ["Image"]
+__all__ = ["Arm", "Image"]
+
+
+@final
+class Arm:
+    """A trajectory as that of a pivot and an arm that turns: p(t) + r(t) / w(t).
+
+    It is normalised as an `Image` is; the relative error of each coefficient is at most one
+    unit. Vertices of one rigid motion have the same p and w.
+
+    Attributes:
+        p0, p1, p2, q0, q1, q2: x and y of the pivot.
+        x0, x1, x2, y0, y1, y2: x and y of r.
+        w0, w1, w2: the denominator, positive at every time.
+        x, y: r / w at the time 0.
+    """
+
+    __slots__ = (
+        "p0", "p1", "p2", "q0", "q1", "q2", "w0", "w1", "w2", "x", "x0", "x1", "x2", "y", "y0",
+        "y1", "y2",
+    )  # fmt: skip
+
+    def __init__(
+        self, p: list[float], q: list[float], x: list[float], y: list[float], w: list[float]
+    ) -> None:
+        self.p0: float = p[0]
+        self.p1: float = p[1]
+        self.p2: float = p[2]
+        self.q0: float = q[0]
+        self.q1: float = q[1]
+        self.q2: float = q[2]
+        self.x0: float = x[0]
+        self.x1: float = x[1]
+        self.x2: float = x[2]
+        self.y0: float = y[0]
+        self.y1: float = y[1]
+        self.y2: float = y[2]
+        self.w0: float = w[0]
+        self.w1: float = w[1]
+        self.w2: float = w[2]
+        self.x: float = x[3]
+        self.y: float = y[3]
 
 
 @final
@@ -12,21 +53,24 @@ class Image:
     """The doubles nearest to the normalised coefficients of a trajectory.
 
     With the error bounds `exactpt.motion.frame.Frame.errors` they enclose the trajectory.
-    If a coefficient is neither 0 nor of size 2^-100 to 2^100, all of them are NaN, which no
+    If a coefficient is neither 0 nor of size 2^-300 to 2^100, all of them are NaN, which no
     filter accepts.
 
     Attributes:
         x0, ..., x3, y0, ..., y3: the coefficients of a translating trajectory, up to t^3;
             0 above its degree.
         xs, ys: all coefficients; both lists have length ``degree`` + 1.
-        ws: the denominator's coefficients if the trajectory turns, else empty (a constant
-            denominator is divided out).
+        ws: the denominator's coefficients if the trajectory turns, up to a power of two
+            that makes the largest about 1; else empty (a constant denominator is divided out).
         degree: the degree of the trajectory; of the numerators if it turns.
+        arm: the trajectory once more, if it turns with a half turn of degree 1 about a pivot
+            whose path has at most degree 2; else None.
         motion: vertices of equal ``motion`` keep their difference (translating) or
             their distances (turning) for ever; -1 is equal to nothing.
     """
 
     __slots__ = (
+        "arm",
         "degree",
         "motion",
         "ws",
@@ -56,3 +100,4 @@ class Image:
         self.x3: float = xs[3] if len(xs) > 3 else 0.0
         self.y3: float = ys[3] if len(ys) > 3 else 0.0
         self.motion: int = motion
+        self.arm: Arm | None = None

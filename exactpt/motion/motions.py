@@ -24,7 +24,7 @@ from exactpt.kernel.numbers import (
     show,
 )
 from exactpt.kernel.polynomial import ONE, ZERO, Polynomial, polynomial
-from exactpt.motion.track import Track, track
+from exactpt.motion.track import Track, Turning, track
 
 __all__ = [
     "REST",
@@ -97,6 +97,10 @@ class Translation(_Given):
         """The trajectory of the vertex with this position in the rest frame."""
         return track(position[0] + self.x, position[1] + self.y, None, None)
 
+    def _at(self, t: QQ) -> tuple[QQ, QQ]:
+        """The displacement at a time."""
+        return self.x._at(t), self.y._at(t)
+
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         return (self.x, self.y), {}
 
@@ -148,8 +152,7 @@ class Rigid(_Given):
             scale = Polynomial([1 / w._at(QQ(0))])
             return track(x * scale, y * scale, None, None)
         rigid = position[0].degree <= 0 and position[1].degree <= 0
-        frame = ("turn", h, self._pivot, self.x, self.y) if rigid else None
-        return track(x, y, w, frame)
+        return track(x, y, w, Turning(h, px + self.x, py + self.y) if rigid else None)
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         pivot = (str(self._pivot[0]), str(self._pivot[1]))

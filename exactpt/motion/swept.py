@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Boxes, widen_unknown
+from exactpt.kernel.budget import ask
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 
 if TYPE_CHECKING:
@@ -30,30 +31,53 @@ class SweptBoxes:
     Args:
         images: the enclosures.
         errors: their error bounds, see `exactpt.motion.frame.Frame`.
+        drifting: whether the drift is subtracted; if not, it is 0.
 
     Attributes:
         drift: the coefficients of the drift in x and in y, the constant (0) first.
     """
 
-    def __init__(self, images: Sequence[Image], errors: Sequence[float]) -> None:
+    def __init__(
+        self, images: Sequence[Image], errors: Sequence[float], *, drifting: bool = True
+    ) -> None:
         size = max(len(image.xs) for image in images)
         self._xs, self._ys, self._ws = (np.zeros((len(images), size)) for _ in range(3))
-        for i, image in enumerate(images):
-            self._xs[i, : len(image.xs)] = image.xs
-            self._ys[i, : len(image.ys)] = image.ys
-            self._ws[i, : len(image.ws)] = image.ws
-        self._turning = np.array([bool(image.ws) for image in images])
+        self._turning = np.zeros(len(images), dtype=np.bool_)
         self.drift = np.zeros((2, size))
+        self.replace(0, images, errors)
         straight = ~self._turning & ~np.isnan(self._xs[:, 0])
-        if straight.any():
+        if drifting and straight.any():
             for drift, cs in zip(self.drift, (self._xs, self._ys), strict=True):
                 drift[1:] = np.median(cs[straight, 1:], axis=0)
                 cs[~self._turning] -= drift
+
+    def replace(self, first: int, images: Sequence[Image], errors: Sequence[float]) -> bool:
+        """Replace the enclosures from number ``first`` on, if none is of a larger degree.
+
+        The drift stays as it is: any will do.
+
+        Returns:
+            Whether they have been replaced.
+        """
+        size = self._xs.shape[1]
+        if any(len(image.xs) > size for image in images):
+            return False
+        for i, image in enumerate(images, start=first):
+            rest = [0.0] * (size - len(image.xs))
+            self._turning[i] = bool(image.ws)
+            self._ws[i] = image.ws + rest if image.ws else 0.0
+            self._xs[i], self._ys[i] = image.xs + rest, image.ys + rest
+            if not image.ws:
+                self._xs[i] -= self.drift[0]
+                self._ys[i] -= self.drift[1]
         self._errors = np.array([*errors, *[0.0] * size][:size])
+        return True
 
     @np.errstate(all="ignore")
-    def during(self, low: float, high: float) -> Boxes:
+    def during(self, low: Floats | float, high: Floats | float) -> Boxes:
         """A box for each trajectory less the drift, normalised, during low <= t <= high.
+
+        For arrays of shape (k,), boxes during each of k intervals: of shape (k, n, 4).
 
         Around the middle m of the interval, r its half-width, a polynomial is
         c'_0 + c'_1 (t - m) + ..., so it is off c'_0 by at most sum |c'_i| r^i. Computing
@@ -62,7 +86,7 @@ class SweptBoxes:
         themselves are off by ``errors[i]`` (of turning trajectories: by 2 u |c_i|), and by
         another u |c_i| from the subtraction of the drift. `TINY` covers underflow: an error
         below 2^-1070 grows by (1 + |m| + r)^n at most, and where that is large the leading
-        term, with a coefficient of 2^-100 or more, is larger. Where a bound is NaN, the box
+        term, with a coefficient of 2^-300 or more, is larger. Where a bound is NaN, the box
         is the whole plane.
         """
         x_low, x_high = self._range(self._xs, low, high)
@@ -71,34 +95,39 @@ class SweptBoxes:
             w_low, w_high = self._range(self._ws, low, high)
             drift_low, drift_high = self._range(self.drift, low, high, exact=True)
             x, y = (
-                _difference(_quotient(*place, w_low, w_high), drift_low[k], drift_high[k])
+                _difference(
+                    _quotient(*place, w_low, w_high),
+                    drift_low[..., k, None],
+                    drift_high[..., k, None],
+                )
                 for k, place in enumerate(((x_low, x_high), (y_low, y_high)))
             )
             x_low, x_high = np.where(self._turning, x, (x_low, x_high))
             y_low, y_high = np.where(self._turning, y, (y_low, y_high))
-        boxes = np.stack((x_low, x_high, y_low, y_high), axis=1)
+        boxes = np.stack((x_low, x_high, y_low, y_high), axis=-1)
         widen_unknown(boxes)
         return boxes
 
     def _range(
-        self, cs: Floats, low: float, high: float, *, exact: bool = False
+        self, cs: Floats, low: Floats | float, high: Floats | float, *, exact: bool = False
     ) -> tuple[Floats, Floats]:
         """Bounds of polynomials whose coefficients are exact, or have the known errors."""
         n = cs.shape[1]
-        m = 0.5 * (low + high)
-        r = max(high - m, m - low) * (1.0 + 4.0 * U)
-        shifted = cs.copy()
+        m = np.asarray(0.5 * (low + high))[..., None]
+        r = np.maximum(high - m[..., 0], m[..., 0] - low)[..., None] * (1.0 + 4.0 * U)
+        shifted = np.broadcast_to(cs, (*m.shape[:-1], *cs.shape)).copy()
         for i in range(n - 1):
+            ask()
             for j in range(n - 2, i - 1, -1):
-                shifted[:, j] += m * shifted[:, j + 1]
+                shifted[..., j] += m * shifted[..., j + 1]
         powers = r ** np.arange(n)
-        spread = np.abs(shifted[:, 1:]) @ powers[1:]
-        reach = (abs(m) + r) ** np.arange(n)
-        rounding = (np.abs(cs) @ reach) * (16.0 * n * U)
+        spread = (np.abs(shifted[..., 1:]) @ powers[..., 1:, None])[..., 0]
+        reach = (np.abs(m) + r) ** np.arange(n)
+        rounding = (np.abs(cs) @ reach[..., None])[..., 0] * (16.0 * n * U)
         if not exact:
-            rounding = rounding + self._errors @ reach
-        radius = (spread + rounding) * SLACK + 4.0 * U * np.abs(shifted[:, 0]) + TINY
-        return shifted[:, 0] - radius, shifted[:, 0] + radius
+            rounding = rounding + (reach @ self._errors)[..., None]
+        radius = (spread + rounding) * SLACK + 4.0 * U * np.abs(shifted[..., 0]) + TINY
+        return shifted[..., 0] - radius, shifted[..., 0] + radius
 
     @np.errstate(all="ignore")
     def stride(self, now: float) -> float:
@@ -134,7 +163,9 @@ def _value_and_slope(cs: Floats, t: float) -> tuple[Floats, Floats]:
     return value, slope
 
 
-def _difference(interval: tuple[Floats, Floats], low: float, high: float) -> tuple[Floats, Floats]:
+def _difference(
+    interval: tuple[Floats, Floats], low: Floats, high: Floats
+) -> tuple[Floats, Floats]:
     """The range of x - y for x in an interval and y in [low, high]."""
     least, most = interval[0] - high, interval[1] - low
     return least - 2.0 * U * np.abs(least) - TINY, most + 2.0 * U * np.abs(most) + TINY

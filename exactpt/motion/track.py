@@ -4,14 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from fractions import Fraction
-from typing import final
+from typing import NamedTuple, final
 
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate
 from exactpt.kernel.numbers import QQ, ZZ, Rational, gcd, place, rational
 from exactpt.kernel.packed import coefficient_bits, pack
 from exactpt.kernel.polynomial import Polynomial
 
-__all__ = ["Track", "track"]
+__all__ = ["Track", "Turning", "track"]
+
+
+class Turning(NamedTuple):
+    """The identity of a rigid motion that turns.
+
+    Attributes:
+        half_turn: the tangent of half the angle.
+        x, y: the path of the pivot.
+    """
+
+    half_turn: Polynomial
+    x: Polynomial
+    y: Polynomial
 
 
 @final

@@ -12,6 +12,7 @@ from itertools import accumulate, count
 from typing import TYPE_CHECKING, Final, final
 
 from exactpt.geometry.polygon import is_counter_clockwise
+from exactpt.indices import NO_VERTEX, VertexId
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.motion.convexity import stays_convex
@@ -61,15 +62,17 @@ class Vertex:
         "y",
     )
 
-    def __init__(self, vertex_id: int, body: int, index: int, track: Track, image: Image) -> None:
-        self.id: int = vertex_id
+    def __init__(
+        self, vertex_id: VertexId, body: int, index: int, track: Track, image: Image
+    ) -> None:
+        self.id: VertexId = vertex_id
         self.body: int = body
         self.index: int = index
         self.track: Track = track
         self.image: Image = image
         self.offset: Direction | None = None
-        self.ahead: int = -1
-        self.behind: int = -1
+        self.ahead: VertexId = NO_VERTEX
+        self.behind: VertexId = NO_VERTEX
         self.x: float = 0.0
         self.y: float = 0.0
         self.error: float = 0.0
@@ -95,7 +98,7 @@ class MovingBody:
 
     def __init__(self, body: Body) -> None:
         self.body = body
-        self.ring: list[int] = []
+        self.ring: list[VertexId] = []
         self.since: QQ = QQ(0)
         self.until: QQ | None = None
         self.horizon: float = float("inf")
@@ -127,11 +130,11 @@ class Vertices:
     def __init__(
         self,
         bodies: Sequence[Body],
-        rings: Sequence[Sequence[tuple[int, int]]],
+        rings: Sequence[Sequence[tuple[VertexId, int]]],
         since: Sequence[QQ],
         frame: Frame,
         end: QQ,
-        free: Sequence[int] = (),
+        free: Sequence[VertexId] = (),
         *,
         plain: bool = False,
     ) -> None:
@@ -140,9 +143,11 @@ class Vertices:
         self.changes: int = 0
         self._plain: bool = plain
         self._end: QQ = end
-        self.all: list[Vertex] = [_unused(v) for v in range(sum(map(len, rings)) + len(free))]
+        self.all: list[Vertex] = [
+            _unused(VertexId(v)) for v in range(sum(map(len, rings)) + len(free))
+        ]
         self.bodies: list[MovingBody] = []
-        self._free: list[int] = list(free)
+        self._free: list[VertexId] = list(free)
         for body, ring, t in zip(bodies, rings, since, strict=True):
             self._add(body, ring, t)
 
@@ -157,7 +162,7 @@ class Vertices:
         flat = [p for points in positions for p in points]
         ids = count()
         rings = [
-            [(next(ids), index) for index in _ring_indices(body, points, plain=plain)]
+            [(VertexId(next(ids)), index) for index in _ring_indices(body, points, plain=plain)]
             for body, points in zip(bodies, positions, strict=True)
         ]
         frame = frame_for(flat or [(QQ(0), QQ(0))], start, end)
@@ -170,8 +175,9 @@ class Vertices:
         """Add a body as the last one, at a rational time; returns its number."""
         i, indices = len(self.bodies), _ring_indices(body, body._at(t))
         while len(self._free) < len(indices):
-            self._free.insert(0, len(self.all))
-            self.all.append(_unused(len(self.all)))
+            new = VertexId(len(self.all))
+            self._free.insert(0, new)
+            self.all.append(_unused(new))
         self._add(body, [(self._free.pop(), index) for index in indices], t)
         self.bodies[i].is_tiled = self._may_pinch(i, t, self._end)
         return i
@@ -188,7 +194,7 @@ class Vertices:
             for v in last.ring:
                 self.all[v].body = i
 
-    def _add(self, body: Body, ring: Sequence[tuple[int, int]], t: QQ) -> None:
+    def _add(self, body: Body, ring: Sequence[tuple[VertexId, int]], t: QQ) -> None:
         i, moving = len(self.bodies), MovingBody(body)
         self.bodies.append(moving)
         for vertex_id, index in ring:
@@ -201,11 +207,11 @@ class Vertices:
         self.enter_piece(i, t)
 
     @property
-    def free(self) -> list[int]:
+    def free(self) -> list[VertexId]:
         """The unused ids, left by removed bodies; the last one is used first."""
         return self._free
 
-    def ids(self) -> list[int]:
+    def ids(self) -> list[VertexId]:
         """The ids in use, body by body."""
         return [v for moving in self.bodies for v in moving.ring]
 
@@ -274,13 +280,13 @@ class Vertices:
             self.frame.forget_motions({v.image.motion for v in self.all})
         return moving.is_tiled and not tiled
 
-    def name(self, vertex_id: int) -> str:
+    def name(self, vertex_id: VertexId) -> str:
         """The name in event logs: ``"body:vertex"``."""
         vertex = self.all[vertex_id]
         return f"{self.bodies[vertex.body].body.name}:{vertex.index}"
 
 
-def _unused(vertex_id: int) -> Vertex:
+def _unused(vertex_id: VertexId) -> Vertex:
     """A vertex that belongs to no body."""
     return Vertex(vertex_id, -1, -1, _NO_TRACK, _NO_IMAGE)
 

@@ -13,11 +13,14 @@ from collections.abc import Iterable
 from typing import final
 
 from exactpt.errors import AuditError
+from exactpt.indices import NO_VERTEX, HalfEdge, VertexId
 
-__all__ = ["NOTHING", "PlanarMap", "edge_key", "without_steps_back"]
+__all__ = ["PlanarMap", "edge_key", "twin", "without_steps_back"]
 
-NOTHING = -1
-"""The origin of a half-edge whose edge has been removed."""
+
+def twin(h: HalfEdge) -> HalfEdge:
+    """The half-edge of the same edge in the opposite direction."""
+    return h ^ 1  # type: ignore[return-value]  # a cast would be one more call
 
 
 @final
@@ -25,37 +28,41 @@ class PlanarMap:
     """Half-edges in parallel lists; a handle is an index.
 
     Attributes:
-        origin: the vertex where a half-edge starts; `NOTHING` for a free handle.
+        origin: the vertex where a half-edge starts; `NO_VERTEX` for a free handle.
         following: the next half-edge around the face on the left.
         previous: the half-edge before it around the face on the left.
     """
 
     def __init__(self) -> None:
-        self.origin: list[int] = []
-        self.following: list[int] = []
-        self.previous: list[int] = []
-        self._free: list[int] = []
+        self.origin: list[VertexId] = []
+        self.following: list[HalfEdge] = []
+        self.previous: list[HalfEdge] = []
+        self._free: list[HalfEdge] = []
 
-    def add_edge(self, u: int, v: int) -> int:
+    def add_edge(self, u: VertexId, v: VertexId) -> HalfEdge:
         """Add an edge, not linked yet; returns its half-edge from u to v (an even handle)."""
         if self._free:
             h = self._free.pop()
             self.origin[h], self.origin[h + 1] = u, v
         else:
-            h = len(self.origin)
+            h = HalfEdge(len(self.origin))
             self.origin += (u, v)
-            self.following += (h + 1, h)
-            self.previous += (h + 1, h)
+            self.following += (twin(h), h)
+            self.previous += (twin(h), h)
         return h
 
-    def link(self, h: int, g: int) -> None:
+    def link(self, h: HalfEdge, g: HalfEdge) -> None:
         """Make g the half-edge after h around their face."""
         self.following[h] = g
         self.previous[g] = h
 
     @classmethod
     def of(
-        cls, origin: list[int], following: list[int], previous: list[int], free: list[int]
+        cls,
+        origin: list[VertexId],
+        following: list[HalfEdge],
+        previous: list[HalfEdge],
+        free: list[HalfEdge],
     ) -> PlanarMap:
         """The map with these lists and these free handles, the last of which is used first."""
         self = cls()
@@ -63,7 +70,7 @@ class PlanarMap:
         return self
 
     @property
-    def free(self) -> list[int]:
+    def free(self) -> list[HalfEdge]:
         """The free handles (even), left by removed edges; the last one is used first."""
         return self._free
 
@@ -74,11 +81,11 @@ class PlanarMap:
         other.following, other.previous = self.following[:], self.previous[:]
         return other
 
-    def target(self, h: int) -> int:
+    def target(self, h: HalfEdge) -> VertexId:
         """The vertex where a half-edge ends."""
         return self.origin[h ^ 1]
 
-    def split_face(self, h: int, g: int) -> int:
+    def split_face(self, h: HalfEdge, g: HalfEdge) -> HalfEdge:
         """Split the face of h and g by a new edge from the origin of h to the origin of g.
 
             .--- g <--- o          .--- g <--- o
@@ -94,21 +101,21 @@ class PlanarMap:
         e = self.add_edge(self.origin[h], self.origin[g])
         self.link(before_h, e)
         self.link(e, g)
-        self.link(before_g, e ^ 1)
-        self.link(e ^ 1, h)
+        self.link(before_g, twin(e))
+        self.link(twin(e), h)
         return e
 
-    def remove_edge(self, h: int) -> None:
+    def remove_edge(self, h: HalfEdge) -> None:
         """Remove an edge between two different faces, which merge."""
-        g = h ^ 1
+        g = twin(h)
         before_h, after_h = self.previous[h], self.following[h]
         before_g, after_g = self.previous[g], self.following[g]
         self.link(before_h, after_g)
         self.link(before_g, after_h)
-        self.origin[h] = self.origin[g] = NOTHING
+        self.origin[h] = self.origin[g] = NO_VERTEX
         self._free.append(min(h, g))
 
-    def slide_origin(self, h: int) -> None:
+    def slide_origin(self, h: HalfEdge) -> None:
         r"""Move the origin of h back along the half-edge a before it.
 
             b     f     h                b     f
@@ -121,24 +128,24 @@ class PlanarMap:
         angle becomes 0, and that of a reflex angle that becomes straight.
         """
         a = self.previous[h]
-        b, t = self.previous[a], h ^ 1
+        b, t = self.previous[a], twin(h)
         c = self.following[t]
         self.link(b, h)
         self.link(t, a)
         self.link(a, c)
         self.origin[h] = self.origin[a]
 
-    def slide_target(self, a: int) -> None:
+    def slide_target(self, a: HalfEdge) -> None:
         """Move the target of a forward along the half-edge h after it: `slide_origin` mirrored."""
         h = self.following[a]
-        b, t = self.following[h], a ^ 1
+        b, t = self.following[h], twin(a)
         c = self.previous[t]
         self.link(a, b)
         self.link(h, t)
         self.link(c, h)
         self.origin[t] = self.origin[h ^ 1]
 
-    def face(self, h: int) -> list[int]:
+    def face(self, h: HalfEdge) -> list[HalfEdge]:
         """The half-edges of the face of h, in cyclic order from h."""
         cycle = [h]
         g = self.following[h]
@@ -147,18 +154,18 @@ class PlanarMap:
             g = self.following[g]
         return cycle
 
-    def fan(self, h: int) -> list[int]:
+    def star(self, h: HalfEdge) -> list[HalfEdge]:
         """The star of the origin of h: the half-edges out of it, counter-clockwise from h."""
-        fan = [h]
-        g = self.previous[h] ^ 1
+        star = [h]
+        g = twin(self.previous[h])
         while g != h:
-            fan.append(g)
-            g = self.previous[g] ^ 1
-        return fan
+            star.append(g)
+            g = twin(self.previous[g])
+        return star
 
-    def half_edges(self) -> list[int]:
+    def half_edges(self) -> list[HalfEdge]:
         """All half-edges in use, in increasing order."""
-        return [h for h, v in enumerate(self.origin) if v != NOTHING]
+        return [HalfEdge(h) for h, v in enumerate(self.origin) if v != NO_VERTEX]
 
     def audit(self) -> None:
         """Check the links.
@@ -174,11 +181,11 @@ class PlanarMap:
                 raise AuditError(f"half-edge {h} ends at {self.target(h)}, not at {self.origin[g]}")
 
 
-def without_steps_back(half_edges: Iterable[int]) -> list[int]:
+def without_steps_back(half_edges: Iterable[HalfEdge]) -> list[HalfEdge]:
     """A sequence of half-edges with every pair of successive twins cancelled."""
-    kept: list[int] = []
+    kept: list[HalfEdge] = []
     for h in half_edges:
-        if kept and kept[-1] == h ^ 1:
+        if kept and kept[-1] == twin(h):
             kept.pop()
         else:
             kept.append(h)

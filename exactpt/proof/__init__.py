@@ -1,4 +1,4 @@
-"""Proofs: what a small independent program needs to check an answer (docs/proofs.md)."""
+"""Proofs of answers, which a small independent program can verify (docs/proofs.md)."""
 
 from exactpt.proof.written import Proved, prove, write_proof
 

@@ -1,7 +1,7 @@
-"""From the faces of a mesh to those of the unperturbed free space.
+"""Contraction of the faces of a mesh to those of the unperturbed free space.
 
-The copies of a thin vertex become one; faces that have no area for ever are left out, and
-edges that run along such a face are cut at its vertices.
+The infinitesimal copies of a vertex become one vertex; faces that have no area for ever are
+left out, and edges along such a face are split at its vertices.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ __all__ = ["Cycle", "Face", "contract"]
 
 
 class Cycle(NamedTuple):
-    """A face that has an area, or the outer one: the vertices around it, from the least on."""
+    """A face with an area, or the outer face: the vertices around it, the least one first."""
 
     label: str
     nodes: tuple[int, ...]
@@ -29,7 +29,7 @@ class Face(NamedTuple):
     Attributes:
         label: "face", "inside" or "outer".
         around: its vertices in order.
-        corners: the three of a pseudo-triangle; none of another face.
+        corners: the three corners of a pseudo-triangle; empty for any other face.
     """
 
     label: str
@@ -42,12 +42,12 @@ def contract(
     is_flat: Callable[[int, int, int], bool],
     places: Callable[[], Sequence[tuple[QQ, QQ]]],
 ) -> set[Cycle]:
-    """The faces that have an area, and the outer one.
+    """The faces that have an area, and the outer face.
 
     Args:
-        faces: of a mesh, without the insides of rigid bodies.
-        is_flat: whether three vertices are on one line for ever.
-        places: where all vertices are, at some time at which the mesh is valid.
+        faces: the faces of a mesh, without the interiors of rigid bodies.
+        is_flat: whether three vertices are collinear for ever.
+        places: gives the positions of all vertices at some time at which the mesh is valid.
     """
     cuts: dict[tuple[int, int], set[int]] = {}
     whole = []
@@ -77,7 +77,7 @@ def _from_least(nodes: list[int]) -> tuple[int, ...]:
 def _cut(
     nodes: list[int], at: Sequence[tuple[QQ, QQ]], cuts: dict[tuple[int, int], set[int]]
 ) -> None:
-    """Cut the edges of a face without area at its vertices that lie inside them."""
+    """Split the edges of a face without area at its vertices in their interiors."""
     ordered = sorted(set(nodes), key=lambda v: at[v])
     rank = {v: i for i, v in enumerate(ordered)}
     for u, v in pairwise([*nodes, nodes[0]]):
@@ -89,7 +89,7 @@ def _cut(
 def _path(
     u: int, v: int, cuts: dict[tuple[int, int], set[int]], at: Sequence[tuple[QQ, QQ]]
 ) -> Iterator[int]:
-    """The vertices from u to v along an edge and its cuts, without v."""
+    """The vertices from u to v along an edge with its splits, v excluded."""
     inside = cuts.get(edge_key(u, v))
     if not inside:
         yield u

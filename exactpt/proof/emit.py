@@ -1,4 +1,4 @@
-"""The lines of a proof, written as a tiling runs to the first contact."""
+"""The lines of a proof, generated while a tiling runs to the first contact."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import check_tiling, tiling_for_contact
 from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.proof.changes import Angle, Angles, HalfEdge, change, followers
-from exactpt.proof.engine import OneSided, Run
+from exactpt.proof.changes import Angle, Angles, DirectedEdge, change, followers
 from exactpt.proof.nodes import Nodes
-from exactpt.proof.times import time_in_words
+from exactpt.proof.run import Run, Step
+from exactpt.proof.times import time_text
 from exactpt.scene.format import to_json
 
 if TYPE_CHECKING:
@@ -28,24 +28,24 @@ __all__ = ["Proof", "scene_bytes"]
 
 
 def scene_bytes(scene: Scene) -> bytes:
-    """The file that `Scene.save` writes: what a proof of a scene made in Python is a proof of."""
+    """The bytes that `Scene.save` writes: the file to which a proof of this scene refers."""
     return (json.dumps(to_json(scene), indent=1) + "\n").encode()
 
 
 @final
 class Proof:
-    """The proof of the first contact of a scene, made line by line.
+    """The proof of the first contact of a scene, generated line by line.
 
     Args:
-        scene: what moves.
-        tiling: which tiling to keep, as for `exactpt.first_contact`.
+        scene: the scene.
+        tiling: the name of the tiling, as for `exactpt.first_contact`.
         scene_file: the bytes of the scene's file; by default those that `Scene.save` writes.
-        exact_only: decide everything by exact arithmetic.
-        max_events: no more events of the tiling than these.
+        exact_only: whether the float filters are switched off.
+        max_events: the maximum number of events of the tiling; None for no limit.
 
     Attributes:
         tiling: the name of the tiling.
-        contact: the first contact, or None; known when all lines have been made.
+        contact: the first contact, or None; known once all lines have been generated.
     """
 
     def __init__(
@@ -65,20 +65,20 @@ class Proof:
         self._file = scene_bytes(scene) if scene_file is None else scene_file
         self._nodes = Nodes(scene)
         self._angles = Angles(self._nodes)
-        self._after: dict[HalfEdge, HalfEdge] = {}
+        self._after: dict[DirectedEdge, DirectedEdge] = {}
         self.contact: Contact | None = None
 
     @property
     def kinetic(self) -> Tiling | None:
-        """The tiling that is kept; None before the run, or if there is none."""
+        """The tiling; None before the run, or if there is no run."""
         return None if self._running is None else self._running.kinetic
 
     def reached(self) -> QQ:
-        """A rational time up to which there is provably no contact."""
+        """A rational time before which there is provably no contact."""
         return self._scene.start if self._running is None else self._running.reached()
 
     def lines(self) -> Iterator[str]:
-        """The lines, without their ends."""
+        """The lines, without line ends."""
         scene = self._scene
         yield "exactpt-proof 1"
         yield f"scene sha256 {hashlib.sha256(self._file).hexdigest()}"
@@ -98,50 +98,50 @@ class Proof:
         exact_only, most = self._options
         run = Run(self._scene, self._nodes, self.tiling, exact_only=exact_only, max_events=most)
         self._running = run
-        moments = run.moments()
-        first = next(moments)
+        steps = run.steps()
+        first = next(steps)
         faces = sorted(first.come)
         links = followers(face.nodes for face in faces)
         self._after = links | followers(self._nodes.solid_faces())
         for label, cycle in faces:
             yield f"{label} {' '.join(map(str, cycle))}"
         self._angles.begin(_angles(links, {}), first.time)
-        for moment in moments:
-            yield from self._event(moment)
+        for step in steps:
+            yield from self._event(step)
         end = AlgebraicNumber(self._scene.end) if not run.touches else run.now
         yield from self._renewals(end)
         if run.touches:
             self.contact = contact_of(self._scene, run.now, run.touches)
             names = [*run.names(), *map(self._name, run.touches)]
-            time_text = time_in_words(run.now, names, self._nodes)
-            yield f"contact {time_text} {self._touch(run.touches[0])}"
+            when = time_text(run.now, names, self._nodes)
+            yield f"contact {when} {self._touch(run.touches[0])}"
         else:
             yield "none"
 
-    def _event(self, moment: OneSided) -> Iterator[str]:
-        """The line of an event, if it has items; before it those of angles that vanish alone."""
-        yield from self._renewals(moment.time)
-        renewed = self._angles.due(moment.time)
-        old, new = (followers(f.nodes for f in faces) for faces in (moment.gone, moment.come))
-        words = change(self._after, old, new, self._is_body_edge)
+    def _event(self, step: Step) -> Iterator[str]:
+        """The line of an event, if it has items, after those of renewals before it."""
+        yield from self._renewals(step.time)
+        renewed = self._angles.vanishing(step.time)
+        old, new = (followers(f.nodes for f in faces) for faces in (step.gone, step.come))
+        items = change(self._after, old, new, self._is_body_edge)
         begun = _angles(new, old)
         changed = {(v, w) for _, v, w in begun}
         renewed = [
             angle for angle in renewed if angle[1:] in self._after and angle[1:] not in changed
         ]
-        words += [f"= {v} {w}" for _, v, w in renewed]
+        items += [f"= {v} {w}" for _, v, w in renewed]
         self._angles.end(old.keys() - new.keys())
-        self._angles.begin([*begun, *renewed], moment.time)
-        if words:
-            yield f"event {time_in_words(moment.time, moment.names, self._nodes)} {' '.join(words)}"
+        self._angles.begin([*begun, *renewed], step.time)
+        if items:
+            yield f"event {time_text(step.time, step.names, self._nodes)} {' '.join(items)}"
 
     def _renewals(self, until: AlgebraicNumber) -> Iterator[str]:
-        """The lines of angles that vanish before a time, at which nothing else happens."""
+        """The lines of angles that vanish before a time, when the map does not change."""
         while (time := self._angles.next_time()) is not None and time.compare(until) < 0:
-            angles = self._angles.due(time)
+            angles = self._angles.vanishing(time)
             self._angles.begin(angles, time)
-            words = " ".join(f"= {v} {w}" for _, v, w in angles)
-            yield f"event {time_in_words(time, angles, self._nodes)} {words}"
+            items = " ".join(f"= {v} {w}" for _, v, w in angles)
+            yield f"event {time_text(time, angles, self._nodes)} {items}"
 
     def _is_body_edge(self, u: int, v: int) -> bool:
         i = self._nodes.body_of[u]
@@ -167,7 +167,7 @@ class Proof:
         return f"vertex {v} {'edge' if touch.edge >= 0 else 'vertex'} {' '.join(map(str, others))}"
 
     def _overlap(self, i: int, j: int) -> str:
-        """What two bodies have in common at the start if no vertex of one is on the other."""
+        """A common point of two bodies at the start, if none is a vertex on a boundary."""
         bodies = [self._scene.bodies[k] for k in (i, j)]
         p, q = (body._at(self._scene.start) for body in bodies)
         of_p, of_q = (body.edges for body in bodies)
@@ -181,6 +181,8 @@ class Proof:
         return f"vertex {self._nodes.first[i]} inside {j}"
 
 
-def _angles(links: dict[HalfEdge, HalfEdge], old: dict[HalfEdge, HalfEdge]) -> list[Angle]:
-    """The angles of some links that older ones do not have."""
+def _angles(
+    links: dict[DirectedEdge, DirectedEdge], old: dict[DirectedEdge, DirectedEdge]
+) -> list[Angle]:
+    """The angles of new links that are not among the old ones."""
     return [(u, v, w) for (u, v), (_, w) in links.items() if old.get((u, v)) != (v, w)]

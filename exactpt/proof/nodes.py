@@ -1,4 +1,4 @@
-"""The vertices of a scene, numbered through, and what is true of them for ever or for how long."""
+"""The vertices of a scene with consecutive numbers, and exact functions of their motions."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ __all__ = ["Nodes"]
 
 @final
 class Nodes:
-    """The vertices of a scene: bodies in order, each body's in order.
+    """The vertices of a scene, numbered body by body.
 
     Attributes:
         scene: the scene.
-        first: of each body, the number of its first vertex.
-        body_of: of each vertex, the number of its body.
-        rigid: of each body, whether it keeps its shape during the scene.
+        first: for each body, the number of its first vertex.
+        body_of: for each vertex, the number of its body.
+        rigid: for each body, whether it keeps its shape during the scene.
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -56,12 +56,12 @@ class Nodes:
         return rings
 
     def track(self, v: int, after: QQ) -> Track:
-        """The track of a vertex just after a rational time."""
+        """The trajectory of a vertex just after a rational time."""
         i = self.body_of[v]
         return self.scene.bodies[i]._piece_after(after).tracks[v - self.first[i]]
 
     def last_break(self, i: int, time: AlgebraicNumber) -> QQ:
-        """The last breakpoint of a body up to a time, or the start of the scene."""
+        """The last breakpoint of a body not after a time, or the start of the scene."""
         breaks = self.scene.bodies[i]._breakpoints
         return max(
             (b for b in breaks if b > self.scene._start and time.compare_rational(b) >= 0),
@@ -85,9 +85,10 @@ class Nodes:
         return sorted({b for i in bodies for b in self.scene.bodies[i]._breakpoints})
 
     def fails(self, angle: tuple[int, int, int], now: AlgebraicNumber) -> AlgebraicNumber | None:
-        """When an angle that begins now vanishes, or is straight no longer; None: never.
+        """The time at which an angle that begins now vanishes, or ceases to be flat; None if never.
 
-        A straight one vanishes where two vertices coincide: that is a contact, and left out.
+        A flat angle vanishes where two of its vertices coincide; that is a contact, and is not
+        considered here.
         """
         a, p, b = angle
         i = self.body_of[p]

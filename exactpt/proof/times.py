@@ -1,4 +1,4 @@
-"""Names of times: what vanishes then, and the coarsest interval in which nothing else does."""
+"""Names of times: a function that vanishes then, and a coarse isolating interval."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.proof.nodes import Nodes
 
-__all__ = ["time_in_words"]
+__all__ = ["time_text"]
 
 
-def time_in_words(time: AlgebraicNumber, names: Iterable[tuple[int, ...]], nodes: Nodes) -> str:
-    """A time as in docs/proofs.md.
+def time_text(time: AlgebraicNumber, names: Iterable[tuple[int, ...]], nodes: Nodes) -> str:
+    """A time in the notation of docs/proofs.md.
 
     Args:
         time: within the time span.
-        names: vertices, three or two, of which the orientation or the difference of
-            abscissas may vanish then; if none does, coefficients are written.
-        nodes: the vertices.
+        names: triples or pairs of vertices whose orientation or difference of abscissas may
+            vanish then; if none does, the coefficients of a polynomial are written.
+        nodes: the vertices of the scene.
     """
     time.simplified()
     if time.is_rational:
@@ -41,9 +41,10 @@ def time_in_words(time: AlgebraicNumber, names: Iterable[tuple[int, ...]], nodes
 
 
 def _interval(time: AlgebraicNumber, f: IntPoly, breaks: list[QQ], end: QQ) -> tuple[QQ, QQ]:
-    """Neighbours m / 2^k and (m + 1) / 2^k with this root of f between them, and no other.
+    """The interval from m / 2^k to (m + 1) / 2^k that isolates this root of f, for the least k.
 
-    The first of them, from those of the size of the time on; no breakpoint is inside.
+    The interval contains no other root and no breakpoint in its interior; k begins where 2^-k
+    has the size of the time.
     """
     size = max(abs(time._low), abs(end))
     k = size.denominator.bit_length() - size.numerator.bit_length()

@@ -1,4 +1,4 @@
-"""Proofs as files: written as a tiling runs, complete or not there."""
+"""Proofs as files, written while a tiling runs; a file is complete or absent."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Proved(NamedTuple):
     Attributes:
         contact: the first contact, or None.
         scene: the bytes of the scene's file.
-        proof: those of the proof.
+        proof: the bytes of the proof.
     """
 
     contact: Contact | None
@@ -38,10 +38,10 @@ def prove(
     """The first contact of a scene by a tiling, with its proof.
 
     Args:
-        scene: what moves.
-        tiling: which tiling to keep.
+        scene: the scene.
+        tiling: the name of the tiling.
         scene_file: the bytes of the scene's file; by default those that `Scene.save` writes.
-        exact_only: decide everything by exact arithmetic.
+        exact_only: whether the float filters are switched off.
     """
     file = scene_bytes(scene) if scene_file is None else scene_file
     proof = Proof(scene, tiling=tiling, scene_file=file, exact_only=exact_only)
@@ -51,16 +51,16 @@ def prove(
 
 @final
 class ProvedSearch:
-    """A search for the first contact by a tiling that writes its proof.
+    """A search for the first contact by a tiling, which writes a proof of its answer.
 
     Args:
-        scene: what moves.
-        path: of the proof.
-        tiling: which tiling to keep.
-        scene_file: the bytes of the scene's file. Without, the scene is written beside the
-            proof, with ``.scene.json`` after its name.
-        exact_only: decide everything by exact arithmetic.
-        max_events: no more events of the tiling than these.
+        scene: the scene.
+        path: the path of the proof.
+        tiling: the name of the tiling.
+        scene_file: the bytes of the scene's file; by default the scene is written beside the
+            proof, with ``.scene.json`` appended to its name.
+        exact_only: whether the float filters are switched off.
+        max_events: the maximum number of events of the tiling; None for no limit.
     """
 
     def __init__(
@@ -90,16 +90,16 @@ class ProvedSearch:
 
     @property
     def stats(self) -> dict[str, object]:
-        """The figures of the run; see `exactpt.simulation.report`."""
+        """The counts of the run; see `exactpt.simulation.report`."""
         kinetic = self._proof.kinetic
         counts = Counts(0, 0, {}) if kinetic is None else kinetic.vertices.counters.now()
         return report(self._scene, kinetic, counts)
 
     def run_to_contact(self) -> Contact | None:
-        """The first contact, or None; the proof has been written then.
+        """Write the proof, and return the first contact, or None.
 
         Raises:
-            BudgetExceeded: if there are too many events.
+            BudgetExceeded: if there are more than ``max_events`` events.
             InputError: if a file cannot be written.
         """
         if self._beside:
@@ -110,7 +110,7 @@ class ProvedSearch:
         return self._proof.contact
 
     def passed(self) -> QQ:
-        """A rational time up to which there is provably no contact."""
+        """A rational time before which there is provably no contact."""
         return self._proof.reached()
 
 
@@ -122,7 +122,7 @@ def write_proof(
     scene_file: bytes | None = None,
     exact_only: bool = False,
 ) -> Contact | None:
-    """The first contact of a scene, or None, by a tiling; its proof is written to a file.
+    """The first contact of a scene, or None, by a tiling; the proof is written to a file.
 
     Args and raises: as `ProvedSearch`.
     """

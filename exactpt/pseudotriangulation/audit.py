@@ -6,9 +6,10 @@ from itertools import pairwise
 
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
+from exactpt.indices import HalfEdge
 from exactpt.pseudotriangulation.mesh import SOLID, Mesh
 
-__all__ = ["audit_angles", "audit_fan"]
+__all__ = ["audit_angles", "audit_star"]
 
 
 def audit_angles(mesh: Mesh, predicates: Predicates) -> None:
@@ -24,10 +25,10 @@ def audit_angles(mesh: Mesh, predicates: Predicates) -> None:
         if mesh.region[h] != SOLID and a != b and (predicates.sign(a, p, b) > 0) != mesh.corner[h]:
             raise AuditError(f"angle {h} at vertices {a}, {p}, {b} is not as marked")
     for h in mesh.ring_edges():
-        audit_fan(mesh, h, predicates)
+        audit_star(mesh, h, predicates)
 
 
-def audit_fan(mesh: Mesh, h: int, predicates: Predicates) -> None:
+def audit_star(mesh: Mesh, h: HalfEdge, predicates: Predicates) -> None:
     """Check that the star of a vertex turns once around it, counter-clockwise.
 
     The angles from the first half-edge to the others must increase between 0 and 2 pi.
@@ -37,7 +38,7 @@ def audit_fan(mesh: Mesh, h: int, predicates: Predicates) -> None:
     """
     m = mesh.map
     v = m.origin[h]
-    targets = [m.target(g) for g in m.fan(h)]
+    targets = [m.target(g) for g in m.star(h)]
     base = targets[0]
     for u, w in pairwise(targets[1:]):
         # Angle from the first half-edge: 1 if below pi, 0 if pi, -1 if above.

@@ -8,9 +8,12 @@ from functools import cmp_to_key
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
+from exactpt.indices import HalfEdge, Triple, VertexId
+from exactpt.kernel.budget import ask
+from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import INSIDE, OUTER, SOLID, Diagonal, Mesh
 
-__all__ = ["build_mesh", "fan_order"]
+__all__ = ["build_mesh", "star_order"]
 
 
 def build_mesh(
@@ -30,8 +33,8 @@ def build_mesh(
     vertices = instant.vertices.all
     if mesh is None:
         mesh = Mesh(len(vertices))
-    around: list[list[int]] = [[] for _ in vertices]
-    inside: dict[int, list[int]] = {}
+    around: list[list[HalfEdge]] = [[] for _ in vertices]
+    inside: dict[VertexId, list[HalfEdge]] = {}
     for body in instant.vertices.bodies:
         for v in body.ring:
             mesh.ring_edge[v] = mesh.add_edge(v, vertices[v].ahead, boundary=True)
@@ -41,50 +44,50 @@ def build_mesh(
         mesh.region[h] = mesh.region[h ^ 1] = region
         if region == INSIDE:
             inside.setdefault(u, []).append(h)
-            inside.setdefault(v, []).append(h ^ 1)
+            inside.setdefault(v, []).append(twin(h))
         else:
             around[u].append(h)
-            around[v].append(h ^ 1)
+            around[v].append(twin(h))
     link = mesh.map.link
     for v in instant.vertices.ids():
         # Counter-clockwise: the edge to the next vertex of the ring, the diagonals inside the
         # body, the edge to the vertex before, the diagonals in free space.
-        ahead, behind = mesh.ring_edge[v], mesh.ring_edge[vertices[v].behind] ^ 1
-        fan = _sorted_fan(instant, mesh, v, ahead, inside[v]) if v in inside else []
-        fan.append(behind)
-        fan += _sorted_fan(instant, mesh, v, behind, around[v])
+        ahead, behind = mesh.ring_edge[v], twin(mesh.ring_edge[vertices[v].behind])
+        star = _sorted_star(instant, mesh, v, ahead, inside[v]) if v in inside else []
+        star.append(behind)
+        star += _sorted_star(instant, mesh, v, behind, around[v])
         before = ahead
-        for h in fan:
-            link(h ^ 1, before)
+        for h in star:
+            link(twin(h), before)
             before = h
-        link(ahead ^ 1, before)
+        link(twin(ahead), before)
     _mark_angles(instant, mesh)
     return mesh
 
 
-def _sorted_fan(
-    instant: PredicatesAt, mesh: Mesh, v: int, reference: int, edges: list[int]
-) -> list[int]:
+def _sorted_star(
+    instant: PredicatesAt, mesh: Mesh, v: VertexId, reference: HalfEdge, edges: list[HalfEdge]
+) -> list[HalfEdge]:
     """The half-edges out of v in counter-clockwise order from a reference half-edge."""
     if len(edges) < 2:
         return edges
-    return sorted(edges, key=cmp_to_key(fan_order(instant, mesh, v, reference)))
+    return sorted(edges, key=cmp_to_key(star_order(instant, mesh, v, reference)))
 
 
-def fan_order(
-    predicates: Predicates, mesh: Mesh, v: int, reference: int
-) -> Callable[[int, int], int]:
+def star_order(
+    predicates: Predicates, mesh: Mesh, v: VertexId, reference: HalfEdge
+) -> Callable[[HalfEdge, HalfEdge], int]:
     """A comparison of half-edges out of v by their angles in [0, 2 pi) from a reference."""
     target, base = mesh.map.target, mesh.map.target(reference)
-    known: dict[int, int] = {}
+    known: dict[HalfEdge, int] = {}
 
-    def half(h: int) -> int:
+    def half(h: HalfEdge) -> int:
         """1 if the angle from the reference is below pi, 0 if pi, -1 if above."""
         if h not in known:
             known[h] = predicates.sign(v, base, target(h))
         return known[h]
 
-    def order(g: int, h: int) -> int:
+    def order(g: HalfEdge, h: HalfEdge) -> int:
         if half(g) != half(h):
             return half(h) - half(g)
         return -predicates.sign(v, target(g), target(h))
@@ -94,8 +97,8 @@ def fan_order(
 
 def _mark_angles(instant: PredicatesAt, mesh: Mesh) -> None:
     m = mesh.map
-    angles: list[int] = []
-    triples: list[tuple[int, int, int]] = []
+    angles: list[HalfEdge] = []
+    triples: list[Triple] = []
     for h in m.half_edges():
         if mesh.region[h] != SOLID:
             a, b = m.origin[m.previous[h]], m.target(h)
@@ -109,10 +112,11 @@ def _mark_angles(instant: PredicatesAt, mesh: Mesh) -> None:
     seen = [False] * len(m.origin)
     for h in m.half_edges():
         if not seen[h] and mesh.region[h] != SOLID:
+            ask()
             _mark_face(instant, mesh, h, seen)
 
 
-def _mark_face(instant: PredicatesAt, mesh: Mesh, first: int, seen: list[bool]) -> None:
+def _mark_face(instant: PredicatesAt, mesh: Mesh, first: HalfEdge, seen: list[bool]) -> None:
     """Mark the outer face; every other face must have three corners."""
     m = mesh.map
     corners = 0

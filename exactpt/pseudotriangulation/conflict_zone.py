@@ -17,6 +17,8 @@ from typing import TYPE_CHECKING, NamedTuple, final
 from exactpt.errors import AuditError, InputError
 from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.geometry.predicates import Point, side
+from exactpt.indices import HalfEdge, VertexId
+from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import INSIDE, OUTER, SOLID, Mesh
 
 if TYPE_CHECKING:
@@ -35,8 +37,8 @@ class ConflictZone(NamedTuple):
         crossed: one half-edge of every diagonal that it meets.
     """
 
-    faces: list[int]
-    crossed: list[int]
+    faces: list[HalfEdge]
+    crossed: list[HalfEdge]
 
 
 def find_conflict_zone(vertices: Vertices, mesh: Mesh, body: Body, t: QQ) -> ConflictZone:
@@ -66,58 +68,62 @@ class _Search:
         self.edges = [(self.points[u], self.points[v]) for u, v in pairs]
         self.low = min(p[0] for p in self.points), min(p[1] for p in self.points)
         self.high = max(p[0] for p in self.points), max(p[1] for p in self.points)
-        self.known: dict[int, Point] = {}
+        self.known: dict[VertexId, Point] = {}
 
     def zone(self) -> ConflictZone:
         """The conflict zone of the body."""
         if not self.vertices.bodies:
             return ConflictZone([], [])
         first = self._face_around(self.points[0])
-        faces, crossed, touched = [first[0]], dict[int, None](), set[int]()
+        faces, crossed, touched = [first[0]], dict[HalfEdge, None](), set[int]()
         if self.mesh.region[first[0]] in (SOLID, INSIDE):
             touched.add(self._body_at(first[0]))
         seen, todo = set(first), [first]
         for face in todo:
             for h in face:
-                if min(h, h ^ 1) in crossed or not self._meets(h):
+                if min(h, twin(h)) in crossed or not self._meets(h):
                     continue
                 if self.mesh.is_boundary(h):
                     touched.add(self._body_at(h))
                     continue
-                crossed[min(h, h ^ 1)] = None
+                crossed[min(h, twin(h))] = None
                 if h ^ 1 not in seen:
-                    beyond = self.mesh.map.face(h ^ 1)
+                    beyond = self.mesh.map.face(twin(h))
                     seen.update(beyond)
                     todo.append(beyond)
-                    faces.append(h ^ 1)
+                    faces.append(twin(h))
         # A body inside the new one is connected to what lies outside of it, if anything
         # does; so is the first face.
         touched.update(
-            self._body_at(g) for h in [*crossed, first[0]] for g in (h, h ^ 1) if self._swallows(g)
+            self._body_at(g)
+            for h in [*crossed, first[0]]
+            for g in (h, twin(h))
+            if self._swallows(g)
         )
         if touched:
             name = self.vertices.bodies[min(touched)].body.name
             raise InputError(f"body {self.body.name!r} touches body {name!r} at t = {self.t}")
         return ConflictZone(faces, list(crossed))
 
-    def _at(self, v: int) -> Point:
+    def _at(self, v: VertexId) -> Point:
         """The position of a vertex."""
         if v not in self.known:
             self.known[v] = self.vertices.all[v].track._at(self.t)
         return self.known[v]
 
-    def _ends(self, h: int) -> tuple[Point, Point]:
+    def _ends(self, h: HalfEdge) -> tuple[Point, Point]:
         u, v = self.mesh.ends(h)
         return self._at(u), self._at(v)
 
-    def _body_at(self, h: int) -> int:
+    def _body_at(self, h: HalfEdge) -> int:
         return self.vertices.all[self.mesh.map.origin[h]].body
 
-    def _face_around(self, p: Point) -> list[int]:
+    def _face_around(self, p: Point) -> list[HalfEdge]:
         """A closed face that contains a point."""
         m = self.mesh.map
-        seen: set[int] = set()
-        waiting = [(0.0, self.mesh.ring_edge[self.vertices.bodies[-1].ring[0]] ^ 1)]
+        seen: set[HalfEdge] = set()
+        first = self.mesh.ring_edge[self.vertices.bodies[-1].ring[0]]
+        waiting = [(0.0, twin(first))]
         target = self.vertices.frame.point(p)
         while waiting:
             _, first = heapq.heappop(waiting)
@@ -130,10 +136,10 @@ class _Search:
                 return face
             for h in face:
                 if h ^ 1 not in seen:
-                    heapq.heappush(waiting, (self._distance(h, target), h ^ 1))
+                    heapq.heappush(waiting, (self._distance(h, target), twin(h)))
         raise AuditError(f"no face around ({p[0]}, {p[1]})")
 
-    def _distance(self, h: int, target: tuple[float, float]) -> float:
+    def _distance(self, h: HalfEdge, target: tuple[float, float]) -> float:
         """An estimate of the distance from an edge to a normalised position."""
         (ax, ay), (bx, by) = map(self.vertices.frame.point, self._ends(h))
         dx, dy, px, py = bx - ax, by - ay, target[0] - ax, target[1] - ay
@@ -141,7 +147,7 @@ class _Search:
         s = min(max((px * dx + py * dy) / square, 0.0), 1.0) if square > 0.0 else 0.0
         return math.hypot(px - s * dx, py - s * dy)
 
-    def _turns(self, face: Sequence[int], p: Point) -> int:
+    def _turns(self, face: Sequence[HalfEdge], p: Point) -> int:
         """The winding number of a face around a point, half-open in y as in `contains`."""
         turns = 0
         for h in face:
@@ -154,7 +160,7 @@ class _Search:
                     turns -= s < 0
         return turns
 
-    def _meets(self, h: int) -> bool:
+    def _meets(self, h: HalfEdge) -> bool:
         """Whether the boundary of the body meets the closed edge of a half-edge."""
         a, b = self._ends(h)
         for axis in (0, 1):
@@ -162,6 +168,6 @@ class _Search:
                 return False
         return any(segments_meet(a, b, c, d) for c, d in self.edges)
 
-    def _swallows(self, h: int) -> bool:
+    def _swallows(self, h: HalfEdge) -> bool:
         """Whether the body is a polygon that contains the origin of a half-edge."""
         return self.body.has_interior and contains(self.points, self._at(self.mesh.map.origin[h]))

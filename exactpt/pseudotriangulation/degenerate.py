@@ -12,8 +12,10 @@ from __future__ import annotations
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.perturbation import comes_first
 from exactpt.errors import AuditError
+from exactpt.indices import HalfEdge, Triple
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.vertices import Vertex
+from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, Mesh
 
 __all__ = ["close_at"]
@@ -49,24 +51,24 @@ def close_at(mesh: Mesh, instant: PredicatesAt) -> bool:
     return changed
 
 
-def _angle(mesh: Mesh, h: int) -> tuple[int, int, int]:
+def _angle(mesh: Mesh, h: HalfEdge) -> Triple:
     m = mesh.map
     return m.origin[m.previous[h]], m.origin[h], m.origin[h ^ 1]
 
 
-def _has_closed(mesh: Mesh, h: int, instant: PredicatesAt) -> bool:
+def _has_closed(mesh: Mesh, h: HalfEdge, instant: PredicatesAt) -> bool:
     a, p, b = _angle(mesh, h)
     may_close = mesh.region[h] in (FREE, INSIDE) and mesh.corner[h] and a != b
     return may_close and instant.sign(a, p, b) <= 0
 
 
-def _first(mesh: Mesh, closed: set[int], instant: PredicatesAt) -> int:
+def _first(mesh: Mesh, closed: set[HalfEdge], instant: PredicatesAt) -> HalfEdge:
     """The least closed corner; among infinitesimal copies of its triple, the first to close."""
     all_vertices = instant.vertices.all
     number = AlgebraicNumber(instant.time)
     first, *others = sorted(closed)
 
-    def vertices(h: int) -> tuple[Vertex, Vertex, Vertex]:
+    def vertices(h: HalfEdge) -> tuple[Vertex, Vertex, Vertex]:
         a, p, b = _angle(mesh, h)
         return all_vertices[a], all_vertices[p], all_vertices[b]
 
@@ -78,7 +80,7 @@ def _first(mesh: Mesh, closed: set[int], instant: PredicatesAt) -> int:
     return first
 
 
-def _collapse(mesh: Mesh, h: int, instant: PredicatesAt) -> list[int]:
+def _collapse(mesh: Mesh, h: HalfEdge, instant: PredicatesAt) -> list[HalfEdge]:
     """Collapse one corner; returns the half-edges whose angles may have changed."""
     m = mesh.map
     a, p, b = _angle(mesh, h)
@@ -91,7 +93,7 @@ def _collapse(mesh: Mesh, h: int, instant: PredicatesAt) -> list[int]:
         edge = h if origin_moves else before
     if mesh.is_boundary(edge):
         raise AuditError(f"a vertex is on the body edge {mesh.ends(edge)}")
-    nearby = [*face, *m.face(edge ^ 1)]
+    nearby = [*face, *m.face(twin(edge))]
     if len(face) == 3:
         mesh.dissolve_triangle(edge)
     else:

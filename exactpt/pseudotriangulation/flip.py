@@ -15,12 +15,13 @@ from typing import NamedTuple
 
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
-from exactpt.pseudotriangulation.mesh import FREE, Mesh
+from exactpt.indices import NO_HALF_EDGE, Ends, HalfEdge, Triple, VertexId
+from exactpt.planar.halfedge import twin
+from exactpt.pseudotriangulation.mesh import Mesh
 
 __all__ = [
     "Flip",
     "crosses",
-    "facing_visit",
     "flip",
     "flip_until_greedy",
     "opposite_corner",
@@ -29,14 +30,14 @@ __all__ = [
 ]
 
 
-def opposite_corner(mesh: Mesh, h: int) -> int:
+def opposite_corner(mesh: Mesh, h: HalfEdge) -> HalfEdge:
     """The corner of the face of h opposite to the side chain with h.
 
-    -1 if the face does not have exactly three corners, as may happen between the repairs of
-    one time.
+    `NO_HALF_EDGE` if the face does not have exactly three corners, as may happen between the
+    repairs of one time.
     """
     following, corner = mesh.map.following, mesh.corner
-    count, found, g = 0, -1, h
+    count, found, g = 0, NO_HALF_EDGE, h
     while True:
         g = following[g]
         if corner[g]:
@@ -44,10 +45,10 @@ def opposite_corner(mesh: Mesh, h: int) -> int:
             if count == 2:
                 found = g
         if g == h:
-            return found if count == 3 else -1
+            return found if count == 3 else NO_HALF_EDGE
 
 
-def shadow(mesh: Mesh, h: int, predicates: Predicates) -> tuple[int, int] | None:
+def shadow(mesh: Mesh, h: HalfEdge, predicates: Predicates) -> tuple[HalfEdge, HalfEdge] | None:
     """The visits (half-edges of the two faces of h) that the shadow edge of h joins.
 
     The ends start at the two opposite corners and move away from them along their side
@@ -55,7 +56,7 @@ def shadow(mesh: Mesh, h: int, predicates: Predicates) -> tuple[int, int] | None
     cross h: the mesh is then not a pseudo-triangulation just after now.
     """
     m = mesh.map
-    here, there = opposite_corner(mesh, h), opposite_corner(mesh, h ^ 1)
+    here, there = opposite_corner(mesh, h), opposite_corner(mesh, twin(h))
     if here < 0 or there < 0:
         return None
     cycle = _cycle(mesh, h, here)
@@ -80,13 +81,13 @@ def shadow(mesh: Mesh, h: int, predicates: Predicates) -> tuple[int, int] | None
         else:
             stuck, e, moved = stuck + 1, 1 - e, 0
             is_tangent = is_tangent and step == 0 and not at_other
-    x, y = ends
-    if not (stuck == 2 and is_tangent and crosses(points[x], points[y], *mesh.ends(h), predicates)):
+    i, j = ends
+    if not (stuck == 2 and is_tangent and crosses(points[i], points[j], *mesh.ends(h), predicates)):
         return None
-    return cycle[x], cycle[y]
+    return cycle[i], cycle[j]
 
 
-def tangency(mesh: Mesh, h: int, visits: tuple[int, int]) -> list[tuple[int, int, int]]:
+def tangency(mesh: Mesh, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge]) -> list[Triple]:
     """The four triples whose orientations certify that a shadow edge is tangent at both ends.
 
     Each end gives two, with its neighbours before and after it on the boundary of the two
@@ -106,9 +107,9 @@ def tangency(mesh: Mesh, h: int, visits: tuple[int, int]) -> list[tuple[int, int
     ]
 
 
-def _cycle(mesh: Mesh, h: int, start: int) -> list[int]:
+def _cycle(mesh: Mesh, h: HalfEdge, start: HalfEdge) -> list[HalfEdge]:
     """The visits around the union of the two faces of h, counter-clockwise from ``start``."""
-    following, t = mesh.map.following, h ^ 1
+    following, t = mesh.map.following, twin(h)
     cycle = [start]
     g = following[start]
     while True:
@@ -123,7 +124,7 @@ def _cycle(mesh: Mesh, h: int, start: int) -> list[int]:
 
 
 def _step(
-    points: list[int], i: int, distance: int, moved: int, y: int, predicates: Predicates
+    points: list[VertexId], i: int, distance: int, moved: int, y: VertexId, predicates: Predicates
 ) -> int:
     """The direction in which visit i must move for tangency to the segment to y: 1, -1 or 0.
 
@@ -146,7 +147,7 @@ def _step(
     return 0
 
 
-def crosses(x: int, y: int, u: int, v: int, predicates: Predicates) -> bool:
+def crosses(x: VertexId, y: VertexId, u: VertexId, v: VertexId, predicates: Predicates) -> bool:
     """Whether segments xy and uv cross in their interiors, or share one end."""
     if x in (u, v) or y in (u, v):
         return {x, y} != {u, v}
@@ -155,7 +156,9 @@ def crosses(x: int, y: int, u: int, v: int, predicates: Predicates) -> bool:
     return predicates.sign(u, v, x) != predicates.sign(u, v, y)
 
 
-def flip(mesh: Mesh, h: int, visits: tuple[int, int], predicates: Predicates) -> list[int]:
+def flip(
+    mesh: Mesh, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge], predicates: Predicates
+) -> list[HalfEdge]:
     """Replace diagonal h by the segment between two visits of its faces.
 
     Returns:
@@ -163,15 +166,15 @@ def flip(mesh: Mesh, h: int, visits: tuple[int, int], predicates: Predicates) ->
         of the two faces was a triangle, these are all angles of both new faces.
     """
     m = mesh.map
-    was_triangle = any(m.following[m.following[m.following[g]]] == g for g in (h, h ^ 1))
+    was_triangle = any(m.following[m.following[m.following[g]]] == g for g in (h, twin(h)))
     g, k = visits
     joined = mesh.flip_out(h)
     e = mesh.flip_in(g, k)
-    changed = [e, e ^ 1, g, k, *[a for a in joined if a not in visits]]
+    changed = [e, twin(e), g, k, *[a for a in joined if a not in visits]]
     for a in changed:
         mesh.corner[a] = predicates.sign(m.origin[m.previous[a]], m.origin[a], m.origin[a ^ 1]) > 0
     if was_triangle:
-        changed += [a for a in (*m.face(e), *m.face(e ^ 1)) if a not in changed]
+        changed += [a for a in (*m.face(e), *m.face(twin(e))) if a not in changed]
     return changed
 
 
@@ -183,17 +186,17 @@ class Flip(NamedTuple):
         changed: the half-edges whose angles have changed.
     """
 
-    old: tuple[int, int]
-    new: tuple[int, int]
-    changed: list[int]
+    old: Ends
+    new: Ends
+    changed: list[HalfEdge]
 
 
 def flip_until_greedy(
     mesh: Mesh,
     predicates: Predicates,
-    candidates: Iterable[int],
-    shadows: dict[int, tuple[int, int]] | None = None,
-    is_known: Callable[[int], bool] | None = None,
+    candidates: Iterable[HalfEdge],
+    shadows: dict[HalfEdge, tuple[HalfEdge, HalfEdge]] | None = None,
+    is_known: Callable[[HalfEdge], bool] | None = None,
 ) -> list[Flip]:
     """Flip diagonals whose shadow has smaller theta, until there is none.
 
@@ -215,7 +218,7 @@ def flip_until_greedy(
     Raises:
         AuditError: if a diagonal has no shadow: the mesh is not a pseudo-triangulation.
     """
-    todo = deque(dict.fromkeys(min(h, h ^ 1) for h in candidates))
+    todo = deque(dict.fromkeys(min(h, twin(h)) for h in candidates))
     waiting = set(todo)
     flips = []
     while todo:
@@ -235,8 +238,8 @@ def flip_until_greedy(
             changed = flip(mesh, h, visits, predicates)
             flips.append(Flip(old, new, changed))
             e = changed[0]
-            for g in (*mesh.map.face(e), *mesh.map.face(e ^ 1)):
-                if (even := min(g, g ^ 1)) not in waiting:
+            for g in (*mesh.map.face(e), *mesh.map.face(twin(e))):
+                if (even := min(g, twin(g))) not in waiting:
                     waiting.add(even)
                     todo.append(even)
         elif shadows is not None:
@@ -244,9 +247,7 @@ def flip_until_greedy(
     return flips
 
 
-def _theta_is_smaller(
-    mesh: Mesh, s: tuple[int, int], t: tuple[int, int], predicates: Predicates
-) -> bool:
+def _theta_is_smaller(mesh: Mesh, s: Ends, t: Ends, predicates: Predicates) -> bool:
     """Whether theta(s) < theta(t), for two edges that cross.
 
     If they are parallel for ever, they join copies of the same two vertices. Inflation
@@ -261,40 +262,13 @@ def _theta_is_smaller(
     return turn < 0
 
 
-def _rise(mesh: Mesh, a: int, b: int, predicates: Predicates) -> int:
+def _rise(mesh: Mesh, a: VertexId, b: VertexId, predicates: Predicates) -> int:
     """The difference h(b) - h(a) for a bitangent from a to b; see `_theta_is_smaller`."""
     return _side(mesh, a, a, b, predicates) - _side(mesh, b, a, b, predicates)
 
 
-def _side(mesh: Mesh, v: int, a: int, b: int, predicates: Predicates) -> int:
+def _side(mesh: Mesh, v: VertexId, a: VertexId, b: VertexId, predicates: Predicates) -> int:
     """1 if the body of v, an end of the bitangent ab, is on its left; -1 if on its right."""
     m = mesh.map
-    neighbours = [m.target(h) for h in m.fan(mesh.ring_edge[v]) if mesh.is_boundary(h)]
+    neighbours = [m.target(h) for h in m.star(mesh.ring_edge[v]) if mesh.is_boundary(h)]
     return next((s for n in neighbours if (s := predicates.sign(a, b, n))), 0)
-
-
-def facing_visit(mesh: Mesh, around: list[int], target: int, predicates: Predicates) -> int | None:
-    """The half-edge out of a vertex whose free angle contains the direction to a target.
-
-    Args:
-        mesh: a tiling.
-        around: some half-edges out of one vertex.
-        target: another vertex.
-        predicates: the predicates of the time.
-    """
-    m = mesh.map
-    known = -1
-    side = 0  # of the target: left or right of the direction to the vertex ``known``
-    for h in around:
-        if mesh.region[h] != FREE:
-            continue
-        p, after, before = m.origin[h], m.origin[h ^ 1], m.origin[m.previous[h]]
-        if target in (after, before):
-            continue
-        left = (side if after == known else predicates.sign(p, after, target)) > 0
-        if mesh.corner[h] and not left:
-            continue
-        known, side = before, predicates.sign(p, before, target)
-        if (left and side < 0) if mesh.corner[h] else (left or side < 0):
-            return h
-    return None

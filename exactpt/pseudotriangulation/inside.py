@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
+from exactpt.indices import HalfEdge
+from exactpt.kernel.budget import ask
+from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 
 __all__ = ["tile_inside"]
 
 
-def tile_inside(mesh: Mesh, first: int, predicates: Predicates) -> None:
+def tile_inside(mesh: Mesh, first: HalfEdge, predicates: Predicates) -> None:
     """Triangulate the solid interior of a body by ear clipping.
 
     Args:
@@ -27,11 +30,12 @@ def tile_inside(mesh: Mesh, first: int, predicates: Predicates) -> None:
         mesh.corner[h] = True
     i = misses = 0
     while len(rest) > 3:
+        ask()
         before, h = rest[i - 1], rest[i]
         if _is_ear(mesh, rest, before, h, predicates):
             e = mesh.flip_in(m.following[h], before)
             mesh.corner[e] = mesh.corner[e ^ 1] = True
-            rest[i - 1] = e ^ 1
+            rest[i - 1] = twin(e)
             del rest[i]
             i, misses = (i - 1) % len(rest), 0
         else:
@@ -40,7 +44,9 @@ def tile_inside(mesh: Mesh, first: int, predicates: Predicates) -> None:
                 raise AuditError(f"the ring of half-edge {first} is not simple")
 
 
-def _is_ear(mesh: Mesh, rest: list[int], before: int, h: int, predicates: Predicates) -> bool:
+def _is_ear(
+    mesh: Mesh, rest: list[HalfEdge], before: HalfEdge, h: HalfEdge, predicates: Predicates
+) -> bool:
     """Whether the triangle at the origin of h lies inside and contains no other vertex."""
     sign, origin = predicates.sign, mesh.map.origin
     a, b, c = origin[before], origin[h], origin[h ^ 1]

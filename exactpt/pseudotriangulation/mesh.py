@@ -10,7 +10,8 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Final, NamedTuple
 
 from exactpt.errors import AuditError
-from exactpt.planar.halfedge import NOTHING, PlanarMap
+from exactpt.indices import NO_HALF_EDGE, Ends, HalfEdge, VertexId
+from exactpt.planar.halfedge import PlanarMap, twin
 
 __all__ = ["F2", "FREE", "INSIDE", "OUTER", "SOLID", "Diagonal", "Mesh", "Tile"]
 
@@ -23,8 +24,8 @@ INSIDE: Final = 3
 class Diagonal(NamedTuple):
     """An edge of a tiling between two vertices, in free space or inside a body."""
 
-    u: int
-    v: int
+    u: VertexId
+    v: VertexId
     region: int = FREE
 
 
@@ -51,7 +52,7 @@ class Mesh:
         corner: for each half-edge, whether its angle is less than pi; a tile has three.
         boundary: for each edge (half of the handle), whether it is an edge of a body.
         ring_edge: for each vertex, the half-edge to the next one on its ring; the body is
-            on its left. `NOTHING` for a vertex of no body.
+            on its left. `NO_HALF_EDGE` for a vertex of no body.
     """
 
     def __init__(self, vertices: int) -> None:
@@ -59,15 +60,15 @@ class Mesh:
         self.region: list[int] = []
         self.corner: list[bool] = []
         self.boundary: list[bool] = []
-        self.ring_edge: list[int] = [NOTHING] * vertices
+        self.ring_edge: list[HalfEdge] = [NO_HALF_EDGE] * vertices
 
-    def add_edge(self, u: int, v: int, *, boundary: bool) -> int:
+    def add_edge(self, u: VertexId, v: VertexId, *, boundary: bool) -> HalfEdge:
         """Add an edge, not linked yet, with free space on both sides; returns a half-edge."""
         h = self.map.add_edge(u, v)
         self._mark(h, boundary=boundary)
         return h
 
-    def _mark(self, h: int, *, boundary: bool) -> None:
+    def _mark(self, h: HalfEdge, *, boundary: bool) -> None:
         if h == len(self.region):
             self.region += (FREE, FREE)
             self.corner += (False, False)
@@ -76,50 +77,51 @@ class Mesh:
             self.region[h] = self.region[h + 1] = FREE
             self.boundary[h >> 1] = boundary
 
-    def is_boundary(self, h: int) -> bool:
+    def is_boundary(self, h: HalfEdge) -> bool:
         """Whether a half-edge belongs to a body edge."""
         return self.boundary[h >> 1]
 
-    def is_hull(self, h: int) -> bool:
+    def is_hull(self, h: HalfEdge) -> bool:
         """Whether an edge is on the convex hull of all bodies."""
         return OUTER in (self.region[h], self.region[h ^ 1])
 
-    def is_fixed(self, h: int) -> bool:
+    def is_fixed(self, h: HalfEdge) -> bool:
         """Whether an edge is never flipped: a body edge, or one that has a label."""
         return self.boundary[h >> 1]
 
-    def is_flippable(self, h: int) -> bool:
+    def is_flippable(self, h: HalfEdge) -> bool:
         """Whether a half-edge belongs to a diagonal between two tiles of free space."""
         return self.region[h] == self.region[h ^ 1] == FREE and not self.is_fixed(h)
 
-    def flippable(self) -> list[int]:
+    def flippable(self) -> list[HalfEdge]:
         """The diagonals (even half-edges) that may be flipped."""
         return [h for h in self.diagonals() if self.is_flippable(h)]
 
-    def stays(self, h: int) -> tuple[bool, bool]:
+    def stays(self, h: HalfEdge) -> tuple[bool, bool]:
         """Whether the edges before and of h remain when their reflex angle becomes straight."""
         return self.is_boundary(self.map.previous[h]), self.is_boundary(h)
 
-    def tile(self, h: int) -> Tile:  # noqa: ARG002 - without labels there is only one
+    def tile(self, h: HalfEdge) -> Tile:  # noqa: ARG002 - without labels there is only one
         """The relative hull and level of the tile on the left of a half-edge of free space."""
         return F2
 
-    def ends(self, h: int) -> tuple[int, int]:
+    def ends(self, h: HalfEdge) -> Ends:
         """The origin and the target of a half-edge."""
         return self.map.origin[h], self.map.origin[h ^ 1]
 
-    def diagonals(self) -> list[int]:
+    def diagonals(self) -> list[HalfEdge]:
         """The even half-edges of all edges that are not body edges."""
         origin = self.map.origin
-        return [h for h in range(0, len(origin), 2) if origin[h] >= 0 and not self.boundary[h >> 1]]
+        half_edges = map(HalfEdge, range(0, len(origin), 2))
+        return [h for h in half_edges if origin[h] >= 0 and not self.boundary[h >> 1]]
 
-    def ring_edges(self) -> list[int]:
+    def ring_edges(self) -> list[HalfEdge]:
         """The half-edges of all rings, in the order of their origins."""
-        return [h for h in self.ring_edge if h != NOTHING]
+        return [h for h in self.ring_edge if h != NO_HALF_EDGE]
 
-    def faces(self, region: int = FREE) -> list[list[int]]:
+    def faces(self, region: int = FREE) -> list[list[HalfEdge]]:
         """The faces of a kind as cycles of half-edges, each starting at its least half-edge."""
-        seen: set[int] = set()
+        seen: set[HalfEdge] = set()
         faces = []
         for h in self.map.half_edges():
             if h not in seen and self.region[h] == region:
@@ -128,7 +130,7 @@ class Mesh:
                 faces.append(face)
         return faces
 
-    def collapse_corner(self, h: int, *, origin_moves: bool) -> None:
+    def collapse_corner(self, h: HalfEdge, *, origin_moves: bool) -> None:
         """Repair the corner of h, whose angle has become 0.
 
         With ``origin_moves`` the edge before h is the shorter one, and the origin of h moves
@@ -137,19 +139,19 @@ class Mesh:
         m = self.map
         region, corner = self.region, self.corner
         if origin_moves:
-            a, t = m.previous[h], h ^ 1
+            a, t = m.previous[h], twin(h)
             m.slide_origin(h)
             corner[h], corner[a], region[a] = True, False, region[t]
         else:
             a = m.previous[h]
-            t, b = a ^ 1, m.following[h]
+            t, b = twin(a), m.following[h]
             was = corner[t]
             m.slide_target(a)
             # The face of a loses the corner; the one across gains a reflex angle at t.
             corner[b], corner[h], corner[t] = True, was, False
             region[h] = region[t]
 
-    def straighten(self, h: int, *, origin_moves: bool) -> None:
+    def straighten(self, h: HalfEdge, *, origin_moves: bool) -> None:
         """Repair the reflex angle at the origin of h, which has become straight.
 
         With ``origin_moves`` the origin of h moves to the origin of the edge before it.
@@ -158,20 +160,20 @@ class Mesh:
         m = self.map
         region, corner = self.region, self.corner
         if origin_moves:
-            a, t = m.previous[h], h ^ 1
+            a, t = m.previous[h], twin(h)
             c, was = m.following[t], corner[a]
             m.slide_origin(h)
             corner[h], corner[a], corner[c] = was, True, False
             region[a] = region[t]
         else:
             a = m.previous[h]
-            t = a ^ 1
+            t = twin(a)
             m.slide_target(a)
             # t: a corner now, at the far end of h; h: reflex, at the old reflex vertex.
             corner[h], corner[t] = False, True
             region[h] = region[t]
 
-    def cut_off(self, h: int) -> int:
+    def cut_off(self, h: HalfEdge) -> HalfEdge:
         """Cut off the triangle at the origin of h by a new edge; returns its outer half-edge.
 
         The new half-edge leads from the origin of the half-edge before h to the target of
@@ -181,15 +183,15 @@ class Mesh:
         a, b = m.previous[h], m.following[h]
         was = self.corner[a]
         e = m.split_face(a, b)
-        self._mark(min(e, e ^ 1), boundary=False)
+        self._mark(min(e, twin(e)), boundary=False)
         self.region[e] = self.region[a]
         inside = INSIDE if self.region[a] == INSIDE else FREE
-        for g in (a, h, e ^ 1):
+        for g in (a, h, twin(e)):
             self.region[g], self.corner[g] = inside, True
         self.corner[e] = was
         return e
 
-    def dissolve_triangle(self, h: int) -> None:
+    def dissolve_triangle(self, h: HalfEdge) -> None:
         """Remove a diagonal on which the opposite vertex of its triangle lies now.
 
         The vertex becomes a reflex vertex of the face across.
@@ -201,7 +203,7 @@ class Mesh:
         self.region[first] = self.region[second] = self.region[h ^ 1]
         m.remove_edge(h)
 
-    def flip_out(self, h: int) -> tuple[int, int]:
+    def flip_out(self, h: HalfEdge) -> tuple[HalfEdge, HalfEdge]:
         """Remove a diagonal between two tiles.
 
         Returns:
@@ -213,7 +215,7 @@ class Mesh:
         m.remove_edge(h)
         return at_origin, at_target
 
-    def flip_in(self, h: int, g: int) -> int:
+    def flip_in(self, h: HalfEdge, g: HalfEdge) -> HalfEdge:
         """Insert a diagonal between the visits of h and g in one tile.
 
         Returns:
@@ -221,7 +223,7 @@ class Mesh:
             belong to it, its twin, h and g, and the caller must set their marks.
         """
         e = self.map.split_face(h, g)
-        self._mark(min(e, e ^ 1), boundary=False)
+        self._mark(min(e, twin(e)), boundary=False)
         self.region[e] = self.region[e ^ 1] = self.region[h]
         return e
 
@@ -264,7 +266,7 @@ class Mesh:
         """Of each half-edge, the geodesics that run along it; empty if none are kept."""
         return ()
 
-    def relative_hulls(self) -> Callable[[int], list[int]] | None:
+    def relative_hulls(self) -> Callable[[int], list[VertexId]] | None:
         """The shortest loop around each body, as vertex ids; None if the mesh does not know."""
         return None
 
@@ -281,13 +283,13 @@ class Mesh:
                 raise AuditError(f"half-edge {h} and the next one bound different regions")
         self.audit_faces(self.map.half_edges())
 
-    def audit_faces(self, half_edges: Iterable[int]) -> None:
+    def audit_faces(self, half_edges: Iterable[HalfEdge]) -> None:
         """Check the number of corners of the faces of some half-edges.
 
         Raises:
             AuditError: if a tile does not have three corners, or the outer face has any.
         """
-        seen: set[int] = set()
+        seen: set[HalfEdge] = set()
         for h in half_edges:
             if h in seen or self.map.origin[h] < 0 or self.region[h] == SOLID:
                 continue

@@ -21,6 +21,8 @@ from typing import final
 
 from exactpt.certificates.at_time import PredicatesAt, sorted_by_x
 from exactpt.certificates.predicates import Predicates
+from exactpt.indices import NO_VERTEX, VertexId
+from exactpt.kernel.budget import ask
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, SOLID, Diagonal
 
 __all__ = ["Sweep", "SweptEdge", "body_edges", "sweep_diagonals"]
@@ -32,11 +34,11 @@ class SweptEdge:
 
     __slots__ = ("chain", "left", "region", "right")
 
-    def __init__(self, left: int, right: int, region: int) -> None:
+    def __init__(self, left: VertexId, right: VertexId, region: int) -> None:
         self.left = left
         self.right = right
         self.region = region
-        self.chain: list[int] = []
+        self.chain: list[VertexId] = []
 
 
 def sweep_diagonals(instant: PredicatesAt) -> list[Diagonal]:
@@ -85,9 +87,9 @@ class Sweep:
         self.triangulate = triangulate
         self.diagonals: list[Diagonal] = []
         # From bottom to top; the first is not an edge but stands for the gap below all edges.
-        self.active: list[SweptEdge] = [SweptEdge(-1, -1, around)]
-        self.starting: dict[int, list[SweptEdge]] = {}
-        self.ends: dict[int, None] = {}
+        self.active: list[SweptEdge] = [SweptEdge(NO_VERTEX, NO_VERTEX, around)]
+        self.starting: dict[VertexId, list[SweptEdge]] = {}
+        self.ends: dict[VertexId, None] = {}
         for edge in edges:
             self.starting.setdefault(edge.left, []).append(edge)
             self.ends[edge.left] = self.ends[edge.right] = None
@@ -95,6 +97,7 @@ class Sweep:
     def run(self) -> list[Diagonal]:
         """The diagonals of all gaps, from left to right."""
         for v in sorted_by_x(self.predicates, self.ends):
+            ask()
             edges = self.starting.get(v, [])
             self._pass(v, self._from_bottom_to_top(edges))
         return self.diagonals
@@ -107,7 +110,7 @@ class Sweep:
 
         return sorted(edges, key=cmp_to_key(order)) if len(edges) > 1 else edges
 
-    def _pass(self, v: int, starting: list[SweptEdge]) -> None:
+    def _pass(self, v: VertexId, starting: list[SweptEdge]) -> None:
         first = self._first_not_below(v)
         last = first
         while last < len(self.active) and self.active[last].right == v:
@@ -133,7 +136,7 @@ class Sweep:
             below.chain = lower + upper[1:]
         self.active[first:last] = starting
 
-    def _first_not_below(self, v: int) -> int:
+    def _first_not_below(self, v: VertexId) -> int:
         """The position of the lowest edge that is above v or ends there."""
         low, high = 1, len(self.active)
         while low < high:
@@ -145,17 +148,21 @@ class Sweep:
                 high = middle
         return low
 
-    def _join_part(self, v: int, chain: list[int], low: int, high: int, region: int) -> None:
+    def _join_part(
+        self, v: VertexId, chain: list[VertexId], low: int, high: int, region: int
+    ) -> None:
         """Join v to the ends of a part of a chain, or to all its vertices."""
         step = 1 if self.triangulate else max(high - low, 1)
         for i in range(low, high + 1, step):
             self.diagonals.append(Diagonal(chain[i], v, region))
 
-    def _sees(self, v: int, chain: list[int], i: int) -> bool:
+    def _sees(self, v: VertexId, chain: list[VertexId], i: int) -> bool:
         """Whether v sees edge i of a chain: it lies to the right of the edge, going up."""
         return self.predicates.sign(chain[i], chain[i + 1], v) < 0
 
-    def _split_chain(self, v: int, chain: list[int], region: int) -> tuple[list[int], list[int]]:
+    def _split_chain(
+        self, v: VertexId, chain: list[VertexId], region: int
+    ) -> tuple[list[VertexId], list[VertexId]]:
         """The chains below and above v, a vertex that splits a gap."""
         if not chain or region == SOLID:
             return [v], [v]
@@ -168,7 +175,7 @@ class Sweep:
         self._join_part(v, chain, low, high, region)
         return [*chain[: low + 1], v], [v, *chain[high:]]
 
-    def _only_visible(self, chain: list[int]) -> int:
+    def _only_visible(self, chain: list[VertexId]) -> int:
         """The end of a chain that is seen by a vertex which sees no edge of it.
 
         It is the lower end, if its wedge between the gap's lower edge (which leads right) and
@@ -179,7 +186,7 @@ class Sweep:
         leans_left = len(chain) > 1 and self.predicates.left_of(chain[1], chain[0])
         return 0 if leans_left else len(chain) - 1
 
-    def _upper_end(self, v: int, chain: list[int], region: int) -> list[int]:
+    def _upper_end(self, v: VertexId, chain: list[VertexId], region: int) -> list[VertexId]:
         """The chain of a gap whose upper edge ends at v; its last vertex is adjacent to v."""
         if region == SOLID:
             return [v]
@@ -191,7 +198,7 @@ class Sweep:
             self._join_part(v, chain, i, last, region)
         return [*chain[: i + 1], v]
 
-    def _lower_end(self, v: int, chain: list[int], region: int) -> list[int]:
+    def _lower_end(self, v: VertexId, chain: list[VertexId], region: int) -> list[VertexId]:
         """The chain of a gap whose lower edge ends at v; its first vertex is adjacent to v."""
         if region == SOLID:
             return [v]

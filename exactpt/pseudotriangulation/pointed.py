@@ -21,6 +21,9 @@ from typing import NamedTuple
 
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
+from exactpt.indices import Ends, HalfEdge
+from exactpt.kernel.budget import ask
+from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.flip import flip, shadow
 from exactpt.pseudotriangulation.mesh import OUTER, Mesh
 
@@ -38,14 +41,14 @@ class Change(NamedTuple):
             triangle, since the angles of a triangle share a certificate.
     """
 
-    handle: int
-    old: tuple[int, int]
-    new: tuple[int, int] | None
-    angles: list[int]
+    handle: HalfEdge
+    old: Ends
+    new: Ends | None
+    angles: list[HalfEdge]
 
 
 def make_pointed(
-    mesh: Mesh, predicates: Predicates, nearby: Iterable[int] | None = None
+    mesh: Mesh, predicates: Predicates, nearby: Iterable[HalfEdge] | None = None
 ) -> list[Change]:
     """Remove and flip diagonals, in place, until every vertex that can be pointed is.
 
@@ -67,13 +70,13 @@ def make_pointed(
     else:
         edges = list(nearby)
         rings = [mesh.ring_edge[v] for v in sorted({mesh.map.origin[h] for h in edges})]
-        changes = _remove(mesh, predicates, [min(h, h ^ 1) for h in edges])
+        changes = _remove(mesh, predicates, [min(h, twin(h)) for h in edges])
     for first in rings:
         changes += point_vertex(mesh, first, predicates)
     return changes
 
 
-def point_vertex(mesh: Mesh, first: int, predicates: Predicates) -> list[Change]:
+def point_vertex(mesh: Mesh, first: HalfEdge, predicates: Predicates) -> list[Change]:
     """Make one vertex pointed, by flips and removals of its diagonals.
 
     Args:
@@ -104,13 +107,14 @@ def point_vertex(mesh: Mesh, first: int, predicates: Predicates) -> list[Change]
     return changes
 
 
-def _remove(mesh: Mesh, predicates: Predicates, todo: list[int]) -> list[Change]:
+def _remove(mesh: Mesh, predicates: Predicates, todo: list[HalfEdge]) -> list[Change]:
     """Remove every diagonal whose two tiles merge into one with three corners."""
     m = mesh.map
     changes = []
     pending = deque(dict.fromkeys(todo))
     waiting = set(pending)
     while pending:
+        ask()
         h = pending.popleft()
         waiting.discard(h)
         if m.origin[h] < 0 or mesh.is_hull(h) or mesh.is_fixed(h):
@@ -119,7 +123,7 @@ def _remove(mesh: Mesh, predicates: Predicates, todo: list[int]) -> list[Change]
         if corners is None:
             continue
         old = mesh.ends(h)
-        was_triangle = any(m.following[m.following[m.following[g]]] == g for g in (h, h ^ 1))
+        was_triangle = any(m.following[m.following[m.following[g]]] == g for g in (h, twin(h)))
         joined = mesh.flip_out(h)
         for g, is_corner in zip(joined, corners, strict=True):
             mesh.corner[g] = is_corner
@@ -128,18 +132,20 @@ def _remove(mesh: Mesh, predicates: Predicates, todo: list[int]) -> list[Change]
         # The four angles at its ends decide whether a diagonal can be removed: two are new.
         for g in joined:
             for e in (g, m.previous[g]):
-                if (even := min(e, e ^ 1)) not in waiting:
+                if (even := min(e, twin(e))) not in waiting:
                     waiting.add(even)
                     pending.append(even)
     return changes
 
 
-def _corners_after_removal(mesh: Mesh, h: int, predicates: Predicates) -> tuple[bool, bool] | None:
+def _corners_after_removal(
+    mesh: Mesh, h: HalfEdge, predicates: Predicates
+) -> tuple[bool, bool] | None:
     """The marks of the joined angles at the ends of h; None if it cannot be removed."""
     m = mesh.map
     marks = []
     lost = 0
-    for g in (h, h ^ 1):
+    for g in (h, twin(h)):
         # At the origin of g: the angles of g and of the half-edge after its twin.
         before, after = m.previous[g], m.following[g ^ 1]
         a, p, b = m.origin[before], m.origin[g], m.target(after)
@@ -149,7 +155,7 @@ def _corners_after_removal(mesh: Mesh, h: int, predicates: Predicates) -> tuple[
     return (marks[0], marks[1]) if lost == 3 else None
 
 
-def _needless_diagonals(mesh: Mesh, first: int, predicates: Predicates) -> list[int]:
+def _needless_diagonals(mesh: Mesh, first: HalfEdge, predicates: Predicates) -> list[HalfEdge]:
     """The diagonals in a sector of a vertex whose angles are all below pi but need not be.
 
     A sector lies between two successive fixed edges; if the angle of a sector is above pi,
@@ -157,8 +163,8 @@ def _needless_diagonals(mesh: Mesh, first: int, predicates: Predicates) -> list[
     """
     m = mesh.map
     v = m.origin[first]
-    sector: list[int] = []  # the half-edges of its angles, from a fixed edge on
-    for h in [*m.fan(first), first]:
+    sector: list[HalfEdge] = []  # the half-edges of its angles, from a fixed edge on
+    for h in [*m.star(first), first]:
         if sector and mesh.is_fixed(h):
             diagonals = sector[1:]
             if (

@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
-from exactpt.planar.halfedge import NOTHING
-from exactpt.pseudotriangulation.build import fan_order
+from exactpt.indices import NO_HALF_EDGE, Ends, HalfEdge, Triple, VertexId
+from exactpt.planar.halfedge import twin
+from exactpt.pseudotriangulation.build import star_order
 from exactpt.pseudotriangulation.mesh import FREE, OUTER, SOLID, Mesh
 from exactpt.pseudotriangulation.plane_sweep import Sweep, SweptEdge
 from exactpt.pseudotriangulation.pointed import make_pointed
@@ -36,14 +37,14 @@ class Retiled(NamedTuple):
         angles: the half-edges whose angles are new, or belong or belonged to a triangle.
     """
 
-    handles: list[int]
-    removed: list[tuple[int, int]]
-    added: list[tuple[int, int]]
-    angles: list[int]
+    handles: list[HalfEdge]
+    removed: list[Ends]
+    added: list[Ends]
+    angles: list[HalfEdge]
 
 
 class _Angle(NamedTuple):
-    ends: tuple[int, int, int]
+    ends: Triple
     in_triangle: bool
 
 
@@ -60,29 +61,29 @@ class Region:
         gone: the edges that have been removed.
     """
 
-    def __init__(self, mesh: Mesh, faces: Iterable[int], gone: Iterable[int]) -> None:
+    def __init__(self, mesh: Mesh, faces: Iterable[HalfEdge], gone: Iterable[HalfEdge]) -> None:
         self.mesh = mesh
-        self.gone: list[int] = []
-        self._before: dict[int, _Angle] = {}
-        self._rim: list[int] = []
-        self._removed: list[tuple[int, int]] = []
+        self.gone: list[HalfEdge] = []
+        self._before: dict[HalfEdge, _Angle] = {}
+        self._rim: list[HalfEdge] = []
+        self._removed: list[Ends] = []
         for first in faces:
             self._join(first)
         is_unbounded = not self._before or any(mesh.region[h] == OUTER for h in self._before)
         self._around = FREE if is_unbounded else SOLID
         self._remove(list(gone))
 
-    def _join(self, first: int) -> None:
+    def _join(self, first: HalfEdge) -> None:
         """Add a face to the region."""
         if first not in self._before:
             face = self.mesh.map.face(first)
             self._before.update((h, self._angle(h)) for h in face)
             self._rim += face
 
-    def _remove(self, edges: list[int]) -> None:
+    def _remove(self, edges: list[HalfEdge]) -> None:
         """Remove edges between faces of the region; later edges may use their handles."""
         mesh = self.mesh
-        lost = {g for h in edges for g in (h, h ^ 1)}
+        lost = {g for h in edges for g in (h, twin(h))}
         self.gone += edges
         self._removed += [mesh.ends(h) for h in edges if not mesh.is_boundary(h)]
         self._rim = [h for h in self._rim if h not in lost]
@@ -94,16 +95,16 @@ class Region:
     def add_ring(self, vertices: Vertices, moving: MovingBody) -> None:
         """Add the ring of a new body to the region."""
         mesh, m = self.mesh, self.mesh.map
-        mesh.ring_edge += [NOTHING] * (len(vertices.all) - len(mesh.ring_edge))
+        mesh.ring_edge += [NO_HALF_EDGE] * (len(vertices.all) - len(mesh.ring_edge))
         for v in moving.ring:
             h = mesh.add_edge(v, vertices.all[v].ahead, boundary=True)
             mesh.ring_edge[v] = h
             mesh.region[h] = SOLID
-            self._rim.append(h ^ 1)
+            self._rim.append(twin(h))
         for v in moving.ring:
-            ahead, behind = mesh.ring_edge[v], mesh.ring_edge[vertices.all[v].behind] ^ 1
-            m.link(behind ^ 1, ahead)
-            m.link(ahead ^ 1, behind)
+            ahead, behind = mesh.ring_edge[v], twin(mesh.ring_edge[vertices.all[v].behind])
+            m.link(twin(behind), ahead)
+            m.link(twin(ahead), behind)
 
     def tile(self, predicates: Predicates) -> Retiled:
         """Tile the region.
@@ -126,49 +127,49 @@ class Region:
             [h for h in angles if m.origin[h] >= 0],
         )
 
-    def _angle(self, h: int) -> _Angle:
+    def _angle(self, h: HalfEdge) -> _Angle:
         m = self.mesh.map
         before = m.previous[h]
         in_triangle = m.following[m.following[h]] == before
         return _Angle((m.origin[before], m.origin[h], m.origin[h ^ 1]), in_triangle)
 
-    def _has_changed(self, h: int) -> bool:
+    def _has_changed(self, h: HalfEdge) -> bool:
         return self.mesh.map.origin[h] >= 0 and self._before.get(h) != self._angle(h)
 
-    def _open(self) -> list[int]:
+    def _open(self) -> list[HalfEdge]:
         """The half-edges of the rim with the region to be tiled on their left."""
         return self._rim
 
-    def _edges(self, predicates: Predicates, around: Iterable[int]) -> Iterable[SweptEdge]:
+    def _edges(self, predicates: Predicates, around: Iterable[HalfEdge]) -> Iterable[SweptEdge]:
         """The swept edges of half-edges around some faces."""
         rim = dict.fromkeys(around)
-        done: set[int] = set()
+        done: set[HalfEdge] = set()
         for h in rim:
             if h not in done:
-                done.update((h, h ^ 1))
-                g = h if predicates.left_of(*self.mesh.ends(h)) else h ^ 1
+                done.update((h, twin(h)))
+                g = h if predicates.left_of(*self.mesh.ends(h)) else twin(h)
                 yield SweptEdge(*self.mesh.ends(g), FREE if g in rim else SOLID)
 
-    def _insert(self, predicates: Predicates, diagonals: Iterable[tuple[int, int]]) -> list[int]:
+    def _insert(self, predicates: Predicates, diagonals: Iterable[Ends]) -> list[HalfEdge]:
         """Link new diagonals into the stars of their ends; returns their half-edges."""
         mesh, m = self.mesh, self.mesh.map
-        new: dict[int, list[int]] = {}
+        new: dict[VertexId, list[HalfEdge]] = {}
         for u, v in diagonals:
             h = mesh.add_edge(u, v, boundary=False)
             new.setdefault(u, []).append(h)
-            new.setdefault(v, []).append(h ^ 1)
+            new.setdefault(v, []).append(twin(h))
         for v, edges in new.items():
             # Counter-clockwise, as in `build_mesh`: the body first, then free space.
-            fan = m.fan(mesh.ring_edge[v])
-            k = next(i for i, h in enumerate(fan) if i and mesh.is_boundary(h))
-            free, key = fan[k + 1 :], cmp_to_key(fan_order(predicates, mesh, v, fan[k]))
+            star = m.star(mesh.ring_edge[v])
+            k = next(i for i, h in enumerate(star) if i and mesh.is_boundary(h))
+            free, key = star[k + 1 :], cmp_to_key(star_order(predicates, mesh, v, star[k]))
             for h in edges:
                 insort(free, h, key=key)
-            for h, following in pairwise([*fan[: k + 1], *free, fan[0]]):
-                m.link(following ^ 1, h)
+            for h, following in pairwise([*star[: k + 1], *free, star[0]]):
+                m.link(twin(following), h)
         return [h for edges in new.values() for h in edges]
 
-    def _mark(self, predicates: Predicates, inside: list[int]) -> None:
+    def _mark(self, predicates: Predicates, inside: list[HalfEdge]) -> None:
         """Mark the new angles, and the outer face."""
         mesh, m = self.mesh, self.mesh.map
         for h in inside:
@@ -177,7 +178,7 @@ class Region:
             if h not in self._before or self._before[h].ends != angle.ends:
                 a, p, b = angle.ends
                 mesh.corner[h] = a == b or predicates.sign(a, p, b) > 0
-        seen: set[int] = set()
+        seen: set[HalfEdge] = set()
         for h in inside:
             if h not in seen:
                 face = m.face(h)

@@ -15,6 +15,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, final
 
 from exactpt.geometry.predicates import side
+from exactpt.indices import HalfEdge
 from exactpt.kernel.numbers import QQ, fraction, parse_rational
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE
@@ -225,11 +226,11 @@ class _Contraction:
         faces.sort(key=lambda f: f.nodes)
         return Snapshot(self.at, name, tuple(self.nodes), tuple(edges), tuple(faces))
 
-    def _is_inside(self, h: int) -> bool:
+    def _is_inside(self, h: HalfEdge) -> bool:
         """Whether an edge is a diagonal inside a body, and so not in the free space."""
         return self.mesh.region[h] == INSIDE and not self.mesh.is_boundary(h)
 
-    def _contracted(self, face: Sequence[int]) -> tuple[list[int], list[int]]:
+    def _contracted(self, face: Sequence[HalfEdge]) -> tuple[list[int], list[int]]:
         """The nodes around a face, with runs of copies contracted, and those of its corners."""
         ids = [self.node[self.mesh.map.origin[h]] for h in face]
         nodes = [v for before, v in zip([ids[-1], *ids[:-1]], ids, strict=True) if v != before]
@@ -268,7 +269,7 @@ class _Contraction:
     def _edges(self) -> list[Edge]:
         found: dict[tuple[int, int], Edge] = {}
         m = self.mesh.map
-        for h in range(0, len(m.origin), 2):
+        for h in map(HalfEdge, range(0, len(m.origin), 2)):
             if m.origin[h] < 0 or self._is_inside(h):
                 continue
             u, v = (self.node[w] for w in self.mesh.ends(h))

@@ -8,8 +8,9 @@ from typing import final
 
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
+from exactpt.indices import HalfEdge
 from exactpt.kernel.numbers import QQ, place
-from exactpt.planar.halfedge import without_steps_back
+from exactpt.planar.halfedge import twin, without_steps_back
 from exactpt.query.answers import Path, VertexName
 from exactpt.query.locate import find, place_of
 from exactpt.query.sleeve import Sleeves, pull_tight
@@ -39,7 +40,7 @@ class ShortestPaths:
         if not self._plane.points:
             return _path((points[0], points[-1]), (), 0)
         first = tile = self._tile(points[0])
-        crossed: list[int] = []
+        crossed: list[HalfEdge] = []
         for p, q in pairwise(points):
             part = self._crossed_along(p, tile, q)
             crossed += part
@@ -57,7 +58,7 @@ class ShortestPaths:
             return max(plane.face[spot.handle], plane.face[spot.handle ^ 1])
         return spot.handle
 
-    def _crossed_along(self, p: Point, tile: int, q: Point) -> list[int]:
+    def _crossed_along(self, p: Point, tile: int, q: Point) -> list[HalfEdge]:
         """The half-edges crossed by a free segment from a point p of ``tile`` to q, in order."""
         plane = self._plane
         if p == q:
@@ -65,12 +66,13 @@ class ShortestPaths:
         ray = Ray(plane, p, (q[0] - p[0], q[1] - p[1]))
         spot, _ = find(plane, p)
         at, here = QQ(0), tile
-        crossed: list[int] = []
+        crossed: list[HalfEdge] = []
         while True:
             step = next_step(plane, ray, spot, at)
             there = step.through.handle if step.through.on is On.FACE else here
             if spot.on is On.EDGE and there not in (here, OUTSIDE):
-                crossed.append(spot.handle if plane.face[spot.handle] == here else spot.handle ^ 1)
+                h = HalfEdge(spot.handle)
+                crossed.append(h if plane.face[h] == here else twin(h))
                 here = there
             if step.end is None or step.at >= 1:
                 self._tile(q)  # raises if q is not free

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from exactpt.geometry.predicates import Point
+from exactpt.indices import HalfEdge
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.kernel.numbers import place as in_fractions
 from exactpt.query.answers import Hit, Place
@@ -48,7 +49,7 @@ def place_of(plane: Subdivision, spot: Spot, crossed: int = 0) -> Place:
         ends = plane.map.origin[handle], plane.map.origin[handle ^ 1]
         if plane.boundary[handle >> 1]:
             name = plane.names[plane.body[ends[0]]]
-            return Place("edge", name, edge=plane.edge_number(handle), crossed=crossed)
+            return Place("edge", name, edge=plane.edge_number(HalfEdge(handle)), crossed=crossed)
         names = plane.node_name(min(ends)), plane.node_name(max(ends))
         return Place("diagonal", diagonal=names, crossed=crossed)
     if handle == OUTSIDE:

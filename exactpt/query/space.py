@@ -19,6 +19,7 @@ from typing import TypeAlias, final
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
+from exactpt.indices import VertexId
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
@@ -27,7 +28,7 @@ from exactpt.query.homotopy import ShortestPaths
 from exactpt.query.locate import cast, find, place_of
 from exactpt.query.outer import OuterRectangle, with_outer_triangulation
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.tiling.mixed.static import mixed_mesh
+from exactpt.tiling import loading
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["FreeSpace", "PointLike"]
@@ -56,7 +57,7 @@ class FreeSpace:
         self._changes = kinetic.vertices.changes
         self._node = kinetic.vertices.nodes()
         self._mesh: Mesh = kinetic.mesh_now(at)
-        # The trees change as the run goes on; the root nodes are read now.
+        # What the mesh knows of relative hulls changes as the run goes on: it is read now.
         self._relative_hulls = self._mesh.relative_hulls()
         self._at = at
         self._wide: dict[int, ShortestPaths] = {}
@@ -160,10 +161,10 @@ class FreeSpace:
         """
         return [self._plane.node_name(v) for v in self._hull_nodes()]
 
-    def _hull_nodes(self) -> list[int]:
+    def _hull_nodes(self) -> Sequence[int]:
         plane = self._plane
         if OUTSIDE not in plane.edge_of:
-            return list(range(len(plane.points)))
+            return range(len(plane.points))
         m = plane.map
         cycle = [m.origin[h] for h in m.face(plane.edge_of[OUTSIDE])][::-1]
         least = cycle.index(min(cycle))
@@ -181,7 +182,7 @@ class FreeSpace:
         index, first = self._index(body), self._plane.first
         if first[index + 1] - first[index] == 1:
             return [(body, 0)]
-        around = self._relative_hulls or self._mixed
+        around = self._relative_hulls or self._built_hulls
         nodes = [self._node[v] for v in around(index)]
         cycle = [
             v for before, v in zip([nodes[-1], *nodes[:-1]], nodes, strict=True) if v != before
@@ -191,10 +192,10 @@ class FreeSpace:
         return [self._plane.node_name(v) for v in cycle[least:] + cycle[:least]]
 
     @cached_property
-    def _mixed(self) -> Callable[[int], list[int]]:
+    def _built_hulls(self) -> Callable[[int], list[VertexId]]:
         if self._vertices.changes != self._changes:
             raise InputError("the bodies have other motions now: make the space anew")
-        return mixed_mesh(PredicatesAt(self._vertices, self._at, after=False)).relative_hulls()
+        return loading.relative_hulls(PredicatesAt(self._vertices, self._at, after=False))
 
     def neighbours(self, body: str) -> list[str]:
         """The bodies connected to a body by a diagonal, in the order of the scene.
@@ -210,7 +211,7 @@ class FreeSpace:
         found: set[int] = set()
         for node in range(plane.first[index], plane.first[index + 1]):
             if plane.out[node] >= 0:
-                found.update(plane.body[m.target(h)] for h in m.fan(plane.out[node]))
+                found.update(plane.body[m.target(h)] for h in m.star(plane.out[node]))
         return [plane.names[i] for i in sorted(found - {index})]
 
     def _index(self, body: str) -> int:

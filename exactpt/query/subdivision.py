@@ -15,8 +15,9 @@ from typing import Final, final
 
 from exactpt.geometry.polygon import signed_area2
 from exactpt.geometry.predicates import Point
+from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId
 from exactpt.kernel.numbers import QQ, sign
-from exactpt.planar.halfedge import PlanarMap
+from exactpt.planar.halfedge import PlanarMap, twin
 from exactpt.pseudotriangulation.snapshot import Snapshot
 
 __all__ = ["OUTSIDE", "Subdivision", "cross"]
@@ -67,18 +68,18 @@ class Subdivision:
         self.first.append(len(self.points))
         self.map = PlanarMap()
         self.boundary: list[bool] = []
-        self.out: list[int] = [-1] * len(self.points)
+        self.out: list[HalfEdge] = [NO_HALF_EDGE] * len(self.points)
         self._link(hidden)
         self.face: list[int] = [OUTSIDE] * len(self.map.origin)
-        self.edge_of: dict[int, int] = {}
+        self.edge_of: dict[int, HalfEdge] = {}
         self._name_faces()
 
-    def direction(self, h: int) -> Point:
+    def direction(self, h: HalfEdge) -> Point:
         """The vector from the origin of a half-edge to its target."""
         (a, b), (c, d) = self.points[self.map.origin[h]], self.points[self.map.origin[h ^ 1]]
         return c - a, d - b
 
-    def edge_number(self, h: int) -> int:
+    def edge_number(self, h: HalfEdge) -> int:
         """The number of the edge of a body that a half-edge belongs to."""
         u, v = sorted((self.map.origin[h], self.map.origin[h ^ 1]))
         return (u if v == u + 1 else v) - self.first[self.body[u]]
@@ -89,28 +90,28 @@ class Subdivision:
         return self.names[body], node - self.first[body]
 
     def _link(self, hidden: Collection[tuple[int, int]]) -> None:
-        around: list[list[int]] = [[] for _ in self.points]
+        around: list[list[HalfEdge]] = [[] for _ in self.points]
         for edge in self.snapshot.edges:
             if edge.kind == "boundary" or (edge.u, edge.v) not in hidden:
-                h = self.map.add_edge(edge.u, edge.v)
+                h = self.map.add_edge(VertexId(edge.u), VertexId(edge.v))
                 self.boundary.append(edge.kind == "boundary")
                 around[edge.u].append(h)
-                around[edge.v].append(h ^ 1)
+                around[edge.v].append(twin(h))
         for node, edges in enumerate(around):
             if edges:
                 self.out[node] = edges[0]
-                fan = self._sorted(edges)
-                for h, following in pairwise([*fan, fan[0]]):
+                star = self._sorted(edges)
+                for h, following in pairwise([*star, star[0]]):
                     # Coming in along the twin of the later half-edge, the face continues
                     # along the earlier one.
-                    self.map.link(following ^ 1, h)
+                    self.map.link(twin(following), h)
 
-    def _sorted(self, edges: list[int]) -> list[int]:
+    def _sorted(self, edges: list[HalfEdge]) -> list[HalfEdge]:
         """Half-edges out of a node, sorted counter-clockwise from the direction (1, 0)."""
         direction = {h: self.direction(h) for h in edges}
         lower = {h: y < 0 or (y == 0 and x < 0) for h, (x, y) in direction.items()}
 
-        def order(g: int, h: int) -> int:
+        def order(g: HalfEdge, h: HalfEdge) -> int:
             if lower[g] != lower[h]:
                 return 1 if lower[g] else -1
             return -sign(cross(direction[g], direction[h]))
@@ -124,7 +125,7 @@ class Subdivision:
         for i, tile in enumerate(self.snapshot.faces):
             names.update(dict.fromkeys(pairwise([*tile.nodes, tile.nodes[0]]), i))
         origin = self.map.origin
-        for h in range(len(origin)):
+        for h in map(HalfEdge, range(len(origin))):
             face = names.get((origin[h], origin[h ^ 1]))
             if face is not None:
                 self.face[h] = face
@@ -145,4 +146,4 @@ class Subdivision:
     def _has_edge(self, u: int, v: int) -> bool:
         """Whether two nodes are joined by an edge of a body."""
         m = self.map
-        return any(self.boundary[h >> 1] and m.target(h) == v for h in m.fan(self.out[u]))
+        return any(self.boundary[h >> 1] and m.target(h) == v for h in m.star(self.out[u]))

@@ -11,7 +11,9 @@ from enum import Enum
 from typing import NamedTuple, final
 
 from exactpt.geometry.predicates import Point
+from exactpt.indices import HalfEdge
 from exactpt.kernel.numbers import QQ, sign
+from exactpt.planar.halfedge import twin
 from exactpt.query.subdivision import Subdivision, cross
 
 __all__ = ["On", "Ray", "RayStep", "Spot", "next_step"]
@@ -99,11 +101,11 @@ def next_step(plane: Subdivision, ray: Ray, spot: Spot, at: QQ) -> RayStep:
     if spot.on is On.FACE:
         return _through_face(plane, ray, spot.handle, plane.edge_of[spot.handle], at)
     if spot.on is On.EDGE:
-        h = spot.handle
+        h = HalfEdge(spot.handle)
         turn = sign(cross(plane.direction(h), ray.direction))
         if turn == 0:
-            return _along(plane, ray, h if _ahead(plane, ray, h) else h ^ 1)
-        h = h if turn > 0 else h ^ 1
+            return _along(plane, ray, h if _ahead(plane, ray, h) else twin(h))
+        h = h if turn > 0 else twin(h)
         return _through_face(plane, ray, plane.face[h], h, at)
     h, along = _sector(plane, ray, spot.handle)
     if along:
@@ -111,40 +113,40 @@ def next_step(plane: Subdivision, ray: Ray, spot: Spot, at: QQ) -> RayStep:
     return _through_face(plane, ray, plane.face[h], h, at)
 
 
-def _ahead(plane: Subdivision, ray: Ray, h: int) -> bool:
+def _ahead(plane: Subdivision, ray: Ray, h: HalfEdge) -> bool:
     """Whether a half-edge on the line of the ray has the direction of the ray."""
     (x, y), (dx, dy) = plane.direction(h), ray.direction
     return x * dx + y * dy > 0
 
 
-def _along(plane: Subdivision, ray: Ray, h: int) -> RayStep:
+def _along(plane: Subdivision, ray: Ray, h: HalfEdge) -> RayStep:
     end = plane.map.target(h)
     return RayStep(Spot(On.EDGE, h), Spot(On.NODE, end), ray.reaches(end))
 
 
-def _sector(plane: Subdivision, ray: Ray, node: int) -> tuple[int, bool]:
+def _sector(plane: Subdivision, ray: Ray, node: int) -> tuple[HalfEdge, bool]:
     """The half-edge out of a node whose sector contains the direction; whether it is along it.
 
     The sector of h lies between h and the next half-edge counter-clockwise: the corner of the
     face on the left of h.
     """
-    fan = plane.map.fan(plane.out[node])
+    star = plane.map.star(plane.out[node])
     direction = ray.direction
-    turns = [sign(cross(plane.direction(h), direction)) for h in fan]
-    for h, turn in zip(fan, turns, strict=True):
+    turns = [sign(cross(plane.direction(h), direction)) for h in star]
+    for h, turn in zip(star, turns, strict=True):
         if turn == 0 and _ahead(plane, ray, h):
             return h, True
-    for i, h in enumerate(fan):
+    for i, h in enumerate(star):
         # The direction is left of h and right of g, or the sector is wider than pi.
-        g, after = fan[(i + 1) % len(fan)], turns[(i + 1) % len(fan)]
-        wide = len(fan) == 1 or not _is_below_pi(plane, h, g)
+        g, after = star[(i + 1) % len(star)], turns[(i + 1) % len(star)]
+        wide = len(star) == 1 or not _is_below_pi(plane, h, g)
         inside = (turns[i] > 0 or after < 0) if wide else (turns[i] > 0 and after < 0)
-        if inside or len(fan) == 1:
+        if inside or len(star) == 1:
             return h, False
-    return fan[0], False
+    return star[0], False
 
 
-def _is_below_pi(plane: Subdivision, h: int, g: int) -> bool:
+def _is_below_pi(plane: Subdivision, h: HalfEdge, g: HalfEdge) -> bool:
     return cross(plane.direction(h), plane.direction(g)) > 0
 
 

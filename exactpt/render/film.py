@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, final
 
+from exactpt.indices import VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.render.tracker import EdgeSpan, TileSpan, Tracker
 from exactpt.simulation.simulation import Simulation
@@ -100,7 +101,7 @@ def film_of(
         steps = (Step(simulation.now, [Change("contact", (), ())], ()),)
         return Film(scene, simulation.name, steps, (), (), simulation.contact)
     node = kinetic.vertices.nodes()
-    node_of = {kinetic.vertices.name(v): n for v, n in enumerate(node)}
+    node_of = {kinetic.vertices.name(VertexId(v)): n for v, n in enumerate(node)}
     tracker = Tracker(kinetic, node)
     taken: list[Step] = []
     latest: EventTime | None = None

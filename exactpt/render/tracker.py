@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Final, NamedTuple, final
 
+from exactpt.indices import HalfEdge
 from exactpt.pseudotriangulation.mesh import F2, FREE, INSIDE, OUTER, SOLID, Tile
 from exactpt.render.palette import TINTS
 
@@ -112,11 +113,16 @@ class Tracker:
     def update(self, step: int) -> None:
         """Record the changes since the last call; the present state holds from ``step`` on."""
         mesh = self._kinetic.mesh_after()
-        now = [mesh.map.origin, mesh.map.following, mesh.region, [*map(int, mesh.corner)]]
+        now: list[list[int]] = [
+            list(mesh.map.origin),
+            list(mesh.map.following),
+            list(mesh.region),
+            list(map(int, mesh.corner)),
+        ]
         changed: set[int] = set()
         for old, new in zip(self._seen, now, strict=True):
             changed.update(_differences(old, new))
-        self._seen = [array[:] for array in now]
+        self._seen = now
         labels = list(mesh.labelling())  # a label places the tiles on both sides of its edge
         changed.update(h ^ side for h in _differences(self._labels, labels) for side in (0, 1))
         self._labels = labels
@@ -134,7 +140,7 @@ class Tracker:
         for h in changed:
             if h in found or m.origin[h] < 0 or mesh.region[h] in (OUTER, SOLID):
                 continue
-            cycle = m.face(h)
+            cycle: list[int] = list(m.face(HalfEdge(h)))
             found.update(cycle)
             old.update((g, self._tile_of[g]) for g in cycle)
             cycles.append(cycle)
@@ -157,7 +163,7 @@ class Tracker:
         nodes = [v for u, v in zip([around[-1], *around], around, strict=False) if u != v]
         corners = tuple(self._node[m.origin[h]] for h in cycle if mesh.corner[h])
         inside = mesh.region[cycle[0]] != FREE
-        place = F2 if inside else mesh.tile(cycle[0])
+        place = F2 if inside else mesh.tile(HalfEdge(cycle[0]))
         if before is not None:
             is_same = set(before.corners) == set(corners) and before.place == place
             if is_same and _same_cycle(before.nodes, nodes):
@@ -207,7 +213,7 @@ class Tracker:
         mesh = self._kinetic.mesh_after()
         edges = [e for e in members if mesh.boundary[e] or mesh.region[2 * e] != INSIDE]
         boundary = any(mesh.boundary[e] for e in edges)
-        if any(mesh.is_hull(2 * e) for e in edges):
+        if any(mesh.is_hull(HalfEdge(2 * e)) for e in edges):
             return "rim" if boundary else "hull"
         return None if boundary or not edges else "diagonal"
 

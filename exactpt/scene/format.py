@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Final
 
 from exactpt.errors import InputError
-from exactpt.files import write_atomically
+from exactpt.files import read_text, write_atomically
+from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body, is_text
@@ -40,22 +41,17 @@ __all__ = ["from_json", "load", "loads", "save", "to_json"]
 VERSION: Final = 1
 
 
-def load(path: Path) -> Scene:
-    """Read a scene file.
+def load(path: Path, max_bytes: int | None = None) -> Scene:
+    """Read a scene file of at most ``max_bytes``, by default `exactpt.files.MOST_BYTES`.
 
     Raises:
         InputError: one line that names the file, the body, the key and the value.
     """
-    shown = path if str(path).isprintable() else repr(str(path))
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
-        raise InputError(f"{shown}: cannot be read: {reason}") from None
+    text = read_text(path, max_bytes)
     try:
         return loads(text)
     except InputError as error:
-        raise InputError(f"{shown}: {error}") from None
+        raise InputError(f"{path}: {error}") from None
 
 
 def loads(text: str) -> Scene:
@@ -121,6 +117,7 @@ def _body(data: Json, index: int) -> Body:
 
 
 def _vertex(data: Json, where: str) -> Position:
+    ask()
     if isinstance(data, dict):
         an_object(data, where, optional={"x", "y"})
         return _coordinate(data, "x", where), _coordinate(data, "y", where)

@@ -45,8 +45,7 @@ def parse_json(text: str) -> Json:
     """The value of a JSON text, numbers as they are written.
 
     Raises:
-        InputError: if it is not JSON, or repeats a key.
-        RecursionError: if it is nested too deeply.
+        InputError: if it is not JSON, repeats a key, or is nested too deeply.
     """
     try:
         data: Json = json.loads(
@@ -59,6 +58,8 @@ def parse_json(text: str) -> Json:
     except json.JSONDecodeError as error:
         where = f"line {error.lineno}, column {error.colno}"
         raise InputError(f"not JSON: {error.msg} at {where}") from None
+    except RecursionError:
+        raise InputError("not JSON: nested too deeply") from None
     return data
 
 

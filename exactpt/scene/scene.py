@@ -10,13 +10,17 @@ from typing import TYPE_CHECKING, Literal, final
 from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.geometry.polygon import first_self_touch, signed_area2
+from exactpt.geometry.simple import is_surely_simple
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, rationals, shorten, show
 from exactpt.motion.body import Body
+from exactpt.motion.outline import outline_at
+from exactpt.scene.body_arrays import BodyArrays
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["Scene"]
+__all__ = ["Scene", "check_simple", "scene_of"]
 
 
 @final
@@ -24,7 +28,8 @@ class Scene:
     """Bodies that move during a closed time span.
 
     Attributes:
-        bodies: in the order of the file; names are unique.
+        bodies: in the order of the file; names are unique. A tuple, or a sequence that makes
+            each body when it is asked for (`from_arrays`).
 
     Raises:
         InputError: if a name repeats, the end is not after the start, or a polygon or
@@ -34,53 +39,78 @@ class Scene:
     __slots__ = ("_end", "_start", "bodies")
 
     def __init__(self, bodies: Iterable[Body], time: Sequence[Rational] = (0, 1)) -> None:
-        self.bodies = tuple(bodies)
+        self.bodies: Sequence[Body] = tuple(bodies)
         for i, body in enumerate(self.bodies):
             if not isinstance(body, Body):
                 raise InputError(f"body {i}: not a body: {shorten(body)}")
-        self._start, self._end = rationals(time, 2, "a time span has a start and an end")
-        if self._start >= self._end:
-            span = f"from {show(self._start)} to {show(self._end)}"
-            raise InputError(f"time: the span {span} is empty")
+        self._start, self._end = _span(time)
         names: set[str] = set()
         for body in self.bodies:
             if body.name in names:
                 raise InputError(f"body {shorten(body.name)}: the name is taken by another body")
             names.add(body.name)
-            self._check_simple(body)
-
-    def _check_simple(self, body: Body) -> None:
-        points = body._at(self._start)
-        touch = first_self_touch(points, closed=body.closed)
-        if touch is not None:
-            i, j = touch
-            what = "polygon" if body.closed else "chain"
-            if i == j:
-                u = points[i]
-                raise InputError(
-                    f"body {shorten(body.name)}: vertex {i} and the next one are both at "
-                    f"{show(*u)} at the start, t = {show(self._start)}"
-                )
-            raise InputError(
-                f"body {shorten(body.name)}: not a simple {what} "
-                f"at the start, t = {show(self._start)}: "
-                f"edge {i} from {show(*points[i])} meets edge {j} from {show(*points[j])}"
-            )
-        if body.has_interior and signed_area2(points) == 0:
-            raise InputError(
-                f"body {shorten(body.name)}: the polygon has no area at t = {show(self._start)}"
-            )
+            check_simple(body, self._start)
 
     @classmethod
-    def load(cls, path: str | Path) -> Scene:
+    def from_arrays(
+        cls,
+        vertices: ArrayLike,
+        offsets: ArrayLike,
+        *,
+        velocities: ArrayLike | None = None,
+        coefficients: ArrayLike | None = None,
+        closed: ArrayLike = True,
+        names: Sequence[str] | None = None,
+        time: Sequence[Rational] = (0, 1),
+    ) -> Scene:
+        """The scene of bodies in numpy arrays, with the exact values of their doubles.
+
+        >>> corners = [(0, 0), (2, 0), (0, 2), (5, 1)]
+        >>> scene = Scene.from_arrays(corners, [0, 3, 4], velocities=[(0, 0), (-1, 0)])
+        >>> scene.bodies[1]
+        <Body '1': point of 1 vertices>
+
+        Polygons and chains are validated at once, in numpy where its bounds allow it. A body,
+        and the rationals of its vertices, is made when somebody asks for it.
+
+        Args:
+            vertices: shape (N, 2), the vertices of all bodies.
+            offsets: shape (n + 1,): body k has the vertices ``offsets[k]`` to
+                ``offsets[k + 1]`` - 1.
+            velocities: shape (n, 2); bodies are at rest if neither these nor ``coefficients``
+                are given.
+            coefficients: shape (n, 2, d + 1): the translation of body k in x and in y is a
+                polynomial in t with these coefficients, constant first.
+            closed: for each body or for all, False for an open chain.
+            names: the names of the bodies; "0", "1", ... if not given.
+            time: the start and the end of the scene.
+
+        Raises:
+            InputError: if the arrays do not describe bodies, see `Scene`.
+        """
+        bodies = BodyArrays(
+            vertices, offsets, velocities=velocities, coefficients=coefficients, closed=closed,
+            names=names,
+        )  # fmt: skip
+        start, end = _span(time)
+        for k in bodies.doubtful():
+            check_simple(bodies.make(k), start)
+        return scene_of(bodies, start, end)
+
+    @classmethod
+    def load(cls, path: str | Path, *, max_bytes: int | None = None) -> Scene:
         """Read a scene from a JSON file in the format of docs/format.md.
+
+        Args:
+            path: the file.
+            max_bytes: maximum size of the file, which is refused otherwise; by default 10^8.
 
         Raises:
             InputError: one line that names the file, the body, the key and the value.
         """
         from exactpt.scene.format import load
 
-        return load(Path(path))
+        return load(Path(path), max_bytes)
 
     def save(self, path: str | Path) -> None:
         """Write the scene as JSON, exactly and atomically: the file is complete or not there.
@@ -132,9 +162,13 @@ class Scene:
         Raises:
             InputError: if there is none.
         """
-        for body in self.bodies:
-            if body.name == name:
-                return body
+        if isinstance(self.bodies, BodyArrays):
+            known = self.bodies.named(name)
+            found = None if known is None else self.bodies[known]
+        else:
+            found = next((body for body in self.bodies if body.name == name), None)
+        if found is not None:
+            return found
         raise InputError(f"there is no body {shorten(name)}")
 
     def at(self, t: Rational) -> dict[str, list[tuple[Fraction, Fraction]]]:
@@ -184,19 +218,17 @@ class Scene:
             raise InputError(
                 f"the end t = {show(last)} is not after the start t = {show(self._start)}"
             )
-        other = Scene.__new__(Scene)
-        other.bodies, other._start, other._end = self.bodies, self._start, last
-        return other
+        return scene_of(self.bodies, self._start, last)
 
     def going_on(self, bodies: Iterable[Body], start: QQ) -> Scene:
         """The scene from a later start on, with bodies already known to be valid then."""
-        other = Scene.__new__(Scene)
-        other.bodies, other._start, other._end = tuple(bodies), start, self._end
-        return other
+        return scene_of(tuple(bodies), start, self._end)
 
     @property
     def vertex_count(self) -> int:
         """The number of vertices of all bodies."""
+        if isinstance(self.bodies, BodyArrays):
+            return self.bodies.vertex_count
         return sum(body.size for body in self.bodies)
 
     def __eq__(self, other: object) -> bool:
@@ -222,8 +254,51 @@ class Scene:
         )
 
 
-def _valid_scene(bodies: tuple[Body, ...], start: str, end: str) -> Scene:
-    """The scene of a pickle, which was validated before."""
+def scene_of(bodies: Sequence[Body], start: QQ, end: QQ) -> Scene:
+    """The scene of bodies that are known to be valid."""
     scene = Scene.__new__(Scene)
-    scene.bodies, scene._start, scene._end = bodies, rational(start), rational(end)
+    scene.bodies, scene._start, scene._end = bodies, start, end
     return scene
+
+
+def _valid_scene(bodies: Sequence[Body], start: str, end: str) -> Scene:
+    """The scene of a pickle, which was validated before."""
+    return scene_of(bodies, rational(start), rational(end))
+
+
+def _span(time: Sequence[Rational]) -> tuple[QQ, QQ]:
+    start, end = rationals(time, 2, "a time span has a start and an end")
+    if start >= end:
+        raise InputError(f"time: the span from {show(start)} to {show(end)} is empty")
+    return start, end
+
+
+def check_simple(body: Body, start: QQ) -> None:
+    """Check that a body is a simple polygon or chain at the start of a scene.
+
+    Raises:
+        InputError: if it is not.
+    """
+    shape = outline_at(body, start)
+    if shape is not None and is_surely_simple(
+        shape.xs, shape.ys, closed=body.closed, error=shape.error
+    ):
+        return
+    points = body._at(start)
+    touch = first_self_touch(points, closed=body.closed)
+    if touch is not None:
+        i, j = touch
+        what = "polygon" if body.closed else "chain"
+        if i == j:
+            u = points[i]
+            raise InputError(
+                f"body {shorten(body.name)}: vertex {i} and the next one are both at "
+                f"{show(*u)} at the start, t = {show(start)}"
+            )
+        raise InputError(
+            f"body {shorten(body.name)}: not a simple {what} "
+            f"at the start, t = {show(start)}: "
+            f"edge {i} from {show(*points[i])} meets edge {j} from {show(*points[j])}"
+        )
+    if body.has_interior and signed_area2(points) == 0:
+        raise InputError(f"body {shorten(body.name)}: the polygon has no area at t = {show(start)}")

@@ -3,22 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import final
+from typing import NamedTuple, final
 
+from exactpt.certificates.queue import EventTime
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
 from exactpt.simulation.plans import planned
-from exactpt.tiling.events import TilingEvent
+from exactpt.simulation.telling import Teller
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["LivingScene"]
+__all__ = ["Choice", "LivingScene"]
+
+
+class Choice(NamedTuple):
+    """The choice of a tiling.
+
+    Attributes:
+        asked: the requested tiling: "auto" or one of `TILINGS`.
+        name: the name of the one chosen at the start.
+        exact_only: whether the float filters are off.
+    """
+
+    asked: str
+    name: str
+    exact_only: bool
 
 
 @final
@@ -26,25 +42,16 @@ class LivingScene:
     """A scene with its tiling; bodies are added, removed and given new motions.
 
     Attributes:
-        asked: the requested tiling: "auto" or one of `TILINGS`.
-        exact_only: whether the float filters are off.
-        kinetic: the current tiling.
+        choice: how the tiling was chosen.
         changes: number of new motions, added bodies and removed bodies.
     """
 
     def __init__(
-        self,
-        scene: Scene,
-        kinetic: Tiling,
-        asked: str,
-        *,
-        exact_only: bool,
-        changes: int = 0,
+        self, scene: Scene, tiling: Tiling | None, choice: Choice, changes: int = 0
     ) -> None:
-        self.asked = asked
-        self.exact_only = exact_only
-        self.kinetic = kinetic
+        self.choice = choice
         self.changes = changes
+        self._teller = None if tiling is None else Teller(tiling)
         self._end = scene
         self._scene: Scene | None = scene
         self._since = scene._start
@@ -55,6 +62,49 @@ class LivingScene:
     def _set_bodies(self, bodies: Sequence[Body]) -> None:
         self._bodies = list(bodies)
         self._number = {body.name: i for i, body in enumerate(bodies)}
+
+    @property
+    def tiling(self) -> Tiling | None:
+        """The current tiling; None if bodies touch at the start."""
+        return None if self._teller is None else self._teller.tiling
+
+    @property
+    def kinetic(self) -> Tiling:
+        """The current tiling; an `InputError` if bodies touch at the start."""
+        return self.teller.tiling
+
+    @property
+    def teller(self) -> Teller:
+        """The current tiling with its names.
+
+        Raises:
+            InputError: if bodies touch at the start.
+        """
+        if self._teller is None:
+            raise InputError("the bodies touch at the start: there is no tiling")
+        return self._teller
+
+    @property
+    def passed(self) -> EventTime | None:
+        """The last time up to which the current tiling has been advanced."""
+        return None if self._teller is None else self._teller.passed
+
+    @property
+    def name(self) -> str:
+        """The name of the tiling."""
+        return self.choice.name if self.tiling is None else self.tiling.name
+
+    @property
+    def now(self) -> AlgebraicNumber:
+        """The current time."""
+        return AlgebraicNumber(self._since) if self.tiling is None else self.tiling.now
+
+    @property
+    def counts(self) -> Counts:
+        """The counts of decisions so far."""
+        if self.tiling is None:
+            return Counts(0, 0, {})
+        return self.tiling.vertices.counters.now()
 
     @property
     def scene(self) -> Scene:
@@ -71,29 +121,14 @@ class LivingScene:
         """
         return self._bodies[self._index(name)]
 
+    def has(self, body: Body) -> bool:
+        """Whether a body belongs to the scene, with this motion."""
+        return body.name in self._number and self.body(body.name) is body
+
     def _index(self, name: str) -> int:
         if name not in self._number:
             raise InputError(f"there is no body {shorten(name)}")
         return self._number[name]
-
-    def named(self, event: TilingEvent, gone: Mapping[int, str] | None = None) -> Event:
-        """An event of the tiling, with vertices named as in the scene.
-
-        Args:
-            event: the event.
-            gone: the names of vertices that have been removed, by id.
-        """
-        time = event.time.exact or self.kinetic.certifier.resolve(event.time)
-
-        def name(v: int) -> str:
-            return gone[v] if gone and v in gone else self.kinetic.vertices.name(v)
-
-        return Event(
-            time,
-            event.kind,
-            tuple((name(u), name(v)) for u, v in event.removed),
-            tuple((name(u), name(v)) for u, v in event.added),
-        )
 
     def rational_now(self) -> QQ:
         """The current time, as a time at which bodies may change.
@@ -123,7 +158,7 @@ class LivingScene:
             return self._restart(bodies, t, len(new))
         self._bodies, self._since, self._scene = bodies, t, None
         self.changes += len(new)
-        return [self.named(event) for event in events]
+        return self.teller.told(events)
 
     def add(self, body: Body) -> list[Event]:
         """Adds a body, see `Simulation.add`; returns the events caused at once."""
@@ -142,7 +177,8 @@ class LivingScene:
         self._bodies.append(body)
         self._since, self._scene = t, None
         self.changes += 1
-        return [self.named(event) for event in events]
+        self.teller.forget(self.kinetic.vertices.bodies[-1].ring)
+        return self.teller.told(events)
 
     def remove(self, name: str) -> list[Event]:
         """Removes a body, see `Simulation.remove`; returns the events caused at once."""
@@ -153,23 +189,25 @@ class LivingScene:
             self._bodies[i] = last
         self._number[last.name] = i
         del self._number[name]
-        gone = {v: kinetic.vertices.name(v) for v in kinetic.vertices.bodies[i].ring}
+        for v in kinetic.vertices.bodies[i].ring:
+            self.teller.name(v)  # to be known once it is removed
         events = kinetic.remove_body(i, t)
         if events is None:
             return self._restart(self._bodies, t, 1)
         self._since, self._scene = t, None
         self.changes += 1
-        return [self.named(event, gone) for event in events]
+        return self.teller.told(events)
 
     def _restart(self, bodies: Sequence[Body], t: QQ, changes: int) -> list[Event]:
         """Rebuild the tiling for these bodies; a single event lists the difference in edges."""
         before = self._diagonals()
         scene = self._end.going_on(bodies, t)
-        kinetic = plan_tiling(scene, self.asked, t).start(t, exact_only=self.exact_only)
+        choice = self.choice
+        kinetic = plan_tiling(scene, choice.asked, t).start(t, exact_only=choice.exact_only)
         kinetic.take_over_counts(self.kinetic)
         kinetic.stats.count("motion")
         kinetic.stats.rebuilds += 1
-        self.kinetic, self._scene, self._since = kinetic, scene, t
+        self._teller, self._scene, self._since = Teller(kinetic), scene, t
         self._set_bodies(bodies)
         self.changes += changes
         after = self._diagonals()
@@ -177,7 +215,6 @@ class LivingScene:
         return [Event(AlgebraicNumber(t), "motion", tuple(removed), tuple(added))]
 
     def _diagonals(self) -> set[tuple[str, str]]:
-        name = self.kinetic.vertices.name
-        mesh = self.kinetic.mesh_after()
+        name, mesh = self.teller.name, self.kinetic.mesh_after()
         ends = (sorted(map(name, mesh.ends(h))) for h in mesh.diagonals())
         return {(u, v) for u, v in ends if u != v}

@@ -1,4 +1,26 @@
-"""Statistics of a run: those of docs/format.md, and the measures of a kinetic data structure."""
+"""Statistics of a run: those of docs/format.md, and the measures of a kinetic data structure.
+
+Keys, in addition to those of docs/format.md:
+
+* ``by_kind``: number of events by kind. ``external``: number of events that change the
+  tiling as users see it; ``internal``: all others (new motions, infinitesimal copies of
+  vertices, extreme vertices).
+* ``pending``, ``most_pending``: number of certificates in the queue, now and at most.
+* ``locality``: number of pending certificates that involve one body, maximum and mean.
+* ``responsiveness``: certificates computed or skipped per event.
+* ``efficiency``: ratio of all events to external events.
+* ``batches``: number of times at which several certificates failed; ``rebuilds``: number
+  of times that the tiling was rebuilt; ``flips``: number of flips in repairs.
+* ``zeros``: number of certificates decided exactly because they vanish, now or
+  identically.
+* ``reasons``: number of exact decisions by ``"what: why"``. What: "certificate" (a sign,
+  and when it may change), "sign" (in repairs and constructions), "time" (the order of two
+  events), "place" (the order along a line, coincidence), "contact" (a vertex on an edge).
+  Why: "zero" (the sign is zero: collinear, equal in x or y, simultaneous, touching), "close"
+  (it is not zero, but too small for the filter), "copies" (infinitesimal copies of a vertex
+  of a degenerate body), "range" (numbers out of the range of the filters), "asked" (filters
+  off).
+"""
 
 from __future__ import annotations
 
@@ -11,29 +33,7 @@ __all__ = ["report"]
 
 
 def report(scene: Scene, kinetic: Tiling | None, counts: Counts) -> dict[str, object]:
-    """The counts of a run so far.
-
-    Keys, in addition to those of docs/format.md:
-
-    * ``by_kind``: number of events by kind. ``external``: number of events that change the
-      tiling as users see it; ``internal``: all others (new motions, infinitesimal copies of
-      vertices, extreme vertices).
-    * ``pending``, ``most_pending``: number of certificates in the queue, now and at most.
-    * ``locality``: number of pending certificates that involve one body, maximum and mean.
-    * ``responsiveness``: certificates computed or skipped per event.
-    * ``efficiency``: ratio of all events to external events.
-    * ``batches``: number of times at which several certificates failed; ``rebuilds``: number
-      of times that the tiling was rebuilt; ``flips``: number of flips in repairs.
-    * ``zeros``: number of certificates decided exactly because they vanish, now or
-      identically.
-    * ``reasons``: number of exact decisions by ``"what: why"``. What: "certificate" (a sign,
-      and when it may change), "sign" (in repairs and constructions), "time" (the order of two
-      events), "place" (the order along a line, coincidence), "contact" (a vertex on an edge).
-      Why: "zero" (the sign is zero: collinear, equal in x or y, simultaneous, touching), "close"
-      (it is not zero, but too small for the filter), "copies" (infinitesimal copies of a vertex
-      of a degenerate body), "range" (numbers out of the range of the filters), "asked" (filters
-      off).
-    """
+    """The counts of a run so far."""
     data: dict[str, object] = {
         "bodies": len(scene.bodies),
         "vertices": scene.vertex_count,

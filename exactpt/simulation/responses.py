@@ -48,13 +48,15 @@ class Bounce:
     Rotations and deformations continue unchanged; translations become linear.
 
     Args:
-        fixed: names of bodies that never change their motion.
+        fixed: names of bodies that never change their motion; all of them are bodies at the
+            first contact.
         slowest: minimum normal speed, positive, at which touching features separate.
         fastest: maximum absolute value of each velocity coordinate; None for no limit.
         grid: positive step to whose multiples velocities are rounded.
 
     Raises:
-        InputError: if ``fixed`` is a string, or a number is not positive.
+        InputError: if ``fixed`` is a string, or a number is not positive; at the first contact,
+            if a name in ``fixed`` is no body.
     """
 
     def __init__(
@@ -71,12 +73,14 @@ class Bounce:
             if number is not None and rational(number) <= 0:
                 raise InputError(f"{what}: not positive: {number!r}")
         self._fixed = frozenset(fixed)
+        self._unseen = set(fixed)  # a misspelt name would be a body that is pushed away
         self._slowest = nearest_float(rational(slowest))
         self._fastest = math.inf if fastest is None else nearest_float(rational(fastest))
         self._grid = rational(grid)
 
     def __call__(self, simulation: Simulation, contact: Contact) -> None:
         """Give the bodies of a contact velocities with which they separate."""
+        self._check_names(simulation)
         t = simulation.now._low
         names = sorted({name for pair in contact.pairs for name in (pair.body, pair.other)})
         bodies = {name: simulation.body(name) for name in names}
@@ -91,6 +95,15 @@ class Bounce:
             if name not in self._fixed and any(change[name]):
                 plans[name] = self._plan(bodies[name], change[name], t)
         simulation.set_motions(plans)
+
+    def _check_names(self, simulation: Simulation) -> None:
+        """Check that every fixed name is that of a body, now or at a contact before."""
+        for name in sorted(self._unseen):
+            try:
+                simulation.body(name)
+            except InputError as error:
+                raise InputError(f"Bounce: fixed: {error}") from None
+            self._unseen.discard(name)
 
     def __reduce__(self) -> tuple[object, ...]:
         fastest = None if math.isinf(self._fastest) else self._fastest

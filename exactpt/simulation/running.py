@@ -2,288 +2,243 @@
 
 from __future__ import annotations
 
-import time as clock
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from fractions import Fraction
-from typing import Self
+from typing import TypeAlias, final
 
-from exactpt.certificates.queue import EventTime
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import plan_tiling
-from exactpt.errors import BudgetExceeded, InputError
+from exactpt.errors import BudgetExceeded, InputError, carrying
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import QQ, Rational, fraction, power_of_two, rational, show
-from exactpt.motion.body import Body
 from exactpt.scene.scene import Scene
+from exactpt.simulation.budget import Budget
 from exactpt.simulation.event import Event
-from exactpt.simulation.living import LivingScene
-from exactpt.simulation.questions import Questions
-from exactpt.simulation.report import report
+from exactpt.simulation.living import Choice, LivingScene
+from exactpt.simulation.met import Met, met
 from exactpt.tiling.events import ContactFound
-from exactpt.tiling.tiling import Tiling
 
-__all__ = ["Running"]
+__all__ = ["Response", "Run", "begin"]
+
+Response: TypeAlias = "Callable[[Contact], object]"
+"""Called just before a contact; it may change motions."""
 
 
-class Running(Questions):
-    """`exactpt.Simulation` without changes of bodies and without files.
+@final
+class Run:
+    """A scene whose time passes, see `exactpt.Simulation`.
 
-    Args and attributes: see there.
+    Attributes:
+        living: the scene with its tiling.
+        margin: maximum distance in time between a response and its contact.
+        pending: events that have been processed and not been reported.
+        contact: the contact that has ended the run, or None.
+        contacts: number of contacts so far.
+        met: the last contact with a response.
     """
 
-    def __init__(
-        self,
-        scene: Scene,
-        *,
-        tiling: str = "auto",
-        exact_only: bool = False,
-        max_events: int | None = None,
-        max_seconds: float | None = None,
-    ) -> None:
-        for what, bound in (("max_events", max_events), ("max_seconds", max_seconds)):
-            if bound is not None and not bound >= 0:
-                raise InputError(f"{what}: not a number from 0 on: {bound!r}")
-        plan = plan_tiling(scene, tiling, scene._start)
+    def __init__(self, living: LivingScene, budget: Budget) -> None:
+        self.living = living
+        self.margin = _margin_of(living.scene)
+        self.pending: deque[Event] = deque()
         self.contact: Contact | None = None
-        self.contacts: int = 0
-        self._given = scene, plan.name
-        self._margin = _margin_of(scene)
-        self._asked_for = tiling, exact_only
-        self._max_events = max_events
-        self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
-        self._events = 0
-        self._proved: QQ = scene._start
-        self._passed: EventTime | None = None
-        self._met: tuple[AlgebraicNumber, dict[str, Body]] | None = None
-        self._pending: deque[Event] = deque()
-        self._forget_space()
-        self._living: LivingScene | None = None
-        touches, overlaps = initial_touches(scene)
-        if overlaps:
-            self._end_with(contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps))
-        else:
-            try:
-                kinetic = plan.start(scene._start, exact_only=exact_only)
-            except BudgetExceeded as spent:
-                spent.reached = scene.start
-                raise
-            self._living = LivingScene(scene, kinetic, tiling, exact_only=exact_only)
-
-    @property
-    def scene(self) -> Scene:
-        """The bodies with their current motions; the scene starts at the last change of motion."""
-        return self._given[0] if self._living is None else self._living.scene
-
-    @property
-    def name(self) -> str:
-        """The name of the tiling."""
-        return self._given[1] if self._living is None else self._living.kinetic.name
-
-    @property
-    def now(self) -> AlgebraicNumber:
-        """The current time."""
-        if self._living is None:
-            return AlgebraicNumber(self.scene._start)
-        return self._living.kinetic.now
-
-    @property
-    def kinetic(self) -> Tiling | None:
-        """The kinetic tiling, for `exactpt.render`; None if bodies touch at the start.
-
-        At a contact it is the tiling just before.
-        """
-        return None if self._living is None else self._living.kinetic
-
-    @property
-    def stats(self) -> dict[str, object]:
-        """The counts of the run so far, see `exactpt.simulation.report`."""
-        changes = 0 if self._living is None else self._living.changes
-        data = report(self.scene, self.kinetic, self._counts())
-        return data | {"contacts": self.contacts, "plans": changes}
-
-    def _counts(self) -> Counts:
-        """The counts of decisions of the run so far."""
-        if self._living is None:
-            return Counts(0, 0, {})
-        return self._living.kinetic.vertices.counters.now()
+        self.contacts = 0
+        self.met: Met | None = None
+        self._budget = budget
+        self._is_broken = False
+        self._proved: QQ = living.scene._start
 
     # Time
 
-    def run(
-        self,
-        until: Rational | None = None,
-        *,
-        on_contact: Callable[[Self, Contact], object] | None = None,
-        margin: Rational | None = None,
+    def events(
+        self, until: Rational | None, respond: Response | None, margin: Rational | None
     ) -> Iterator[Event]:
-        """Process the events up to and including a time, by default the end of the span.
-
-        Yields every event after it has been processed. Without ``on_contact`` the first contact is
-        the last event. With it, the simulation returns to a rational time just before each contact
-        and calls ``on_contact`` with itself and the `Contact`. If that changes anything
-        (`set_motion`, `set_motions`, `add`, `remove`), the run continues, until the same contact
-        recurs while its bodies still have the same motions; otherwise it ends at the contact.
-
-        Args:
-            until: the last time, rational.
-            on_contact: the response, which may change motions: bounce, stop or slide.
-            margin: maximum distance in time between the callback and the contact; by default
-                about 2^-80 of the time span. The callback happens at the last multiple of the
-                margin before the contact, whose numbers are short; or later, if another event
-                happens between that time and the contact.
-
-        Raises:
-            BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
-            InputError: if the margin is not positive, or ``until`` is before now.
-        """
-        end = self.scene._end if until is None else min(rational(until), self.scene._end)
-        grid = self._margin if margin is None else rational(margin)
+        """The events up to and including a time, see `Simulation.run`."""
+        last = self.living.scene._end
+        end = last if until is None else min(rational(until), last)
+        grid = self.margin if margin is None else rational(margin)
         if grid <= 0:
             raise InputError(f"the margin before contacts is not positive: {grid}")
-        if self.contact is None and self.now.compare_rational(end) > 0:
-            raise InputError(f"until: t = {show(end)} is over, it is t = {float(self.now)!r} now")
+        if self.contact is None and self.living.kinetic.is_after(end):
+            now = float(self.living.now)
+            raise InputError(f"until: t = {show(end)} is over, it is t = {now!r} now")
+        pending, is_bounded = self.pending, self._budget.is_bounded
         while True:
-            if self.contact is None:
+            if is_bounded and self.contact is None:
                 self._check_time()
-            if self._pending:
-                self._count(1)
-                yield self._pending.popleft()
-            elif self.contact is not None or not self._advance(end, on_contact, grid):
+            if pending:
+                if is_bounded:
+                    self._count(1)
+                yield pending.popleft()
+            elif self.contact is not None or not self._advance(end, respond, grid):
                 return
 
     def step(self) -> list[Event]:
-        """Process the events of the next time at which there are any.
-
-        Returns:
-            The events; an empty list if there are no more, and then the current time is the end.
-
-        Raises:
-            BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
-        """
-        while not self._pending and self.contact is None:
+        """The events of the next time at which there are any, see `Simulation.step`."""
+        while not self.pending and self.contact is None:
             self._check_time()
-            if not self._advance(self.scene._end, None, QQ(1)):
+            if not self._advance(self.living.scene._end, None, self.margin):
                 break
-        self._count(len(self._pending))
-        events = list(self._pending)
-        self._pending.clear()
+        self._count(len(self.pending))
+        events = list(self.pending)
+        self.pending.clear()
         return events
 
-    def run_to_contact(self) -> Contact | None:
-        """The first contact in the time span, or None; the fastest way to find it.
-
-        Raises:
-            BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
-        """
+    def to_contact(self) -> Contact | None:
+        """The first contact, see `Simulation.run_to_contact`."""
         if self.contact is None:
-            kinetic = self._alive().kinetic
-            self._forget_space()
-            try:
-                for _ in kinetic.run():
-                    self._passed = kinetic.certifier.now
-                    self._count(1)
-                    self._check_time()
-            except ContactFound as found:
-                self._end_with(contact_of(self.scene, kinetic.now, found.touches))
+            self.check_whole()
+            teller, end = self.living.teller, self.living.scene._end
+            with self._guarded():
+                try:
+                    while (events := teller.advance(end)) is not None:
+                        self._count(len(events))
+                        self._check_time()
+                except ContactFound as found:
+                    self.end_with(self._contact(found))
         return self.contact
 
-    def _advance(
-        self, end: QQ, on_contact: Callable[[Self, Contact], object] | None, grid: QQ
-    ) -> bool:
+    def _advance(self, end: QQ, respond: Response | None, grid: QQ) -> bool:
         """Advance to the next time with events; False if there is none up to the end."""
-        living = self._alive()
-        self._forget_space()
-        try:
-            events = living.kinetic.advance(end)
-        except ContactFound as found:
-            contact = contact_of(self.scene, living.kinetic.now, found.touches)
-            if on_contact is None:
-                self._end_with(contact)
-            elif self._is_met(contact):
-                self.contact = contact
-            else:
-                self._meet(contact, on_contact, grid)
-            return True
-        self._passed = living.kinetic.certifier.now
-        if events is None:
-            return False
-        self._pending.extend(map(living.named, events))
+        self.check_whole()
+        teller = self.living.teller
+        with self._guarded():
+            try:
+                events = teller.advance(end)
+                if events is not None:
+                    self.pending.extend(teller.told(events))
+                return events is not None
+            except ContactFound as found:
+                contact = self._contact(found)
+        if respond is None:
+            self.end_with(contact)
+        else:
+            self._answer(contact, respond, grid)
         return True
 
-    def _meet(
-        self, contact: Contact, on_contact: Callable[[Self, Contact], object], grid: QQ
-    ) -> None:
-        """Call back just before a contact; unless something is changed, the contact takes place."""
-        living = self._alive()
-        kinetic = living.kinetic
-        kinetic.retreat(grid)
-        self.contacts += 1
-        self._pending.append(Event(contact.time, "contact"))
-        self._met = contact.time, self._plans_in(contact)
+    @contextmanager
+    def _guarded(self) -> Iterator[None]:
+        """Within the context, the budget holds, and a broken invariant carries the scene.
+
+        Interrupted elsewhere than between two events, the tiling is left in the middle of a
+        change.
+        """
+        try:
+            with carrying(self._scene), self._budget.held():
+                yield
+        except BudgetExceeded as spent:
+            if spent.reached is None:  # not between two events
+                self._is_broken = True
+                spent.reached = self.passed()
+            raise
+
+    def check_whole(self) -> None:
+        """Check that the run has not been interrupted in the middle of an event.
+
+        Raises:
+            InputError: if it has.
+        """
+        if self._is_broken:
+            raise InputError("the run was interrupted in the middle of an event: it cannot go on")
+
+    # Contacts
+
+    def _contact(self, found: ContactFound) -> Contact:
+        return contact_of(self.living.scene, self.living.now, found.touches)
+
+    def end_with(self, contact: Contact) -> None:
+        """End with a contact, the last event."""
+        self.contact = contact
+        self._report(contact)
+
+    def _answer(self, contact: Contact, respond: Response, grid: QQ) -> None:
+        """Respond just before a contact; unless something is changed, it takes place."""
+        living, kinetic = self.living, self.living.kinetic
+        ahead = met(contact, living)
+        if self.met is not None and ahead.is_again(self.met):
+            self.contact = contact
+            return
+        with self._guarded():
+            kinetic.retreat(grid)
+        self._report(contact)
+        self.met = ahead
         changes = living.changes
-        on_contact(self, contact)
+        respond(contact)
         if living.changes == changes:
             self.contact = contact
-            with suppress(ContactFound):
-                kinetic.advance(self.scene._end)
+            with self._guarded(), suppress(ContactFound):
+                kinetic.advance(living.scene._end)
 
-    def _plans_in(self, contact: Contact) -> dict[str, Body]:
-        names = {name for pair in contact.pairs for name in (pair.body, pair.other)}
-        return {name: self._alive().body(name) for name in names}
-
-    def _is_met(self, contact: Contact) -> bool:
-        """Whether this is the last contact again, with the same motions of its bodies."""
-        if self._met is None or self._met[0].compare(contact.time) != 0:
-            return False
-        now, then = self._plans_in(contact), self._met[1]
-        return now.keys() == then.keys() and all(now[name] is then[name] for name in now)
-
-    def _end_with(self, contact: Contact) -> None:
-        self.contact = contact
+    def _report(self, contact: Contact) -> None:
         self.contacts += 1
-        self._pending.append(Event(contact.time, "contact"))
+        self.pending.append(Event(contact.time, "contact"))
 
-    def _count(self, events: int) -> None:
-        """Count events that are to be reported; a contact is reported in any case."""
-        self._events += events
-        most = self._max_events
-        if most is not None and self._events > most and self.contact is None:
-            raise BudgetExceeded("the number of events is used up", self.reached())
+    # Changes, and how far it is
 
-    def _check_time(self) -> None:
-        if self._deadline is not None and clock.monotonic() > self._deadline:
-            raise BudgetExceeded("the time is used up", self.reached())
+    def change(self, how: Callable[[LivingScene], Iterable[Event]]) -> None:
+        """Change motions or bodies at a rational time, and report the events that this causes.
+
+        Raises:
+            BudgetExceeded: if the time or memory is used up; the run cannot go on then.
+            InputError: if the run has ended with a contact.
+        """
+        if self.contact is not None:
+            raise InputError(
+                f"the run has ended with a contact at t = {float(self.contact.time)!r}"
+            )
+        self.check_whole()
+        with self._guarded():
+            self.pending.extend(how(self.living))
+        self._proved = self.living.now._low
+
+    def _scene(self) -> Scene:
+        return self.living.scene
 
     def reached(self) -> Fraction:
         """A rational time, at most now, up to which there is provably no contact."""
-        now = self.now
+        now = self.living.now
         return now.low if now.is_rational else now.canonical_interval()[0]
 
     def passed(self) -> Fraction:
         """As `reached`, but computed at once, even in the middle of an event."""
-        if self._living is None or self._passed is None:
+        tiling, passed = self.living.tiling, self.living.passed
+        if tiling is None or passed is None:
             return fraction(self._proved)
-        frame = self._living.kinetic.vertices.frame
-        return fraction(max(self._proved, frame.exact_time(self._passed.low)))
+        return fraction(max(self._proved, tiling.vertices.frame.exact_time(passed.low)))
 
-    def _change(self, events: Iterable[Event]) -> None:
-        """Report the events that a change of motions or bodies at a rational time has caused."""
-        self._pending.extend(events)
-        self._proved, self._passed = self.now._low, None  # times refer to the previous tiling
+    def rest(self) -> tuple[int | None, float | None, int | None]:
+        """The events, seconds and memory that are left, None for no limit."""
+        return self._budget.rest()
 
-    def _alive(self) -> LivingScene:
-        if self._living is None:
-            raise InputError("the bodies touch at the start: there is no tiling")
-        return self._living
+    def _count(self, events: int) -> None:
+        """Count events that are to be reported; a contact is reported in any case."""
+        if not self._budget.spend(events) and self.contact is None:
+            raise BudgetExceeded("the number of events is used up", self.reached())
 
-    def _asked(self) -> Tiling:
-        if self.contact is not None:
-            raise InputError(f"no tiling at a contact, t = {float(self.contact.time)!r}")
-        return self._alive().kinetic
+    def _check_time(self) -> None:
+        if self._budget.is_late():
+            raise BudgetExceeded("the time is used up", self.reached())
+
+
+def begin(scene: Scene, tiling: str, budget: Budget, *, exact_only: bool) -> Run:
+    """The run of a scene from its start, see `exactpt.Simulation`."""
+    with carrying(lambda: scene), budget.held():
+        plan = plan_tiling(scene, tiling, scene._start)
+        choice = Choice(tiling, plan.name, exact_only)
+        touches, overlaps = initial_touches(scene)
+        if overlaps:
+            run = Run(LivingScene(scene, None, choice), budget)
+            run.end_with(contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps))
+            return run
+        try:
+            kinetic = plan.start(scene._start, exact_only=exact_only)
+        except BudgetExceeded as spent:
+            spent.reached = scene.start
+            raise
+        return Run(LivingScene(scene, kinetic, choice), budget)
 
 
 def _margin_of(scene: Scene) -> QQ:

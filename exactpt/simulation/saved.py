@@ -16,14 +16,14 @@ from typing import Any, TypeAlias
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
 from exactpt.collision.contact import Contact, Pair
+from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, ZZ, parse_rational
+from exactpt.kernel.numbers import QQ, ZZ, parse_rational, shorten, show
 from exactpt.motion.body import Body
 from exactpt.motion.frame import Frame
 from exactpt.motion.vertices import Vertices
 from exactpt.simulation.event import Event
 from exactpt.tiling import catalogue, loading
-from exactpt.tiling.catalogue import Bodies
 from exactpt.tiling.events import Stats
 from exactpt.tiling.tiling import Tiling
 
@@ -46,9 +46,11 @@ _STATS = ("batches", "rebuilds", "flips", "most")
 def tiling_to_json(kinetic: Tiling) -> Data:
     """The state of a tiling between two events."""
     certifier, stats, vertices = kinetic.certifier, kinetic.stats, kinetic.vertices
+    if certifier.now.exact is None:
+        certifier.resolve(certifier.now)  # the same file whether or not it was asked for before
     data: Data = {
         "kind": kinetic.name,
-        "convex": kinetic.entry.bodies is Bodies.CONVEX,
+        "convex": kinetic.entry.is_for_convex,
         "end": str(certifier.end),
         "now": _time_to_json(certifier.now),
         "roots_now": [list(key) for key in certifier.roots_now],
@@ -73,8 +75,14 @@ def tiling_to_json(kinetic: Tiling) -> Data:
     return {**data, **kinetic.state()}
 
 
-def tiling_from_json(data: Data, bodies: Sequence[Body], *, exact_only: bool) -> Tiling:
-    """The tiling with a saved state, for bodies with their motions."""
+def tiling_from_json(data: Data, bodies: Sequence[Body], last: QQ, *, exact_only: bool) -> Tiling:
+    """The tiling with a saved state, for bodies with their motions, up to the ``last`` time.
+
+    Raises:
+        InputError: if the state is of another time span, which the run would take for its own.
+    """
+    if parse_rational(data["end"]) != last:
+        raise InputError(f"the tiling ends at t = {shorten(data['end'])[1:-1]}, not {show(last)}")
     vertices = Vertices(
         bodies,
         [[(v, index) for v, index in body["ring"]] for body in data["bodies"]],

@@ -2,29 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import copy
+from fractions import Fraction
+from functools import partial
 from pathlib import Path
-from time import monotonic
-from typing import Any, final
+from typing import TYPE_CHECKING, Any, Self, final
 
 from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.files import write_atomically
-from exactpt.kernel.counters import Counts
-from exactpt.kernel.numbers import parse_rational
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import Rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
 from exactpt.scene.format import to_json as scene_to_json
 from exactpt.scene.scene import Scene
-from exactpt.simulation.living import LivingScene
-from exactpt.simulation.running import Running
+from exactpt.simulation.budget import Budget
+from exactpt.simulation.event import Event
+from exactpt.simulation.report import report
+from exactpt.simulation.running import begin
+from exactpt.simulation.spaces import SpaceCache
+
+if TYPE_CHECKING:
+    from exactpt.collision.contact import Contact
+    from exactpt.pseudotriangulation.snapshot import Snapshot
+    from exactpt.query import answers
+    from exactpt.query.answers import Hit, Place, VertexName
+    from exactpt.query.space import FreeSpace, PointLike
+    from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Simulation"]
 
 
 @final
-class Simulation(Running):
+class Simulation:
     """The run of a scene from its start to its end or its first contact.
 
     At rational times bodies may be given new motions, added and removed, and the free space may
@@ -46,18 +58,132 @@ class Simulation(Running):
         tiling: the tiling to keep: "auto" or one of `TILINGS`.
         exact_only: whether exact arithmetic decides everything, without the float filters.
         max_events: maximum number of reported events; None for no limit.
-        max_seconds: time limit in seconds of wall-clock time; None for no limit.
+        max_seconds: time limit in seconds of wall-clock time; None for no limit. It holds in any
+            thread, from the construction on. A run that reaches it between two events can go on
+            in a `copy`; one that is interrupted within an event, a quarter of a second later,
+            cannot.
+        max_memory: maximum memory of the process, in bytes; None for no limit.
 
     Raises:
+        BudgetExceeded: if the time or memory is used up before the run begins.
         InputError: if there is no such tiling, it does not support these bodies, or a bound
             is not a number >= 0.
-
-    Attributes:
-        contact: the contact that has ended the run, or None; no time passes after it.
-        contacts: number of contacts so far.
     """
 
-    # Plans
+    def __init__(
+        self,
+        scene: Scene,
+        *,
+        tiling: str = "auto",
+        exact_only: bool = False,
+        max_events: int | None = None,
+        max_seconds: float | None = None,
+        max_memory: int | None = None,
+    ) -> None:
+        budget = Budget(max_events, max_seconds, max_memory)
+        self._run = begin(scene, tiling, budget, exact_only=exact_only)
+        self._spaces = SpaceCache()
+
+    @property
+    def contact(self) -> Contact | None:
+        """The contact that has ended the run, or None; no time passes after it."""
+        return self._run.contact
+
+    @property
+    def contacts(self) -> int:
+        """Number of contacts so far."""
+        return self._run.contacts
+
+    @property
+    def scene(self) -> Scene:
+        """The bodies with their current motions; the scene starts at the last change of motion."""
+        return self._run.living.scene
+
+    @property
+    def name(self) -> str:
+        """The name of the tiling."""
+        return self._run.living.name
+
+    @property
+    def now(self) -> AlgebraicNumber:
+        """The current time."""
+        return self._run.living.now
+
+    @property
+    def kinetic(self) -> Tiling | None:
+        """The kinetic tiling, for `exactpt.render`; None if bodies touch at the start.
+
+        At a contact it is the tiling just before.
+        """
+        return self._run.living.tiling
+
+    @property
+    def stats(self) -> dict[str, object]:
+        """The counts of the run so far, see `exactpt.simulation.report`."""
+        living = self._run.living
+        data = report(living.scene, living.tiling, living.counts)
+        return data | {"contacts": self.contacts, "plans": living.changes}
+
+    # Time
+
+    def run(
+        self,
+        until: Rational | None = None,
+        *,
+        on_contact: Callable[[Self, Contact], object] | None = None,
+        margin: Rational | None = None,
+    ) -> Iterator[Event]:
+        """Process the events up to and including a time, by default the end of the span.
+
+        Yields every event after it has been processed. Without ``on_contact`` the first contact is
+        the last event. With it, the simulation returns to a rational time just before each contact
+        and calls ``on_contact`` with itself and the `Contact`. If that changes anything
+        (`set_motion`, `set_motions`, `add`, `remove`), the run continues, until the same contact
+        recurs while its bodies still have the same motions; otherwise it ends at the contact.
+
+        Args:
+            until: the last time, rational.
+            on_contact: the response, which may change motions: bounce, stop or slide.
+            margin: maximum distance in time between the callback and the contact; by default
+                about 2^-80 of the time span. The callback happens at the last multiple of the
+                margin before the contact, whose numbers are short; or later, if another event
+                happens between that time and the contact.
+
+        Raises:
+            BudgetExceeded: if ``max_events``, ``max_seconds`` or ``max_memory`` is exceeded.
+            InputError: if the margin is not positive, or ``until`` is before now.
+        """
+        respond = None if on_contact is None else partial(on_contact, self)
+        return self._run.events(until, respond, margin)
+
+    def step(self) -> list[Event]:
+        """Process the events of the next time at which there are any.
+
+        Returns:
+            The events; an empty list if there are no more, and then the current time is the end.
+
+        Raises:
+            BudgetExceeded: if ``max_events``, ``max_seconds`` or ``max_memory`` is exceeded.
+        """
+        return self._run.step()
+
+    def run_to_contact(self) -> Contact | None:
+        """The first contact in the time span, or None; the fastest way to find it.
+
+        Raises:
+            BudgetExceeded: if ``max_events``, ``max_seconds`` or ``max_memory`` is exceeded.
+        """
+        return self._run.to_contact()
+
+    def reached(self) -> Fraction:
+        """A rational time, at most now, up to which there is provably no contact."""
+        return self._run.reached()
+
+    def passed(self) -> Fraction:
+        """As `reached`, but computed at once, even in the middle of an event."""
+        return self._run.passed()
+
+    # Changes of motions and bodies
 
     def body(self, name: str) -> Body:
         """The body of a given name, with its current motion.
@@ -65,7 +191,7 @@ class Simulation(Running):
         Raises:
             InputError: if there is none.
         """
-        return self._given[0].body(name) if self._living is None else self._living.body(name)
+        return self._run.living.body(name)
 
     def set_motion(self, body: str, plan: Motion | Body) -> None:
         """Give a body another motion from now on, see `set_motions`."""
@@ -86,7 +212,7 @@ class Simulation(Running):
             InputError: if there is no such body, a vertex would jump (the message names both
                 positions), or now is not rational or is the end of the time span.
         """
-        self._change(self._changeable().set_motions(plans))
+        self._run.change(lambda living: living.set_motions(plans))
 
     def add(self, body: Body) -> None:
         """Add a body at the current time, which must be rational; it becomes the last one.
@@ -100,7 +226,7 @@ class Simulation(Running):
             InputError: if its name is taken, it is not simple, it touches another body, or now is
                 not rational or is the end of the time span.
         """
-        self._change(self._changeable().add(body))
+        self._run.change(lambda living: living.add(body))
 
     def remove(self, body: str) -> None:
         """Remove a body at the current time, which must be rational.
@@ -113,15 +239,69 @@ class Simulation(Running):
             InputError: if there is no such body, or now is not rational or is the end of the time
                 span.
         """
-        self._change(self._changeable().remove(body))
+        self._run.change(lambda living: living.remove(body))
 
-    def _changeable(self) -> LivingScene:
+    # Questions
+
+    def space(self, at: Rational | None = None) -> FreeSpace:
+        """The free space at a time, for any number of queries; built in O(n log n).
+
+        Args:
+            at: a rational time, from now to before the next event; by default now.
+
+        Raises:
+            InputError: if no time is given and now is not rational, if the time is not between
+                now and the next event, or if the run has ended with a contact.
+        """
         if self.contact is not None:
-            raise InputError(
-                f"the run has ended with a contact at t = {float(self.contact.time)!r}"
-            )
-        self._forget_space()
-        return self._alive()
+            raise InputError(f"no tiling at a contact, t = {float(self.contact.time)!r}")
+        self._run.check_whole()
+        return self._spaces.space(self._run.living.kinetic, at)
+
+    def snapshot(self) -> Snapshot:
+        """The tiling at the current time, which must be rational.
+
+        Raises:
+            InputError: see `space`.
+        """
+        return self.space().snapshot
+
+    @property
+    def tiling(self) -> Snapshot:
+        """Same as `snapshot`: ``simulation.tiling.faces``, ``simulation.tiling.diagonals``."""
+        return self.snapshot()
+
+    def locate(self, point: PointLike) -> Place:
+        """The location of a point now, see `FreeSpace.locate`."""
+        return self.space().locate(point)
+
+    def ray_cast(self, origin: PointLike, direction: PointLike) -> Hit | None:
+        """The first point of a ray that belongs to a body now, see `FreeSpace.ray_cast`."""
+        return self.space().ray_cast(origin, direction)
+
+    def is_free(self, p: PointLike, q: PointLike) -> bool:
+        """Whether no body meets a segment now, see `FreeSpace.is_free`."""
+        return self.space().is_free(p, q)
+
+    def path(self, start: PointLike, goal: PointLike) -> answers.Path:
+        """A shortest path of its homotopy class now, see `FreeSpace.path`."""
+        return self.space().path(start, goal)
+
+    def shorten(self, walk: Sequence[PointLike]) -> answers.Path:
+        """The shortest path homotopic to a polyline now, see `FreeSpace.shorten`."""
+        return self.space().shorten(walk)
+
+    def hull(self) -> list[VertexName]:
+        """The vertices on the convex hull of all bodies now, see `FreeSpace.hull`."""
+        return self.space().hull()
+
+    def relative_hull(self, body: str) -> list[VertexName]:
+        """The shortest loop around a body now, see `FreeSpace.relative_hull`."""
+        return self.space().relative_hull(body)
+
+    def neighbours(self, body: str) -> list[str]:
+        """The bodies connected to a body by a diagonal now, see `FreeSpace.neighbours`."""
+        return self.space().neighbours(body)
 
     def _repr_svg_(self) -> str:
         """A picture of the tiling at the current time, or of the contact, for notebooks."""
@@ -133,7 +313,7 @@ class Simulation(Running):
         """Write the simulation as JSON, exactly; the file is complete or not there.
 
         After `restore` the same events follow, byte for byte, as without the interruption. Bounds
-        on events and seconds are not saved.
+        on events, seconds and memory are not saved.
 
         Raises:
             InputError: if the file cannot be written, or the scene contains what no scene file can
@@ -150,6 +330,8 @@ class Simulation(Running):
         *,
         max_events: int | None = None,
         max_seconds: float | None = None,
+        max_memory: int | None = None,
+        max_bytes: int | None = None,
     ) -> Simulation:
         """The simulation that `save` has written.
 
@@ -157,102 +339,53 @@ class Simulation(Running):
             path: the file.
             max_events: maximum number of events reported from now on; None for no limit.
             max_seconds: time limit in seconds of wall-clock time; None for no limit.
+            max_memory: maximum memory of the process, in bytes; None for no limit.
+            max_bytes: maximum size of the file, which is refused otherwise; by default 10^8.
 
         Raises:
-            InputError: if it is not a saved simulation, or one of another version.
+            InputError: if it is not a saved simulation, has been changed since (its checksum
+                is another one), or is one of another version.
         """
         from exactpt.simulation.store import reading, scene_from_json
 
-        with reading(Path(path)) as data:
-            return _resumed(data, scene_from_json(data["scene"]), max_events, max_seconds)
+        with reading(Path(path), max_bytes) as data:
+            scene = scene_from_json(data["scene"])
+            return _resumed(data, scene, max_events, max_seconds, max_memory)
 
     def copy(self) -> Simulation:
         """An independent copy of the simulation, in memory.
 
-        The same events follow in both. The rest of the bounds on events and seconds is copied too.
+        The same events follow in both. The rest of the bounds is copied too.
         `copy.copy`, `copy.deepcopy` and `pickle` give the same result.
         """
         return copy(self)
 
-    def __reduce__(self) -> tuple[object, ...]:
-        events = None if self._max_events is None else max(0, self._max_events - self._events)
-        seconds = None if self._deadline is None else max(0.0, self._deadline - monotonic())
-        return _resumed, (self._data(None), self.scene, events, seconds)
-
-    def _met_to_json(self) -> dict[str, object] | None:
-        """The last contact, if all of its bodies still have the same motions; else None."""
-        from exactpt.simulation.saved import number_to_json
-
-        if self._met is None or self._living is None:
-            return None
-        time, then = self._met
-        now = {body.name: body for body in self.scene.bodies}
-        if any(now.get(name) is not body for name, body in then.items()):
-            return None
-        return {"time": number_to_json(time), "bodies": sorted(then)}
-
     def to_json(self) -> dict[str, object]:
         """The JSON data that `save` writes."""
-        return self._data(scene_to_json(self.scene))
+        from exactpt.simulation.saved_run import run_to_json
+        from exactpt.simulation.store import sealed
 
-    def _data(self, scene: object) -> dict[str, object]:
-        """The state of the run, with a given representation of the scene."""
-        from exactpt.simulation.saved import tiling_to_json
-        from exactpt.simulation.store import VERSION
+        return sealed(run_to_json(self._run, scene_to_json(self.scene)))
 
-        living, counts = self._living, self._counts()
-        return {
-            "exactpt-simulation": VERSION,
-            "name": self.name,
-            "tiling": self._asked_for[0],
-            "exact_only": self._asked_for[1],
-            "margin": str(self._margin),
-            "scene": scene,
-            "contact": None if self.contact is None else self.contact.to_json(),
-            "met": self._met_to_json(),
-            "pending": [event.to_json() for event in self._pending],
-            "counts": {
-                "contacts": self.contacts,
-                "changes": 0 if living is None else living.changes,
-                "exact": counts.exact,
-                "filtered": counts.filtered,
-                "reasons": dict(counts.reasons),
-            },
-            "state": None if living is None else tiling_to_json(living.kinetic),
-        }
+    def __reduce__(self) -> tuple[object, ...]:
+        from exactpt.simulation.saved_run import run_to_json
+
+        return _resumed, (run_to_json(self._run, None), self.scene, *self._run.rest())
 
 
 def _resumed(
-    data: Mapping[str, Any], scene: Scene, max_events: int | None, max_seconds: float | None
+    data: dict[str, Any],
+    scene: Scene,
+    max_events: int | None,
+    max_seconds: float | None,
+    max_memory: int | None = None,
 ) -> Simulation:
     """The simulation of a scene, with the state that `Simulation.to_json` has written."""
-    from exactpt.simulation.saved import (
-        contact_from_json,
-        event_from_json,
-        number_from_json,
-        tiling_from_json,
-    )
+    from exactpt.simulation.saved_run import run_from_json
 
-    asked, exact_only = data["tiling"], data["exact_only"]
-    counts, state = data["counts"], data["state"]
-    self = Simulation(Scene([], (scene._start, scene._end)), tiling=asked, exact_only=exact_only,
-                      max_events=max_events, max_seconds=max_seconds)  # fmt: skip
-    self._given = scene, data["name"]
-    self._margin = parse_rational(data["margin"])
-    self._living = state and LivingScene(
-        scene,
-        tiling_from_json(state, scene.bodies, exact_only=exact_only),
-        asked,
-        exact_only=exact_only,
-        changes=counts["changes"],
-    )
-    self._pending.extend(map(event_from_json, data["pending"]))
-    self.contact = data["contact"] and contact_from_json(data["contact"])
-    self.contacts = counts["contacts"]
-    if self._living is not None:
-        if data["met"] is not None:
-            time, names = number_from_json(data["met"]["time"]), data["met"]["bodies"]
-            self._met = time, {name: self._living.body(name) for name in names}
-        before = Counts(counts["exact"], counts["filtered"], counts["reasons"])
-        self._living.kinetic.vertices.counters.set(before)
+    self = Simulation.__new__(Simulation)
+    budget = Budget(max_events, max_seconds, max_memory)
+    with budget.held():
+        self._run = run_from_json(data, scene, budget)
+    self._spaces = SpaceCache()
     return self

@@ -1,23 +1,35 @@
-"""The file of a saved simulation: readable JSON, one entry per line."""
+"""The file of a saved simulation: readable JSON, one entry per line, with a checksum."""
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
-from exactpt.errors import AuditError, InputError
+from exactpt.errors import BudgetExceeded, InputError
+from exactpt.files import read_text
+from exactpt.kernel.numbers import shorten
 from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
 
-__all__ = ["VERSION", "json_text", "reading", "scene_from_json"]
+__all__ = ["VERSION", "json_text", "reading", "scene_from_json", "sealed"]
 
-VERSION: Final = 4
+VERSION: Final = 5
 """Version of the file format; files of other versions are refused."""
 WIDTH: Final = 100
 """Maximum number of characters of a value on one line."""
+
+
+def sealed(data: Mapping[str, object]) -> dict[str, object]:
+    """The data with version and checksum: the SHA-256 of the data as JSON without spaces."""
+    return {"exactpt-simulation": VERSION, "sha256": _checksum(data), **data}
+
+
+def _checksum(data: Mapping[str, object]) -> str:
+    return hashlib.sha256(json.dumps(data, separators=(",", ":")).encode()).hexdigest()
 
 
 def json_text(data: Mapping[str, object]) -> str:
@@ -47,20 +59,28 @@ def scene_from_json(data: Mapping[str, Any]) -> Scene:
 
 
 @contextmanager
-def reading(path: Path) -> Iterator[dict[str, Any]]:
+def reading(path: Path, max_bytes: int | None = None) -> Iterator[dict[str, Any]]:
     """The data of a file; an error in using it inside the context is an input error.
 
     Raises:
-        InputError: if the file cannot be read, is of another version, or damaged.
+        InputError: if the file cannot be read, is larger than ``max_bytes``, of another version,
+            or not as it was written.
     """
+    text = read_text(path, max_bytes)
     try:
-        data = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, ValueError) as error:
-        raise InputError(f"{path}: cannot be read: {error}") from None
-    version = data.get("exactpt-simulation") if isinstance(data, dict) else None
+        data = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        reason = "nested too deeply" if isinstance(error, RecursionError) else error
+        raise InputError(f"{path}: cannot be read: {reason}") from None
+    version = data.pop("exactpt-simulation", None) if isinstance(data, dict) else None
     if version != VERSION:
-        raise InputError(f"{path}: this version reads simulations {VERSION}, not {version!r}")
+        said = shorten(version)
+        raise InputError(f"{path}: this version reads simulations {VERSION}, not {said}")
+    if data.pop("sha256", None) != _checksum(data):
+        raise InputError(f"{path}: changed since it was saved: its checksum is another one")
     try:
         yield data
-    except (KeyError, TypeError, ValueError, IndexError, AttributeError, AuditError) as error:
-        raise InputError(f"{path}: not a saved simulation: {error!r}") from None
+    except (BudgetExceeded, MemoryError):
+        raise
+    except Exception as error:  # whatever a forged state breaks
+        raise InputError(f"{path}: not a saved simulation: {shorten(error)}") from None

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from exactpt.collision.tilings import plan_tiling
+from exactpt.collision.tilings import plan_tiling, tiling_for_contact
 from exactpt.errors import TimeRangeError
 from exactpt.kernel.numbers import QQ, show
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
+from exactpt.tiling.catalogue import AUTO
 
 __all__ = ["tile_at"]
 
@@ -44,10 +45,17 @@ def tile_at(
     plan = plan_tiling(scene, plan_tiling(scene, tiling, scene._start).name, at)
     simulation = Simulation(
         scene,
-        tiling=tiling if by_running else "lazy",
+        tiling=tiling if by_running else tiling_for_contact(scene, AUTO),
         max_events=max_events,
         max_seconds=max_seconds,
     )
+    _run_until(simulation, at)
+    if by_running:
+        return simulation.snapshot()
+    return snapshot(plan.vertices, plan.mesh_at(at), plan.name, at)
+
+
+def _run_until(simulation: Simulation, at: QQ) -> None:
     for _ in simulation.run(at):
         pass
     if simulation.contact is not None:
@@ -55,6 +63,3 @@ def tile_at(
             f"no tiling at t = {show(at)}: the first contact is at "
             f"t = {float(simulation.contact.time)!r}"
         )
-    if by_running:
-        return simulation.snapshot()
-    return snapshot(plan.vertices, plan.mesh_at(at), plan.name, at)

@@ -1,8 +1,8 @@
-"""Certified angles: which sign every angle of a tiling has, and when it may lose it.
+"""Certified angles: a certificate for every angle of a tiling that may become 0, pi or 2 pi.
 
 Source: the paper, section 2.2. An angle of a face fails when its three vertices become
-collinear. One whose vertices belong to one rigid body never does; the three angles of a
-triangle vanish together and share one certificate.
+collinear. An angle whose vertices belong to one rigid body never fails; the three angles
+of a triangle fail together and share one certificate.
 """
 
 from __future__ import annotations
@@ -15,7 +15,9 @@ from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.one_sided import OneSided
 from exactpt.certificates.queue import EventTime
 from exactpt.certificates.table import CertificateTable
+from exactpt.indices import HalfEdge, Triple, VertexId
 from exactpt.motion.vertices import Vertex, Vertices
+from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import SOLID, Mesh
 from exactpt.tiling.simultaneous import Batch
 
@@ -33,10 +35,11 @@ class CertifiedMesh:
         mesh: the mesh.
         vertices: the moving vertices.
         certifier: certificates and the current time.
-        table: what is pending, violated and flat.
-        rules: of the structure, told of all that changes.
-        batch: what is repaired at the current time.
-        is_careful: whether marks may be wrong where signs do not change.
+        table: the pending and the violated certificates, and the flat angles.
+        rules: the rules of the tiling, which are told of every change.
+        batch: the repairs at the current time.
+        checks_rigid: whether angles that cannot fail are checked too: in the midst of repairs
+            and after other changes their marks may be wrong.
     """
 
     rules: Rules
@@ -47,17 +50,17 @@ class CertifiedMesh:
         self.certifier: Certifier = certifier
         self.table: CertificateTable = table
         self.batch: Batch = Batch()
-        self.is_careful: bool = False
+        self.checks_rigid: bool = False
 
     def after(self) -> OneSided:
         """Predicates just after the current time."""
         return OneSided(self.certifier, before=False)
 
     def certify_everything(self) -> int:
-        """Certify all angles, and what else the structure has; how many are pending of angles."""
+        """Certify the whole tiling; returns the number pending without those of the rules."""
         self.table.keep_only((MOTION, SHRINK))
-        watched: list[int] = []
-        angles: list[tuple[int, int, int]] = []
+        certified: list[HalfEdge] = []
+        angles: list[Triple] = []
         region = self.mesh.region
         for h in self.mesh.map.half_edges():
             if region[h] != SOLID:
@@ -65,18 +68,18 @@ class CertifiedMesh:
                 if self._cannot_fail(h, a, p, b):
                     self._skip(h)
                 else:
-                    watched.append(h)
+                    certified.append(h)
                     angles.append((a, p, b))
         answers = self.certifier.orientations(angles)
-        for h, (s, time) in zip(watched, answers, strict=True):
+        for h, (s, time) in zip(certified, answers, strict=True):
             self.table.angles.discard(h)
             self._keep(h, s, time)
         pending = len(self.table.pending)
         self.rules.certify()
         return pending
 
-    def certify(self, h: int) -> None:
-        """Certify the angle of h; note it if it is violated just after now."""
+    def certify(self, h: HalfEdge) -> None:
+        """Certify the angle of h, or record it as violated just after now."""
         table = self.table
         if table.angles:
             table.angles.discard(h)
@@ -89,27 +92,27 @@ class CertifiedMesh:
             s, time = self.certifier.orientation(a, p, b)
             self._keep(h, s, time)
 
-    def _skip(self, h: int) -> None:
-        """An angle that cannot fail has no certificate; but its mark may be wrong.
+    def _skip(self, h: HalfEdge) -> None:
+        """Cancel the certificate of an angle that cannot fail; if asked for, check its mark.
 
-        A rigid angle keeps its sign. One that is new has the wrong mark only in the midst
-        of simultaneous events.
+        A rigid angle keeps its sign, so its mark can be wrong only if the angle is new, in the
+        midst of simultaneous repairs.
         """
         self.certifier.skipped += 1
         self.table.pending.cancel(pack(ANGLE, h))
-        if self.is_careful and self.mesh.region[h] != SOLID:
+        if self.checks_rigid and self.mesh.region[h] != SOLID:
             a, p, b = self.angle(h)
             if self.certifier.rigid(a, p, b) and (
                 (self.after().sign(a, p, b) > 0) != self.mesh.corner[h]
             ):
                 self.table.angles.add(h)
 
-    def _cannot_fail(self, h: int, a: int, p: int, b: int) -> bool:
+    def _cannot_fail(self, h: HalfEdge, a: VertexId, p: VertexId, b: VertexId) -> bool:
         """Whether the angle of h, at p between a and b, needs no certificate of its own."""
-        return a == b or self.certifier.rigid(a, p, b) or self._is_copy(h)
+        return a == b or self.certifier.rigid(a, p, b) or self._shares_certificate(h)
 
-    def _keep(self, h: int, s: int, time: EventTime | None) -> None:
-        """Schedule the failure of an angle; note it if it is violated just after now."""
+    def _keep(self, h: HalfEdge, s: int, time: EventTime | None) -> None:
+        """Schedule the failure of an angle, or record it as violated just after now."""
         table, certificate = self.table, pack(ANGLE, h)
         if s == 0:
             table.flat.add(h)
@@ -121,18 +124,18 @@ class CertifiedMesh:
         else:
             table.pending.schedule(certificate, time)
 
-    def _is_copy(self, h: int) -> bool:
-        """Whether another half-edge of a triangular face stands for its three angles."""
+    def _shares_certificate(self, h: HalfEdge) -> bool:
+        """Whether the angle belongs to a triangle whose certificate is that of another angle."""
         m = self.mesh.map
         g = m.following[h]
         k = m.following[g]
         return m.following[k] == h and (g < h or k < h) and self.mesh.corner[h]
 
-    def recertify(self, half_edges: list[int]) -> None:
-        """Certify changed angles; of faces that are or were triangles, all angles."""
+    def recertify(self, half_edges: list[HalfEdge]) -> None:
+        """Certify changed angles, and all angles of faces that are or were triangles."""
         m = self.mesh.map
         self.batch.touch(half_edges)
-        todo: dict[int, None] = {}
+        todo: dict[HalfEdge, None] = {}
         for h in half_edges:
             todo[h] = None
             if m.following[m.following[m.following[m.following[h]]]] == h or self.is_triangle(h):
@@ -142,12 +145,12 @@ class CertifiedMesh:
             self.certify(h)
         self.rules.changed(half_edges)
 
-    def certify_body(self, i: int) -> list[int]:
-        """Certify anew whatever depends on a body; the angles that vanish now."""
+    def certify_body(self, i: int) -> list[HalfEdge]:
+        """Certify again whatever depends on a body; returns the angles that vanish now."""
         m = self.mesh.map
-        angles: dict[int, None] = {}
+        angles: dict[HalfEdge, None] = {}
         for h in self.ring_angles(i):
-            angles.update(dict.fromkeys((h, m.following[h], h ^ 1)))
+            angles.update(dict.fromkeys((h, m.following[h], twin(h))))
         vanishing = []
         for h in angles:
             zeros = self.certifier.zeros
@@ -157,16 +160,16 @@ class CertifiedMesh:
         self.rules.certify_body(i)
         return vanishing
 
-    def certify_again(self, half_edges: Iterable[int]) -> None:
-        """Certify the angles of those half-edges that are still there."""
+    def certify_again(self, half_edges: Iterable[HalfEdge]) -> None:
+        """Certify the angles of those half-edges that still exist."""
         for h in half_edges:
             if self.mesh.map.origin[h] >= 0:
                 self.certify(h)
 
-    def cancel_edge(self, h: int) -> None:
-        """Forget the certificates of an edge that has been removed."""
+    def cancel_edge(self, h: HalfEdge) -> None:
+        """Cancel the certificates of an edge that has been removed."""
         table = self.table
-        for g in (h, h ^ 1):
+        for g in (h, twin(h)):
             table.pending.cancel(pack(ANGLE, g))
             table.angles.discard(g)
             table.flat.discard(g)
@@ -174,24 +177,24 @@ class CertifiedMesh:
 
     # Angles
 
-    def angle(self, h: int) -> tuple[int, int, int]:
-        """The vertices of the angle of h, which is at the second one."""
+    def angle(self, h: HalfEdge) -> Triple:
+        """The three vertices of the angle of h, its apex in the middle."""
         m = self.mesh.map
         return m.origin[m.previous[h]], m.origin[h], m.origin[h ^ 1]
 
-    def vertices_of(self, h: int) -> tuple[Vertex, Vertex, Vertex]:
-        """The same as moving vertices."""
+    def vertices_of(self, h: HalfEdge) -> tuple[Vertex, Vertex, Vertex]:
+        """The three moving vertices of the angle of h, its apex in the middle."""
         a, p, b = self.angle(h)
         v = self.vertices.all
         return v[a], v[p], v[b]
 
-    def is_triangle(self, h: int) -> bool:
+    def is_triangle(self, h: HalfEdge) -> bool:
         """Whether the face on the left of h has three edges."""
         m = self.mesh.map
         return m.following[m.following[m.following[h]]] == h
 
-    def straight_run(self, h: int) -> set[int]:
-        """The vertices of an angle, and on along chains that are straight for ever."""
+    def collinear_run(self, h: HalfEdge) -> set[VertexId]:
+        """The vertices of an angle, extended on both sides along flat angles."""
         m = self.mesh.map
         run = set(self.angle(h))
         for step in (m.following, m.previous):
@@ -201,15 +204,15 @@ class CertifiedMesh:
                 run.add(m.origin[g])
         return run
 
-    def has_flats(self, h: int) -> bool:
-        """Whether a chain that is straight for ever may be next to an angle."""
+    def has_flats(self, h: HalfEdge) -> bool:
+        """Whether an angle may be next to a flat one."""
         m = self.mesh.map
         return (
             bool(self.table.flat) or self._is_flat(m.following[h]) or self._is_flat(m.previous[h])
         )
 
-    def _is_flat(self, h: int) -> bool:
-        """Whether the angle of h is straight for ever; of one body it has no certificate."""
+    def _is_flat(self, h: HalfEdge) -> bool:
+        """Whether the angle of h is flat; a flat angle of one rigid body is not in the table."""
         a, p, b = self.angle(h)
         return h in self.table.flat or (
             a != b and self.certifier.rigid(a, p, b) and self.after().sign(a, p, b) == 0
@@ -217,11 +220,11 @@ class CertifiedMesh:
 
     # Bodies
 
-    def ring_angles(self, i: int) -> list[int]:
-        """The half-edges out of the vertices of a body."""
+    def ring_angles(self, i: int) -> list[HalfEdge]:
+        """The half-edges out of the vertices of a body: the stars of its vertices."""
         m, ring_edge = self.mesh.map, self.mesh.ring_edge
-        return [h for v in self.vertices.bodies[i].ring for h in m.fan(ring_edge[v])]
+        return [h for v in self.vertices.bodies[i].ring for h in m.star(ring_edge[v])]
 
-    def edges_at(self, i: int) -> list[int]:
-        """The edges at the vertices of a body."""
-        return list(dict.fromkeys(min(h, h ^ 1) for h in self.ring_angles(i)))
+    def edges_at(self, i: int) -> list[HalfEdge]:
+        """One half-edge, the even one, of every edge at the vertices of a body."""
+        return list(dict.fromkeys(min(h, twin(h)) for h in self.ring_angles(i)))

@@ -1,4 +1,4 @@
-"""The catalogue of tilings: the one place where a structure is registered."""
+"""The catalogue of tilings, in which each of them is registered."""
 
 from __future__ import annotations
 
@@ -8,13 +8,23 @@ from typing import Final, NamedTuple, final
 
 from exactpt.errors import InputError
 
-__all__ = ["AUTO", "ENTRIES", "Bodies", "Entry", "choose", "find", "known", "names"]
+__all__ = [
+    "AUTO",
+    "ENTRIES",
+    "Bodies",
+    "Entry",
+    "choose",
+    "find",
+    "known",
+    "names",
+    "with_relative_hulls",
+]
 
 
 @final
 @unique
 class Bodies(Enum):
-    """For which bodies a tiling is."""
+    """The bodies that a tiling is for."""
 
     ANY = "any"
     CONVEX = "convex"
@@ -25,11 +35,12 @@ class Entry(NamedTuple):
     """A line of the catalogue.
 
     Attributes:
-        name: what it is asked for by.
-        bodies: for which it is.
-        place: of its rules, ``module:class``; imported when it is asked for.
-        is_canonical: whether the tiling of a time does not depend on what happened before.
-        has_fewest_events: whether it is for those who only want the first contact.
+        name: the name by which users choose it.
+        bodies: the bodies that it is for.
+        place: its class, as ``module:class``; imported on first use.
+        is_canonical: whether the tiling is determined by the positions alone, not by the past.
+        has_fewest_events: whether it is preferred where only the first contact is wanted.
+        has_relative_hulls: whether its mesh contains the shortest loop around every body.
     """
 
     name: str
@@ -37,10 +48,16 @@ class Entry(NamedTuple):
     place: str
     is_canonical: bool = True
     has_fewest_events: bool = False
+    has_relative_hulls: bool = False
+
+    @property
+    def is_for_convex(self) -> bool:
+        """Whether it is for convex bodies alone; its name may be that of another one too."""
+        return self.bodies is Bodies.CONVEX
 
 
 AUTO: Final = "auto"
-"""Asks for the first tiling of the catalogue that is for the bodies."""
+"""Stands for the first tiling of the catalogue that is for the given bodies."""
 
 ENTRIES: Final = [
     Entry(
@@ -50,7 +67,7 @@ ENTRIES: Final = [
         has_fewest_events=True,
     ),
     Entry("greedy", Bodies.CONVEX, "exactpt.tiling.greedy.greedy:VerticalRules"),
-    Entry("mixed", Bodies.ANY, "exactpt.tiling.mixed.mixed:MixedRules"),
+    Entry("mixed", Bodies.ANY, "exactpt.tiling.mixed.mixed:MixedRules", has_relative_hulls=True),
     Entry("greedy", Bodies.ANY, "exactpt.tiling.greedy.shadowed:ShadowRules"),
     Entry(
         "lazy",
@@ -94,7 +111,7 @@ def choose(
             is_meant = entry.has_fewest_events or not fewest_events
             fits = entry.bodies is not Bodies.POINTS or points
         else:
-            is_meant, fits = entry.name == name, True  # `vertices_of_points` refuses the others
+            is_meant, fits = entry.name == name, True  # `loading.plan` refuses the others
         if is_meant and fits and (entry.bodies is not Bodies.CONVEX or convex()):
             return entry
     raise InputError(f"no tiling {name!r}; there are: {', '.join(known())}")
@@ -105,6 +122,11 @@ def find(name: str, *, convex: bool) -> Entry:
 
     Args:
         name: its name.
-        convex: whether it is for convex bodies.
+        convex: whether it is for convex bodies alone.
     """
     return choose(name, points=True, convex=lambda: convex)
+
+
+def with_relative_hulls() -> Entry:
+    """The first tiling of any bodies whose mesh contains their relative hulls."""
+    return next(e for e in ENTRIES if e.has_relative_hulls and e.bodies is Bodies.ANY)

@@ -1,19 +1,24 @@
-"""The time of a tiling: how it moves on to what fails next, and back to before a contact."""
+"""The clock of a tiling: it advances to the next event and retreats to before a contact."""
 
 from __future__ import annotations
 
-from typing import final
+from collections.abc import Iterator
+from typing import Final, final
 
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
 from exactpt.certificates.table import CertificateTable
 from exactpt.errors import AuditError
+from exactpt.indices import CertificateId
 from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.motion.frame import Frame
 from exactpt.motion.vertices import MovingBody
 
 __all__ = ["Clock"]
+
+MAX_TIMES: Final = 15
+"""Maximum number of times just after now; number k is within a distance of 2^-(2^k)."""
 
 
 @final
@@ -21,20 +26,20 @@ class Clock:
     """The current time of a run.
 
     Attributes:
-        certifier: it knows the current time.
-        table: it knows what fails when.
+        certifier: holds the current time.
+        table: holds the times of failure.
     """
 
     def __init__(self, certifier: Certifier, table: CertificateTable, frame: Frame) -> None:
         self.certifier: Certifier = certifier
         self.table: CertificateTable = table
         self._frame: Frame = frame
-        # The time before the last one with events, and these: what `retreat` restores.
-        self._undo: tuple[EventTime, list[tuple[int, EventTime]]] | None = None
+        # What `retreat` restores: the previous event time, and the entries of the current one.
+        self._undo: tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None = None
         self._until: tuple[QQ, float] = (certifier.end, frame.time(certifier.end)[0])
 
     def next_time(self) -> EventTime | None:
-        """When the next certificates fail; the queue keeps them."""
+        """The time of the next failure, which stays in the queue; None if there is none."""
         popped = self.table.pending.pop()
         if popped is None:
             return None
@@ -43,12 +48,21 @@ class Clock:
         return time
 
     def next_number(self) -> AlgebraicNumber | None:
-        """When the next certificates fail, exactly."""
+        """The exact time of the next failure; None if there is none."""
         time = self.next_time()
         return None if time is None else time.exact or self.certifier.resolve(time)
 
-    def pop(self, until: QQ) -> tuple[EventTime, list[tuple[int, EventTime]]] | None:
-        """The next time at which certificates fail, and these; None if it is after ``until``."""
+    def is_after(self, t: QQ) -> bool:
+        """Whether now is after a rational time; exactly, but for most times by enclosures."""
+        low, high = self._frame.time(t)
+        if self.certifier.now_low > high:
+            return True
+        if self.certifier.now_high < low:
+            return False
+        return self.certifier.exact_now.compare_rational(t) > 0
+
+    def pop(self, until: QQ) -> tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None:
+        """Take the next failures off the queue, with their time; None if after ``until``."""
         if until is not self._until[0]:
             self._until = (until, self._frame.time(until)[0])
         popped = self.table.pending.pop()
@@ -61,24 +75,24 @@ class Clock:
                     return None
         return popped
 
-    def enter(self, time: EventTime, entries: list[tuple[int, EventTime]]) -> None:
-        """Let the time at which some certificates fail be now."""
+    def enter(self, time: EventTime, entries: list[tuple[CertificateId, EventTime]]) -> None:
+        """Advance to a time at which some certificates fail."""
         self._undo = self.certifier.now, entries
         self.certifier.move_to(time, [(t.a, t.b, t.c) for _, t in entries])
 
     def move_to(self, t: QQ) -> None:
-        """Let a rational time be now; nothing happens up to it that has not been processed."""
+        """Move to a rational time; no unprocessed event may lie before it."""
         low, high = self._frame.time(t)
         self.certifier.move_to(EventTime(low, high, -1, -1, -1, AlgebraicNumber(t)), [])
 
-    def forget_way_back(self) -> None:
-        """There is no contact at the current time, and something changes for good."""
+    def forbid_retreat(self) -> None:
+        """Exclude a retreat: there is no contact now, and changes follow that stay."""
         self._undo = None
 
     def retreat(self, grid: QQ) -> QQ:
         """See `Tiling.retreat`."""
         if self._undo is None:
-            raise AuditError("there is no contact to go back from")
+            raise AuditError("there is no contact to retreat from")
         (time_before, entries), contact = self._undo, self.certifier.exact_now
         before = time_before.exact or self.certifier.resolve(time_before)
         self._undo = None
@@ -89,13 +103,28 @@ class Clock:
         self.move_to(t)
         return t
 
+    def times_just_after(self) -> Iterator[QQ]:
+        """Rational times after now and before the next failure, nearer and nearer to now.
+
+        At the end of the time span they are beyond it: trajectories continue there.
+        """
+        now, following, later = self.certifier.exact_now, self.next_number(), self.certifier.end
+        if now.compare_rational(later) >= 0:
+            later = rational_between(now, AlgebraicNumber(later + 1))
+        elif following is not None and following.compare_rational(later) < 0:
+            later = rational_between(now, following)
+        for k in range(MAX_TIMES):
+            width = (later - now._low) * power_of_two(-(1 << k))
+            now.refine_to(width / 2)
+            yield rational_between(now, AlgebraicNumber(now._high + width / 2))
+
     def end_of_piece(self, moving: MovingBody) -> EventTime | None:
-        """When a body's current piece of motion ends; None if that is after the last time."""
+        """The end of a body's current piece of motion; None if it is after the time span."""
         if moving.until is None or moving.until > self.certifier.end:
             return None
         low, high = self._frame.time(moving.until)
         return EventTime(low, high, -1, -1, -1, AlgebraicNumber(moving.until))
 
-    def _put_back(self, entries: list[tuple[int, EventTime]]) -> None:
+    def _put_back(self, entries: list[tuple[CertificateId, EventTime]]) -> None:
         for certificate, time in entries:
             self.table.pending.schedule(certificate, time)

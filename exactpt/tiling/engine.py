@@ -1,9 +1,9 @@
-"""The engine: keeps a pseudo-triangulation up to date, by the rules of its structure.
+"""The engine: maintains a pseudo-triangulation over time, by the rules of one tiling.
 
-It is composed of a clock, the table of certificates, a mesh with its certified angles, the
-repairs of these, and the rules. At the time of an event it looks for contacts, lets new
-pieces of motion begin, and repairs. A repair that is not possible, or an endless round of
-them, is answered by building the tiling anew.
+It is composed of a clock, the table of certificates, a mesh with certified angles, the
+repairs, and the rules. At the time of an event it looks for contacts, begins new pieces of
+motion, and repairs. If a repair is not possible, or the repair loop does not end, it
+rebuilds the tiling.
 
 Source: the paper, section 2.2.
 """
@@ -11,15 +11,15 @@ Source: the paper, section 2.2.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Final, final
+from typing import TYPE_CHECKING, final
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certificate import ANGLE, MOTION, SHRINK, kind_of, pack, part_of
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
 from exactpt.errors import AuditError
-from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.kernel.numbers import QQ, power_of_two
+from exactpt.indices import CertificateId, HalfEdge
+from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.audit import audit_angles
@@ -41,18 +41,15 @@ if TYPE_CHECKING:
 
 __all__ = ["Engine"]
 
-MOST_TRIES: Final = 15
-"""How often a tiling is built anew before that is given up: 2^-(2^k) nearer at try k."""
-
 
 @final
 class Engine(Tiling):
-    """A pointed pseudo-triangulation of the free space, kept by the rules of its structure.
+    """A pointed pseudo-triangulation of the free space, maintained by the rules of one tiling.
 
     Attributes:
         certified: the mesh just after the current time, with the certificates of its angles.
-        rules: of the structure.
-        repairs: of what is violated.
+        rules: the rules of the tiling.
+        repairs: the repairs of violated certificates.
     """
 
     def __init__(
@@ -87,7 +84,7 @@ class Engine(Tiling):
         self.stats.most = max(self.stats.most, self.certified.certify_everything())
 
     def state(self) -> State:
-        """The flat angles, the mesh, and what the rules keep besides."""
+        """The flat angles, the mesh, and the data of the rules."""
         flat = sorted(self.table.flat)
         return {"flat": flat, "mesh": self.mesh.state(), **self.rules.state()}
 
@@ -118,8 +115,8 @@ class Engine(Tiling):
     def mesh_now(self, time: QQ) -> Mesh:
         """The tiling at a rational time: the current one, or one before the next event.
 
-        It is the current one with corners closed; or, where corners close on each other
-        so that one by one they cannot, the one that is built at that time.
+        It is the current tiling with closed corners collapsed (`Rules.close`); if these
+        cannot be collapsed one by one, it is built from scratch.
         """
         mesh = self.mesh.copy()
         instant = PredicatesAt(self.vertices, time, after=False)
@@ -140,68 +137,74 @@ class Engine(Tiling):
 
     # Events
 
-    def _process(self, time: EventTime, entries: list[tuple[int, EventTime]]) -> None:
-        """Let all events of one time happen."""
+    def _process(self, time: EventTime, entries: list[tuple[CertificateId, EventTime]]) -> None:
+        """See `Tiling._process`."""
         certified, first = self.certified, entries[0][0]
         self.table.angles.clear()
         self.clock.enter(time, entries)
         certified.batch.clear()
         is_alone = len(entries) == 1 and time.crossing and kind_of(first) == ANGLE
         try:
-            h = part_of(first)
+            h = HalfEdge(part_of(first))
             if is_alone and not certified.has_flats(h):
                 if may_touch(certified, h):
                     report_touches(certified, certified.angle(h))
                 self.table.angles.add(h)
             else:
-                certified.is_careful = True
+                certified.checks_rigid = True
                 self.stats.batches += len(entries) > 1
                 self._begin_batch([certificate for certificate, _ in entries])
-            self.repairs.settle()
+            self.repairs.repair_all()
         except RebuildNeeded:
             self._rebuild()
         self._end_batch()
 
     def _end_batch(self) -> None:
-        self.certified.is_careful = False
+        self.certified.checks_rigid = False
         self.stats.most = max(self.stats.most, len(self.table.pending))
 
-    def _begin_batch(self, failed: list[int]) -> None:
-        """Note what is violated just after now; report a contact if there is one."""
+    def _begin_batch(self, failed: list[CertificateId]) -> None:
+        """Record what is violated just after now.
+
+        Raises:
+            ContactFound: if there is a contact now.
+        """
         certified = self.certified
-        angles = [part_of(c) for c in failed if kind_of(c) == ANGLE]
+        angles = [HalfEdge(part_of(c)) for c in failed if kind_of(c) == ANGLE]
         moving = [part_of(c) for c in failed if kind_of(c) == MOTION]
-        # Before anything is changed, so that `retreat` finds everything as it was. What
-        # vanishes at the end of a piece has an event then, so that one look finds all.
+        # Contacts come first, while nothing has changed, so that `retreat` is possible. An angle
+        # that vanishes at the end of a piece has an event of its own now, so none is missed.
         shrinking = [part_of(c) for c in failed if kind_of(c) == SHRINK]
         look_for_contact(certified, angles, shrinking)
         if moving:
             certified.batch.has_new_motions = True
-            self.clock.forget_way_back()
+            self.clock.forbid_retreat()
             angles += [h for i in moving for h in self._change_motion(i)]
         self.rules.failed([c for c in failed if kind_of(c) not in (ANGLE, MOTION, SHRINK)])
         certified.certify_again(angles)
 
-    def _change_motion(self, i: int) -> list[int]:
-        """Let a body go on by its next piece of motion; the angles that vanish now."""
+    def _change_motion(self, i: int) -> list[HalfEdge]:
+        """Begin a body's next piece of motion; returns the angles that vanish now."""
         moving = self.vertices.bodies[i]
         if moving.until is None:
             raise AuditError(f"body {i} has no next piece")
-        changes = moving.until in moving.body._breakpoints  # else only its offsets do
+        changes = (
+            moving.until in moving.body._breakpoints
+        )  # otherwise only the directions of its infinitesimal displacements do
         self.vertices.enter_piece(i, moving.until)
         certify_piece(self.clock, moving, i)
         if changes:
             self.log.record("motion", (), ())
         return self.certified.certify_body(i)
 
-    # Plans, and bodies that come and go
+    # Changes of plans, insertion and removal of bodies
 
     def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent] | None:
         """See `Tiling.change_plans`."""
         if not all(self.rules.allows_plan(body, t) for body in plans.values()):
             return None
         certified = self.certified
-        self._pause(t)
+        self._begin_change(t)
         certified.batch.has_new_motions = True
         try:
             for i in sorted(plans):
@@ -213,7 +216,7 @@ class Engine(Tiling):
             angles = [h for i in sorted(plans) for h in certified.certify_body(i)]
             self.rules.failed([])
             certified.certify_again(angles)
-            self.repairs.settle()
+            self.repairs.repair_all()
         except RebuildNeeded:
             self._rebuild()
         self._end_batch()
@@ -224,66 +227,55 @@ class Engine(Tiling):
         if not self.rules.allows_body(body, t):
             return None
         zone = find_conflict_zone(self.vertices, self.mesh, body, t)
-        self._pause(t)
+        self._begin_change(t)
         i = self.vertices.add(body, t)
         certify_piece(self.clock, self.vertices.bodies[i], i)
-        return self._go_on(is_whole=add_ring(self.certified, self.log, i, zone))
+        return self._end_change(was_possible=add_ring(self.certified, self.log, i, zone))
 
     def remove_body(self, i: int, t: QQ) -> list[TilingEvent] | None:
         """See `Tiling.remove_body`."""
-        self._pause(t)
-        is_whole = remove_ring(self.certified, self.log, i)
+        self._begin_change(t)
+        was_possible = remove_ring(self.certified, self.log, i)
         last = len(self.vertices.bodies) - 1
         for kind in (MOTION, SHRINK):
             self.table.move(pack(kind, last), pack(kind, i))
         self.vertices.remove(i)
-        return self._go_on(is_whole=is_whole)
+        return self._end_change(was_possible=was_possible)
 
-    def _pause(self, t: QQ) -> None:
-        """Let a rational time be now; nothing is violated then."""
+    def _begin_change(self, t: QQ) -> None:
+        """Move to a rational time, at which nothing is violated, to change the tiling there."""
         self.clock.move_to(t)
         self.table.angles.clear()
         self.certified.batch.clear()
-        self.certified.is_careful = True
+        self.certified.checks_rigid = True
 
-    def _go_on(self, *, is_whole: bool) -> list[TilingEvent]:
-        """Repair what is violated; or build the tiling anew if it is not whole."""
+    def _end_change(self, *, was_possible: bool) -> list[TilingEvent]:
+        """Repair after a local change; rebuild the tiling if the change was not possible."""
         try:
-            if not is_whole:
+            if not was_possible:
                 raise RebuildNeeded
-            self.repairs.settle()
+            self.repairs.repair_all()
             self.repairs.check_batch()
         except RebuildNeeded:
             self._rebuild()
         self._end_batch()
         return self.log.take()
 
-    # The last resort
+    # Rebuilding
 
     def _rebuild(self) -> None:
-        """Build the tiling that holds from now on, and certify all of it.
+        """Build and certify the tiling that holds just after now.
 
-        A rational time is tried, and accepted if the tiling built there is valid just
-        after now and no certificate of it fails in between; else one nearer to now.
+        It is built at a rational time later than now, and accepted if none of its certificates
+        fails in between; otherwise at times nearer and nearer to now.
 
         Raises:
-            AuditError: if none is found: a contact now has been missed.
+            AuditError: if no attempt succeeds; then a contact at this time has been missed.
         """
         self.stats.rebuilds += 1
         before = self._diagonals()
-        now, following = self.now, self.next_number()
-        later = self.certifier.end
-        if now.compare_rational(later) >= 0:
-            later = rational_between(now, AlgebraicNumber(later + 1))  # plans run on as they are
-        elif following is not None and following.compare_rational(later) < 0:
-            later = rational_between(now, following)
-        for k in range(MOST_TRIES):
-            width = (later - now._low) * power_of_two(-(1 << k))
-            now.refine_to(width / 2)
-            if self._build_anew(rational_between(now, AlgebraicNumber(now._high + width / 2))):
-                break
-        else:
-            raise AuditError(f"no tiling holds just after t = {float(now)!r}")
+        if not any(self._build_anew(later) for later in self.clock.times_just_after()):
+            raise AuditError(f"no tiling holds just after t = {float(self.now)!r}")
         after = self._diagonals()
         self.log.record("reflex", tuple(sorted(before - after)), tuple(sorted(after - before)))
 
@@ -291,12 +283,12 @@ class Engine(Tiling):
         return {edge_key(*self.mesh.ends(h)) for h in self.mesh.diagonals()}
 
     def _build_anew(self, later: QQ) -> bool:
-        """Build and certify the tiling of a later time; whether it has held since now."""
+        """Build and certify the tiling of a later time; returns whether it has held since now."""
         self.table.angles.clear()
         try:
             self._build(later)
         except (AuditError, RebuildNeeded):
-            return False  # bodies overlap there, or the tiling was another one before
+            return False  # bodies overlap there, or the tiling is another one before
         following = self.next_number()
         return not (self.table.angles or self.rules.is_violated()) and (
             following is None or following.compare_rational(later) > 0

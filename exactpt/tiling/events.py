@@ -1,4 +1,4 @@
-"""What happened: the record of one event of a tiling, the log, and the counts."""
+"""Events of a tiling: the record of one event, the log, and counts."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ class TilingEvent(NamedTuple):
     """A change of a tiling.
 
     Attributes:
-        time: when.
+        time: the time of the event.
         kind: "corner", "reflex", "hull", "diagonal", "motion", "x-order" or "contact".
-        removed, added: edges, as pairs of vertex ids.
+        removed, added: the edges removed and added, as pairs of vertex ids.
     """
 
     time: EventTime
@@ -35,7 +35,7 @@ class ContactFound(Exception):  # noqa: N818 - an outcome that ends the run, no 
     """The first contact has been reached.
 
     Attributes:
-        touches: every vertex-edge and vertex-vertex incidence at that time.
+        touches: all incidences of a vertex with an edge or a vertex at that time.
     """
 
     def __init__(self, touches: list[Touch]) -> None:
@@ -50,10 +50,11 @@ class Stats:
     Attributes:
         events: changes of the tiling by kind.
         batches: times at which more than one certificate failed.
-        rebuilds: how often a batch had to be settled by building the tiling anew.
-        flips: repair flips after a batch, towards the canonical tiling.
-        most: the largest number of certificates with a pending failure.
-        fan: edges that have come or gone in the fan triangulation of points, if it is kept.
+        rebuilds: number of times at which the repairs failed and the tiling was rebuilt.
+        flips: number of flips made by checks after a batch, to make the tiling canonical.
+        most: maximum number of pending certificates.
+        fan: number of edges added to and removed from the fan triangulation of points, if these
+            are counted.
     """
 
     def __init__(self) -> None:
@@ -65,7 +66,7 @@ class Stats:
         self.fan: int = 0
 
     def count(self, kind: str) -> None:
-        """Note an event."""
+        """Count an event."""
         self.events[kind] = self.events.get(kind, 0) + 1
 
     @property
@@ -76,7 +77,7 @@ class Stats:
 
 @final
 class Log:
-    """What has happened since it was last told.
+    """The events not yet reported.
 
     Attributes:
         stats: counts of the run.
@@ -88,7 +89,7 @@ class Log:
         self._events: list[TilingEvent] = []
 
     def record(self, kind: str, removed: Edges, added: Edges) -> None:
-        """Note a change; one between copies of a thin vertex is none for the outside."""
+        """Record a change; one that only permutes copies of a vertex is counted as internal."""
         if self._has_copies(removed) and self._scene_edges(removed) == self._scene_edges(added):
             self.stats.count("internal")
         else:
@@ -96,7 +97,7 @@ class Log:
             self._events.append(TilingEvent(self._certifier.now, kind, removed, added))
 
     def take(self) -> list[TilingEvent]:
-        """The changes that have not been told yet."""
+        """The events not yet reported, which then count as reported."""
         events, self._events = self._events, []
         return events
 

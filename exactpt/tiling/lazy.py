@@ -1,4 +1,4 @@
-"""Any pointed pseudo-triangulation: the fewest events, for those who only want the contact."""
+"""The lazy tiling: a pointed pseudo-triangulation, not canonical, with the fewest events."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ __all__ = ["LazyRules"]
 
 @final
 class LazyRules(Rules):
-    """Starts greedy and repairs corners and bends alone."""
+    """The rules of a tiling that only repairs violated angles and never flips."""
 
     @staticmethod
     def build(instant: PredicatesAt) -> Mesh:
-        """A tiling of an instant: of convex bodies by rotation, else by a plane sweep."""
+        """A tiling of an instant: the greedy one of convex bodies, otherwise by a plane sweep."""
         if instant.all_stay_convex():
             return greedy_mesh(instant, VerticalDecomposition.at(instant))[0]
         mesh = build_mesh(instant, sweep_diagonals(instant))

@@ -1,4 +1,4 @@
-"""Certificates of bodies: when a piece of motion ends, and when a body loses its inside."""
+"""Certificates of bodies: the end of a piece of motion, and the loss of the interior."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ __all__ = ["certify_piece"]
 
 
 def certify_piece(clock: Clock, moving: MovingBody, i: int) -> None:
-    """Schedule when body i's current piece ends, and when the body loses its inside.
+    """Schedule the end of body i's current piece of motion, and the loss of its interior.
 
-    That may be so of a segment that shrinks to a point, and a triangle that becomes
-    flat: the only bodies that deform so and whose inside is not tiled.
+    A segment may shrink to a point, and a triangle may become flat; the interior of every
+    other body that deforms is tiled, so that angles of its tiles fail then.
     """
-    collapse = _collapse(clock.certifier, moving) if moving.deforms else None
-    clock.table.schedule(pack(SHRINK, i), collapse)
+    loss = _loss_of_interior(clock.certifier, moving) if moving.deforms else None
+    clock.table.schedule(pack(SHRINK, i), loss)
     clock.table.schedule(pack(MOTION, i), clock.end_of_piece(moving))
 
 
-def _collapse(certifier: Certifier, moving: MovingBody) -> EventTime | None:
+def _loss_of_interior(certifier: Certifier, moving: MovingBody) -> EventTime | None:
     if moving.body.size == 2:
         return certifier.first_coincidence(moving.ring[0], moving.ring[2])
     if moving.body.size == 3 and moving.body.closed:

@@ -1,9 +1,9 @@
-"""Bodies that come and go: the tiling changes in the faces that they touch.
+"""Insertion and removal of bodies: the tiling changes only in the faces that they meet.
 
-A body that comes is put into the faces that it meets; one that goes leaves a hole, the
-faces that it has touched. Either is a region that is tiled anew
-(`exactpt.pseudotriangulation.region`). Only angles that are new are certified; what the canonical
-tilings need besides, flips and their certificates, spreads from there as after any other repair.
+The faces that a new body meets, or the faces at the vertices of a removed one, are merged
+into a region that is tiled again (`exactpt.pseudotriangulation.region`). Only new angles are
+certified; the flips that make a canonical tiling canonical again start from these tiles, as
+after any repair.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from exactpt.errors import AuditError
+from exactpt.indices import NO_HALF_EDGE
 from exactpt.motion.vertices import Vertices
-from exactpt.planar.halfedge import NOTHING
 from exactpt.pseudotriangulation.conflict_zone import ConflictZone
 from exactpt.pseudotriangulation.inside import tile_inside
 from exactpt.pseudotriangulation.region import Region
@@ -23,16 +23,19 @@ __all__ = ["add_ring", "remove_ring"]
 
 
 def add_ring(certified: CertifiedMesh, log: Log, i: int, zone: ConflictZone) -> bool:
-    """Put a new body into a tiling, and certify what is new; whether that was possible.
+    """Insert the ring of a new body into a tiling, and certify the new angles.
 
     Args:
-        certified: the tiling; it has the moving vertices of the body.
-        log: what is told.
+        certified: the tiling; its moving vertices include those of the body.
+        log: the record of events.
         i: the number of the body.
-        zone: where it lies.
+        zone: its conflict zone.
+
+    Returns:
+        Whether the region could be tiled; otherwise the tiling must be rebuilt.
     """
     moving = certified.vertices.bodies[i]
-    region = certified.rules.region_met(zone)
+    region = certified.rules.region_of_insertion(zone)
     region.add_ring(certified.vertices, moving)
     if not _retile(certified, log, region):
         return False
@@ -44,11 +47,11 @@ def add_ring(certified: CertifiedMesh, log: Log, i: int, zone: ConflictZone) -> 
 
 
 def remove_ring(certified: CertifiedMesh, log: Log, i: int) -> bool:
-    """Take a body out of a tiling, and certify what is new; whether that was possible."""
+    """Remove the ring of a body, and certify the new angles; returns as `add_ring`."""
     ring = certified.vertices.bodies[i].ring
-    region = certified.rules.region_left(i)
+    region = certified.rules.region_of_removal(i)
     for v in ring:
-        certified.mesh.ring_edge[v] = NOTHING
+        certified.mesh.ring_edge[v] = NO_HALF_EDGE
     if not _retile(certified, log, region):
         return False
     certified.rules.leave(i)
@@ -56,7 +59,7 @@ def remove_ring(certified: CertifiedMesh, log: Log, i: int) -> bool:
 
 
 def _retile(certified: CertifiedMesh, log: Log, region: Region) -> bool:
-    """Tile a region, and certify its new angles; whether that was possible."""
+    """Tile a region, and certify its new angles; returns as `add_ring`."""
     try:
         retiled = region.tile(certified.after())
     except AuditError:
@@ -77,7 +80,10 @@ def _retile(certified: CertifiedMesh, log: Log, region: Region) -> bool:
 def _by_scene_edge(
     vertices: Vertices, edges: Iterable[tuple[int, int]]
 ) -> dict[frozenset[tuple[int, int]], tuple[int, int]]:
-    """Edges between different vertices of the scene, one for all of their copies."""
+    """Edges by their ends in the scene, one for all its infinitesimal copies.
+
+    Edges between copies of one vertex are left out.
+    """
     v = vertices.all
     keys = {frozenset((v[i].body, v[i].index) for i in edge): edge for edge in edges}
     return {key: edge for key, edge in keys.items() if len(key) == 2}

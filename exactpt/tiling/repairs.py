@@ -1,12 +1,12 @@
-"""Repairs: what is done to a tiling when angles are violated.
+"""Repairs of violated angles.
 
-Source: the paper, section 2.2, with the sub-cases of its update rules worked out. A
-corner that closes is collapsed; a bend that straightens gives one of its edges way.
-Either is one slide of an edge along its neighbour (`exactpt.planar.halfedge`).
+Source: the paper, section 2.2, with the sub-cases of its update rules worked out. A corner
+whose angle becomes 0 is collapsed; at a reflex angle that becomes pi, one of the two edges is
+replaced. In both cases one edge slides along its neighbour (`exactpt.planar.halfedge`).
 
-At one time, several certificates may fail. They are repaired one after the other, in the
-order of their numbers, each judged by its sign *just after* that time, until none is
-violated. If all angles of the result are as they should be, it is an embedding: the
+Several certificates may fail at one time. They are repaired one after the other, in
+increasing order of half-edges, each by its sign *just after* that time, until none is
+violated. If all angles of the result have the sign of their marks, it is an embedding: the
 angles around every vertex add up to a positive multiple of 2 pi and, by Euler's formula,
 to 2 pi on average.
 """
@@ -18,7 +18,10 @@ from typing import final
 from exactpt.certificates.coincidence import nearer, nearer_copy, strictly_between
 from exactpt.certificates.perturbation import comes_first
 from exactpt.errors import AuditError
-from exactpt.pseudotriangulation.audit import audit_fan
+from exactpt.indices import HalfEdge, Triple
+from exactpt.kernel.budget import ask
+from exactpt.planar.halfedge import twin
+from exactpt.pseudotriangulation.audit import audit_star
 from exactpt.pseudotriangulation.mesh import OUTER
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.events import Log
@@ -27,20 +30,20 @@ from exactpt.tiling.rules import Rules
 __all__ = ["RebuildNeeded", "Repairs"]
 
 
-class RebuildNeeded(Exception):  # noqa: N818 - a turn of the control flow, no error
-    """The events of one time could not be repaired one by one."""
+class RebuildNeeded(Exception):  # noqa: N818 - control flow, no error
+    """The failures of one time cannot be repaired one by one."""
 
 
 @final
 class Repairs:
-    """Mends the violated angles of a mesh one by one, and what its rules have besides."""
+    """Repairs the violated angles of a mesh, and the other certificates of its rules."""
 
     def __init__(self, certified: CertifiedMesh, rules: Rules, log: Log) -> None:
         self.certified: CertifiedMesh = certified
         self._rules: Rules = rules
         self._log: Log = log
 
-    def settle(self) -> None:
+    def repair_all(self) -> None:
         """Repair until nothing is violated just after now.
 
         Raises:
@@ -49,6 +52,7 @@ class Repairs:
         table, batch, rules = self.certified.table, self.certified.batch, self._rules
         rounds, most = 0, 64 + 4 * (len(table.pending) + len(table.angles))
         while table.angles or rules.is_violated():
+            ask()
             rounds += 1
             if rounds > most:
                 raise RebuildNeeded
@@ -61,8 +65,8 @@ class Repairs:
             self.check_batch()
         rules.restore()
 
-    def first_violated(self) -> int:
-        """The violated angle to be mended first: copies of one triple in perturbed order."""
+    def first_violated(self) -> HalfEdge:
+        """The least violated angle; of copies of its triple, the first in the perturbed order."""
         certified, violated = self.certified, self.certified.table.angles
         first = min(violated)
         if len(violated) == 1:
@@ -77,8 +81,8 @@ class Repairs:
                     first, q = h, p
         return first
 
-    def _violated_at(self, vertices: set[tuple[int, int]]) -> set[int]:
-        """The violated angles at some vertices, each given by its body and its number there."""
+    def _violated_at(self, vertices: set[tuple[int, int]]) -> set[HalfEdge]:
+        """The violated angles at vertices of the scene, given by body and index."""
         certified = self.certified
         origin, every = certified.mesh.map.origin, certified.vertices.all
         return {
@@ -86,23 +90,23 @@ class Repairs:
         }
 
     def check_batch(self) -> None:
-        """Check what several repairs at one time have left: corners, order around vertices.
+        """Check the corners of changed faces and the order around their vertices.
 
         Raises:
-            RebuildNeeded: if it is no pseudo-triangulation.
+            RebuildNeeded: if the mesh is not a pseudo-triangulation there.
         """
         mesh, touched = self.certified.mesh, sorted(self.certified.batch.touched)
         m, after = mesh.map, self.certified.after()
         try:
             mesh.audit_faces(touched)
             for v in sorted({m.origin[h] for h in touched if m.origin[h] >= 0}):
-                audit_fan(mesh, mesh.ring_edge[v], after)
+                audit_star(mesh, mesh.ring_edge[v], after)
         except AuditError:
             raise RebuildNeeded from None
         self._rules.check(touched)
 
-    def _repair(self, h: int) -> None:
-        """Mend the violated angle of h."""
+    def _repair(self, h: HalfEdge) -> None:
+        """Repair the violated angle of h."""
         certified = self.certified
         certified.table.angles.discard(h)
         is_corner = certified.mesh.corner[h]
@@ -111,13 +115,14 @@ class Repairs:
         elif is_corner:
             self._repair_corner(h)
         else:
-            self._repair_bend(h)
+            self._repair_reflex_angle(h)
 
-    def _repair_triangle(self, h: int) -> None:
-        """A triangle closes: its middle vertex, a corner so far, comes to lie on the far edge.
+    def _repair_triangle(self, h: HalfEdge) -> None:
+        """Dissolve a triangle whose middle vertex has come to lie on the opposite edge.
 
-        Of a pointed tiling, it is a reflex vertex of a polygon that becomes convex; the
-        triangle was its last tile with an angle above pi on the other side.
+        In a pointed tiling the middle vertex is a reflex vertex of a polygon that becomes
+        convex: it was a corner of all its tiles, and becomes a reflex vertex of the tile
+        across the edge.
         """
         certified, mesh = self.certified, self.certified.mesh
         vertices = certified.vertices_of(h)
@@ -130,7 +135,7 @@ class Repairs:
         edge = next(g for g in mesh.map.face(h) if middle.id not in mesh.ends(g))
         if mesh.is_boundary(edge):
             raise RebuildNeeded
-        across = mesh.map.face(edge ^ 1)
+        across = mesh.map.face(twin(edge))
         self._log.record("hull" if mesh.is_hull(edge) else "corner", (mesh.ends(edge),), ())
         first, second = mesh.map.following[edge], mesh.map.previous[edge]
         after = mesh.map.following[edge ^ 1]
@@ -138,7 +143,7 @@ class Repairs:
         certified.cancel_edge(edge)
         certified.recertify([first, second, after] if len(across) > 3 else mesh.map.face(first))
 
-    def _repair_corner(self, h: int) -> None:
+    def _repair_corner(self, h: HalfEdge) -> None:
         mesh, certifier = self.certified.mesh, self.certified.certifier
         a, p, b = self.certified.angle(h)
         va, vp, vb = self.certified.vertices_of(h)
@@ -152,9 +157,9 @@ class Repairs:
         kind = "hull" if mesh.is_hull(long) else "corner"
         mesh.collapse_corner(h, origin_moves=origin_moves)
         ends = (p, b, a) if origin_moves else (p, a, b)
-        self._slid(h, before, kind, ends, origin_moves=origin_moves)
+        self._record_slide(h, before, kind, ends, origin_moves=origin_moves)
 
-    def _repair_bend(self, h: int) -> None:
+    def _repair_reflex_angle(self, h: HalfEdge) -> None:
         mesh = self.certified.mesh
         a, p, b = self.certified.angle(h)
         before = mesh.map.previous[h]
@@ -164,34 +169,42 @@ class Repairs:
             self._rules.turns_reflex(h)
             self._repair_convex_vertex(h, kind)
             return
-        # Of two diagonals that become one line the one before the bend gives way: the one
-        # of larger theta, as the greedy tiling wants it. For just after now the bend p has
-        # passed the segment from a (before) to b (after) to its right. If a is left of b,
-        # p is below it and a p falls more steeply, so theta(a p) is larger; if a is right
-        # of b, p is above and again theta(p a) is larger.
+        # Of two diagonals that become collinear, the one before p is replaced: it has the
+        # larger theta, as the greedy tiling requires. For just after now p lies to the right
+        # of the segment from a (before p) to b (after p). If a is left of b, p is below the
+        # segment and a p falls more steeply, so theta(a p) is larger; if a is right of b, p is
+        # above it and again theta(p a) is larger.
         origin_moves = stays_before
         mesh.straighten(h, origin_moves=origin_moves)
         ends = (p, b, a) if origin_moves else (p, a, b)
-        self._slid(h, before, kind, ends, origin_moves=origin_moves)
+        self._record_slide(h, before, kind, ends, origin_moves=origin_moves)
 
-    def _repair_convex_vertex(self, h: int, kind: str) -> None:
-        """A convex vertex of a body becomes reflex: it gets a triangle of its own."""
+    def _repair_convex_vertex(self, h: HalfEdge, kind: str) -> None:
+        """Cut off a triangle at a convex vertex of a body that becomes reflex."""
         a, _, b = self.certified.angle(h)
         e = self.certified.mesh.cut_off(h)
         self._log.record(kind, (), ((a, b),))
         m = self.certified.mesh.map
-        self.certified.recertify([e, m.following[e], e ^ 1, h, m.previous[h]])
+        self.certified.recertify([e, m.following[e], twin(e), h, m.previous[h]])
 
-    def _slid(
-        self, h: int, before: int, kind: str, ends: tuple[int, int, int], *, origin_moves: bool
+    def _record_slide(
+        self, h: HalfEdge, before: HalfEdge, kind: str, ends: Triple, *, origin_moves: bool
     ) -> None:
-        """Certify the angles that a slide has changed: two in one face, three across."""
+        """Record the slide of an edge, and certify the five angles that it has changed.
+
+        Args:
+            h: the half-edge whose angle has been repaired.
+            before: the half-edge before h until then.
+            kind: the kind of the event.
+            ends: the old end of the edge, its fixed end and its new one.
+            origin_moves: whether h has moved, or else the edge before it.
+        """
         m = self.certified.mesh.map
         old, fixed, new = ends
         self._log.record(kind, ((old, fixed),), ((new, fixed),))
         if origin_moves:
-            changed = [h, m.following[h], h ^ 1, before, m.following[before]]
+            changed = [h, m.following[h], twin(h), before, m.following[before]]
         else:
-            t = before ^ 1
+            t = twin(before)
             changed = [before, m.following[before], h, t, m.following[t]]
         self.certified.recertify(changed)

@@ -1,15 +1,18 @@
-"""The rules of a structure: all that one tiling does unlike another.
+"""The rules of a tiling: everything in which one tiling differs from another.
 
-The engine (`exactpt.tiling.engine`) keeps any pointed pseudo-triangulation whose angles are
-certified. A canonical one has rules of its own on top: certificates that are none of an
-angle, what is done when they fail, and what is restored after a change.
+The engine (`exactpt.tiling.engine`) maintains any pointed pseudo-triangulation by
+certificates of its angles. A canonical tiling adds rules: further certificates, their
+repairs, and the flips that make the tiling canonical again after a change.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING
 
 from exactpt.errors import AuditError
+from exactpt.indices import CertificateId, HalfEdge
+from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.audit import audit_angles
 from exactpt.pseudotriangulation.degenerate import close_at
 from exactpt.pseudotriangulation.mesh import Mesh
@@ -28,12 +31,12 @@ if TYPE_CHECKING:
 __all__ = ["Rules"]
 
 
-class Rules:
-    """The rules of a structure; those that it does not have do nothing.
+class Rules(ABC):
+    """The rules of a tiling; only `build` is required, the other methods do nothing by default.
 
     Attributes:
-        certified: the mesh with the certificates of its angles.
-        log: what has happened.
+        certified: the mesh, with the certificates of its angles.
+        log: the record of events.
     """
 
     def __init__(self, certified: CertifiedMesh, log: Log) -> None:
@@ -43,25 +46,28 @@ class Rules:
     # Building
 
     @staticmethod
+    @abstractmethod
     def build(instant: PredicatesAt) -> Mesh:
-        """The tiling of an instant."""
-        raise NotImplementedError
+        """The tiling of an instant, built from scratch."""
 
     def begin(self, instant: PredicatesAt) -> Mesh:
-        """The tiling that is kept from an instant on; with what is kept besides the mesh."""
+        """The tiling of an instant, to be maintained from then on.
+
+        Data that the rules maintain besides the mesh are built too.
+        """
         return self.build(instant)
 
     def close(self, mesh: Mesh, instant: PredicatesAt) -> None:
-        """Make a tiling just after an instant the one at the instant.
+        """Change the tiling just after an instant, in place, into the one at the instant.
 
         Raises:
-            AuditError: if that does not end in a tiling.
+            AuditError: if the result is not a tiling.
         """
         if close_at(mesh, instant):
             audit_angles(mesh, instant)
 
     def audit(self, instant: PredicatesAt) -> None:
-        """Compare what is kept besides the mesh with what is built at an instant.
+        """Compare the data besides the mesh with those built from scratch at an instant.
 
         Raises:
             AuditError: if they differ.
@@ -70,82 +76,82 @@ class Rules:
     # State to and from JSON
 
     def state(self) -> State:
-        """What is kept besides the mesh and the flat angles, as JSON data."""
+        """The data besides the mesh and the flat angles, as a JSON object."""
         return {}
 
     def empty_mesh(self, vertices: Vertices) -> Mesh:  # noqa: ARG002 - labels need them
-        """A mesh of this structure without edges."""
+        """A mesh of this tiling without edges."""
         return Mesh(0)
 
     def resume(self, state: State) -> None:
-        """Go on with that state, and with what follows from the mesh."""
+        """Restore the data besides the mesh, from a saved state and from the mesh."""
 
     # Certificates
 
     def certify(self) -> None:
-        """Certify all that is no angle, of a tiling that has been built."""
+        """Certify a newly built tiling, except for its angles."""
 
     def certify_body(self, i: int) -> None:
-        """Certify anew what depends on a body and is no angle."""
+        """Certify again what depends on the motion of a body, except for angles."""
 
-    def changed(self, half_edges: list[int]) -> None:
-        """The angles of these half-edges have changed."""
+    def changed(self, half_edges: list[HalfEdge]) -> None:
+        """Called when the angles of these half-edges have changed."""
 
-    def cancelled(self, h: int) -> None:
-        """An edge has been removed: its certificates go too."""
+    def cancelled(self, h: HalfEdge) -> None:
+        """Called when an edge has been removed: cancel its certificates."""
 
-    def failed(self, certificates: list[int]) -> None:
-        """Certificates that are none of an angle or a motion fail now; perhaps none do."""
+    def failed(self, certificates: list[CertificateId]) -> None:
+        """Called at every event with the failed certificates, except for angles and bodies."""
         if certificates:
             raise AuditError(f"unknown certificates {certificates}")
 
     # Repairs
 
     def is_violated(self) -> bool:
-        """Whether a certificate that is none of an angle is violated just after now."""
+        """Whether a certificate, other than of an angle, is violated just after now."""
         return False
 
     def repair(self) -> None:
-        """Mend one of these; no angle is violated then."""
+        """Repair one violated certificate; called when no angle is violated."""
 
-    def turns_reflex(self, h: int) -> None:
-        """The convex vertex of a body at the origin of h becomes reflex, before the repair."""
+    def turns_reflex(self, h: HalfEdge) -> None:
+        """Called when the vertex at the origin of h becomes reflex, before the repair."""
 
-    def check(self, touched: list[int]) -> None:
-        """Check what repairs at one time that are not apart have left at half-edges.
+    def check(self, touched: list[HalfEdge]) -> None:
+        """Check the tiles of half-edges after several repairs of one time that interact.
 
         Raises:
-            RebuildNeeded: if it is not the structure.
+            RebuildNeeded: if these are not tiles of the canonical tiling.
         """
 
     def restore(self) -> None:
-        """Make the tiling canonical again where it has changed; no angle is violated.
+        """Make the tiling canonical again where it has changed; called when nothing is violated.
 
         Raises:
-            RebuildNeeded: if that is not possible.
+            RebuildNeeded: if the changes cannot be completed locally.
         """
 
-    # Plans, and bodies that come and go
+    # Changes of plans, insertion and removal of bodies
 
     def allows_plan(self, body: Body, t: QQ) -> bool:  # noqa: ARG002
-        """Whether a body of the tiling can go on by a plan."""
+        """Whether a body of the tiling may take this new motion from a time on."""
         return True
 
     def allows_body(self, body: Body, t: QQ) -> bool:  # noqa: ARG002
-        """Whether a body can be added."""
+        """Whether a body may be added at a time."""
         return True
 
-    def region_met(self, zone: ConflictZone) -> Region:
-        """What is tiled anew when a body comes: the faces that it meets."""
+    def region_of_insertion(self, zone: ConflictZone) -> Region:
+        """The region to retile when a body is added: the faces that it meets."""
         return Region(self.certified.mesh, zone.faces, zone.crossed)
 
-    def region_left(self, i: int) -> Region:
-        """What is tiled anew when a body goes: the faces that it has touched."""
+    def region_of_removal(self, i: int) -> Region:
+        """The region to retile when a body is removed: the faces at its vertices."""
         gone = self.certified.edges_at(i)
-        return Region(self.certified.mesh, [g for h in gone for g in (h, h ^ 1)], gone)
+        return Region(self.certified.mesh, [g for h in gone for g in (h, twin(h))], gone)
 
     def enter(self, i: int) -> None:
-        """Certify what is no angle of a new body."""
+        """Certify a new body, except for its angles."""
 
     def leave(self, i: int) -> None:
-        """Forget what is no angle of a body, and let the last one have its number."""
+        """Forget a removed body; the last body takes over its number."""

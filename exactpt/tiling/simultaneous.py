@@ -1,9 +1,10 @@
-"""The repairs of one time: which half-edges each of them has changed, and whether they meet."""
+"""Simultaneous repairs: the half-edges that each has changed, and whether repairs interact."""
 
 from __future__ import annotations
 
 from typing import final
 
+from exactpt.indices import HalfEdge
 from exactpt.pseudotriangulation.mesh import Mesh
 
 __all__ = ["Batch"]
@@ -11,54 +12,55 @@ __all__ = ["Batch"]
 
 @final
 class Batch:
-    """What has been repaired at the current time.
+    """The repairs at the current time.
 
-    Repairs that change different tiles cannot tell whether they happen at one time or one
-    after the other, as in the perturbed scene (`exactpt.certificates.perturbation`): each is right
-    by itself, and nothing has to be checked. A later repair of a tile that an earlier one has
-    changed leaves marks of both on one face, or on one half-edge, or removes one with a
-    mark of the other.
+    Repairs of different tiles are independent: their result is the same at one time as one
+    after the other, as they happen in the perturbed scene (`exactpt.certificates.perturbation`).
+    So each is correct by itself, and no check is needed. If a repair changes a tile that an
+    earlier one has changed, then some face or half-edge has been touched by both, or a
+    half-edge touched by one has been removed by the other.
 
     Attributes:
-        touched: of the half-edges whose angles have changed, the repair that did so first.
-        has_new_motions: whether bodies have changed their motions at this time. What was so
-            just before it can then not be told any more, and any repair has to be checked.
+        touched: for each half-edge whose angle has changed, the first repair that changed it.
+        has_new_motions: whether a body has changed its motion at this time. The signs just
+            before it are then unknown, so every repair has to be checked.
     """
 
     def __init__(self) -> None:
-        self.touched: dict[int, int] = {}
+        self.touched: dict[HalfEdge, int] = {}
         self.has_new_motions: bool = False
-        self._is_tangled: bool = False
+        self._interact: bool = False
         self._repair: int = 0
 
     def clear(self) -> None:
-        """A new time."""
+        """Begin a new time."""
         self.touched.clear()
-        self.has_new_motions = self._is_tangled = False
+        self.has_new_motions = self._interact = False
         self._repair = 0
 
     def begin_repair(self) -> None:
-        """What is touched from now on is by another repair."""
+        """Begin another repair, to which `touch` refers from now on."""
         self._repair += 1
 
-    def touch(self, half_edges: list[int]) -> None:
-        """Note that the angles of these have changed."""
+    def touch(self, half_edges: list[HalfEdge]) -> None:
+        """Record that the angles of these half-edges have changed."""
         for h in half_edges:
             if self.touched.setdefault(h, self._repair) != self._repair:
-                self._is_tangled = True
+                self._interact = True
 
-    def doubt(self, half_edges: list[int]) -> None:
-        """Note that the tiles of these have to be checked, whatever else is repaired."""
+    def require_check(self, half_edges: list[HalfEdge]) -> None:
+        """Have the tiles of these half-edges checked in any case."""
         self.touch(half_edges)
-        self._is_tangled = True
+        self._interact = True
 
     def needs_check(self, mesh: Mesh) -> bool:
-        """Whether a repair may not be right by itself."""
+        """Whether repairs may interact, so that their result has to be checked."""
         if self.has_new_motions and self._repair > 0:
             return True
-        return self._is_tangled or (self._repair > 1 and self._meet(mesh))
+        return self._interact or (self._repair > 1 and self._share_faces(mesh))
 
-    def _meet(self, mesh: Mesh) -> bool:
+    def _share_faces(self, mesh: Mesh) -> bool:
+        """Whether two repairs have touched one face, or one has removed an edge of another."""
         m, touched = mesh.map, self.touched
         return any(
             m.origin[h] < 0 or any(touched.get(g, repair) != repair for g in m.face(h))

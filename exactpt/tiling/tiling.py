@@ -1,7 +1,6 @@
-"""What every kinetic tiling is: certificates, a queue of their failures, time that passes.
+"""The interface of kinetic tilings: certificates, a queue of their failures, a clock.
 
-All that is above this room, simulations and saved ones, queries, pictures, the fuzzer, asks
-a tiling by this interface.
+Simulations, queries, pictures and the fuzzer use a tiling only through this interface.
 """
 
 from __future__ import annotations
@@ -13,7 +12,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue, EventTime
 from exactpt.certificates.table import CertificateTable
+from exactpt.indices import CertificateId
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.catalogue import Entry
@@ -28,19 +29,19 @@ if TYPE_CHECKING:
 __all__ = ["State", "Tiling"]
 
 State: TypeAlias = "dict[str, Any]"
-"""A JSON object; what is wrong with it shows where it is used."""
+"""A JSON object, not validated here."""
 
 
 class Tiling(ABC):
-    """A tiling of the free space that is kept up to date as time goes on.
+    """A tiling of the free space, maintained over time.
 
     Attributes:
         entry: its line in the catalogue.
         vertices: the moving vertices.
         certifier: certificates and the current time.
-        table: what is pending, violated and flat.
-        clock: how time passes.
-        log: what has happened.
+        table: the pending and the violated certificates, and the flat angles.
+        clock: advances the current time.
+        log: the record of events.
     """
 
     def __init__(
@@ -59,11 +60,11 @@ class Tiling(ABC):
 
     @abstractmethod
     def state(self) -> State:
-        """The structure between two events, exactly, as JSON data."""
+        """The tiling between two events, exactly, as a JSON object."""
 
     @abstractmethod
     def resume(self, state: State) -> None:
-        """Go on with a structure; what is pending is the caller's to schedule."""
+        """Restore a saved tiling; the caller schedules its certificates."""
 
     @abstractmethod
     def mesh_after(self) -> Mesh:
@@ -75,7 +76,7 @@ class Tiling(ABC):
 
     @abstractmethod
     def mesh_at(self, instant: PredicatesAt) -> Mesh:
-        """The tiling of an instant, built from nothing."""
+        """The tiling of an instant, built from scratch."""
 
     @abstractmethod
     def audit(self, mesh: Mesh, instant: PredicatesAt) -> None:
@@ -86,7 +87,7 @@ class Tiling(ABC):
         """
 
     def audit_structure(self, instant: PredicatesAt) -> None:  # noqa: B027 - most have none
-        """Compare what is kept besides the mesh with what is built at an instant.
+        """Compare the data besides the mesh with those built from scratch at an instant.
 
         Raises:
             AuditError: if they differ.
@@ -94,23 +95,23 @@ class Tiling(ABC):
 
     @abstractmethod
     def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent] | None:
-        """Let bodies go on by other plans; work for their certificates alone.
+        """Give bodies new motions, in time proportional to the number of their certificates.
 
         Args:
-            plans: by the number of the body, what it is from now on. Its positions now are
-                those that it has.
-            t: now.
+            plans: for the number of each such body, the body from now on; its current positions
+                must be the same.
+            t: the current time.
 
         Returns:
-            What changes at once; None if a tiling must be built anew, and nothing is changed.
+            The events now; None if this tiling cannot be changed and must be rebuilt.
         """
 
     @abstractmethod
     def add_body(self, body: Body, t: QQ) -> list[TilingEvent] | None:
-        """Add a body as the last one; work for the faces that it meets.
+        """Add a body as the last one, changing only the faces that it meets.
 
         Returns:
-            What changes at once; None if a tiling must be built anew, and nothing is changed.
+            The events now; None if this tiling cannot be changed and must be rebuilt.
 
         Raises:
             InputError: if it touches another one.
@@ -118,16 +119,16 @@ class Tiling(ABC):
 
     @abstractmethod
     def remove_body(self, i: int, t: QQ) -> list[TilingEvent] | None:
-        """Remove a body; work for the faces that it touches. The last body gets its number.
+        """Remove a body, changing only the faces at its vertices; the last body gets its number.
 
         Returns:
-            What changes at once; the ids of the body may stand in it. None if a tiling must
-            be built anew, and nothing is changed.
+            The events now, in which ids of the removed body may occur; None if this tiling
+            cannot be changed and must be rebuilt.
         """
 
     @abstractmethod
-    def _process(self, time: EventTime, entries: list[tuple[int, EventTime]]) -> None:
-        """Let all events of one time happen."""
+    def _process(self, time: EventTime, entries: list[tuple[CertificateId, EventTime]]) -> None:
+        """Process all events of one time."""
 
     @property
     def name(self) -> str:
@@ -136,7 +137,7 @@ class Tiling(ABC):
 
     @property
     def queue(self) -> EventQueue:
-        """What fails when."""
+        """The queue of failures."""
         return self.table.pending
 
     @property
@@ -149,12 +150,16 @@ class Tiling(ABC):
         """The current time."""
         return self.certifier.exact_now
 
+    def is_after(self, t: QQ) -> bool:
+        """Whether now is after a rational time."""
+        return self.clock.is_after(t)
+
     def next_time(self) -> EventTime | None:
-        """When the next certificates fail; the queue keeps them."""
+        """The time of the next failure; None if there is none."""
         return self.clock.next_time()
 
     def next_number(self) -> AlgebraicNumber | None:
-        """When the next certificates fail, exactly."""
+        """The exact time of the next failure; None if there is none."""
         return self.clock.next_number()
 
     def run(self, until: QQ | None = None) -> Iterator[TilingEvent]:
@@ -168,15 +173,16 @@ class Tiling(ABC):
             yield from events
 
     def advance(self, until: QQ) -> list[TilingEvent] | None:
-        """Process the events of the next time, if that is not after ``until``.
+        """Process the events of the next event time, if it is not after ``until``.
 
         Returns:
-            The events (perhaps none that matter outside); None if there are no more, and
-            then the current time is ``until``.
+            The events (none if all are internal); None if no event time was left, and the
+            current time is now ``until``.
 
         Raises:
             ContactFound: if there is a contact at that time.
         """
+        ask()
         popped = self.clock.pop(until)
         if popped is None:
             self.clock.move_to(until)
@@ -185,19 +191,19 @@ class Tiling(ABC):
         return self.log.take()
 
     def retreat(self, grid: QQ) -> QQ:
-        """After `ContactFound`: go back to a rational time just before the contact.
+        """After `ContactFound`: return to a rational time just before the contact.
 
         Args:
-            grid: the time is the last multiple of it before the contact; or, if an event
-                is in between, a dyadic rational after that.
+            grid: the time is the last multiple of it before the contact; or, if there is an
+                event in between, a dyadic rational after that event.
 
         Returns:
-            The time. The tiling is the one that leads up to the contact.
+            The time. The tiling is the one just before the contact.
         """
         return self.clock.retreat(grid)
 
     def take_over_counts(self, other: Tiling) -> None:
-        """Go on counting where another tiling of the same run has stopped."""
+        """Continue the counts of another tiling of the same run."""
         other.stats.most = max(other.stats.most, self.stats.most)
         other.stats.flips += self.stats.flips
         self.log.stats = other.stats

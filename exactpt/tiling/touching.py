@@ -1,6 +1,6 @@
-"""Contacts at the time of an event: which vanishing angles may be one, and what touches there.
+"""Contacts at the time of an event: which vanishing angles may be contacts, and what touches.
 
-That none is missed is proved in `exactpt.certificates.incidences`.
+The proof that no contact is missed is in `exactpt.certificates.incidences`.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from collections.abc import Iterable
 
 from exactpt.certificates.coincidence import nearer, strictly_between
 from exactpt.certificates.incidences import touches
+from exactpt.indices import HalfEdge, VertexId
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.events import ContactFound
 
@@ -16,29 +17,29 @@ __all__ = ["look_for_contact", "may_touch", "report_touches"]
 
 
 def look_for_contact(
-    certified: CertifiedMesh, angles: Iterable[int], shrinking: Iterable[int]
+    certified: CertifiedMesh, angles: Iterable[HalfEdge], shrinking: Iterable[int]
 ) -> None:
-    """Report what touches now near angles that vanish, and segments that shrink.
+    """Look for contacts at angles that vanish now, and in bodies that lose their interior.
 
     Raises:
-        ContactFound: if anything does.
+        ContactFound: if there is a contact.
     """
-    candidates: set[int] = set()
+    candidates: set[VertexId] = set()
     for h in angles:
-        candidates.update(certified.straight_run(h))
+        candidates.update(certified.collinear_run(h))
     for i in shrinking:
         candidates.update(certified.vertices.bodies[i].ring)
     if candidates:
         report_touches(certified, candidates)
 
 
-def may_touch(certified: CertifiedMesh, h: int) -> bool:
-    """Whether the vanishing of one angle alone may be a contact.
+def may_touch(certified: CertifiedMesh, h: HalfEdge) -> bool:
+    """Whether there may be a contact at an angle that is the only one to vanish now.
 
-    A corner that closes on a body edge is one; so are vertices that coincide, and a reflex
-    angle that folds up instead of straightening (a spike of a deforming body). A corner that
-    closes on a diagonal is none: what it meets beyond the diagonal would pinch a face there,
-    with an angle that vanishes now too.
+    There is one if a corner closes on a body edge, if vertices coincide, or if a reflex angle
+    becomes 2 pi instead of pi (a spike of a deforming body). There is none if a corner closes
+    on a diagonal: a feature met beyond the diagonal would pinch a face there, and another
+    angle would vanish now.
     """
     if certified.is_triangle(h):
         return True
@@ -49,15 +50,15 @@ def may_touch(certified: CertifiedMesh, h: int) -> bool:
         far = h if side > 0 else mesh.map.previous[h]
         return side == 0 or mesh.is_boundary(far)
     if mesh.is_boundary(h) and mesh.is_boundary(mesh.map.previous[h]):
-        return True  # of a deforming body; its other vertices may be on the line too
+        return True  # of a deforming body, more of whose vertices may be on the line
     return not strictly_between(certified.certifier, a, p, b)
 
 
-def report_touches(certified: CertifiedMesh, candidates: Iterable[int]) -> None:
-    """Report what touches now of some vertices.
+def report_touches(certified: CertifiedMesh, candidates: Iterable[VertexId]) -> None:
+    """Look for contacts among some vertices and the body edges between them.
 
     Raises:
-        ContactFound: if anything does.
+        ContactFound: if there is a contact.
     """
     found = touches(certified.certifier, certified.vertices, candidates)
     if found:

@@ -13,7 +13,7 @@ from exactpt.kernel.numbers import ZZ
 from exactpt.scene.scene import Scene
 from exactpt.simulation.responses import stop
 from exactpt.simulation.simulation import Simulation
-from fuzz.cases import limit
+from fuzz.limits import TooSlow, limit
 from fuzz.small_scope.scope import Planned
 from fuzz.statics import run_and_audit
 from fuzz.witnesses import contact_by, tilings_of
@@ -97,7 +97,7 @@ def _answer(method: str, judge: Callable[[str], str | None], name: str) -> Answe
     try:
         with limit(PATIENCE):
             fault = judge(name)
-    except Exception as error:  # any exception is a finding
+    except (Exception, TooSlow) as error:  # any exception is a finding
         fault = type(error).__name__
     return Answer(method, clock.process_time() - began, fault)
 

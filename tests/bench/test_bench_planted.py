@@ -56,6 +56,6 @@ def test_wrong_answers_are_counted():
 
 def test_of_exactpt_any_error_counts(monkeypatch):
     late = Method(*[getattr(OWN[0], a) for a in ("name", "setting")], lambda _: lambda: 1.0 + 1e-15)
-    monkeypatch.setattr("exactpt.bench.wrong_answers.OWN", (late,))
+    monkeypatch.setattr("exactpt.bench.wrong_answers.EXACT", (late,))
     scenes = [Planted(planted("exact graze", 1)[0].scene, AlgebraicNumber(1))]
     assert count_wrong(late, scenes) == Wrong(1, off=1)

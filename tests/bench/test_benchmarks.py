@@ -9,11 +9,13 @@ from click.testing import CliRunner
 
 from exactpt.bench import (
     arithmetic,
+    arrays,
     first_contact,
     kernel,
     points,
     scaling,
     skipping,
+    small,
     stability,
     wrong_answers,
 )
@@ -26,7 +28,7 @@ from exactpt.cli import cli, main
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber
 
-NO_PEERS = ("shapely", "pymunk", "ipctk", "flint", "sympy", "mpmath", "matplotlib")
+NO_PEERS = ("shapely", "pymunk", "ipctk", "Box2D", "flint", "sympy", "mpmath", "matplotlib")
 
 
 @pytest.fixture
@@ -55,7 +57,7 @@ def test_wrong_answers_of_ours_are_none(results):
     pytest.importorskip("matplotlib")
     wrong_answers.run(results.output, wrong_answers.Sizes(2, 50), 1)
     rows = [row for row in results.rows("wrong-answers") if row["method"] == "exactpt"]
-    assert len(rows) == 2 * len(PLANTED)
+    assert len(rows) == 3 * len(PLANTED)
     assert {(row["missed"], row["invented"], row["off"]) for row in rows} == {("0", "0", "0")}
     assert {row["scenes"] for row in rows} == {"2"}
     assert plots(results) == ["wrong-answers.svg"]
@@ -168,6 +170,7 @@ def test_scaling(results, undrawn):
     crowds = [row for row in rows if row["family"] == "convex crowd"]
     assert all(int(row["most"]) <= 30 * int(row["size"]) for row in crowds)
     assert all(0 < int(row["pending"]) <= int(row["made"]) for row in crowds)
+    assert all((row["told"] != "") == (int(row["events"]) > 0) for row in rows)
     far = [r for r in rows if (r["family"], r["tiling"]) == ("combs, far apart", "mixed")]
     assert [row["made"] for row in far] == ["16", "16"]
     assert len(results.rows("scaling-exponents")) == 3 * 5
@@ -215,6 +218,29 @@ def test_kernel_without_peers(results, alone):
     assert plots(results) == []
 
 
+def test_arrays(results, alone):
+    arrays.run(results.output, arrays.Sizes(2000, 500, 20), 0)
+    rows = results.rows("arrays")
+    assert [row["program"] for row in rows] == ["exactpt, arrays", "exactpt, first_contact"] * 3
+    ours = rows[::2]
+    assert [int(row["asked"]) for row in ours] == [2000, 500, 500]
+    assert all(float(row["exact share"]) < 0.001 for row in ours)
+    assert min(int(row["contacts"]) for row in ours[:2]) > 100
+
+
+@pytest.mark.parametrize("package", ["ipctk", "Box2D"])
+def test_arrays_beside_other_programs(results, package):
+    pytest.importorskip(package)
+    arrays.run(results.output, arrays.Sizes(200, 200, 10), 0)
+    assert any(row["program"].startswith(package) for row in results.rows("arrays"))
+
+
+def test_another_answer_of_arrays_is_an_error(results, monkeypatch, alone):
+    monkeypatch.setattr(arrays, "first_contact", lambda _: None)
+    with pytest.raises(AuditError, match="points against segments, question"):
+        arrays.run(results.output, arrays.Sizes(200, 20, 50), 0)
+
+
 # The command
 
 
@@ -260,3 +286,23 @@ def test_a_folder_that_is_a_file_is_refused(tmp_path, capsys):
         main(["bench", "kernel", "-o", str(tmp_path / "file")])
     assert stop.value.code == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_small(results, alone):
+    tiny = small.Sizes(triangles=3, bodies=9, plans=3, pieces=4, runs=1)
+    small.run(results.output, tiny, 0)
+    rows = results.rows("small")
+    assert {row["question"] for row in rows} == {
+        "two triangles",
+        "9 convex bodies",
+        "plans among 30 obstacles",
+        "20 bodies of 4 pieces",
+    }
+    assert {row["error"] for row in rows if row["method"].startswith("exactpt")} <= {"0.0", ""}
+    assert len(rows) == 11
+
+
+def test_a_wrong_answer_to_a_small_question_is_an_error(results, monkeypatch, alone):
+    monkeypatch.setattr(small, "first_contact_allpairs", lambda _: None)
+    with pytest.raises(AuditError, match="disagree about two triangles"):
+        small.run(results.output, small.Sizes(3, 9, 3, 4, 1), 0)

@@ -106,6 +106,19 @@ def test_strictly_between(certified, direction):
         assert strictly_between(certifier, a, p, b) == (places in inside)
 
 
+@pytest.mark.parametrize("direction", [(1, 0), (0, 1)])
+def test_the_order_along_an_axis_is_decided_by_doubles(direction):
+    """Equal coordinates on the other axis, which only exact arithmetic proves, are not needed."""
+    vertices = Vertices.of(on_a_line([0, 1, 2], direction), QQ(0), QQ(4))
+    certifier = Certifier(vertices, QQ(0), QQ(4), exact_only=False)
+    a, p, b = (vertices.all[body.ring[0]] for body in vertices.bodies)
+
+    assert nearer(certifier, a, p, b) == 1
+    assert strictly_between(certifier, a, p, b)
+    assert not strictly_between(certifier, p, a, b)
+    assert vertices.counters.exact == 0
+
+
 def test_of_two_copies_the_one_towards_the_third_vertex_is_between(certified):
     certifier, vertices = certified(Body("s", [(1, 1), (3, 1)]), *points([(1, 5), (1, 0)]))
     left, right, above, below = vertices[0], vertices[1], vertices[4], vertices[5]

@@ -63,7 +63,7 @@ def test_what_nobody_thought_of_is_a_bug_and_its_scene_is_kept(scene, monkeypatc
     odd = scene.with_name("a scene without an ending")
     odd.write_bytes(scene.read_bytes())
 
-    assert code_of("collide", odd) == 3
+    assert code_of("collide", odd, "--method", "kinetic") == 3
 
     said = capsys.readouterr().err
     assert "Traceback" in said
@@ -145,7 +145,7 @@ def test_a_check_of_bodies_in_touch_says_so(tmp_path, program, capsys):
 
     said = capsys.readouterr().out
     assert said == (
-        "CGAL agrees: 0 tilings (greedy), 1 event times "
+        "CGAL agrees: the proof is accepted; 0 tilings (greedy), 1 event times "
         "(bodies touch at the start: there is nothing to tile); a search over pairs agrees\n"
     )
 
@@ -164,8 +164,10 @@ def test_a_check_finds_a_contact_that_the_tiling_missed(tmp_path, program, capsy
 
     assert code_of("check", path, "--tiling", "lazy") == 1
 
-    head, line = capsys.readouterr().out.splitlines()
+    head, proof, line = capsys.readouterr().out.splitlines()
+    assert head.startswith("CGAL DISAGREES: the proof is REJECTED; ")
     assert "a search over pairs DISAGREES" in head
+    assert proof.strip().startswith("proof rejected: line ")
     assert line.strip() == (
         "first contact (missed): the tiling finds no contact, but the search over pairs "
         "finds t = 1.0, vertex-vertex: a:0 on b:0"

@@ -19,8 +19,8 @@ from exactpt.tiling.engine import Engine
 from exactpt.tiling.tiling import Tiling
 
 COMMANDS = {
-    "collide": ["collide", "--json"],
-    "collide in words": ["collide"],
+    "collide": ["collide", "--method", "kinetic", "--json"],
+    "collide in words": ["collide", "--method", "kinetic"],
     "collide pairs": ["collide", "--method", "pairs"],
     "simulate": ["simulate"],
     "tile": ["tile", "--at", "1"],

@@ -88,7 +88,7 @@ def test_of_a_body_among_others_that_ignore_each_other(family, seed):
 @pytest.mark.parametrize(
     "arguments, message",
     [
-        (["--ignore", "fast,near"], "--ignore: a tiling watches all bodies: add --method pairs"),
+        (["--method", "kinetic", "--ignore", "fast,near"], "--ignore: a tiling watches all bodies"),
         (["--method", "pairs", "--ignore", "fast,nobody"], "there is no body 'nobody'"),
         (["--method", "auto", "--ignore", "fast,near", "--ignore", "far,near"], "in two groups"),
     ],
@@ -101,7 +101,7 @@ def test_refusals(tmp_path, capsys, arguments, message):
     assert left.value.code == 2
     assert message in capsys.readouterr().err
     with pytest.raises(InputError, match="a tiling watches all bodies"):
-        first_contact(ROW, ignoring=[["fast", "near"]])
+        first_contact(ROW, method="kinetic", ignoring=[["fast", "near"]])
 
 
 def test_on_the_command_line(tmp_path):

@@ -1,9 +1,12 @@
 """Campaigns: every case once, wherever it runs; failures found, shrunk and saved."""
 
+import contextlib
+import importlib
 import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -14,9 +17,11 @@ from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from fuzz import corpus
 from fuzz.campaign import Campaign, Summary, cases, run
-from fuzz.cases import Case, failure_of, run_case
+from fuzz.cases import Case, Failure, Step, failure_of, run_case, stopped
+from fuzz.limits import TooSlow, limit
 from fuzz.planted import PLANTED, hunt, table
 from fuzz.witnesses import WITNESSES
+from fuzz.workers import outcomes_of
 
 ROOT = Path(__file__).parents[2]
 FAMILIES = ("row", "grazing", "clamps")
@@ -55,6 +60,117 @@ def test_time_is_up():
     assert summary.seconds < 10
 
 
+def hang(*_):
+    for _ in iter(int, 1):
+        pass
+
+
+def wait_for_ever(*_):
+    threading.Event().wait()
+
+
+@pytest.mark.parametrize("stuck", [hang, wait_for_ever])
+@pytest.mark.parametrize("where", ["main", "thread"])
+def test_a_hang_is_a_finding_wherever_it_runs(monkeypatch, stuck, where):
+    """In the worker threads of a cluster there are no signals."""
+    if where == "thread" and stuck is wait_for_ever:
+        pytest.skip("nothing interrupts a thread that waits: its process is killed")
+    monkeypatch.setattr("fuzz.limits.WAITING", 2.0)
+    monkeypatch.setattr("fuzz.cases.patience_of", lambda _: 0.2)
+    monkeypatch.setitem(WITNESSES, "reference", stuck)
+    outcomes = []
+
+    def work():
+        case = Case(0, "row", 1)
+        outcomes.append(run_case(case, witnesses=["reference"], shrink_seconds=0.5))
+
+    if where == "main":
+        work()
+    else:
+        thread = threading.Thread(target=work)
+        thread.start()
+        thread.join()
+
+    assert [failure.signature for failure in outcomes[0].failures] == ["hangs"]
+
+
+def test_a_limit_in_a_thread_is_over_when_it_is_left():
+    def work():
+        for _ in range(200):
+            with contextlib.suppress(TooSlow), limit(0.0005):
+                for _ in range(20_000):
+                    pass
+        done.append(True)
+
+    done = []
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+
+    assert done == [True]
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_limit_of_time_holds_for_a_witness_that_hangs(monkeypatch, jobs):
+    """Neither its patience nor the time for shrinking go beyond the end of the campaign."""
+    campaign = Campaign(("row",), ("reference",), seconds=3.0)
+    if jobs == 1:
+        monkeypatch.setitem(WITNESSES, "reference", hang)
+
+    summary = run(campaign, lambda _: None, jobs=jobs)
+
+    assert summary.finished
+    assert jobs == 2 or not summary.outcomes
+    assert summary.seconds < 6
+
+
+DEADLY = ("case.number == 3 and os.kill(os.getpid(), 9)", "ends its process")
+STUCK = ("case.number == 3 and __import__('re').match('(a+)+b', 'a' * 60)", "hangs")
+
+
+def job_of(kind, folder):
+    """A job for worker processes, which import it."""
+    wound, _ = {"deadly": DEADLY, "stuck": STUCK, "once": ("once(case)", "")}[kind]
+    (folder / f"wounded_{kind}.py").write_text(
+        "import os, pathlib\n"
+        "from fuzz.cases import Outcome, Step\n"
+        f"mark = pathlib.Path({str(folder / 'mark')!r})\n"
+        "def once(case):\n"
+        "    if case.number == 3 and not mark.exists():\n"
+        "        mark.touch()\n"
+        "        os.kill(os.getpid(), 9)\n"
+        "def job(case, tell):\n"
+        "    tell(Step('reference', 0.1, '{}'))\n"
+        f"    {wound}\n"
+        "    return Outcome(case, {}, ())\n"
+    )
+    return importlib.import_module(f"wounded_{kind}").job
+
+
+@pytest.mark.parametrize("kind", ["once", "deadly", "stuck"])
+def test_a_worker_that_is_killed_or_stuck_loses_no_case(tmp_path, monkeypatch, kind):
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setattr("fuzz.workers.GRACE", 1.0)
+    todo = iter(Case(i, "row", i) for i in range(12))
+
+    outcomes = list(outcomes_of(job_of(kind, tmp_path), todo, 2))
+
+    assert sorted(outcome.case.number for outcome in outcomes) == list(range(12))
+    found = [f.signature for o in outcomes for f in o.failures]
+    assert found == {"once": [], "deadly": [DEADLY[1]], "stuck": [STUCK[1]]}[kind]
+
+
+def test_what_was_being_shrunk_is_reported_unshrunk():
+    failure = failure_of_text("{}")
+    step = Step("reference", 1.0, "{}", failure)
+
+    assert stopped(Case(3, "row", 3), step, "hangs").failures == (failure,)
+
+
+def failure_of_text(text):
+    return Failure("reference", "Difference", "why", text)
+
+
 def test_an_interrupted_campaign_says_where_to_go_on():
     def interrupt(outcome):
         if outcome.case.number == 4:
@@ -73,7 +189,10 @@ def test_nothing_is_a_summary_too():
 
 def test_a_failure_is_shrunk_and_saved(tmp_path):
     with PLANTED["even roots ignored"]():
-        outcomes = (run_case(Case(i, "grazing", i), ["reference"], 3.0) for i in range(64))
+        outcomes = (
+            run_case(Case(i, "grazing", i), witnesses=["reference"], shrink_seconds=3.0)
+            for i in range(64)
+        )
         failure, case = next((f, o.case) for o in outcomes for f in o.failures)
         path = corpus.save(failure, case, tmp_path)
         again = failure_of("reference", Scene.load(path))
@@ -93,7 +212,7 @@ def test_a_generator_that_breaks_is_a_failure_of_its_case(monkeypatch):
 
     monkeypatch.setattr("fuzz.cases.scene_of", broken)
 
-    (failure,) = run_case(Case(7, "chains", 5), ["reference"]).failures
+    (failure,) = run_case(Case(7, "chains", 5), witnesses=["reference"]).failures
 
     assert (failure.witness, failure.why) == ("generator", "chains 5 is none")
 
@@ -192,9 +311,12 @@ def test_ctrl_c_and_kill_stop_cleanly(how, jobs):
     process.stdout.readline()
     time.sleep(3)
     process.send_signal(how)
-    _, err = process.communicate(timeout=20)
+    process.send_signal(how)  # the table is printed, however impatient one is
+    out, err = process.communicate(timeout=20)
 
     assert process.returncode == 130
+    assert "family" in out
+    assert "cases in" in out
     assert "to go on: --seed 0 --start" in err
     assert "Traceback" not in err
 

@@ -10,11 +10,12 @@ from fuzz.cases import failure_of
 from fuzz.witnesses import WITNESSES
 
 FILES = corpus.files()
-QUICK = [name for name in WITNESSES if name != "cgal"]
+BY_CGAL = {"cgal", "proof"}
+ALL = [pytest.param(name, marks=pytest.mark.cgal if name in BY_CGAL else ()) for name in WITNESSES]
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-@pytest.mark.parametrize("witness", [*QUICK, pytest.param("cgal", marks=pytest.mark.cgal)])
+@pytest.mark.parametrize("witness", ALL)
 def test_what_once_failed_does_not(path, witness):
     assert failure_of(witness, Scene.load(path), patience=20.0) is None
 

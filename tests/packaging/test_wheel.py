@@ -49,6 +49,7 @@ def test_nothing_is_left_out(built):
     assert "exactpt/py.typed" in files
     assert files - inside == set()
     assert files - names == set()
+    assert not any(name.startswith("fuzz/") for name in inside)
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,8 @@
 import pytest
 
 from exactpt.errors import AuditError
-from exactpt.planar.halfedge import NOTHING, PlanarMap
+from exactpt.indices import NO_VERTEX
+from exactpt.planar.halfedge import PlanarMap
 
 
 def polygon(n):
@@ -30,7 +31,7 @@ def test_a_polygon_has_an_inside_and_an_outside():
 
     m.audit()
     assert faces(m) == {(0, 1, 2, 3, 4), (0, 4, 3, 2, 1)}
-    assert m.fan(0) == [0, 9]
+    assert m.star(0) == [0, 9]
     assert m.target(0) == 1
 
 
@@ -46,7 +47,7 @@ def test_a_split_face_and_its_edge_removed():
     m.remove_edge(e)
     m.audit()
     assert faces(m) == before
-    assert m.origin[e] == m.origin[e ^ 1] == NOTHING
+    assert m.origin[e] == m.origin[e ^ 1] == NO_VERTEX
 
 
 def test_handles_are_used_again():

@@ -1,10 +1,17 @@
-"""What the tests of proofs share: a proof as text, the checker's verdict, the reference."""
+"""What the tests of proofs share: a proof as text, the checkers' verdicts, the reference."""
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import pytest
 
 from exactpt import proof_check
+from exactpt.cgal import check_proof
 from exactpt.collision.allpairs import first_contact_allpairs
+from exactpt.errors import InputError
 from exactpt.proof.emit import Proof, scene_bytes
 
-__all__ = ["accepted", "agrees", "proof_of", "verdict"]
+__all__ = ["accepted", "agrees", "by_both_checkers", "proof_of", "verdict"]
 
 
 def proof_of(scene, tiling="auto"):
@@ -14,12 +21,39 @@ def proof_of(scene, tiling="auto"):
     return lines, proof.contact
 
 
-def verdict(scene, lines):
-    """What the checker answers, as one line."""
+def in_python(scene, proof):
     try:
-        return proof_check.check(scene_bytes(scene), ("\n".join(lines) + "\n").encode())
+        return proof_check.check(scene, proof)
     except proof_check.Rejected as rejected:
         return str(rejected)
+
+
+def in_cpp(scene, proof):
+    with TemporaryDirectory() as folder:
+        paths = [Path(folder) / "scene.json", Path(folder) / "proof"]
+        for path, content in zip(paths, (scene, proof), strict=True):
+            path.write_bytes(content)
+        try:
+            return check_proof(*paths).line
+        except InputError as refused:
+            return str(refused).replace("cgal_check: no proof: ", "rejected: ")
+
+
+CHECKERS = {"python": in_python, "c++": in_cpp}
+current = [in_python]
+
+
+@pytest.fixture(params=["python", pytest.param("c++", marks=pytest.mark.cgal)])
+def by_both_checkers(request, monkeypatch):
+    """Each test that uses it runs with either checker."""
+    monkeypatch.setattr(f"{__name__}.current", [CHECKERS[request.param]])
+    if request.param == "c++":
+        request.getfixturevalue("program")
+
+
+def verdict(scene, lines):
+    """What the checker answers, as one line."""
+    return current[0](scene_bytes(scene), ("\n".join(lines) + "\n").encode())
 
 
 def accepted(scene, lines):

@@ -1,11 +1,13 @@
 """Proofs of right answers are accepted: all families, all tilings, degenerate ones too."""
 
 import pytest
-from proving import agrees, proof_of, verdict
+from proving import agrees, by_both_checkers, proof_of, verdict  # noqa: F401 - a fixture
 
 from exactpt import Body, Pieces, Scene, Translation, proof_check
 from exactpt.proof import prove
 from exactpt.scene.generate import FAMILIES, POINTS, generate
+
+pytestmark = pytest.mark.usefixtures("by_both_checkers")
 
 
 @pytest.mark.parametrize("family", [*FAMILIES, *POINTS])

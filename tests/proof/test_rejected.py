@@ -4,7 +4,7 @@ from fractions import Fraction
 from random import Random
 
 import pytest
-from proving import accepted, agrees, proof_of, verdict
+from proving import accepted, agrees, by_both_checkers, proof_of, verdict  # noqa: F401 - a fixture
 
 from exactpt import Body, Scene, Translation
 from exactpt.collision.allpairs import first_contact_allpairs
@@ -15,6 +15,8 @@ from exactpt.proof.emit import Proof, scene_bytes
 from exactpt.scene.format import loads
 from exactpt.scene.generate import generate
 from exactpt.tiling import engine, touching
+
+pytestmark = pytest.mark.usefixtures("by_both_checkers")
 
 
 def points(*places):
@@ -165,7 +167,9 @@ def test_a_flat_vertex_that_runs_into_its_neighbour():
     bodies[1] = Body("p1", [(4, 0)], Translation([0, 1]))
     scene = Scene(bodies, time=(0, 9))
     faces = ["outer 0 1 2 1"]
-    assert "vanishes during its life" in verdict(scene, [*header(scene), *faces, "none"])
+    # Which it is depends on the sample: before the vertices meet, or after.
+    answer = verdict(scene, [*header(scene), *faces, "none"])
+    assert "vanishes during its life" in answer or answer.endswith("the angle 2 1 0 is 0")
     right = "contact 4 4 vertex 1 vertex 2"
     assert accepted(scene, [*header(scene), *faces, right])
 

@@ -35,7 +35,8 @@ ARGUMENTS = {
     "canonical_interval": (),
     "compare": (AlgebraicNumber(1),),
     "compare_rational": (Fraction(1, 3),),
-    "first_contact": (),
+    "first_contact": ([(0, 0)], Translation([0, "1/3"])),
+    "first_contacts": ([(0, 0)], [Translation([0, "1/3"])]),
     "hull": (),
     "is_free": ((50, 50), (51, 51)),
     "locate": ((50, 50),),
@@ -44,17 +45,20 @@ ARGUMENTS = {
     "ray_cast": ((-50, "1/4"), (1, 0)),
     "refine_to": (Fraction(1, 100),),
     "relative_hull": ("box",),
+    "squared": ("1/3",),
     "shorten": ([(-50, -50), (50, -50), (50, 50)],),
     "sign_after": ((-1, 1),),
     "sign_before": ((-1, 1),),
     "sign_of": ((-1, 1),),
     "until": (8.75,),
+    "with_motion": (Translation([0, "1/3"]),),
 }
 """What methods are called with; without an entry, with nothing."""
 
 ELSEWHERE = {
     "add", "remove", "set_motion", "set_motions", "run", "run_to_contact", "step",  # below
     "from_shapely", "to_shapely", "from_sympy", "to_sympy",  # numbers of other libraries
+    "from_arrays",  # a class method, of numpy arrays
     "load", "save", "restore", "root", "surd", "going_on", "copy", "from_json",  # as these
     "track", "kinetic",  # the engine's, see `exactpt.motion.track.Track`
 }  # fmt: skip
@@ -171,7 +175,13 @@ def test_bug_numbers_of_a_contact_are_pythons_own(method):
     assert no_leaks(contact=contact) > 5
     assert json.loads(json.dumps(contact.time.polynomial)) == list(contact.time.polynomial)
     assert not contact.time.is_rational
-    assert no_leaks(near=exactpt.first_within(scene, "box", "mill", "1/3"))
+    for norm in ("euclidean", "max"):
+        assert no_leaks(near=exactpt.first_within(scene, "box", "mill", "1/3", norm=norm))
+    assert no_leaks(there=exactpt.distance(scene, "box", "mill", at=1)) > 1
+    assert no_leaks(gap=exactpt.clearance(scene, "box", "mill")) > 5
+    assert no_leaks(meeting=exactpt.contacts(scene)) > 5
+    assert exactpt.contact_intervals(scene, "box", "mill")
+    assert no_leaks(planner=exactpt.Planner([Body("wall", [(1, -1), (1, 1)])], (0, 9))) > 5
     assert no_leaks(search=PairsSearch(scene), passed=PairsSearch(scene).passed())
 
 
@@ -210,8 +220,9 @@ def test_every_public_name_is_walked_through():
     """A class that is new in the package has to be reached by the scenes above, or named here."""
     reached = {
         "Affine", "AlgebraicNumber", "Body", "Bounce", "Contact", "Event", "FreeSpace", "Hit",
-        "Pair", "Path", "Pieces", "Place", "Polynomial", "Rigid", "Scene", "Simulation",
-        "Translation", "BudgetExceeded", "first_contact", "first_within", "onward",
+        "Pair", "Path", "Pieces", "Place", "Planner", "Polynomial", "Rigid", "Scene", "Simulation",
+        "Translation", "BudgetExceeded", "first_contact", "first_within", "onward", "Clearance",
+        "ContactInterval", "Distance", "clearance", "contact_intervals", "contacts", "distance",
     }  # fmt: skip
     without_numbers = {
         "AuditError", "ExactPTError", "InputError", "read_shapes", "stop", "write_shapes",

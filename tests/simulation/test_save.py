@@ -1,6 +1,7 @@
 """Saved and restored at any moment, a run goes on as if nothing had happened."""
 
 import json
+from contextlib import suppress
 from random import Random
 
 import pytest
@@ -12,6 +13,7 @@ from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.responses import Bounce
 from exactpt.simulation.simulation import Simulation
+from exactpt.simulation.store import sealed
 
 
 def line(event):
@@ -129,8 +131,11 @@ def test_a_contact_at_the_start_is_saved(tmp_path):
 
 @pytest.mark.parametrize(
     "text",
-    ["", "[]", "{}", '{"exactpt-simulation": 1}', '{"exactpt-simulation": 4}',
-     '{"exactpt-simulation": 4, "tiling": "auto", "exact_only": false, "scene": {}}'],
+    ["", "[]", "{}", '{"exactpt-simulation": 1}', '{"exactpt-simulation": 5}',
+     '{"exactpt-simulation": 5, "tiling": "auto", "exact_only": false, "scene": {}}',
+     "[" * 100_000, '{"a":' * 100_000, '{"exactpt-simulation": ' + "[" * 900 + "]" * 900 + "}",
+     '{"exactpt-simulation": ' + "7" * 10_000 + "}"],
+    ids=lambda text: text[:60],
 )  # fmt: skip
 def test_other_files_are_refused(text, tmp_path):
     path = tmp_path / "run.json"
@@ -139,3 +144,81 @@ def test_other_files_are_refused(text, tmp_path):
         Simulation.restore(path)
     with pytest.raises(InputError, match="cannot be read"):
         Simulation.restore(tmp_path / "none.json")
+
+
+def test_the_previous_version_is_refused_by_its_number(tmp_path):
+    data = Simulation(generate("stars", 2)).to_json()
+    (tmp_path / "run.json").write_text(json.dumps(data | {"exactpt-simulation": 4}))
+
+    with pytest.raises(InputError, match="this version reads simulations 5, not 4"):
+        Simulation.restore(tmp_path / "run.json")
+
+
+def places(data, path=()):
+    """The places of all values that contain no others."""
+    if isinstance(data, (dict, list)):
+        for key, value in data.items() if isinstance(data, dict) else enumerate(data):
+            yield from places(value, (*path, key))
+    else:
+        yield path
+
+
+def changed(data, path, value):
+    """A copy with another value at a place."""
+    copy = json.loads(json.dumps(data))
+    at = copy
+    for key in path[:-1]:
+        at = at[key]
+    at[path[-1]] = value
+    return copy
+
+
+def test_a_changed_file_is_refused(tmp_path):
+    """Every value is changed, one at a time; spaces are not part of the values."""
+    simulation = Simulation(generate("convex", 2), tiling="greedy")
+    for _ in range(3):
+        simulation.step()
+    data, path = simulation.to_json(), tmp_path / "run.json"
+    found = list(places(data))
+    path.write_text(json.dumps(data, indent=3))
+    assert Simulation.restore(path).to_json() == data
+    for place in [*found[:20], *Random(1).sample(found, 100)]:
+        path.write_text(json.dumps(changed(data, place, "altered")))
+        with pytest.raises(InputError, match=r"its checksum is another one|reads simulations 5"):
+            Simulation.restore(path)
+
+
+def without_seal(data):
+    """The data without version and checksum."""
+    return {k: v for k, v in data.items() if k not in {"exactpt-simulation", "sha256"}}
+
+
+@pytest.mark.parametrize("value", ["2", 2, -1, 1e300, None, [], {}, "1e99999", "x", True])
+def test_a_forged_file_is_refused_or_keeps_its_budget(tmp_path, value):
+    """With a checksum of its own: one value of the state is another one."""
+    simulation = Simulation(generate("convex", 2), tiling="greedy")
+    for _ in range(3):
+        simulation.step()
+    whole, path = without_seal(simulation.to_json()), tmp_path / "run.json"
+    for place in Random(str(value)).sample(list(places(whole)), 60):
+        path.write_text(json.dumps(sealed(changed(whole, place, value))))
+        with suppress(InputError):
+            Simulation.restore(path, max_seconds=5)
+
+
+def test_a_far_end_is_refused(tmp_path):
+    """The run went on to the end of the tiling, and asked for no deadline on the way."""
+    simulation = Simulation(generate("convex", 2), tiling="greedy")
+    data = without_seal(simulation.to_json())
+    far = changed(data, ("state", "end"), "1" + "0" * 99)
+    (tmp_path / "run.json").write_text(json.dumps(sealed(far)))
+
+    with pytest.raises(InputError, match=r"run\.json: .*the tiling ends at t = 10*\.\.\."):
+        Simulation.restore(tmp_path / "run.json")
+
+
+def test_the_size_of_a_file_is_bounded(tmp_path):
+    Simulation(generate("stars", 2)).save(tmp_path / "run.json")
+
+    with pytest.raises(InputError, match="more than 100 bytes"):
+        Simulation.restore(tmp_path / "run.json", max_bytes=100)

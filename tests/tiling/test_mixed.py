@@ -4,6 +4,7 @@ import math
 from random import Random
 
 import pytest
+from random_motions import lanes
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.initial import initial_touches
@@ -20,6 +21,7 @@ from exactpt.pseudotriangulation.mesh import FREE
 from exactpt.pseudotriangulation.plane_sweep import Sweep, body_edges
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
+from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.mixed.geodesics import Geodesics
 from exactpt.tiling.mixed.labels import Forest
 from exactpt.tiling.mixed.static import mixed_mesh
@@ -212,3 +214,16 @@ def test_bridges_follow_what_separates_the_bodies():
     for teeth in (4, 16, 64):
         found = sizes_of(comb(teeth, 0, 0), comb(teeth, 4, 11, down=True))
         assert 3 * teeth <= found <= 4 * teeth
+
+
+def test_an_event_takes_few_certificates():
+    """Of convex bodies in lanes, at most three times as many as in the greedy tiling."""
+    rates = []
+    for tiling in ("greedy", "mixed"):
+        simulation = Simulation(lanes("decimals", 1, bodies=100), tiling=tiling)
+        before = simulation.stats["certificates"]
+        list(simulation.run())
+        stats = simulation.stats
+        rates.append((stats["certificates"] - before) / stats["events"])
+
+    assert rates[1] < 3 * rates[0]

@@ -23,6 +23,7 @@ from exactpt.tiling.incremental.incremental import IncrementalTiling
 from exactpt.tiling.incremental.paths import SearchableTree
 from exactpt.tiling.incremental.static import sweep_at
 from exactpt.tiling.incremental.structure import UPPER
+from exactpt.tiling.incremental.tree_repairs import TreeRepairs
 
 GENERIC = ("linear_points", "ballistic_points", "piecewise_points")
 
@@ -180,19 +181,19 @@ def test_two_grids_pass_through_each_other(velocity, offset):
 @pytest.mark.parametrize("chains", ["linked", "searchable"])
 @pytest.mark.parametrize("family", ["point_grids_passing", "simultaneous_swaps", "crossing_lines"])
 @pytest.mark.plain
-@pytest.mark.parametrize("refused", ["_mend", "_sweep_columns", "both"])
+@pytest.mark.parametrize("refused", ["_repair_one", "_sort_columns", "both"])
 def test_whatever_way_out_is_refused_the_structure_is_the_static_one(
     monkeypatch, refused, family, chains
 ):
     """Exchanges one by one, columns as a whole, and the sweep anew lead to one structure."""
     rebuilds = 0
-    for name in ("_mend", "_sweep_columns"):
+    for name in ("_repair_one", "_sort_columns"):
         if refused in (name, "both"):
-            monkeypatch.setattr(IncrementalTiling, name, lambda _: False)
+            monkeypatch.setattr(TreeRepairs, name, lambda _: False)
     for seed in range(6):
         result = run_and_audit(generate(family, seed), chains=chains)
         rebuilds += result[0].stats.rebuilds if result else 0
-    assert (rebuilds > 0) == (refused != "_sweep_columns" or family == "simultaneous_swaps")
+    assert (rebuilds > 0) == (refused != "_sort_columns" or family == "simultaneous_swaps")
 
 
 def test_a_column_that_passes_another_is_swept_not_exchanged_pair_by_pair():

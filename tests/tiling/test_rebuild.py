@@ -27,7 +27,7 @@ def refuse(*_):
 def test_a_run_without_any_repair_finds_the_same(monkeypatch, tiling, family):
     scene = generate(family, 3)
     repaired = run_and_audit(scene, tiling)
-    monkeypatch.setattr(Repairs, "settle", refuse)
+    monkeypatch.setattr(Repairs, "repair_all", refuse)
 
     rebuilt = run_and_audit(scene, tiling)
 
@@ -41,7 +41,7 @@ def test_a_rebuild_at_the_end_of_the_time_span(monkeypatch, tiling):
     """It was left out once, and the tiling stayed as it was (corpus cgal-d5efe668f5)."""
     comb = [(0, 3), (0, 1), (1, 1), (1, 3), (5, 4), (5, 1), (0, 0), (1, 0), (9, 0), (9, 5)]
     bodies = [Body("a", [(2, 3)]), Body("b", comb, Translation([0], [0, 1]))]
-    monkeypatch.setattr(Repairs, "settle", refuse)
+    monkeypatch.setattr(Repairs, "repair_all", refuse)
 
     run = run_and_audit(Scene(bodies, (0, 2)), tiling)
 
@@ -53,7 +53,7 @@ def test_a_rebuild_at_the_end_of_the_time_span(monkeypatch, tiling):
 @pytest.mark.parametrize("tiling", TILINGS)
 def test_a_rebuild_that_never_succeeds_ends(monkeypatch, tiling):
     scene = generate("convex", 3)
-    monkeypatch.setattr(Repairs, "settle", refuse)
+    monkeypatch.setattr(Repairs, "repair_all", refuse)
     monkeypatch.setattr(Engine, "_build_anew", lambda *_: False)
 
     with pytest.raises(AuditError, match="no tiling holds just after t = "):

@@ -78,7 +78,7 @@ def test_what_happens_one_by_one_is_repaired_and_not_built_anew(tiling):
 def test_repairs_at_one_time_are_checked_unless_they_are_apart(monkeypatch, tiling, least):
     """Where the check is left out, it would have found nothing and changed nothing."""
     done = Counter()
-    settle = Repairs.settle
+    settle = Repairs.repair_all
 
     def settled(repairs):
         settle(repairs)
@@ -91,7 +91,7 @@ def test_repairs_at_one_time_are_checked_unless_they_are_apart(monkeypatch, tili
             repairs.check_batch()
             assert sorted(map(repaired.mesh.ends, repaired.mesh.diagonals())) == before
 
-    monkeypatch.setattr(Repairs, "settle", settled)
+    monkeypatch.setattr(Repairs, "repair_all", settled)
     for family, seed in [("concentric", 0), ("grids_passing", 3), ("mirrored", 2)]:
         for _ in Simulation(generate(family, seed), tiling=tiling).run():
             pass

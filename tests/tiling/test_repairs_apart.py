@@ -76,7 +76,7 @@ def test_a_new_time_begins_with_nothing(mesh):
 
 def test_what_is_doubted_is_checked_whatever_else_is_repaired(mesh):
     noted = batch()
-    noted.doubt(faces(mesh)[0])
+    noted.require_check(faces(mesh)[0])
 
     assert noted.needs_check(mesh)
     noted.clear()

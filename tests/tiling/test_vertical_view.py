@@ -9,7 +9,7 @@ from exactpt.certificates.at_time import PredicatesAt
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling.greedy.vertical import lower_chain
-from exactpt.tiling.greedy.vertical_view import seen_from
+from exactpt.tiling.greedy.visibility import seen_from
 from exactpt.tiling.lazy import LazyRules
 
 

@@ -10,6 +10,7 @@ from typing import final
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import AuditError
+from exactpt.indices import Ends, VertexId
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.incidence import difference
 from exactpt.tiling.greedy.slope import Slope, slope_terms
@@ -17,64 +18,62 @@ from exactpt.tiling.greedy.slope import Slope, slope_terms
 __all__ = ["Bitangent", "tangent_pair"]
 
 
-def tangent_pair(
-    instant: PredicatesAt, a: int, b: int, side_a: int, side_b: int
-) -> tuple[int, int]:
+def tangent_pair(instant: PredicatesAt, a: VertexId, b: VertexId, side_a: int, side_b: int) -> Ends:
     """The vertices at which the bitangent from the body of a to that of b touches.
 
     Each end moves along its ring while a neighbour is on the wrong side of the line. A
     vertex whose two neighbours are on the right side is the tangent point as seen from
-    the other end, since the ring is convex. Of vertices that stay on the line the
-    nearest one is taken: it sticks out (`exactpt.certificates.perturbation`).
+    the other end, since the ring is convex. Of vertices that are on the line for ever, the
+    nearest one is taken: by the perturbation it sticks out
+    (`exactpt.certificates.perturbation`).
 
     Args:
         instant: the predicates.
-        a: a vertex of a convex ring to start from.
-        b: one of another ring, disjoint from the first.
-        side_a: 1 if the body of a shall be on the left of the line, -1 on the right.
-        side_b: the same for the body of b.
+        a: a vertex of a convex ring.
+        b: a vertex of another ring, disjoint from the first.
+        side_a: 1 for the tangent with the body of a on its left, -1 on its right.
+        side_b: likewise for the body of b.
 
     Raises:
         AuditError: if the walk does not end (the bodies are not convex or not disjoint).
     """
-    vertices = instant.vertices.all
-    steps = 0
-    settled = 0
-    while settled < 2:
-        for n in (vertices[a].ahead, vertices[a].behind):
-            s = side_a * instant.sign(a, b, n)
-            if s < 0 or (s == 0 and instant.nearer(b, n, a)):
-                a = n
-                settled = 0
-                break
-        else:
-            settled += 1
-            if settled < 2:
-                for n in (vertices[b].ahead, vertices[b].behind):
-                    s = side_b * instant.sign(a, b, n)
-                    if s < 0 or (s == 0 and instant.nearer(a, n, b)):
-                        b = n
-                        settled = 0
-                        break
-                else:
-                    settled += 1
-        steps += 1
-        if steps > 2 * len(vertices) + 100:
-            raise AuditError(
-                f"no bitangent of {instant.vertices.name(a)} and {instant.vertices.name(b)}"
-            )
-    return a, b
+    for _ in range(2 * len(instant.vertices.all) + 100):
+        n = _wrong_neighbour(instant, (a, b), a, b, side_a)
+        if n != a:
+            a = n
+            continue
+        n = _wrong_neighbour(instant, (a, b), b, a, side_b)
+        if n == b:
+            return a, b
+        b = n
+    raise AuditError(f"no bitangent of {instant.vertices.name(a)} and {instant.vertices.name(b)}")
+
+
+def _wrong_neighbour(
+    instant: PredicatesAt, line: Ends, end: VertexId, other: VertexId, side: int
+) -> VertexId:
+    """A neighbour of one end of a line on its wrong side, or nearer to the other end on it.
+
+    The end itself if there is none.
+    """
+    a, b = line
+    vertex = instant.vertices.all[end]
+    for n in (vertex.ahead, vertex.behind):
+        s = side * instant.sign(a, b, n)
+        if s < 0 or (s == 0 and instant.nearer(other, n, end)):
+            return n
+    return end
 
 
 @final
 class Bitangent:
-    """A bitangent with its place in the order of the sweep.
+    """A bitangent, comparable by its position in the order of the sweep.
 
     Attributes:
         a, b: its left and its right vertex.
-        key: -slope, rounded down; never in the wrong order, but equal for slopes that are close.
+        key: -slope, rounded down: monotone, but equal for slopes that are close.
         cell: the cell of the sweep in which it was found.
-        left, right: the arcs at the ends of that cell then.
+        left, right: the arcs at the ends of that cell when it was found.
     """
 
     __slots__ = (
@@ -93,7 +92,7 @@ class Bitangent:
     def __init__(
         self,
         instant: PredicatesAt,
-        ends: tuple[int, int],
+        ends: Ends,
         sides: tuple[int, int],
         cell: int,
         arcs: tuple[int, int],
@@ -109,11 +108,11 @@ class Bitangent:
         self.key: float = instant.descent(self.a, self.b)
 
     def __lt__(self, other: Bitangent) -> bool:
-        """Whether the sweep meets it first, for equal keys: a total order.
+        """Whether the sweep meets it first, for bitangents with equal keys: a total order.
 
-        By theta at the instant; of parallel ones by their lines, since none crosses one of
-        another line, so that it does not matter which of them comes first; on one line by
-        theta just after the instant, perturbed.
+        By theta at the instant. Parallel bitangents on different lines do not cross, so their
+        order does not matter; it is that of their lines. On one line they are ordered by theta
+        just after the instant, perturbed.
         """
         now = self._instant.turn_now(self.a, self.b, other.a, other.b)
         if now:
@@ -131,7 +130,7 @@ class Bitangent:
         )
 
     def offset(self) -> QQ:
-        """Where the line is among those parallel to it: its y at x = 0, or its x if vertical."""
+        """The offset of the line among its parallels: its y at x = 0, or its x if vertical."""
         (ax, ay), (bx, by) = self._instant.position(self.a), self._instant.position(self.b)
         return ax if ax == bx else (ay * bx - by * ax) / (bx - ax)
 
@@ -143,7 +142,7 @@ class Bitangent:
     def _new_slope(self) -> Slope:
         vertices = self._instant.vertices.all
         a, b = vertices[self.a], vertices[self.b]
-        # Of zero width, at the time if that is asked for, else for ever.
+        # Of zero width at the time itself, or for ever, as the predicates are.
         is_upright = self._instant.position(self.a)[0] == self._instant.position(self.b)[0]
         upright = is_upright and (
             not self._instant.after or not difference(a.track.x, a.track.w, b.track.x, b.track.w)

@@ -1,8 +1,8 @@
 """The kinetic greedy vertical pseudo-triangulation of convex bodies (paper, section 4.2).
 
-Corners and bends are repaired as in any tiling; of two diagonals that become one line
-the one with the larger theta gives way. Diagonals that become vertical, and bitangents
-that do and so become the smallest of all, are found by the vertical decomposition.
+Angles are repaired as in any tiling; of two diagonals that become collinear, the one with
+the larger theta is replaced. The vertical decomposition detects the diagonals that become
+vertical, and the bitangents that become vertical and so get the smallest theta.
 """
 
 from __future__ import annotations
@@ -13,18 +13,20 @@ from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certificate import CELL, kind_of, part_of
 from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
+from exactpt.indices import CertificateId, HalfEdge, VertexId
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
-from exactpt.planar.halfedge import edge_key
+from exactpt.planar.halfedge import edge_key, twin
 from exactpt.pseudotriangulation.build import build_mesh
-from exactpt.pseudotriangulation.flip import crosses, facing_visit, flip, flip_until_greedy, shadow
+from exactpt.pseudotriangulation.flip import crosses, flip, flip_until_greedy, shadow
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.events import Log
 from exactpt.tiling.greedy.certified_cells import CertifiedCells
 from exactpt.tiling.greedy.sweep import greedy_diagonals
 from exactpt.tiling.greedy.vertical import VerticalDecomposition
+from exactpt.tiling.greedy.visibility import facing_visit
 from exactpt.tiling.repairs import RebuildNeeded
 from exactpt.tiling.rules import Rules
 from exactpt.tiling.tiling import State
@@ -33,21 +35,21 @@ __all__ = ["VerticalRules", "greedy_mesh"]
 
 
 def greedy_mesh(instant: PredicatesAt, cells: VerticalDecomposition) -> tuple[Mesh, int]:
-    """The greedy tiling, and how many flips were needed after the sweep.
+    """The greedy tiling, and the number of flips that were needed after the sweep.
 
-    None, unless the sweep met two bitangents on one line; then these are checked. Uses up the
-    vertical decomposition.
+    Flips can be needed only if the sweep met two bitangents on one line; these diagonals are
+    checked. The vertical decomposition is used up.
     """
     diagonals, tied = greedy_diagonals(instant, cells)
     mesh = build_mesh(instant, diagonals)
-    doubtful = [h for h in mesh.diagonals() if edge_key(*mesh.ends(h)) in tied] if tied else []
-    flips = flip_until_greedy(mesh, instant, doubtful)
+    unsure = [h for h in mesh.diagonals() if edge_key(*mesh.ends(h)) in tied] if tied else []
+    flips = flip_until_greedy(mesh, instant, unsure)
     return mesh, len(flips)
 
 
 @final
 class VerticalRules(Rules):
-    """The canonical tiling of convex bodies: at any time the one that the sweep builds.
+    """The canonical tiling of convex bodies: at any time the one built by the sweep.
 
     Attributes:
         cells: the vertical decomposition, with its certificates.
@@ -78,11 +80,11 @@ class VerticalRules(Rules):
         """See `Rules.audit`."""
         static = VerticalDecomposition.at(instant)
         if static.vertex != self.cells.now.vertex:
-            raise AuditError(f"t = {instant.time}: other extreme vertices than the static ones")
+            raise AuditError(f"t = {instant.time}: the extreme vertices are not the static ones")
         pairs = [sorted(zip(c.left, c.right, strict=True)) for c in (self.cells.now, static)]
         if pairs[0] != pairs[1]:
             raise AuditError(
-                f"t = {instant.time}: another vertical decomposition than the static one"
+                f"t = {instant.time}: the vertical decomposition is not the static one"
             )
 
     def state(self) -> State:
@@ -101,7 +103,7 @@ class VerticalRules(Rules):
         """See `Rules.certify_body`."""
         self.cells.certify_body(i)
 
-    # Bodies that come and go
+    # Changes of plans, insertion and removal of bodies
 
     def allows_plan(self, body: Body, t: QQ) -> bool:
         """See `Rules.allows_plan`: it must stay convex."""
@@ -121,17 +123,17 @@ class VerticalRules(Rules):
         """See `Rules.leave`."""
         self.cells.leave(i)
 
-    def failed(self, certificates: list[int]) -> None:
+    def failed(self, certificates: list[CertificateId]) -> None:
         """See `Rules.failed`."""
         for certificate in certificates:
             if kind_of(certificate) == CELL:
                 self.cells.certify(part_of(certificate))
             else:
                 self.cells.certify_extreme(part_of(certificate))
-        # In the plane turned by rho (`exactpt.certificates.perturbation`, step 1) x is x - rho y.
+        # In the plane rotated by rho (`exactpt.certificates.perturbation`, step 1) x is x - rho y.
         # Two vertices l and r that exchange their order now, l the left one before, do so
-        # when x(r) - x(l) has fallen to rho (y(r) - y(l)): before now, and so before the
-        # angles that fail now, if r is the upper one; after them if l is.
+        # when x(r) - x(l) has decreased to rho (y(r) - y(l)): before now, and so before the
+        # angles that fail now, if r is the upper one; after these angles if l is.
         self._repair_rising()
 
     # Repairs
@@ -146,10 +148,10 @@ class VerticalRules(Rules):
         if self.cells.violated_extremes:
             self._move_extreme(min(self.cells.violated_extremes))
         else:
-            self._pass_vertical(min(self.cells.violated), after)
+            self._exchange(min(self.cells.violated), after)
 
     def _repair_rising(self) -> None:
-        """Exchange the pairs that do so just before now."""
+        """Exchange the pairs that, perturbed, exchange their order just before now."""
         before = OneSided(self.certified.certifier, before=True)
         rising = True
         while rising:
@@ -163,7 +165,7 @@ class VerticalRules(Rules):
             for cell in sorted(self.cells.violated):
                 if self.cells.is_rising(*self.cells.pair(cell)):
                     self.certified.batch.begin_repair()
-                    self._pass_vertical(cell, before)
+                    self._exchange(cell, before)
                     rising = True
                     break
 
@@ -177,22 +179,22 @@ class VerticalRules(Rules):
         for cell in sorted(self.cells.now.cells_of(arc)):
             self.cells.certify(cell)
 
-    def _pass_vertical(self, cell: int, moment: OneSided) -> None:
-        """The two arcs of a cell exchange their order: their bitangent is vertical now."""
+    def _exchange(self, cell: int, predicates: OneSided) -> None:
+        """Exchange the two arcs of a cell, whose bitangent is vertical now."""
         self.cells.violated.discard(cell)
         u, v = self.cells.pair(cell)
         rising = self.cells.is_rising(u, v)
         a, b = self.cells.now.swap(cell, left_is_lower=rising)
         for touched in sorted({cell, a, b}):
             self.cells.certify(touched)
-        # Rising from the left one to the right one, it goes from the smallest theta to the
-        # largest; falling, from the largest to the smallest.
+        # If the bitangent rises from left to right, its theta passes from the smallest value to
+        # the largest; if it falls, from the largest to the smallest.
         if rising:
-            self._leave(u, v, moment)
+            self._remove_diagonal(u, v, predicates)
         else:
-            self._enter(u, v, moment)
+            self._insert_bitangent(u, v, predicates)
 
-    def check(self, touched: list[int]) -> None:
+    def check(self, touched: list[HalfEdge]) -> None:
         """See `Rules.check`."""
         m = self.certified.mesh.map
         nearby = [g for h in touched if m.origin[h] >= 0 for g in (*m.face(h), h)]
@@ -208,30 +210,30 @@ class VerticalRules(Rules):
         if self.certified.table.angles:
             raise RebuildNeeded
 
-    def _edge(self, u: int, v: int) -> int | None:
+    def _edge(self, u: VertexId, v: VertexId) -> HalfEdge | None:
         m = self.certified.mesh.map
-        return next((h for h in m.fan(self.certified.mesh.ring_edge[u]) if m.target(h) == v), None)
+        return next((h for h in m.star(self.certified.mesh.ring_edge[u]) if m.target(h) == v), None)
 
-    def _leave(self, u: int, v: int, moment: OneSided) -> None:
-        """A diagonal has become the one of largest theta: its shadow takes its place."""
+    def _remove_diagonal(self, u: VertexId, v: VertexId, predicates: OneSided) -> None:
+        """Replace a diagonal, which now has the largest theta, by its shadow edge."""
         h = self._edge(u, v)
         if h is None:
-            self._doubt_around(u)
+            self._require_check_around(u)
         elif not self.certified.mesh.is_hull(h):
-            visits = shadow(self.certified.mesh, h, moment)
+            visits = shadow(self.certified.mesh, h, predicates)
             if visits is None:
                 raise RebuildNeeded
-            self._flip(h, visits, moment)
+            self._flip(h, visits, predicates)
 
-    def _enter(self, u: int, v: int, moment: OneSided) -> None:
-        """A bitangent has become the one of smallest theta: it replaces its diagonal."""
+    def _insert_bitangent(self, u: VertexId, v: VertexId, predicates: OneSided) -> None:
+        """Replace a diagonal by its shadow edge uv, which now has the smallest theta."""
         if self._edge(u, v) is not None:
             return  # on the convex hull
         m = self.certified.mesh.map
-        around = m.fan(self.certified.mesh.ring_edge[u])
-        g = facing_visit(self.certified.mesh, around, v, moment)
+        around = m.star(self.certified.mesh.ring_edge[u])
+        g = facing_visit(self.certified.mesh, around, v, predicates)
         tile = [] if g is None else [h for h in m.face(g) if self.certified.mesh.is_flippable(h)]
-        # It crosses its diagonal into the tile across, which v is in; or both share an end.
+        # It crosses that diagonal into a tile with vertex v, or shares an end with it.
         meeting = [
             h for h in tile if u in self.certified.mesh.ends(h) or v in self.certified.mesh.ends(h)
         ]
@@ -239,43 +241,44 @@ class VerticalRules(Rules):
             h
             for h in tile
             if h not in meeting
-            and v in [m.origin[e] for e in m.face(h ^ 1)]
-            and crosses(u, v, *self.certified.mesh.ends(h), moment)
+            and v in [m.origin[e] for e in m.face(twin(h))]
+            and crosses(u, v, *self.certified.mesh.ends(h), predicates)
         ]
         for h in (*crossed, *meeting):
-            visits = shadow(self.certified.mesh, h, moment)
+            visits = shadow(self.certified.mesh, h, predicates)
             if visits is not None and {m.origin[visits[0]], m.origin[visits[1]]} == {u, v}:
-                self._flip(h, visits, moment)
+                self._flip(h, visits, predicates)
                 return
-        self._doubt_around(u)
+        self._require_check_around(u)
 
-    def _doubt_around(self, u: int) -> None:
+    def _require_check_around(self, u: VertexId) -> None:
         """Leave a pair to the check of the batch, which flips until the tiling is greedy.
 
-        Of several pairs on one vertical line the exchanges, one by one, may find a diagonal that
-        an earlier one should have made, or one that it has made too soon. By Lemma 4.2 it is
-        enough if the check looks at every diagonal s that its shadow s' may have passed. Tiles
-        changed now are looked at. If those of s are as they were, theta(s) was less than
-        theta(s') just before now, and as the two cross, one of them is vertical now: a pair
-        (u, v) that is exchanged. If it is s, s was there and has been flipped. If it is s' (or
-        what s' has become, on the same line), u is in a tile of s: s is an edge of a tile at u.
+        If several pairs on one vertical line are exchanged one by one, a diagonal may be missing
+        that an earlier exchange should have inserted, or may have been inserted too early. By
+        Lemma 4.2 it is sufficient that the check examines every diagonal s whose shadow edge s'
+        may have a smaller theta now. It examines changed tiles. If the tiles of s have not
+        changed, theta(s) < theta(s') just before now, and as the two cross, one of them is
+        vertical now: a pair (u, v) that is exchanged. If this is s, it has been flipped. If it is
+        s' (or its successor on the same line), u is a vertex of a tile of s, so s is an edge of
+        a tile at u, and these are examined too.
         """
         mesh = self.certified.mesh
-        self.certified.batch.doubt(mesh.map.fan(mesh.ring_edge[u]))
+        self.certified.batch.require_check(mesh.map.star(mesh.ring_edge[u]))
 
-    def _flip(self, h: int, visits: tuple[int, int], moment: OneSided) -> None:
+    def _flip(self, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge], predicates: OneSided) -> None:
         old = self.certified.mesh.ends(h)
         new = (self.certified.mesh.map.origin[visits[0]], self.certified.mesh.map.origin[visits[1]])
-        changed = flip(self.certified.mesh, h, visits, moment)
+        changed = flip(self.certified.mesh, h, visits, predicates)
         self.log.record("diagonal", (old,), (new,))
         self.certified.recertify(changed)
 
-    def turns_reflex(self, h: int) -> None:
-        """See `Rules.turns_reflex`: none may."""
+    def turns_reflex(self, h: HalfEdge) -> None:
+        """See `Rules.turns_reflex`: not allowed, since the bodies must stay convex."""
         vertex = self.certified.vertices.all[self.certified.mesh.map.origin[h]]
         body = self.certified.vertices.bodies[vertex.body].body
         raise AuditError(
             f"body {body.name!r}: stops being convex at vertex {vertex.index}, "
             f"t = {float(self.certified.certifier.exact_now)}: "
-            "this greedy tiling is for bodies that stay so"
+            "this greedy tiling is for bodies that stay convex"
         )

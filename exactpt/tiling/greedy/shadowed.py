@@ -1,19 +1,20 @@
 """The kinetic greedy pseudo-triangulation of simple polygons.
 
-The rules of convex bodies, on all of the free space: a reflex vertex of a polygon is a
-corner there, where a diagonal may end in any direction. What the paper describes for
-convex bodies, by shadow edges, works here too (`exactpt.tiling.greedy.flipping`); for
-convex bodies the vertical decomposition (`exactpt.tiling.greedy.greedy`) does with fewer
-certificates and without shadow events.
+The greedy rule of convex bodies is applied to the whole free space, in which a reflex
+vertex of a polygon is a corner, where a diagonal may end in any direction. The paper's
+method for convex bodies, by shadow edges, applies here too (`exactpt.tiling.greedy.flipping`).
+For convex bodies the vertical decomposition (`exactpt.tiling.greedy.greedy`) needs fewer
+certificates, and no events of shadow edges.
 """
 
 from __future__ import annotations
 
-from typing import final
+from typing import cast, final
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certificate import TURN, kind_of, pack, part_of
 from exactpt.errors import AuditError
+from exactpt.indices import CertificateId, HalfEdge, VertexId
 from exactpt.pseudotriangulation.build import build_mesh
 from exactpt.pseudotriangulation.flip import flip_until_greedy
 from exactpt.pseudotriangulation.mesh import Mesh
@@ -33,11 +34,11 @@ class ShadowRules(FlippingRules):
 
     def __init__(self, certified: CertifiedMesh, log: Log) -> None:
         super().__init__(certified, log)
-        self._turned: set[int] = certified.table.violated[TURN]
+        self._turned: set[VertexId] = cast("set[VertexId]", certified.table.violated[TURN])
 
     @staticmethod
     def build(instant: PredicatesAt) -> Mesh:
-        """The greedy tiling of an instant: swept, reduced, and flipped until it is."""
+        """The greedy tiling of an instant: a plane sweep, made pointed, flipped until greedy."""
         mesh = build_mesh(instant, sweep_diagonals(instant))
         make_pointed(mesh, instant)
         flip_until_greedy(mesh, instant, mesh.flippable())
@@ -55,19 +56,19 @@ class ShadowRules(FlippingRules):
         self._turned.update(self.certified.vertices.bodies[i].ring)
         super().certify_body(i)
 
-    def failed(self, certificates: list[int]) -> None:
+    def failed(self, certificates: list[CertificateId]) -> None:
         """See `Rules.failed`."""
-        self._turned.update(part_of(c) for c in certificates if kind_of(c) == TURN)
+        self._turned.update(VertexId(part_of(c)) for c in certificates if kind_of(c) == TURN)
         super().failed([c for c in certificates if kind_of(c) != TURN])
 
-    def turns_reflex(self, h: int) -> None:
+    def turns_reflex(self, h: HalfEdge) -> None:
         """See `Rules.turns_reflex`."""
         self._turned.add(self.certified.mesh.map.origin[h])
 
     def restore(self) -> None:
         """See `Rules.restore`."""
         if self._turned:
-            self._point_turned()
+            self._make_pointed()
         super().restore()
 
     def enter(self, i: int) -> None:
@@ -81,8 +82,8 @@ class ShadowRules(FlippingRules):
             self.certified.table.pending.cancel(pack(TURN, v))
             self._turned.discard(v)
 
-    def _certify_turn(self, v: int) -> None:
-        """Certify that a vertex of a deforming polygon stays reflex, if it is."""
+    def _certify_turn(self, v: VertexId) -> None:
+        """Certify that a vertex of a deforming polygon stays reflex, if it is reflex."""
         vertex, certifier = self.certified.vertices.all[v], self.certified.certifier
         time = None
         if not certifier.rigid(vertex.ahead, v, vertex.behind):
@@ -90,8 +91,8 @@ class ShadowRules(FlippingRules):
             time = zero if s > 0 else None
         self.certified.table.schedule(pack(TURN, v), time)
 
-    def _point_turned(self) -> None:
-        """Free vertices that have become convex of their diagonals in mid-air."""
+    def _make_pointed(self) -> None:
+        """Make vertices pointed that have become convex, by removals and flips of diagonals."""
         certified, mesh, after = self.certified, self.certified.mesh, self.certified.after()
         for v in sorted(self._turned):
             try:

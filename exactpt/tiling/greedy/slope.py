@@ -1,8 +1,8 @@
-"""The order of bitangents of equal direction: by the perturbation, so that it is total.
+"""The order of parallel bitangents, made total by the perturbation.
 
 Two bitangents that are parallel at an instant are compared just after it; if they stay
-parallel for ever, by what the perturbation of `exactpt.certificates.perturbation` does to their
-slopes.
+parallel for ever, by the change of their slopes under the perturbation of
+`exactpt.certificates.perturbation`.
 """
 
 from __future__ import annotations
@@ -20,15 +20,15 @@ __all__ = ["Slope", "slope_terms"]
 
 @final
 class Slope:
-    """The direction of a segment from left to right, and how it is perturbed.
+    """The direction of a segment from left to right, and its perturbation.
 
     Attributes:
-        x, y: the difference of its ends times ``w``.
-        w: positive.
+        x, y: the difference of its ends, times ``w``.
+        w: the common denominator, positive.
         inflation: h(b) - h(a) for discs of radius 1 around the ends, where h is +1 for a
-            body below the line and -1 for one above.
+            body below the line and -1 for a body above it.
         bulge: the same for the part -|v|^2 of the radius, times w^2.
-        length: a measure of the length, times ``w``: the width, or the height if upright.
+        length: a measure of the length, times ``w``: the width, or the height if vertical.
     """
 
     def __init__(self, a: Vertex, b: Vertex, sides: tuple[int, int], *, upright: bool) -> None:
@@ -46,10 +46,10 @@ class Slope:
 
 
 def slope_terms(s: Slope, t: Slope) -> Iterator[IntPoly]:
-    """The terms, from the largest on, of what is negative while theta(s) < theta(t).
+    """The terms, in decreasing order of size, of a sum that is negative iff theta(s) < theta(t).
 
-    theta(s) < theta(t) iff (s x t) < 0. Inflation changes the slopes by (h(b) - h(a)) / L:
-    the one that rises more has the smaller theta.
+    theta(s) < theta(t) iff s x t < 0. Inflation changes a slope by (h(b) - h(a)) / L, and the
+    larger slope has the smaller theta.
     """
     yield subtract(multiply(s.x, t.y), multiply(s.y, t.x))
     # h / L with L = length / w, brought to a common denominator; then bulge / w^2 / L.

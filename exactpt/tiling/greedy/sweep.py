@@ -1,7 +1,7 @@
 """The greedy vertical pseudo-triangulation of convex bodies, by a rotational sweep.
 
-The vertical decomposition is turned clockwise from the vertical by pi. Its cells die
-exactly at the greedy bitangents, which then act as walls. O(k log k) steps and O(k)
+The direction of the decomposition is rotated clockwise by pi from the vertical. A cell ends
+exactly at a greedy bitangent, which is a wall from then on. O(k log k) steps and O(k)
 bitangents.
 
 Source: the paper, section 4.1, after M. Pocchiola, G. Vegter, *Topologically sweeping
@@ -16,6 +16,7 @@ from typing import final
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import AuditError
+from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.mesh import Diagonal
@@ -28,17 +29,17 @@ __all__ = ["greedy_diagonals"]
 def greedy_diagonals(
     instant: PredicatesAt, decomposition: VerticalDecomposition
 ) -> tuple[list[Diagonal], set[tuple[int, int]]]:
-    """The 3k - 3 bitangents of the pseudo-triangulation, from left to right.
+    """The 3k - 3 bitangents of the pseudo-triangulation, each directed from left to right.
 
-    And the ends of those that share a line with another one, so that their order came from the
-    perturbation (the caller may want to check these: whatever the order, the result is
-    greedy for it, so that a bitangent with a shadow of smaller theta shares a line with it).
-    The order of parallel ones on different lines does not matter: moving their bodies a
-    little makes it either, and changes nothing else.
+    The second result is the set of the ends of those that share a line with another one. Their
+    order is that of the perturbation, and the caller may check them: the result is greedy for
+    the order of the sweep, so a bitangent whose shadow edge has smaller theta shares a line
+    with it. The order of parallel bitangents on different lines does not matter: either order
+    results if the bodies are moved a little, and nothing else changes.
 
     Args:
         instant: the predicates.
-        decomposition: the vertical decomposition then; it is used up.
+        decomposition: the vertical decomposition of the instant; it is used up.
 
     Raises:
         AuditError: if the number of bitangents is not 3k - 3.
@@ -66,8 +67,9 @@ class _Sweep:
         for cell in range(len(self.cells.left)):
             self._push(cell)
         previous: Bitangent | None = None
-        on_line: dict[QQ, Diagonal] = {}  # of those that are parallel to the previous one
+        on_line: dict[QQ, Diagonal] = {}  # of the bitangents parallel to the previous one
         while self.heap:
+            ask()
             _, s = heapq.heappop(self.heap)
             cells = self.cells
             if (
@@ -90,7 +92,7 @@ class _Sweep:
         return found
 
     def _is_ready(self, cell: int) -> bool:
-        """Whether the cell is between its two arcs alone, so that their bitangent ends it."""
+        """Whether only its two arcs bound the cell, so that it ends at their bitangent."""
         cells = self.cells
         x, y = cells.left[cell], cells.right[cell]
         if NO_ARC in (x, y) or x >> 1 == y >> 1:
@@ -113,10 +115,10 @@ class _Sweep:
         heapq.heappush(self.heap, (s.key, s))
 
     def _pass(self, cell: int, x: int, y: int) -> None:
-        """The sweep direction passes the bitangent of arcs x and y: the cell dies.
+        """Pass the bitangent of arcs x and y, where their cell ends.
 
-        What was left above x is now left of y, what was right below y is right of x; the
-        cells below x and above y, if any, go on along the new wall.
+        The cell on the left above x is now left of y, the cell on the right below y is right
+        of x; the cells below x and above y, if any, continue along the new wall.
         """
         c = self.cells
         self.dead[cell] = True

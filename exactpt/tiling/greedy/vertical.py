@@ -2,15 +2,14 @@
 
 From the leftmost and the rightmost vertex of every body a wall runs up and down to the
 next body. An *arc* is such an extreme: ``2 * body`` is the left one, ``2 * body + 1``
-the right one. A *cell* lies between two walls, under one body and over another.
+the right one. A *cell* lies between two walls, below one body and above another.
 
-Why it is kept. Diagonal s of the greedy pseudo-triangulation must give way when s, or
-its shadow edge, becomes vertical (paper, section 4.2). A free bitangent that becomes
-vertical touches both its bodies at extremes which see each other along the vertical:
-they are the left and the right arc of one cell, which collapses. So instead of
-following a shadow edge for each of 2k diagonals, with six certificates each and events
-that change nothing, the decomposition is kept: at most 3k + 1 cells with one linear
-certificate each, x(left arc) < x(right arc), and no event besides the flips themselves.
+A diagonal s of the greedy pseudo-triangulation is flipped when s, or its shadow edge,
+becomes vertical (paper, section 4.2). A free bitangent that becomes vertical touches both
+its bodies at extremes which see each other vertically: they are the left and the right arc
+of one cell, which collapses. So the decomposition replaces the shadow edges of 2k diagonals,
+with six certificates each and events that change nothing. It has at most 3k + 1 cells with
+one linear certificate each, x(left arc) < x(right arc), and no events besides the flips.
 """
 
 from __future__ import annotations
@@ -19,6 +18,8 @@ from typing import Final, final
 
 from exactpt.certificates.at_time import PredicatesAt, sorted_by_x
 from exactpt.certificates.predicates import Predicates
+from exactpt.indices import NO_VERTEX, VertexId
+from exactpt.kernel.budget import ask
 
 __all__ = ["NO_ARC", "NO_CELL", "VerticalDecomposition", "is_above", "lower_chain"]
 
@@ -31,16 +32,16 @@ class VerticalDecomposition:
     """Cells and the arcs that bound them.
 
     Attributes:
-        vertex: of each arc, the vertex that is extreme.
-        left, right: of each cell, the arcs at its ends; `NO_ARC` at infinity.
-        left_up, left_down, right_up, right_down: of each arc, the cell on that side of
-            its wall, above or below its vertex. Left of a left extreme both are one
-            cell, right of a right extreme as well.
+        vertex: for each arc, the extreme vertex.
+        left, right: for each cell, the arcs at its ends; `NO_ARC` at infinity.
+        left_up, left_down, right_up, right_down: for each arc, the cell on that side of
+            its wall, above or below its vertex. Left of a left extreme both are the same
+            cell, as are those right of a right extreme.
     """
 
     def __init__(self, bodies: int) -> None:
         arcs = 2 * bodies
-        self.vertex: list[int] = [-1] * arcs
+        self.vertex: list[VertexId] = [NO_VERTEX] * arcs
         self.left: list[int] = []
         self.right: list[int] = []
         self.left_up: list[int] = [NO_CELL] * arcs
@@ -58,9 +59,9 @@ class VerticalDecomposition:
         return other
 
     def state(self) -> dict[str, list[int]]:
-        """The cells and arcs as JSON data."""
+        """The cells and arcs, as a JSON object."""
         return {
-            "vertex": self.vertex[:],
+            "vertex": list(self.vertex),
             "left": self.left[:],
             "right": self.right[:],
             "left_up": self.left_up[:],
@@ -70,8 +71,8 @@ class VerticalDecomposition:
         }
 
     def resume(self, state: dict[str, list[int]]) -> None:
-        """Have these cells and arcs."""
-        self.vertex = state["vertex"]
+        """Restore these cells and arcs."""
+        self.vertex = list(map(VertexId, state["vertex"]))
         self.left, self.right = state["left"], state["right"]
         self.left_up, self.left_down = state["left_up"], state["left_down"]
         self.right_up, self.right_down = state["right_up"], state["right_down"]
@@ -82,7 +83,7 @@ class VerticalDecomposition:
         return len(self.left) - 1
 
     def cells_of(self, arc: int) -> set[int]:
-        """The cells that end or begin at the wall of an arc."""
+        """The cells on both sides of the wall of an arc."""
         return {
             self.left_up[arc],
             self.left_down[arc],
@@ -91,9 +92,9 @@ class VerticalDecomposition:
         }
 
     def swap(self, cell: int, *, left_is_lower: bool) -> tuple[int, int]:
-        """Let the two arcs of a collapsing cell exchange their order.
+        """Exchange the two arcs of a collapsing cell.
 
-        With l the lower and r the upper of the two vertices, l to the left before:
+        With l the lower and r the upper of the two vertices, and l on the left before:
 
                  |              |                 The cell between them (right above l,
           A      |r      =>  A  |r     B          left below r) is replaced by the one
@@ -101,7 +102,7 @@ class VerticalDecomposition:
             |l   B            . |l  .             cells A (left above l) and B (right
             |                   |                 below r) now reach r and l.
 
-        The other case is its mirror image, up and down exchanged.
+        The other case is the mirror image, with up and down exchanged.
 
         Returns:
             A and B.
@@ -142,7 +143,7 @@ class VerticalDecomposition:
         """
         vertices = instant.vertices
         self = cls(len(vertices.bodies))
-        lower: list[list[int]] = []
+        lower: list[list[VertexId]] = []
         for i, body in enumerate(vertices.bodies):
             chain = lower_chain(instant, body.ring)
             lower.append(chain)
@@ -151,6 +152,7 @@ class VerticalDecomposition:
         active: list[int] = []  # bodies on the sweep line, from bottom to top
         gaps = [self._new_cell(NO_ARC)]  # the cells between them
         for v in sorted_by_x(instant, self.vertex):
+            ask()
             arc = arc_of[v]
             if arc % 2 == 0:
                 low, high = 0, len(active)
@@ -179,7 +181,7 @@ class VerticalDecomposition:
         return self
 
 
-def lower_chain(predicates: Predicates, ring: list[int]) -> list[int]:
+def lower_chain(predicates: Predicates, ring: list[VertexId]) -> list[VertexId]:
     """The vertices of a convex ring from its leftmost to its rightmost, along the bottom."""
     n = len(ring)
     first = last = 0
@@ -191,8 +193,8 @@ def lower_chain(predicates: Predicates, ring: list[int]) -> list[int]:
     return [ring[i % n] for i in range(first, first + (last - first) % n + 1)]
 
 
-def is_above(predicates: Predicates, lower: list[int], v: int) -> bool:
-    """Whether v, over or under a convex body on the same vertical, is over it."""
+def is_above(predicates: Predicates, lower: list[VertexId], v: VertexId) -> bool:
+    """Whether v, which is vertically above or below a convex body, is above it."""
     low, high = 0, len(lower) - 1  # lower[low] is left of v, lower[high] is not
     while high - low > 1:
         middle = (low + high) // 2

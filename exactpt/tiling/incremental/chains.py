@@ -1,4 +1,4 @@
-"""How the chains of a structure are kept: walked along, or searched."""
+"""The representation of the chains of a structure: linked, or searchable."""
 
 from __future__ import annotations
 
@@ -9,17 +9,18 @@ __all__ = ["PATIENCE", "ChainKind", "Chains"]
 ChainKind: TypeAlias = Literal["auto", "linked", "searchable"]
 
 PATIENCE: Final = 8
-"""Steps along chains for each event, and each point, before chains are made searchable."""
+"""Number of steps along chains, per event and per point, before chains are made searchable."""
 
 
 @final
 class Chains:
-    """How chains are kept.
+    """The representation of chains.
 
     Args and attributes:
-        kind: "linked" walks along chains, "searchable" searches them in O(log n); "auto"
-            walks until the steps of all walks exceed what is allowed, `PATIENCE` an event.
-        allowed: how many steps are allowed so far.
+        kind: "linked" (chains are walked along), "searchable" (chains are searched in
+            O(log n)), or "auto": linked until more steps have been made than are allowed,
+            `PATIENCE` per event.
+        allowed: the number of steps allowed so far.
     """
 
     __slots__ = ("allowed", "kind")
@@ -29,7 +30,10 @@ class Chains:
         self.allowed: int = allowed
 
     def are_long(self, steps: int) -> bool:
-        """After one more event: whether so many steps are too many; then search from now on."""
+        """After one more event, whether more steps have been made than are allowed.
+
+        If so, the representation becomes searchable.
+        """
         self.allowed += PATIENCE
         if steps > self.allowed:
             self.kind = "searchable"

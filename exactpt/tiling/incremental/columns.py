@@ -1,14 +1,14 @@
-"""Points on one vertical line, all put in order anew at one time instead of pair by pair.
+"""Columns: points of equal x, sorted as a whole instead of by exchanges of pairs.
 
-When k points of one x change places, up to k (k - 1) / 2 exchanges would follow each other.
-But only these points are affected: of the points to the right, one that hangs in the upper
-tree on a point of the column hangs on the topmost, which is on the upper hull of the column
-and all to its left whatever the order in the column. So the sweep of the paper, section
-3.1, is run through the column alone: from the hull of the points to its left, which is the
-path from the last of them to the root.
+If k points of equal x change their order, up to k (k - 1) / 2 exchanges would be needed. But
+only the points of the column are affected: a point to the right that hangs in the upper tree
+on a point of the column hangs on the topmost one, which is on the upper hull of the column
+and all points to its left, whatever the order within the column. So the sweep of the paper,
+section 3.1, is run through the column alone, from the hull of the points to its left, which
+is the path from the last of them to the root.
 
-In the midst of other events of the same time the trees may not be as they should be yet.
-If points to the right would not find their place again, nothing is changed.
+In the midst of other repairs of the same time the trees may be invalid. If the points to the
+right would not keep their places, nothing is changed.
 """
 
 from __future__ import annotations
@@ -17,40 +17,58 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.coincidence import coordinate_order
 from exactpt.certificates.predicates import Predicates
+from exactpt.indices import VertexId
 from exactpt.tiling.incremental.structure import IncrementalStructure
 from exactpt.tiling.incremental.tree import NONE, TangentTree
 
-__all__ = ["resweep"]
+__all__ = ["column_around", "resweep"]
 
 
 class _Swept(NamedTuple):
-    """The sweep of a column in one tree.
+    """The result of the sweep of a column in one tree.
 
     Attributes:
-        parents: where each point of the column hangs.
-        hull: the points of the column on the hull after it, from left to right.
-        covered: the points left of the column that are on the hull before it, not after.
+        parents: the new parent of each point of the column.
+        hull: the points of the column on the hull after the sweep, from left to right.
+        covered: the points left of the column that are on the hull before, but not after.
     """
 
-    parents: dict[int, int]
-    hull: list[int]
-    covered: list[int]
+    parents: dict[VertexId, VertexId]
+    hull: list[VertexId]
+    covered: list[VertexId]
+
+
+def column_around(
+    certifier: Certifier, structure: IncrementalStructure, p: VertexId
+) -> tuple[int, int]:
+    """The range of ranks, its end excluded, of the points with the x of p now."""
+    order, rank, vertices = structure.order, structure.rank, certifier.all
+    low = high = rank[p]
+    while low > 0 and not coordinate_order(certifier, vertices[order[low - 1]], vertices[p], 0):
+        low -= 1
+    while high + 1 < len(order) and not coordinate_order(
+        certifier, vertices[order[high + 1]], vertices[p], 0
+    ):
+        high += 1
+    return low, high + 1
 
 
 def resweep(
-    structure: IncrementalStructure, column: Sequence[int], predicates: Predicates
-) -> tuple[set[int], set[int]] | None:
-    """Put points that follow each other in x-order into another order.
+    structure: IncrementalStructure, column: Sequence[VertexId], predicates: Predicates
+) -> tuple[set[VertexId], set[VertexId]] | None:
+    """Reorder points that are consecutive in the x-order.
 
     Args:
-        structure: the structure; changed in place.
+        structure: the structure, changed in place.
         column: the points in their new order.
-        predicates: of the time.
+        predicates: the predicates of the time.
 
     Returns:
-        Of each tree, the right ends of the edges that may need new certificates. None if
-        the rest of the structure does not allow it: nothing is changed then.
+        For each tree, the right ends of the edges that may need new certificates. None if
+        the rest of the structure does not allow the order, and nothing has changed.
     """
     order, rank = structure.order, structure.rank
     i = min(rank[p] for p in column)
@@ -70,20 +88,25 @@ def resweep(
 
 
 def _sweep(
-    tree: TangentTree, before: int, column: Sequence[int], predicates: Predicates, *, wanted: int
+    tree: TangentTree,
+    before: VertexId,
+    column: Sequence[VertexId],
+    predicates: Predicates,
+    *,
+    wanted: int,
 ) -> _Swept:
     """Sweep through a column, without changing the tree.
 
     Args:
-        tree: the upper or the lower one.
+        tree: the upper or the lower tree.
         before: the last point left of the column.
         column: its points in their new order.
-        predicates: of the time.
-        wanted: the sign of what is not convex.
+        predicates: the predicates of the time.
+        wanted: the sign at a vertex of the hull that has to be popped.
     """
-    parents: dict[int, int] = {}
-    hull: list[int] = []
-    covered: list[int] = []
+    parents: dict[VertexId, VertexId] = {}
+    hull: list[VertexId] = []
+    covered: list[VertexId] = []
     left = before
     for p in column:
         while True:
@@ -105,7 +128,7 @@ def _sweep(
 
 
 def _fits(tree: TangentTree, swept: _Swept, rank: list[int], end: int) -> bool:
-    """Whether the points right of a column still hang on the hull, in preorder."""
+    """Whether the children right of a column still hang on the hull, in preorder."""
     if any(tree.last[z] >= 0 and rank[tree.last[z]] >= end for z in swept.covered):
         return False
     ranks = [rank[c] for z in reversed(swept.hull) for c in _later(tree, z, rank, end)]
@@ -115,8 +138,8 @@ def _fits(tree: TangentTree, swept: _Swept, rank: list[int], end: int) -> bool:
     )
 
 
-def _later(tree: TangentTree, z: int, rank: list[int], end: int) -> list[int]:
-    """The children of a point that are right of its column."""
+def _later(tree: TangentTree, z: VertexId, rank: list[int], end: int) -> list[VertexId]:
+    """The children of a point that are right of its column, in x-order."""
     children = []
     c = tree.last[z]
     while c >= 0 and rank[c] >= end:
@@ -125,14 +148,14 @@ def _later(tree: TangentTree, z: int, rank: list[int], end: int) -> list[int]:
     return children[::-1]
 
 
-def _hang(tree: TangentTree, swept: _Swept, old: list[int], rank: list[int]) -> set[int]:
-    """Let the points of a column hang where the sweep has found; changed edges.
+def _hang(tree: TangentTree, swept: _Swept, old: list[VertexId], rank: list[int]) -> set[VertexId]:
+    """Hang the points of a column on their new parents; returns the changed edges.
 
     Args:
-        tree: the upper or the lower one.
-        swept: the sweep.
+        tree: the upper or the lower tree.
+        swept: the result of the sweep.
         old: the points in their old order.
-        rank: the ranks before.
+        rank: the ranks before the change.
     """
     parents, end = swept.parents, rank[old[-1]] + 1
     changed = set(old)

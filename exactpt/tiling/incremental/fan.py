@@ -1,32 +1,33 @@
 """The fan triangulation (paper, section 3.4), and how often it changes.
 
-Every point p is joined to all of its chain C(p), ends included: a triangulation. It needs no
-structure of its own, since its edges are read off the two trees.
+Every point p is joined to all vertices of its chain C(p), ends included; the result is a
+triangulation. Its edges are derived from the two trees.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+from exactpt.indices import Ends, VertexId
 from exactpt.tiling.incremental.structure import Exchanged, IncrementalStructure
 from exactpt.tiling.incremental.tree import TangentTree
 
 __all__ = ["chain", "changes_of_exchange", "fan_edges", "path"]
 
 
-def path(v: int, tree: TangentTree) -> Iterator[int]:
-    """From v always to the last child."""
+def path(v: VertexId, tree: TangentTree) -> Iterator[VertexId]:
+    """The path from v that always continues to the last child."""
     while v >= 0:
         yield v
         v = tree.last[v]
 
 
-def chain(structure: IncrementalStructure, p: int) -> list[int]:
-    """C(p) from u(p) to d(p); of a point on one line with all those left of it, just that end.
+def chain(structure: IncrementalStructure, p: VertexId) -> list[VertexId]:
+    """C(p) from u(p) to d(p); only u(p) = d(p) if p is collinear with all points left of it.
 
     Args:
         structure: the structure.
-        p: not the first point.
+        p: a point other than the first.
     """
     upper, lower = structure.trees
     above = [upper.parent[p], *path(upper.before[p], upper)]
@@ -34,23 +35,24 @@ def chain(structure: IncrementalStructure, p: int) -> list[int]:
     return above + below[-2::-1]
 
 
-def fan_edges(structure: IncrementalStructure) -> Iterator[tuple[int, int]]:
+def fan_edges(structure: IncrementalStructure) -> Iterator[Ends]:
     """The edges of the fan triangulation, each once, with the right end first."""
     for p in structure.order[1:]:
         for z in chain(structure, p):
             yield p, z
 
 
-def changes_of_exchange(structure: IncrementalStructure, exchanged: Exchanged, q: int) -> int:
-    """How many edges an exchange has removed and added.
+def changes_of_exchange(structure: IncrementalStructure, exchanged: Exchanged, q: VertexId) -> int:
+    """The number of edges that an exchange has removed and added.
 
     With K the chain that p and q see, p was joined to K from u(p) to r, and q from r to d(q).
-    Now q has come before p, and the border between them has moved along K from r to r'.
+    Now q comes before p, and the vertex that separates their parts has moved along K from r
+    to r'.
 
     Args:
-        structure: after the exchange.
-        exchanged: what it has changed.
-        q: the point that has come before the other.
+        structure: the structure after the exchange.
+        exchanged: the changes of the exchange.
+        q: the point that comes first now.
     """
     if exchanged.end < 0:
         return 0
@@ -61,8 +63,8 @@ def changes_of_exchange(structure: IncrementalStructure, exchanged: Exchanged, q
     )
 
 
-def _depth_below(tree: TangentTree, z: int, v: int) -> int:
-    """How far v hangs below z."""
+def _depth_below(tree: TangentTree, z: VertexId, v: VertexId) -> int:
+    """The depth of v in the subtree of z."""
     depth = 0
     while v != z:
         v = tree.parent[v]

@@ -1,7 +1,7 @@
 """The kinetic incremental pseudo-triangulation of moving points (paper, section 3.2).
 
-A queue holds when each of the 3n - 5 certificates of `exactpt.tiling.incremental.structure`
-fails. What a failure changes is told in `exactpt.tiling.incremental.repairs`.
+The 3n - 5 certificates are those of `exactpt.tiling.incremental.structure`; the changes at
+their failures are those of `exactpt.tiling.incremental.tree_repairs`.
 """
 
 from __future__ import annotations
@@ -17,52 +17,97 @@ from exactpt.certificates.certificate import (
     point_kind_of,
     point_of,
 )
+from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
 from exactpt.errors import AuditError
+from exactpt.indices import CertificateId, VertexId
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
+from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.mesh import Mesh
-from exactpt.tiling.events import ContactFound, TilingEvent
-from exactpt.tiling.incremental.chains import Chains
+from exactpt.tiling.catalogue import Entry
+from exactpt.tiling.events import ContactFound, Stats, TilingEvent
+from exactpt.tiling.incremental.certified_trees import CertifiedTrees
+from exactpt.tiling.incremental.chains import PATIENCE, ChainKind, Chains
 from exactpt.tiling.incremental.contacts import coinciding
 from exactpt.tiling.incremental.mesh import mesh_of
-from exactpt.tiling.incremental.repairs import RepairedStructure
 from exactpt.tiling.incremental.static import holds_at, sweep_at
 from exactpt.tiling.incremental.structure import IncrementalStructure
-from exactpt.tiling.tiling import State
+from exactpt.tiling.incremental.tree_repairs import TreeRepairs
+from exactpt.tiling.tiling import State, Tiling
 
 __all__ = ["IncrementalTiling"]
 
 
 @final
-class IncrementalTiling(RepairedStructure):
-    """The canonical tiling of points: at any time the one that the sweep builds.
+class IncrementalTiling(Tiling):
+    """The canonical tiling of points: at any time the one built by the sweep.
 
-    It has the interface of the engine, not the engine: what it keeps and repairs are two
-    trees, of which the mesh is read off when it is asked for, so that there are no
-    certified angles of a mesh that rules could add to.
+    It does not use the engine: it maintains two trees instead of a mesh with certified angles,
+    and derives the mesh from them on demand.
+
+    Args:
+        entry: its line in the catalogue.
+        vertices: the points.
+        certifier: certificates and the current time.
+        stats: the counts of the run.
+        chains: the representation of chains; see `Chains`.
+        fan: whether changes of the fan triangulation are counted, in ``stats.fan``.
+
+    Attributes:
+        chains: the current representation of chains.
     """
+
+    def __init__(
+        self,
+        entry: Entry,
+        vertices: Vertices,
+        certifier: Certifier,
+        stats: Stats,
+        *,
+        chains: ChainKind = "auto",
+        fan: bool = False,
+    ) -> None:
+        super().__init__(entry, vertices, certifier, stats)
+        self.chains: Chains = Chains(chains, PATIENCE * len(vertices.all))
+        none = IncrementalStructure.of([], ([], []))
+        self._certified: CertifiedTrees = CertifiedTrees(none, certifier, self.table)
+        self._repairs: TreeRepairs = TreeRepairs(
+            self._certified, certifier, self.log, self.chains, counts_fan=fan
+        )
+        self._mesh: Mesh | None = None
 
     def begin(self, start: QQ) -> None:
         """See `Tiling.begin`."""
         exact_only = self.certifier.exact_only
-        self._keep(sweep_at(PredicatesAt(self.vertices, start, exact_only=exact_only)))
+        self._replace(sweep_at(PredicatesAt(self.vertices, start, exact_only=exact_only)))
         self._certified.certify_everything()
-        if any(self._certified.due):
-            raise AuditError(f"violated at the start: {self._certified.due}")
+        if any(self._certified.violated):
+            raise AuditError(f"violated at the start: {self._certified.violated}")
         self.stats.most = len(self.queue)
-        for p in range(len(self.vertices.all)):
+        for p in map(VertexId, range(len(self.vertices.all))):
             self._schedule_piece(p)
 
+    def _replace(self, structure: IncrementalStructure) -> None:
+        """Set the structure, without certificates."""
+        if self.chains.kind == "searchable":
+            structure.make_searchable()
+        self._certified.now = structure
+
+    @property
+    def structure(self) -> IncrementalStructure:
+        """The tiling just after the current time, as trees."""
+        return self._certified.now
+
     def state(self) -> State:
-        """The trees, and how chains are kept."""
+        """The trees, and the representation of chains."""
         structure, chains = self.structure, self.chains
         return {"structure": structure.state(), "chains": [chains.kind, chains.allowed]}
 
     def resume(self, state: State) -> None:
         """See `Tiling.resume`."""
-        self.chains = Chains(*state["chains"])
-        self._keep(IncrementalStructure.resumed(state["structure"]))
+        self.chains.kind, self.chains.allowed = state["chains"]
+        self._replace(IncrementalStructure.resumed(state["structure"]))
 
     @staticmethod
     def build(instant: PredicatesAt) -> Mesh:
@@ -74,11 +119,11 @@ class IncrementalTiling(RepairedStructure):
         return self.build(instant)
 
     def audit(self, mesh: Mesh, instant: PredicatesAt) -> None:  # noqa: ARG002
-        """See `Tiling.audit`; its points have no rings, around which angles are checked."""
+        """See `Tiling.audit`; points have no rings, so only links and corners are checked."""
         mesh.audit()
 
     def mesh_after(self) -> Mesh:
-        """The tiling just after the current time; made anew after every event."""
+        """The tiling just after the current time, derived from the trees."""
         if self._mesh is None:
             self._mesh = mesh_of(self.structure)
         return self._mesh
@@ -86,8 +131,7 @@ class IncrementalTiling(RepairedStructure):
     def mesh_now(self, time: QQ) -> Mesh:
         """The tiling at a rational time: the current one, or one before the next event.
 
-        Where certificates vanish at that very time, the tiling is the one that the sweep
-        builds then.
+        If certificates vanish at that time, it is built by the sweep.
 
         Raises:
             AuditError: if a certificate is violated at that time.
@@ -96,43 +140,44 @@ class IncrementalTiling(RepairedStructure):
         structure = self.structure
         return mesh_of(structure if holds_at(structure, instant) else sweep_at(instant))
 
-    def _schedule_piece(self, p: int) -> None:
+    def _schedule_piece(self, p: VertexId) -> None:
         """Schedule the end of the current piece of a point's motion."""
         end = self.clock.end_of_piece(self.vertices.bodies[p])
         self.table.schedule(pack_point(POINT_MOTION, p), end)
 
     def add_body(self, body: Body, t: QQ) -> None:
-        """See `Tiling.add_body`: the structure is swept anew."""
+        """See `Tiling.add_body`: the tiling must be rebuilt."""
 
     def remove_body(self, i: int, t: QQ) -> None:
-        """See `Tiling.remove_body`: the structure is swept anew."""
+        """See `Tiling.remove_body`: the tiling must be rebuilt."""
 
     def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent]:
         """See `Tiling.change_plans`."""
         self.clock.move_to(t)
         self._mesh = None
-        for p in sorted(plans):
+        for p in map(VertexId, sorted(plans)):
             self.vertices.set_plan(p, plans[p], t, self.certifier.end)
             self._schedule_piece(p)
             self.log.record("motion", (), ())
-        for p in sorted(plans):
+        for p in map(VertexId, sorted(plans)):
             self._certified.certify_point(p)
-        self._settle()
+        self._repairs.repair_all()
         self.stats.most = max(self.stats.most, len(self.queue))
         return self.log.take()
 
     # Events
 
-    def _process(self, time: EventTime, entries: list[tuple[int, EventTime]]) -> None:
+    def _process(self, time: EventTime, entries: list[tuple[CertificateId, EventTime]]) -> None:
+        """See `Tiling._process`."""
         self.clock.enter(time, entries)
         self._mesh = None
         failed = [certificate for certificate, _ in entries]
-        level = [
+        with_equal_x = [
             point_of(certificate)
             for certificate in failed
             if point_kind_of(certificate) == POINT_ORDER
         ]
-        if level and (touches := coinciding(self.certifier, self.structure, level)):
+        if with_equal_x and (touches := coinciding(self.certifier, self.structure, with_equal_x)):
             raise ContactFound(touches)
         if len(failed) > 1:
             self.stats.batches += 1
@@ -143,23 +188,24 @@ class IncrementalTiling(RepairedStructure):
             if kind == POINT_MOTION:
                 self._change_motion(p)
             elif alone:
-                certified.due[kind].add(p)
+                certified.violated[kind].add(p)
             elif kind == POINT_ORDER:
                 certified.certify_order(p)
             else:
                 certified.certify_edge(kind, p)
-        self._settle()
+        self._repairs.repair_all()
         self.stats.most = max(self.stats.most, len(self.queue))
         if self.chains.kind == "auto":
-            self._judge_chains()
+            self._check_chains()
 
-    def _judge_chains(self) -> None:
+    def _check_chains(self) -> None:
         """Make chains searchable if they have turned out to be long."""
         upper, lower = self.structure.trees
         if self.chains.are_long(upper.steps + lower.steps):
             self.structure.make_searchable()
 
-    def _change_motion(self, p: int) -> None:
+    def _change_motion(self, p: VertexId) -> None:
+        """Begin the next piece of a point's motion."""
         moving = self.vertices.bodies[p]
         if moving.until is None:
             raise AuditError(f"body {p} has no next piece")

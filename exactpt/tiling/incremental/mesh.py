@@ -1,15 +1,16 @@
-"""The faces of an incremental pseudo-triangulation, as half-edges for the outside.
+"""The mesh of an incremental pseudo-triangulation.
 
-The edge on which p hangs in the upper tree has the handles 4 p (from p) and 4 p + 1, the
-one in the lower tree 4 p + 2 and 4 p + 3. If the two are one edge (of the second point,
-and of more if the first points are collinear), only the former is there.
+The edge from p to its parent in the upper tree has the half-edges 4 p (from p) and 4 p + 1,
+the one in the lower tree 4 p + 2 and 4 p + 3. If these are the same edge (for the second
+point, and for more points if the first ones are collinear), only the former exist.
 """
 
 from __future__ import annotations
 
 from itertools import pairwise
 
-from exactpt.planar.halfedge import NOTHING
+from exactpt.indices import NO_VERTEX, HalfEdge, VertexId
+from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import OUTER, Mesh
 from exactpt.tiling.incremental.fan import path
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
@@ -21,15 +22,15 @@ def mesh_of(structure: IncrementalStructure) -> Mesh:
     """The tiles Delta(p), p from the third point on, and the outer face."""
     upper, lower = structure.trees
     mesh = Mesh(len(structure.order))
-    for p in range(len(structure.order)):
+    for p in map(VertexId, range(len(structure.order))):
         for tree in structure.trees:
             z = tree.parent[p]
             h = mesh.add_edge(p, z, boundary=False)
             if z < 0 or (tree is lower and z == upper.parent[p]):
-                mesh.map.origin[h] = mesh.map.origin[h + 1] = NOTHING
+                mesh.map.origin[h] = mesh.map.origin[h + 1] = NO_VERTEX
     for p in structure.order[1:]:
         if upper.parent[p] != lower.parent[p]:
-            down, up = _from(structure, UPPER, p), _from(structure, LOWER, p) + 1
+            down, up = _from(structure, UPPER, p), twin(_from(structure, LOWER, p))
             face = [down, *_sides(structure, upper.before[p], lower.before[p]), up]
             _close(mesh, face)
             for h in (face[0], face[1], face[-1]):
@@ -43,15 +44,17 @@ def mesh_of(structure: IncrementalStructure) -> Mesh:
     return mesh
 
 
-def _from(structure: IncrementalStructure, side: int, p: int) -> int:
-    """The half-edge from p to where it hangs in a tree."""
+def _from(structure: IncrementalStructure, side: int, p: VertexId) -> HalfEdge:
+    """The half-edge from p to its parent in a tree."""
     upper, lower = structure.trees
     if side == LOWER and upper.parent[p] != lower.parent[p]:
-        return 4 * p + 2
-    return 4 * p
+        return HalfEdge(4 * p + 2)
+    return HalfEdge(4 * p)
 
 
-def _sides(structure: IncrementalStructure, upper_top: int, lower_top: int) -> list[int]:
+def _sides(
+    structure: IncrementalStructure, upper_top: VertexId, lower_top: VertexId
+) -> list[HalfEdge]:
     """The half-edges of a chain from its upper end to its lower one, bulging to the right.
 
     Args:
@@ -60,11 +63,11 @@ def _sides(structure: IncrementalStructure, upper_top: int, lower_top: int) -> l
         lower_top: the vertex before the lower end, if the lower side has one.
     """
     upper, lower = structure.trees
-    return [_from(structure, UPPER, c) + 1 for c in path(upper_top, upper)] + [
+    return [twin(_from(structure, UPPER, c)) for c in path(upper_top, upper)] + [
         _from(structure, LOWER, c) for c in reversed(list(path(lower_top, lower)))
     ]
 
 
-def _close(mesh: Mesh, face: list[int]) -> None:
+def _close(mesh: Mesh, face: list[HalfEdge]) -> None:
     for h, g in pairwise([*face, face[0]]):
         mesh.map.link(h, g)

@@ -1,4 +1,4 @@
-"""The incremental pseudo-triangulation of one instant: built, and compared."""
+"""The incremental pseudo-triangulation of one instant: construction and validation."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from itertools import pairwise
 
 from exactpt.certificates.at_time import PredicatesAt, sorted_by_x
 from exactpt.errors import AuditError
+from exactpt.indices import VertexId
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
 
 __all__ = ["holds_at", "sweep_at"]
@@ -13,19 +14,19 @@ __all__ = ["holds_at", "sweep_at"]
 
 def sweep_at(instant: PredicatesAt) -> IncrementalStructure:
     """The incremental pseudo-triangulation of an instant: O(n log n)."""
-    order = sorted_by_x(instant, range(len(instant.vertices.all)))
+    order = sorted_by_x(instant, map(VertexId, range(len(instant.vertices.all))))
     return IncrementalStructure.sweep(order, instant)
 
 
 def holds_at(structure: IncrementalStructure, instant: PredicatesAt) -> bool:
-    """Whether a structure that holds just before or just after an instant holds then.
+    """Whether a structure that is valid just before or just after an instant is valid at it.
 
     Args:
         structure: the structure.
-        instant: predicates at the time itself.
+        instant: the predicates at the time itself.
 
     Raises:
-        AuditError: if a certificate is violated, and does not just vanish then.
+        AuditError: if a certificate is violated, instead of only vanishing then.
     """
     holds = True
     for p, q in pairwise(structure.order):
@@ -38,10 +39,10 @@ def holds_at(structure: IncrementalStructure, instant: PredicatesAt) -> bool:
             certificate = structure.certificate(side, b)
             if certificate is None:
                 continue
-            *points, bends = certificate
+            *points, turns_away = certificate
             s = instant.sign(*points)
-            if (s == wanted) != bends:
+            if (s == wanted) != turns_away:
                 if s:
-                    raise AuditError(f"points {points} bend the wrong way")
+                    raise AuditError(f"points {points} turn the wrong way")
                 holds = False
     return holds

@@ -1,12 +1,12 @@
 """Shortest paths along polygons: sleeves of triangles, pulled tight by the funnel algorithm.
 
 The geodesic from vertex a to vertex b of a polygon is the shortest path in the free space
-that can be shrunk to the boundary between them. The polygon is on its left. Pushed a
-little off the boundary, the path runs through the triangles around the vertices in
-between; turning back is cut out of that sequence, and the funnel algorithm shortens the
-path in what is left. A vertex on the convex hull of everything is on every geodesic around
-it, so the sleeves end there. Instead of the boundary the chain may be any path that can be
-shrunk to it, with the polygon on its left.
+that is homotopic to the boundary between them. The polygon is on its left. Moved slightly off
+the boundary, this chain runs through the triangles around the vertices in between. Steps back
+are removed from this sequence of triangles, and the funnel algorithm finds the shortest path
+in the resulting sleeve. A vertex on the convex hull of all bodies is on every geodesic around
+it, so the sleeves end there. The chain may be any path homotopic to the boundary with the
+polygon on its left.
 
 Source: D. T. Lee, F. P. Preparata, *Euclidean shortest paths in the presence of
 rectilinear barriers*, Networks 14 (1984); J. Hershberger, J. Snoeyink, *Computing minimum
@@ -21,7 +21,8 @@ from itertools import pairwise
 from typing import Final, NamedTuple, final
 
 from exactpt.certificates.predicates import Predicates
-from exactpt.planar.halfedge import without_steps_back
+from exactpt.indices import NO_VERTEX, Ends, HalfEdge, VertexId
+from exactpt.planar.halfedge import twin, without_steps_back
 from exactpt.pseudotriangulation.mesh import Mesh
 
 __all__ = ["Geodesics", "Part", "joined"]
@@ -31,14 +32,14 @@ RIGHT: Final = -1
 
 
 class Part(NamedTuple):
-    """A part of a geodesic, from one vertex of its chain to another that it cannot leave.
+    """A part of a geodesic, between two vertices of its chain that it must pass.
 
     Attributes:
         path: the vertices along it.
-        end: the position in the chain of the half-edge that starts where it ends.
+        end: the position in the chain of the half-edge that starts at the end of the part.
     """
 
-    path: list[int]
+    path: list[VertexId]
     end: int
 
 
@@ -47,27 +48,27 @@ class Geodesics:
     """Geodesics in a triangulated part of the free space.
 
     Args:
-        predicates: of the time.
+        predicates: the predicates of the time.
         mesh: the triangulation.
-        triangles: the half-edges of the triangles; the set may grow.
+        triangles: the half-edges of its triangles; the caller may add more.
     """
 
-    def __init__(self, predicates: Predicates, mesh: Mesh, triangles: Set[int]) -> None:
+    def __init__(self, predicates: Predicates, mesh: Mesh, triangles: Set[HalfEdge]) -> None:
         self._predicates = predicates
         self._mesh = mesh
         self._triangles = triangles
 
-    def path(self, chain: Sequence[int]) -> list[int]:
-        """The geodesic along a chain, as vertices.
+    def path(self, chain: Sequence[HalfEdge]) -> list[VertexId]:
+        """The geodesic homotopic to a chain, as vertices.
 
         Args:
-            chain: half-edges, each of which starts where the one before ends. If it ends
-                where it began, the geodesic is the loop pinned there.
+            chain: half-edges, each of which starts where the one before ends. If the chain is
+                closed, the geodesic is a loop pinned at its first vertex.
         """
         return joined(self.parts(chain))
 
-    def without_loops(self, chain: Sequence[int]) -> Sequence[int]:
-        """A chain without what can be shrunk to a vertex that it passes several times."""
+    def without_loops(self, chain: Sequence[HalfEdge]) -> Sequence[HalfEdge]:
+        """A chain without contractible loops at vertices that it passes several times."""
         m = self._mesh.map
         kept = without_steps_back(chain)
         before = -1
@@ -78,9 +79,9 @@ class Geodesics:
                 kept = self._without_loops_at(v, kept)
         return kept
 
-    def _without_loops_at(self, v: int, chain: list[int]) -> list[int]:
-        """A chain without what can be shrunk to one vertex."""
-        kept: list[int] = []
+    def _without_loops_at(self, v: VertexId, chain: list[HalfEdge]) -> list[HalfEdge]:
+        """A chain without contractible loops at one vertex."""
+        kept: list[HalfEdge] = []
         start = 0
         for part in self.parts(chain, v):
             if len(part.path) > 1:
@@ -88,28 +89,29 @@ class Geodesics:
             start = part.end
         return kept
 
-    def parts(self, chain: Sequence[int], pin: int = -1) -> list[Part]:
-        """The same in parts, which end at a pin and where not all on the right are triangles."""
+    def parts(self, chain: Sequence[HalfEdge], pin: VertexId = NO_VERTEX) -> list[Part]:
+        """The geodesic in parts: they end at a pin, or if a face on the right is no triangle."""
         m = self._mesh.map
         parts = []
         start = m.origin[chain[0]]
-        sleeve: list[int] = []
+        sleeve: list[HalfEdge] = []
         for i in range(1, len(chain)):
-            fan = self._fan(chain[i - 1], chain[i])
-            if fan is None or m.origin[chain[i]] == pin:
+            triangles = self._triangles_at(chain[i - 1], chain[i])
+            if triangles is None or m.origin[chain[i]] == pin:
                 parts.append(Part(self._funnel(start, m.origin[chain[i]], sleeve), i))
                 start = m.origin[chain[i]]
                 sleeve = []
             else:
-                _extend(sleeve, fan)
+                _extend(sleeve, triangles)
         parts.append(Part(self._funnel(start, m.target(chain[-1]), sleeve), len(chain)))
         return parts
 
-    def from_leftmost(self, cycle: Sequence[int]) -> list[int]:
-        """The half-edges of a cycle around a body from its leftmost vertex on.
+    def from_leftmost(self, cycle: Sequence[HalfEdge]) -> list[HalfEdge]:
+        """The half-edges of a cycle around a body, from its leftmost vertex on.
 
-        Of a body's ring, or geodesics along it, that vertex is on the convex hull of the
-        body, and so on its unpinned cycle, which lies between the two.
+        The cycle is the ring of the body, or consists of geodesics along it. Its leftmost vertex
+        is on the convex hull of the body, and so on the unpinned geodesic cycle, which lies
+        between the two.
         """
         origin, first = self._mesh.map.origin, 0
         for i in range(1, len(cycle)):
@@ -117,22 +119,24 @@ class Geodesics:
                 first = i
         return [*cycle[first:], *cycle[:first]]
 
-    def _fan(self, before: int, after: int) -> list[int] | None:
-        """The triangles on the right of a chain at a vertex; None if not all are triangles.
+    def _triangles_at(self, before: HalfEdge, after: HalfEdge) -> list[HalfEdge] | None:
+        """The triangles on the right of a chain at a vertex; None if a face is no triangle.
 
-        A triangle is named by its least half-edge.
+        A triangle is represented by its least half-edge.
         """
         m = self._mesh.map
-        h = before ^ 1
-        fan = []
+        h = twin(before)
+        triangles = []
         while h != after:
             if h not in self._triangles:
                 return None
-            fan.append(min(h, m.following[h], m.previous[h]))
-            h = m.previous[h] ^ 1
-        return fan
+            triangles.append(min(h, m.following[h], m.previous[h]))
+            h = twin(m.previous[h])
+        return triangles
 
-    def _funnel(self, start: int, goal: int, sleeve: Sequence[int]) -> list[int]:
+    def _funnel(
+        self, start: VertexId, goal: VertexId, sleeve: Sequence[HalfEdge]
+    ) -> list[VertexId]:
         """The shortest path from start to goal through a sleeve of triangles."""
         if len(sleeve) < 2:
             return [start] if start == goal else [start, goal]
@@ -144,11 +148,11 @@ class Geodesics:
         path = [*funnel.path, *funnel.chain[LEFT]]
         return path if path[-1] == goal else [*path, goal]
 
-    def _turn(self, apex: int, p: int, side_p: int, q: int, side_q: int) -> int:
+    def _turn(self, apex: VertexId, p: VertexId, side_p: int, q: VertexId, side_q: int) -> int:
         """The orientation of apex, p, q, for obstacles p and q on given sides of the path.
 
-        Of three on one line for ever the middle one sticks out, away from its body: an
-        obstacle on the left (side 1) to the right, and the other way.
+        Of three vertices collinear for ever the middle one sticks out, away from its body: an
+        obstacle on the left of the path (side 1) sticks out to the right, and vice versa.
         """
         if p == q:
             return 0
@@ -157,8 +161,8 @@ class Geodesics:
             s = side_p if self._predicates.nearer(apex, p, q) else -side_q
         return s
 
-    def _portals(self, sleeve: Sequence[int]) -> list[tuple[int, int]]:
-        """The left and the right end of the edge between each triangle and the next."""
+    def _portals(self, sleeve: Sequence[HalfEdge]) -> list[Ends]:
+        """The left and the right end of the edge between each triangle of a sleeve and the next."""
         m = self._mesh.map
         portals = []
         for t, u in pairwise(sleeve):
@@ -168,14 +172,14 @@ class Geodesics:
         return portals
 
 
-def joined(parts: Sequence[Part]) -> list[int]:
+def joined(parts: Sequence[Part]) -> list[VertexId]:
     """The vertices along a geodesic."""
     return [*parts[0].path[:1], *(v for part in parts for v in part.path[1:])]
 
 
-def _extend(sleeve: list[int], fan: Sequence[int]) -> None:
-    """Go on through a fan, cutting out steps forth and back."""
-    for t in fan:
+def _extend(sleeve: list[HalfEdge], triangles: Sequence[HalfEdge]) -> None:
+    """Extend a sleeve by adjacent triangles, with steps forth and back removed."""
+    for t in triangles:
         if sleeve and sleeve[-1] == t:
             continue
         if len(sleeve) > 1 and sleeve[-2] == t:
@@ -188,21 +192,23 @@ def _extend(sleeve: list[int], fan: Sequence[int]) -> None:
 class _Funnel:
     """The shortest paths from a start to both ends of the last portal.
 
-    They share a path up to the apex and then part, into a chain that turns left and one
-    that turns right: the sides of the funnel. A new end of a portal shortens its own side
-    from behind, or, if that is used up, moves the apex along the other.
+    They share a path up to the apex, and from there on are a chain that turns left and one
+    that turns right, the sides of the funnel. A new end of a portal shortens its own side from
+    the far end or, when nothing of it is left, moves the apex along the other side.
 
     Attributes:
         path: from the start to the apex.
-        chain: of each side, the vertices after the apex.
+        chain: for each side, the vertices after the apex.
     """
 
-    def __init__(self, start: int, turn: Callable[[int, int, int, int, int], int]) -> None:
+    def __init__(
+        self, start: VertexId, turn: Callable[[VertexId, VertexId, int, VertexId, int], int]
+    ) -> None:
         self.path = [start]
-        self.chain: dict[int, deque[int]] = {LEFT: deque(), RIGHT: deque()}
+        self.chain: dict[int, deque[VertexId]] = {LEFT: deque(), RIGHT: deque()}
         self._turn = turn
 
-    def extend(self, v: int, side: int) -> None:
+    def extend(self, v: VertexId, side: int) -> None:
         """Move the end of one side to v."""
         own, other = self.chain[side], self.chain[-side]
         if v == (own[-1] if own else self.path[-1]):

@@ -10,13 +10,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from exactpt.errors import AuditError
+from exactpt.indices import VertexId
 from exactpt.planar.halfedge import PlanarMap
 
 __all__ = ["loop_along"]
 
 
-def loop_along(m: PlanarMap, labels: Sequence[frozenset[int]], top: int) -> list[int]:
-    """The vertex ids along the cycle of a node that is pinned nowhere, counter-clockwise.
+def loop_along(m: PlanarMap, labels: Sequence[frozenset[int]], top: int) -> list[VertexId]:
+    """The vertex ids along the unpinned cycle of a body, counter-clockwise, by its node.
 
     Raises:
         AuditError: if the labels do not form a single cycle.

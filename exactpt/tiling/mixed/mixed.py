@@ -1,11 +1,11 @@
 """The kinetic mixed pseudo-triangulation of simple polygons (paper, section 5).
 
-F1, the relative hulls of the polygons, is tiled by their geodesics, told by labels; F2,
-the rest of free space, is tiled greedily. The repairs are those of any pseudo-triangulation
-and the rules for labels (`exactpt.tiling.mixed.labels`) say which edge gives way. So the
-border between F1 and F2 moves by itself: an edge that loses its last label is a diagonal
-of F2 from then on, and one that gets a label is none any more. When a body comes or goes,
-the geodesics that change are looked for anew (`exactpt.tiling.mixed.region`).
+F1, the relative hulls of the polygons, is tiled by their geodesics, which are represented
+by labels; F2, the rest of free space, is tiled greedily. Repairs are those of any
+pseudo-triangulation; the labels (`exactpt.tiling.mixed.labels`) determine which edge is
+replaced. The border between F1 and F2 needs no rule of its own: an edge that loses its last
+label is a diagonal of F2 from then on, and one that gets a label no longer is. When a body is
+added or removed, geodesics that change are recomputed (`exactpt.tiling.mixed.labelled_region`).
 """
 
 from __future__ import annotations
@@ -18,8 +18,9 @@ from exactpt.pseudotriangulation.conflict_zone import ConflictZone
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.pseudotriangulation.region import Region
 from exactpt.tiling.greedy.flipping import FlippingRules
-from exactpt.tiling.mixed.labels import Forest, LabelledMesh
-from exactpt.tiling.mixed.region import region_left, region_met
+from exactpt.tiling.mixed.forest import Forest
+from exactpt.tiling.mixed.labelled_region import region_of_insertion, region_of_removal
+from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.mixed.static import mixed_mesh
 
 __all__ = ["MixedRules"]
@@ -42,13 +43,13 @@ class MixedRules(FlippingRules):
         """See `Rules.empty_mesh`."""
         return LabelledMesh(0, Forest(vertices))
 
-    def region_met(self, zone: ConflictZone) -> Region:
-        """See `Rules.region_met`."""
-        return region_met(self._labelled, zone.faces)
+    def region_of_insertion(self, zone: ConflictZone) -> Region:
+        """See `Rules.region_of_insertion`."""
+        return region_of_insertion(self._labelled, zone.faces)
 
-    def region_left(self, i: int) -> Region:
-        """See `Rules.region_left`."""
-        return region_left(self._labelled, i, self.certified.edges_at(i))
+    def region_of_removal(self, i: int) -> Region:
+        """See `Rules.region_of_removal`."""
+        return region_of_removal(self._labelled, i, self.certified.edges_at(i))
 
     def leave(self, i: int) -> None:
         """See `Rules.leave`."""

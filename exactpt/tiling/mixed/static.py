@@ -6,13 +6,16 @@ from collections.abc import Iterable
 from itertools import pairwise
 
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.indices import Ends
+from exactpt.kernel.budget import ask
 from exactpt.pseudotriangulation.build import build_mesh
 from exactpt.pseudotriangulation.flip import flip_until_greedy
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, SOLID, Diagonal
 from exactpt.pseudotriangulation.plane_sweep import Sweep, SweptEdge, body_edges
 from exactpt.pseudotriangulation.pointed import make_pointed
+from exactpt.tiling.mixed.forest import NO_LABEL, Forest, Label
 from exactpt.tiling.mixed.geodesics import Geodesics
-from exactpt.tiling.mixed.labels import NO_LABEL, Forest, Label, LabelledMesh
+from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.mixed.tree import TOP
 
 __all__ = ["mixed_mesh"]
@@ -40,13 +43,14 @@ def mixed_mesh(instant: PredicatesAt) -> LabelledMesh:
     return mesh
 
 
-def _geodesic_labels(instant: PredicatesAt, forest: Forest) -> dict[tuple[int, int], Label]:
+def _geodesic_labels(instant: PredicatesAt, forest: Forest) -> dict[Ends, Label]:
     """The labels by the ends of the half-edges."""
     triangulation = build_mesh(instant, Sweep(instant, body_edges(instant), triangulate=True).run())
     triangles = {h for h in triangulation.map.half_edges() if triangulation.region[h] == FREE}
     geodesics = Geodesics(instant, triangulation, triangles)
-    sets: dict[tuple[int, int], set[int]] = {}
+    sets: dict[Ends, set[int]] = {}
     for tree, nodes, chain in forest.bodies:
+        ask()
         ring = [triangulation.ring_edge[v] for v in chain[:-1]]
         for k, node in enumerate(nodes):
             part = ring[tree.low[k] : tree.high[k]]
@@ -57,9 +61,9 @@ def _geodesic_labels(instant: PredicatesAt, forest: Forest) -> dict[tuple[int, i
 
 
 def _f2_edges(
-    instant: PredicatesAt, forest: Forest, labels: dict[tuple[int, int], Label]
+    instant: PredicatesAt, forest: Forest, labels: dict[Ends, Label]
 ) -> Iterable[SweptEdge]:
-    """All labelled edges, from left to right; only what is F2 above them is to be tiled."""
+    """All labelled edges, directed from left to right; only the parts of F2 above are tiled."""
     done = set()
     for u, v in labels:
         a, b = (u, v) if instant.left_of(u, v) else (v, u)

@@ -1,10 +1,10 @@
-"""The balanced tree over the vertices of a polygon whose nodes have geodesics.
+"""The balanced tree over the vertices of a polygon; each node has a geodesic.
 
 Node (a, b), 0 <= a < b <= n, has the geodesic from vertex a to vertex b along the
-polygon; its children are (a, m) and (m, b), m in the middle, where the geodesics of the
-children are pinned to the boundary and its own is not. The leaves are the edges. Above
-the root (0, n), a loop pinned at vertex 0, stands `TOP`: the cycle that is pinned nowhere,
-the relative geodesic cycle of the polygon. The shape depends on n alone and never changes.
+polygon; its children are (a, m) and (m, b), with m in the middle, where their geodesics are
+pinned to the boundary and its own is not. The leaves are the edges. Above the root (0, n), a
+loop pinned at vertex 0, is `TOP`, the unpinned cycle: the relative geodesic cycle of the
+polygon. The shape depends on n alone and never changes.
 
 Source: the paper, section 5.1, after J. Basch et al., *Kinetic collision detection for two
 simple polygons*, CGTA 27 (2004).
@@ -27,12 +27,12 @@ class GeodesicTree:
 
     Attributes:
         size: n.
-        low, high: of each node, its interval (a, b).
-        parent: of each node; -1 of `TOP`.
-        depth: of each node; 0 of `TOP`.
-        child: of each node, the first of its two children, the next node being the other; -1
-            of `TOP` and of a leaf.
-        leaf: of each edge, its node.
+        low, high: for each node, its interval (a, b).
+        parent: for each node, its parent; -1 for `TOP`.
+        depth: for each node, its depth; 0 for `TOP`.
+        child: for each node, the first of its two children, the other one being the next node;
+            -1 for `TOP` and for a leaf.
+        leaf: for each edge, its node.
     """
 
     def __init__(self, size: int) -> None:
@@ -65,5 +65,5 @@ class GeodesicTree:
 
 @lru_cache(maxsize=256)
 def tree_of_size(size: int) -> GeodesicTree:
-    """The tree over so many vertices, made once."""
+    """The tree over this many vertices, built once and shared."""
     return GeodesicTree(size)

@@ -1,0 +1,110 @@
+// Times and contacts as they are written.
+#include "checker.hpp"
+#include "faults.hpp"
+#include "simple.hpp"
+
+namespace proof {
+
+namespace {
+
+// The piece of a body's motion that holds throughout an interval.
+std::size_t piece_in(const Body& body, const Rational& low, const Rational& high) {
+  const std::size_t i = Scene::piece(body, Time(low));
+  if (i < body.breaks.size() && body.breaks[i] < high)
+    throw Rejected("the motion of " + body.name + " changes in the interval of the time");
+  return i;
+}
+
+std::vector<Place> places(const Scene& scene, const Body& body, const Time& t) {
+  std::vector<Place> result;
+  for (int i = 0; i < body.size; ++i)
+    result.push_back(place(scene.path(body.first + i, t), t.low()));
+  return result;
+}
+
+}  // namespace
+
+Time Checker::time_of(const TimeText& text) const {
+  if (text.low > text.high) throw Rejected("the interval of the time is reversed");
+  Poly<Integer> f = text.coefficients;
+  trim(f);
+  if (!text.vertices.empty()) {
+    check_vertices(text.vertices);
+    std::vector<const Path*> paths;
+    for (const int v : text.vertices)
+      paths.push_back(&scene_.path(v, piece_in(scene_.body(v), text.low, text.high)));
+    f = paths.size() == 3 ? orientation(*paths[0], *paths[1], *paths[2])
+                          : paths[1]->x * paths[0]->w - paths[0]->x * paths[1]->w;
+  } else if (text.coefficients.empty() && text.low == text.high) {
+    return Time(text.low);
+  }
+  if (f.empty()) throw Rejected("the polynomial of the time is zero, or missing");
+  const std::optional<Time> time = Time::root(f, text.low, text.high);
+  if (!time) throw Rejected("the polynomial of the time has not exactly one root in the interval");
+  return *time;
+}
+
+void Checker::check_contact(const ContactText& contact, const Time& t) {
+  using Kind = ContactText::Kind;
+  const auto& [a, b] = contact.edge;
+  if (contact.kind == Kind::inside || contact.kind == Kind::crossing)
+    throw Rejected("a contact of this kind is at the start alone");
+  check_vertices({contact.vertex, a});
+  if (contact.kind == Kind::vertex) {
+    if (contact.vertex == a) throw Rejected("a contact of a vertex with itself");
+    if (!predicates_.coincide(contact.vertex, a, t)) throw Rejected("there is no contact");
+    return;
+  }
+  check_vertices({b});
+  if (!scene_.is_body_edge(a, b) || contact.vertex == a || contact.vertex == b)
+    throw Rejected("a contact with something that is no edge of a body, or with an end");
+  if (!predicates_.is_on(contact.vertex, a, b, t)) throw Rejected("there is no contact");
+}
+
+void Checker::check_contact_at_start(const ContactText& contact) {
+  using Kind = ContactText::Kind;
+  const Time t = time_of(contact.time);
+  const auto& [c, d] = contact.edge;
+  if (t.compare(scene_.start()) != 0) throw Rejected("there is no map");
+  if (contact.kind == Kind::edge || contact.kind == Kind::vertex) return check_contact(contact, t);
+  const auto at = [&](int v) { return place(scene_.path(v, t), t.low()); };
+  check_vertices({contact.vertex});
+  if (contact.kind == Kind::inside) {
+    const auto body = static_cast<std::size_t>(c);
+    if (body >= scene_.bodies().size() || !scene_.bodies()[body].is_polygon ||
+        scene_.body_of(contact.vertex) == c)
+      throw Rejected("a contact with something that has no inside, or with its own vertex");
+    const std::vector<Place> polygon = places(scene_, scene_.bodies()[body], t);
+    if (!is_simple(polygon) || !is_in(polygon, at(contact.vertex)))
+      throw Rejected("there is no contact");
+    return;
+  }
+  check_vertices({contact.end, c, d});
+  if (!scene_.is_body_edge(contact.vertex, contact.end) || !scene_.is_body_edge(c, d) ||
+      scene_.body_of(contact.vertex) == scene_.body_of(c))
+    throw Rejected("a contact of edges that are not of two bodies");
+  if (!do_meet(at(contact.vertex), at(contact.end), at(c), at(d)))
+    throw Rejected("there is no contact");
+}
+
+std::string Checker::conclusion() const {
+  if (!text_.contact)
+    return "no contact from t = " + text_.start.get_str() + " to t = " + text_.end.get_str();
+  using Kind = ContactText::Kind;
+  const ContactText& contact = *text_.contact;
+  const auto& [a, b] = contact.edge;
+  const auto edge = [&](int u, int v) {
+    return "the edge " + scene_.in_words(u) + " - " + scene_.in_words(v);
+  };
+  std::string what = contact.kind == Kind::crossing ? edge(contact.vertex, contact.end)
+                                                    : scene_.in_words(contact.vertex);
+  what += " with ";
+  if (contact.kind == Kind::vertex) what += scene_.in_words(a);
+  if (contact.kind == Kind::edge || contact.kind == Kind::crossing) what += edge(a, b);
+  if (contact.kind == Kind::inside)
+    what += "the inside of " + scene_.bodies()[static_cast<std::size_t>(a)].name;
+  return "no contact before T = " + time_of(contact.time).in_words() + "; contact of " + what +
+         " at T";
+}
+
+}  // namespace proof

@@ -1,0 +1,312 @@
+#include "reading.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "faults.hpp"
+
+namespace proof {
+
+namespace {
+
+using Rationals = Poly<Rational>;
+using Position = std::pair<Rationals, Rationals>;
+
+constexpr std::size_t most_digits = 10'000;
+constexpr long highest_exponent = 100'000;
+
+const Json* member(const Json& json, std::string_view key) {
+  const Json* found = json.find(key);
+  if (!found) throw NoProof("the scene lacks the key " + std::string(key));
+  return found;
+}
+
+std::size_t digits(std::string_view text) {
+  const std::size_t end = text.find_first_not_of("0123456789");
+  return end == std::string_view::npos ? text.size() : end;
+}
+
+// "1.25", "-3e-2"; nothing if it is not.
+std::optional<Rational> decimal(std::string_view text) {
+  const bool negative = !text.empty() && text.front() == '-';
+  if (!text.empty() && (negative || text.front() == '+')) text.remove_prefix(1);
+  const std::size_t whole = digits(text);
+  std::string figures(text.substr(0, whole));
+  text.remove_prefix(whole);
+  long exponent = 0;
+  if (!text.empty() && text.front() == '.') {
+    const std::size_t part = digits(text.substr(1));
+    figures += text.substr(1, part);
+    exponent = -static_cast<long>(part);
+    text.remove_prefix(part + 1);
+  }
+  if (figures.empty()) return std::nullopt;
+  if (!text.empty()) {
+    if (text.front() != 'e' && text.front() != 'E') return std::nullopt;
+    text.remove_prefix(1);
+    const bool small = !text.empty() && text.front() == '-';
+    if (!text.empty() && (small || text.front() == '+')) text.remove_prefix(1);
+    if (text.empty() || text.size() > 9 || digits(text) != text.size()) return std::nullopt;
+    const long written = std::stol(std::string(text));
+    if (written > highest_exponent) return std::nullopt;
+    exponent += small ? -written : written;
+  }
+  Integer power;
+  mpz_ui_pow_ui(power.get_mpz_t(), 10, static_cast<unsigned long>(std::labs(exponent)));
+  const Integer n(figures, 10);
+  Rational q = exponent < 0 ? Rational(n, power) : Rational(Integer(n * power));
+  q.canonicalize();
+  return negative ? Rational(-q) : q;
+}
+
+Rationals polynomial(const Json* json) {
+  if (!json) return {};
+  Rationals f;
+  for (const Json& c : list(json)) f.push_back(exact_number(&c));
+  trim(f);
+  return f;
+}
+
+Rationals constant(const Rational& c) {
+  Rationals f{c};
+  trim(f);
+  return f;
+}
+
+Rationals linear(const Rational& from, const Rational& to, const Rational& a, const Rational& b) {
+  const Rational slope = (b - a) / (to - from);
+  Rationals f{a - slope * from, slope};
+  trim(f);
+  return f;
+}
+
+Path make_path(const Rationals& x, const Rationals& y, const Rationals& w) {
+  Integer denominator = 1;
+  for (const Rationals* f : {&x, &y, &w})
+    for (const Rational& c : *f) denominator = lcm(denominator, c.get_den());
+  Path path;
+  const auto scaled = [&](const Rationals& f) {
+    Poly<Integer> result;
+    for (const Rational& c : f) result.push_back(c.get_num() * (denominator / c.get_den()));
+    return result;
+  };
+  path.x = scaled(x), path.y = scaled(y), path.w = scaled(w);
+  path.is_polynomial = w.size() == 1;
+  const Rational unit = w.front();  // positive: w = 1, or 1 + h^2
+  const auto near = [&](const Rationals& f) {
+    Poly<Interval> result;
+    for (const Rational& c : f) result.push_back(enclosure(Rational(c / unit)));
+    return result;
+  };
+  path.near_x = near(x), path.near_y = near(y), path.near_w = near(w);
+  return path;
+}
+
+// A motion by one formula: of a rest position, the path.
+struct Motion {
+  Rationals a, b, c, d;  // the matrix
+  Rationals x, y;        // added then
+  Rationals w;           // all is divided by it
+
+  Path path(const Position& p) const {
+    return make_path(a * p.first + b * p.second + x, c * p.first + d * p.second + y, w);
+  }
+};
+
+Motion translation(const Json* json) {
+  const Rationals one = constant(1);
+  if (!json) return {one, {}, {}, one, {}, {}, one};
+  allow_keys(*json, {"x", "y"});
+  return {one, {}, {}, one, polynomial(json->find("x")), polynomial(json->find("y")), one};
+}
+
+Motion rotation(const Json& json) {
+  allow_keys(json, {"pivot", "half_turn", "x", "y"});
+  Rationals px, py;
+  if (const Json* pivot = json.find("pivot")) {
+    const std::vector<Json>& both = list(pivot);
+    if (both.size() != 2) throw NoProof("the scene has a pivot that is no point");
+    px = constant(exact_number(&both[0])), py = constant(exact_number(&both[1]));
+  }
+  const Rationals h = polynomial(member(json, "half_turn")), one = constant(1);
+  const Rationals w = one + h * h, cosine = one - h * h, sine = h + h;
+  const Rationals x = polynomial(json.find("x")), y = polynomial(json.find("y"));
+  const Rationals zero;
+  return {cosine, zero - sine, sine, cosine,
+          w * (px + x) - cosine * px + sine * py, w * (py + y) - sine * px - cosine * py, w};
+}
+
+Motion affine(const Json& json) {
+  allow_keys(json, {"matrix", "x", "y"});
+  std::vector<Rationals> entries;
+  for (const Json& row : list(member(json, "matrix"))) {
+    if (list(&row).size() != 2) throw NoProof("the scene has a matrix that is not 2 by 2");
+    for (const Json& entry : list(&row)) entries.push_back(polynomial(&entry));
+  }
+  if (entries.size() != 4) throw NoProof("the scene has a matrix that is not 2 by 2");
+  return {entries[0], entries[1], entries[2], entries[3],
+          polynomial(json.find("x")), polynomial(json.find("y")), constant(1)};
+}
+
+Motion simple_motion(const Json* json) {
+  if (json && json->kind == Json::Kind::object) {
+    for (const auto& [name, make] : {std::pair("rigid", rotation), std::pair("affine", affine)}) {
+      if (const Json* found = json->find(name)) {
+        allow_keys(*json, {name});
+        return make(*found);
+      }
+    }
+  }
+  return translation(json);
+}
+
+// Something that changes at breakpoints.
+template <class T>
+struct Pieces {
+  std::vector<Rational> until;
+  std::vector<T> all;  // one more
+
+  const T& just_before(const Rational* end) const {  // or the last one
+    std::size_t i = 0;
+    while (i < until.size() && !(end && *end <= until[i])) ++i;
+    return all[i];
+  }
+};
+
+Pieces<Motion> motions(const Json* json) {
+  if (!json || json->kind != Json::Kind::object || !json->find("pieces"))
+    return {{}, {simple_motion(json)}};
+  allow_keys(*json, {"pieces"});
+  Pieces<Motion> pieces;
+  const std::vector<Json>& rows = list(json->find("pieces"));
+  for (const Json& row : rows) {
+    allow_keys(row, {"until", "motion"});
+    if ((row.find("until") == nullptr) != (&row == &rows.back()))
+      throw NoProof("the scene has pieces that do not end where they should");
+    if (const Json* until = row.find("until")) pieces.until.push_back(exact_number(until));
+    if (pieces.until.size() > 1 && *(pieces.until.end() - 2) >= pieces.until.back())
+      throw NoProof("the scene has pieces that go back in time");
+    pieces.all.push_back(simple_motion(member(row, "motion")));
+  }
+  return pieces;
+}
+
+using Shape = std::vector<Position>;
+
+std::vector<Place> points(const Json* json) {
+  std::vector<Place> result;
+  for (const Json& point : list(json)) {
+    if (list(&point).size() != 2) throw NoProof("the scene has a vertex without two coordinates");
+    result.emplace_back(exact_number(&point.items[0]), exact_number(&point.items[1]));
+  }
+  return result;
+}
+
+Pieces<Shape> keyframes(const Json& json) {
+  std::vector<Rational> times;
+  std::vector<std::vector<Place>> frames;
+  for (const Json& frame : list(&json)) {
+    allow_keys(frame, {"t", "vertices"});
+    times.push_back(exact_number(member(frame, "t")));
+    frames.push_back(points(member(frame, "vertices")));
+    if (frames.back().size() != frames.front().size())
+      throw NoProof("the scene has keyframes of different sizes");
+  }
+  if (frames.empty()) throw NoProof("the scene has a body without keyframes");
+  Pieces<Shape> pieces;
+  pieces.until = times;
+  for (std::size_t i = 0; i <= frames.size(); ++i) {
+    Shape shape;
+    for (std::size_t k = 0; k < frames.front().size(); ++k) {
+      const Place& to = frames[std::min(i, frames.size() - 1)][k];
+      if (i == 0 || i == frames.size()) {
+        shape.emplace_back(constant(to.first), constant(to.second));
+        continue;
+      }
+      if (times[i - 1] >= times[i]) throw NoProof("the scene has keyframes that go back in time");
+      const Place& from = frames[i - 1][k];
+      shape.emplace_back(linear(times[i - 1], times[i], from.first, to.first),
+                         linear(times[i - 1], times[i], from.second, to.second));
+    }
+    pieces.all.push_back(std::move(shape));
+  }
+  return pieces;
+}
+
+Pieces<Shape> shapes(const Json& json) {
+  const Json* frames = json.find("keyframes");
+  const Json* rows = json.find("vertices");
+  if ((frames == nullptr) == (rows == nullptr))
+    throw NoProof("the scene has a body without vertices, or with keyframes besides");
+  if (frames) return keyframes(*frames);
+  Shape shape;
+  for (const Json& row : list(rows)) {
+    if (row.kind == Json::Kind::object) {
+      allow_keys(row, {"x", "y"});
+      shape.emplace_back(polynomial(row.find("x")), polynomial(row.find("y")));
+    } else {
+      if (list(&row).size() != 2) throw NoProof("the scene has a vertex without two coordinates");
+      shape.emplace_back(constant(exact_number(&row.items[0])),
+                         constant(exact_number(&row.items[1])));
+    }
+  }
+  return {{}, {shape}};
+}
+
+}  // namespace
+
+Rational exact_number(const Json* json) {
+  if (json->kind != Json::Kind::number && json->kind != Json::Kind::text)
+    throw NoProof("the scene has something that is not a number");
+  std::string_view text = json->text;
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  if (text.size() <= 3 * most_digits) {
+    if (is_fraction(text)) return fraction(text);
+    if (const auto value = decimal(text)) return *value;
+  }
+  throw NoProof("the scene has something that is not a number: " +
+                std::string(text.substr(0, 40)));
+}
+
+const std::vector<Json>& list(const Json* json) {
+  if (json->kind != Json::Kind::list) throw NoProof("the scene has something that is not a list");
+  return json->items;
+}
+
+void allow_keys(const Json& json, std::initializer_list<std::string_view> keys) {
+  if (json.kind != Json::Kind::object) throw NoProof("the scene has something that is no object");
+  for (const auto& [name, value] : json.members)
+    if (std::find(keys.begin(), keys.end(), name) == keys.end())
+      throw NoProof("the scene has an unknown key: " + name);
+}
+
+Body read_body(const Json& json, int first) {
+  allow_keys(json, {"name", "vertices", "keyframes", "motion", "closed"});
+  Body body;
+  const Json* name = member(json, "name");
+  if (name->kind != Json::Kind::text) throw NoProof("the scene has a name that is no text");
+  body.name = name->text;
+  body.first = first;
+  const Json* closed = json.find("closed");
+  if (closed && closed->kind != Json::Kind::boolean)
+    throw NoProof("the scene has a body that is neither closed nor open");
+  const Pieces<Shape> shape = shapes(json);
+  const Pieces<Motion> motion = motions(json.find("motion"));
+  if (shape.all.front().empty()) throw NoProof("the scene has a body without vertices");
+  body.size = static_cast<int>(shape.all.front().size());
+  body.is_polygon = body.size > 2 && (!closed || closed->truth);
+  body.breaks = shape.until;
+  body.breaks.insert(body.breaks.end(), motion.until.begin(), motion.until.end());
+  std::sort(body.breaks.begin(), body.breaks.end());
+  body.breaks.erase(std::unique(body.breaks.begin(), body.breaks.end()), body.breaks.end());
+  for (std::size_t i = 0; i <= body.breaks.size(); ++i) {
+    const Rational* end = i < body.breaks.size() ? &body.breaks[i] : nullptr;
+    std::vector<Path> paths;
+    const Motion& here = motion.just_before(end);
+    for (const Position& p : shape.just_before(end)) paths.push_back(here.path(p));
+    body.pieces.push_back(std::move(paths));
+  }
+  return body;
+}
+
+}  // namespace proof

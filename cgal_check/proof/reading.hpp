@@ -1,0 +1,20 @@
+// Bodies from JSON.
+#pragma once
+
+#include "json.hpp"
+#include "scene.hpp"
+
+namespace proof {
+
+// A number, or a text that is one. Throws NoProof, as do the others.
+Rational exact_number(const Json* json);
+
+const std::vector<Json>& list(const Json* json);
+
+// The numbering of its vertices begins at `first`.
+Body read_body(const Json& json, int first);
+
+// The members of an object, which must be among the keys. Throws NoProof.
+void allow_keys(const Json& json, std::initializer_list<std::string_view> keys);
+
+}  // namespace proof

@@ -1,0 +1,36 @@
+// Real roots by CGAL's univariate algebraic kernel, for what the signs of coefficients leave
+// open.
+#pragma once
+
+#include <memory>
+
+#include "polynomial.hpp"
+
+namespace proof {
+
+class Root {
+ public:
+  // The only root in (low, high) of a square-free polynomial that has signs there.
+  Root(const Poly<Integer>& f, const Rational& low, const Rational& high);
+
+  int compare(const Root& other) const;
+  int sign_of(const Poly<Integer>& g) const;
+
+ private:
+  struct Real;
+  std::shared_ptr<const Real> real_;
+  friend bool has_root(const Poly<Integer>&, const Rational&, const Rational&, const Root*,
+                       const Root*);
+};
+
+Poly<Integer> square_free(const Poly<Integer>& f);
+
+// The number of distinct real roots in the closed interval.
+std::size_t count_roots(const Poly<Integer>& f, const Rational& low, const Rational& high);
+
+// Whether f, not 0, has a root r with low <= r <= high that is more than `after` and less
+// than `before`, if these are given.
+bool has_root(const Poly<Integer>& f, const Rational& low, const Rational& high,
+              const Root* after, const Root* before);
+
+}  // namespace proof

@@ -1,0 +1,178 @@
+#include "scene.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "faults.hpp"
+#include "reading.hpp"
+#include "simple.hpp"
+
+namespace proof {
+
+namespace {
+
+// Whether the quotient of two polynomials is constant.
+bool is_constant(const Poly<Integer>& f, const Poly<Integer>& g) {
+  if (f.empty()) return true;
+  if (f.size() != g.size()) return false;
+  for (std::size_t i = 0; i < f.size(); ++i)
+    if (f[i] * g.back() != g[i] * f.back()) return false;
+  return true;
+}
+
+Poly<Integer> square(const Poly<Integer>& f) { return f * f; }
+
+// Whether the squared length of ab, and the dot and cross products of ab and bc, are constant;
+// without c, the first alone.
+bool keeps_corner(const Path& a, const Path& b, const Path* c) {
+  const Poly<Integer> weight = square(b.w);
+  if (!is_constant(dot_product(a, b, a), square(a.w) * weight)) return false;
+  return !c || (is_constant(dot_product(a, b, *c), a.w * c->w * weight) &&
+                is_constant(orientation(a, b, *c), a.w * b.w * c->w));
+}
+
+// Whether ab is a constant vector, of polynomial paths.
+bool keeps_vector(const Path& a, const Path& b) {
+  return a.is_polynomial && b.is_polynomial && (a.x * b.w - b.x * a.w).size() <= 1 &&
+         (a.y * b.w - b.y * a.w).size() <= 1;
+}
+
+bool is_rigid(const Body& body, const std::vector<Path>& paths) {
+  const auto path = [&](int i) -> const Path& {
+    return paths[static_cast<std::size_t>(i % body.size)];
+  };
+  bool is_translated = true;
+  for (int i = 0; i < body.edges() && is_translated; ++i)
+    is_translated = keeps_vector(path(i), path(i + 1));
+  if (is_translated) return true;
+  for (int i = 0; i < body.edges(); ++i) {
+    const bool has_next = body.is_polygon || i + 2 < body.size;
+    if (!keeps_corner(path(i), path(i + 1), has_next ? &path(i + 2) : nullptr)) return false;
+  }
+  return true;
+}
+
+bool is_rigid(const Body& body, const Rational& start, const Rational& end) {
+  for (std::size_t i = 0; i < body.pieces.size(); ++i) {
+    const bool is_over = i < body.breaks.size() && body.breaks[i] <= start;
+    const bool is_later = i > 0 && body.breaks[i - 1] >= end;
+    if (!is_over && !is_later && !is_rigid(body, body.pieces[i])) return false;
+  }
+  return true;
+}
+
+std::vector<Place> places(const Body& body, const Rational& t) {
+  std::vector<Place> result;
+  const std::size_t piece = Scene::piece(body, Time(t));
+  for (const Path& path : body.pieces[piece]) result.push_back(place(path, t));
+  return result;
+}
+
+void check_jumps(const Body& body) {
+  for (std::size_t i = 0; i < body.breaks.size(); ++i)
+    for (std::size_t k = 0; k < body.pieces[i].size(); ++k)
+      if (place(body.pieces[i][k], body.breaks[i]) != place(body.pieces[i + 1][k], body.breaks[i]))
+        throw Rejected("vertex " + std::to_string(k) + " of the body " + body.name +
+                       " jumps at t = " + body.breaks[i].get_str());
+}
+
+int sign_of_area(const std::vector<Place>& polygon) {
+  Rational sum = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Place& p = polygon[i];
+    const Place& q = polygon[(i + 1) % polygon.size()];
+    sum += p.first * q.second - p.second * q.first;
+  }
+  return sign(sum);
+}
+
+}  // namespace
+
+Place place(const Path& path, const Rational& t) {
+  const auto at = [&](const Poly<Integer>& f) {
+    Rational sum = 0;
+    for (std::size_t i = f.size(); i-- > 0;) sum = sum * t + Rational(f[i]);
+    return sum;
+  };
+  const Rational w = at(path.w);
+  return {at(path.x) / w, at(path.y) / w};
+}
+
+Poly<Integer> orientation(const Path& a, const Path& b, const Path& c) {
+  return a.w * (b.x * c.y - b.y * c.x) - b.w * (a.x * c.y - a.y * c.x) +
+         c.w * (a.x * b.y - a.y * b.x);
+}
+
+Poly<Integer> dot_product(const Path& a, const Path& v, const Path& b) {
+  return (a.x * v.w - v.x * a.w) * (b.x * v.w - v.x * b.w) +
+         (a.y * v.w - v.y * a.w) * (b.y * v.w - v.y * b.w);
+}
+
+Scene::Scene(const std::string& text) {
+  const Json json = parse_json(text);
+  allow_keys(json, {"exactpt", "time", "bodies"});
+  const Json* version = json.find("exactpt");
+  const Json* time = json.find("time");
+  const Json* bodies = json.find("bodies");
+  if (!version || !time || !bodies) throw NoProof("the scene lacks a key");
+  if (version->kind != Json::Kind::number || exact_number(version) != 1)
+    throw NoProof("the scene is of another version");
+  if (list(time).size() != 2) throw NoProof("the scene has no time span");
+  start_ = exact_number(&time->items[0]);
+  end_ = exact_number(&time->items[1]);
+  if (start_ >= end_) throw NoProof("the scene has an empty time span");
+  std::set<std::string> names;
+  for (const Json& body : list(bodies)) {
+    bodies_.push_back(read_body(body, size()));
+    if (!names.insert(bodies_.back().name).second) throw NoProof("the scene has a name twice");
+    body_of_.resize(body_of_.size() + static_cast<std::size_t>(bodies_.back().size),
+                    static_cast<int>(bodies_.size()) - 1);
+  }
+}
+
+void Scene::examine(const Rational& end) {
+  for (Body& body : bodies_) {
+    check_jumps(body);
+    body.is_rigid = proof::is_rigid(body, start_, end);
+    if (!body.is_polygon) continue;
+    const std::vector<Place> polygon = places(body, start_);
+    const int area = sign_of_area(polygon);
+    if (area == 0) throw Rejected("the body " + body.name + " has no area at the start");
+    body.is_counter_clockwise = area > 0;
+    if (body.is_rigid && !is_simple(polygon))
+      throw Rejected("the body " + body.name + " is not simple at the start");
+  }
+}
+
+bool Scene::is_body_edge(int u, int v) const {
+  if (body_of(u) != body_of(v)) return false;
+  const int apart = std::abs(u - v);
+  return apart == 1 || (body(u).is_polygon && apart == body(u).size - 1);
+}
+
+bool Scene::are_rigid(int u, int v, int w) const {
+  return body_of(u) == body_of(v) && body_of(v) == body_of(w) && body(v).is_rigid;
+}
+
+std::string Scene::in_words(int v) const {
+  return body(v).name + " vertex " + std::to_string(v - body(v).first);
+}
+
+int Scene::around(int v, int step) const {
+  const Body& b = body(v);
+  const int turned = b.is_counter_clockwise ? step : -step;
+  return b.first + (v - b.first + turned + b.size) % b.size;
+}
+
+std::size_t Scene::piece(const Body& body, const Time& t) {
+  std::size_t i = 0;
+  while (i < body.breaks.size() && t.compare(body.breaks[i]) >= 0) ++i;
+  return i;
+}
+
+const Path& Scene::path(int v, std::size_t piece) const {
+  const Body& b = body(v);
+  return b.pieces[piece][static_cast<std::size_t>(v - b.first)];
+}
+
+}  // namespace proof

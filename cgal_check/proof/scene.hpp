@@ -1,0 +1,78 @@
+// Scenes, read from their files, and where their vertices are.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "polynomial.hpp"
+#include "time.hpp"
+
+namespace proof {
+
+// The path of a vertex in one piece of its motion: it is at (x / w, y / w), where w > 0.
+struct Path {
+  Poly<Integer> x, y, w;
+  Poly<Interval> near_x, near_y, near_w;  // the same, all three times one positive number
+  bool is_polynomial = false;             // w is constant, and near_w is 1
+};
+
+using Place = std::pair<Rational, Rational>;
+
+Place place(const Path& path, const Rational& t);
+
+// Polynomials in time, with the sign of the orientation of three vertices, and of the dot
+// product of a - v and b - v.
+Poly<Integer> orientation(const Path& a, const Path& b, const Path& c);
+Poly<Integer> dot_product(const Path& a, const Path& v, const Path& b);
+
+struct Body {
+  std::string name;
+  int first = 0;  // the number of its first vertex in the scene
+  int size = 0;
+  bool is_polygon = false;
+  bool is_rigid = false;            // during the time span of the proof
+  bool is_counter_clockwise = true; // of a polygon, at the start
+  std::vector<Rational> breaks;     // times at which the formulas change
+  std::vector<std::vector<Path>> pieces;  // one more than breaks; each with all vertices
+
+  int edges() const { return is_polygon ? size : size - 1; }
+};
+
+class Scene {
+ public:
+  // Of the text of a scene file. Throws NoProof.
+  explicit Scene(const std::string& text);
+
+  const Rational& start() const { return start_; }
+  const Rational& end() const { return end_; }
+  const std::vector<Body>& bodies() const { return bodies_; }
+  int size() const { return static_cast<int>(body_of_.size()); }
+
+  // What is true of its bodies up to a time. Throws Rejected.
+  void examine(const Rational& end);
+
+  int body_of(int v) const { return body_of_[static_cast<std::size_t>(v)]; }
+  const Body& body(int v) const { return bodies_[static_cast<std::size_t>(body_of(v))]; }
+  bool is_body_edge(int u, int v) const;
+  bool are_rigid(int u, int v, int w) const;  // all of one rigid body
+  std::string in_words(int v) const;          // "box vertex 1"
+
+  // The vertices of a polygon before and after a vertex, counter-clockwise.
+  int before(int v) const { return around(v, -1); }
+  int after(int v) const { return around(v, 1); }
+
+  // Which piece holds just after a time, or at it.
+  static std::size_t piece(const Body& body, const Time& t);
+  const Path& path(int v, std::size_t piece) const;
+  const Path& path(int v, const Time& t) const { return path(v, piece(body(v), t)); }
+
+ private:
+  int around(int v, int step) const;
+
+  Rational start_, end_;
+  std::vector<Body> bodies_;
+  std::vector<int> body_of_;
+};
+
+}  // namespace proof

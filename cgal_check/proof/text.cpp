@@ -1,0 +1,213 @@
+#include "text.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "faults.hpp"
+
+namespace proof {
+
+namespace {
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+// A piece of the file, made fit to stand in a one-line message.
+std::string shown(std::string_view text) {
+  constexpr std::size_t limit = 40;
+  std::string result;
+  for (const char c : text.substr(0, limit)) result.push_back(c >= ' ' && c <= '~' ? c : '?');
+  return text.size() > limit ? result + "..." : result;
+}
+
+// The words of a line.
+class Words {
+ public:
+  Words(std::size_t number, std::string_view line) : number_(number) {
+    for (std::size_t i = 0; i < line.size();) {
+      const std::size_t begin = i;
+      while (i < line.size() && !is_space(line[i])) ++i;
+      if (i > begin) words_.push_back(line.substr(begin, i - begin));
+      while (i < line.size() && is_space(line[i])) ++i;
+    }
+  }
+
+  std::size_t number() const { return number_; }
+  bool at_end() const { return next_ == words_.size(); }
+  std::string_view look() const { return at_end() ? std::string_view{} : words_[next_]; }
+
+  [[noreturn]] void fault(const std::string& why) const {
+    throw NoProof("line " + std::to_string(number_) + ": " + why);
+  }
+
+  std::string_view word() {
+    if (at_end()) fault("the line is not complete");
+    return words_[next_++];
+  }
+
+  bool accept(std::string_view expected) {
+    if (look() != expected) return false;
+    ++next_;
+    return true;
+  }
+
+  void end() const {
+    if (!at_end()) fault("too many words: " + shown(look()));
+  }
+
+  Rational rational() {
+    const std::string_view text = word();
+    if (!is_fraction(text)) fault("not a number: " + shown(text));
+    return fraction(text);
+  }
+
+  int index() {
+    const std::string_view text = word();
+    if (text.size() > 9 || text.front() == '-' || !is_integer(text))
+      fault("not the number of a vertex or a body: " + shown(text));
+    return std::stoi(std::string(text));
+  }
+
+  Edge edge() {
+    const int u = index();
+    return {u, index()};
+  }
+
+ private:
+  std::size_t number_;
+  std::vector<std::string_view> words_;
+  std::size_t next_ = 0;
+};
+
+TimeText read_time(Words& words) {
+  TimeText time;
+  time.low = words.rational();
+  time.high = words.rational();
+  if (words.accept("@")) {
+    while (time.vertices.size() < 3 && !words.at_end() && is_integer(words.look()))
+      time.vertices.push_back(words.index());
+    if (time.vertices.size() < 2) words.fault("a time is named by two or three vertices");
+    return time;
+  }
+  while (!words.at_end() && is_integer(words.look()))
+    time.coefficients.emplace_back(std::string(words.word()), 10);
+  return time;
+}
+
+EventText read_event(Words& words) {
+  EventText event{words.number(), read_time(words), {}, {}, {}};
+  while (!words.at_end()) {
+    if (words.accept("-")) {
+      event.removed.push_back(words.edge());
+    } else if (words.accept("=")) {
+      event.renewed.push_back(words.edge());
+    } else if (words.accept("+")) {
+      const Edge edge = words.edge();
+      const Edge after = words.edge();
+      event.added.push_back({edge.first, edge.second, after.first, after.second});
+    } else {
+      words.fault("not an item: " + shown(words.look()));
+    }
+  }
+  return event;
+}
+
+ContactText read_contact(Words& words) {
+  using Kind = ContactText::Kind;
+  ContactText contact{Kind::vertex, read_time(words), -1, {-1, -1}, -1};
+  if (words.accept("edge")) {
+    contact.kind = Kind::crossing;
+    contact.vertex = words.index();
+    contact.end = words.index();
+    if (!words.accept("edge")) words.fault("an edge is in contact with an edge");
+    contact.edge = words.edge();
+  } else if (words.accept("vertex")) {
+    contact.vertex = words.index();
+    if (words.accept("edge")) {
+      contact.kind = Kind::edge;
+      contact.edge = words.edge();
+    } else if (words.accept("inside")) {
+      contact.kind = Kind::inside;
+      contact.edge.first = words.index();
+    } else if (words.accept("vertex")) {
+      contact.edge.first = words.index();
+    } else {
+      words.fault("not a contact: " + shown(words.look()));
+    }
+  } else {
+    words.fault("not a contact: " + shown(words.look()));
+  }
+  return contact;
+}
+
+bool is_utf8(const std::string& bytes) {
+  for (std::size_t i = 0; i < bytes.size();) {
+    const auto c = static_cast<unsigned char>(bytes[i]);
+    const int more = c < 0x80 ? 0 : c >= 0xc2 && c < 0xe0 ? 1 : c >= 0xe0 && c < 0xf0 ? 2
+                     : c >= 0xf0 && c < 0xf5 ? 3 : -1;
+    if (more < 0) return false;
+    for (int k = 0; k < more; ++k)
+      if (++i == bytes.size() || (static_cast<unsigned char>(bytes[i]) & 0xc0) != 0x80)
+        return false;
+    ++i;
+  }
+  return true;
+}
+
+// The lines that are neither empty nor remarks.
+std::vector<Words> lines(const std::string& bytes) {
+  std::vector<Words> result;
+  std::size_t number = 1;
+  for (std::size_t i = 0; i < bytes.size(); ++number) {
+    const std::size_t end = std::min(bytes.find('\n', i), bytes.size());
+    const std::string_view line = std::string_view(bytes).substr(i, end - i);
+    Words words(number, line);
+    if (!words.at_end() && line.front() != '#') result.push_back(std::move(words));
+    i = end + 1;
+  }
+  return result;
+}
+
+void expect(Words& words, std::initializer_list<std::string_view> expected) {
+  for (const std::string_view word : expected)
+    if (!words.accept(word)) words.fault("expected '" + std::string(word) + "'");
+}
+
+}  // namespace
+
+ProofText parse_proof(const std::string& bytes) {
+  std::vector<Words> all = lines(bytes);
+  if (all.empty() || !is_utf8(bytes)) throw NoProof("the file is no proof");
+  if (!all[0].accept("exactpt-proof") || !all[0].accept("1") || !all[0].at_end())
+    throw NoProof("the file is no proof: it does not begin with 'exactpt-proof 1'");
+  if (all.size() < 4) throw NoProof("the proof is not complete");
+  ProofText proof;
+  expect(all[1], {"scene", "sha256"});
+  proof.hash = all[1].word();
+  expect(all[2], {"span"});
+  proof.span_line = all[2].number();
+  proof.start = all[2].rational();
+  proof.end = all[2].rational();
+  for (std::size_t i = 3; i < all.size(); ++i) {
+    Words& words = all[i];
+    const bool is_last = i + 1 == all.size();
+    proof.last_line = words.number();
+    if (words.accept("none") || words.look() == "contact") {
+      if (!is_last) words.fault("nothing follows a contact or 'none'");
+      if (words.accept("contact")) proof.contact = read_contact(words);
+    } else if (is_last) {
+      words.fault("the last line is neither a contact nor 'none'");
+    } else if (words.accept("event")) {
+      proof.events.push_back(read_event(words));
+    } else if (words.accept("face") || words.accept("inside") || words.accept("outer")) {
+      if (!proof.events.empty()) words.fault("faces come before events");
+      proof.faces.push_back({words.number(), {}});
+      while (!words.at_end()) proof.faces.back().vertices.push_back(words.index());
+    } else {
+      words.fault("not a line of a proof: " + shown(words.look()));
+    }
+  }
+  for (const Words& words : all) words.end();
+  return proof;
+}
+
+}  // namespace proof

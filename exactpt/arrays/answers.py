@@ -1,0 +1,62 @@
+"""Answers, written into the arrays of `Contacts`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from exactpt.arrays.contacts import KINDS, Contacts
+from exactpt.kernel.doubles import Floats, Indices
+from exactpt.motion.incidence import Touch
+
+if TYPE_CHECKING:
+    from exactpt.kernel.algebraic import AlgebraicNumber
+
+__all__ = ["record", "record_edges", "record_overlaps"]
+
+
+def record_edges(
+    contacts: Contacts, pairs: Indices, low: Floats, high: Floats,
+    body: Indices | int = 0, vertex: Indices | int = 0, edge: Indices | int = 0,
+) -> None:  # fmt: skip
+    """Contacts of one vertex with the inside of one edge, found by a filter."""
+    contacts.found[pairs] = True
+    contacts.kind[pairs] = KINDS.index("vertex-edge")
+    contacts.low[pairs] = low
+    contacts.high[pairs] = high
+    contacts.body[pairs] = body
+    contacts.vertex[pairs] = vertex
+    contacts.edge[pairs] = edge
+
+
+def record_overlaps(contacts: Contacts, pairs: Indices, start: Floats) -> None:
+    """Bodies that overlap at the start, without an incidence."""
+    contacts.found[pairs] = True
+    contacts.kind[pairs] = KINDS.index("initial")
+    contacts.low[pairs] = start
+    contacts.high[pairs] = start
+
+
+def record(
+    contacts: Contacts, i: int, time: AlgebraicNumber | None, touches: Sequence[Touch],
+    *, initial: bool,
+) -> None:  # fmt: skip
+    """A pair decided exactly; no contact if the time is None."""
+    contacts.exact[i] = True
+    if time is None:
+        return
+    contacts.found[i] = True
+    contacts.low[i], contacts.high[i] = time.enclosure()
+    if initial:
+        kind = "initial"
+    elif all(touch.body == touch.other for touch in touches):
+        kind = "self"
+    elif any(touch.edge >= 0 for touch in touches if touch.body != touch.other):
+        kind = "vertex-edge"
+    else:
+        kind = "vertex-vertex"
+    contacts.kind[i] = KINDS.index(kind)
+    if touches:
+        first = min(touches)
+        contacts.body[i], contacts.vertex[i] = first.body, first.vertex
+        contacts.edge[i], contacts.other_vertex[i] = first.edge, first.other_vertex

@@ -1,0 +1,141 @@
+"""The first contacts of a block of pairs: boxes, then filters, then exact arithmetic."""
+
+from __future__ import annotations
+
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from exactpt.arrays.answers import record_edges, record_overlaps
+from exactpt.arrays.candidates import Candidates, all_candidates
+from exactpt.arrays.contacts import Contacts
+from exactpt.arrays.exact import Translating, exact
+from exactpt.arrays.meetings import INFINITY, first_meetings
+from exactpt.arrays.motions import Motions, reaches
+from exactpt.arrays.outlines import Outlines
+from exactpt.arrays.relative import Coefficient, Relative, orientations, sides
+from exactpt.arrays.sharpening import sharpened
+from exactpt.arrays.spans import Spans
+from exactpt.arrays.starts import at_start
+from exactpt.arrays.undecided import decide, search
+from exactpt.geometry.ragged import Flags, ranges
+from exactpt.kernel.doubles import Floats, Indices
+from exactpt.kernel.rounding import SLACK, U
+from exactpt.scene.body_arrays import BodyArrays
+
+__all__ = ["Block"]
+
+CHUNK: Final = 1 << 14
+"""Maximum number of pairs of a vertex and an edge at a time: their arrays fit a cache."""
+LARGEST: Final = 1 << 18
+"""Maximum number of pairs of a vertex and an edge of two bodies; more are searched by boxes."""
+
+
+class Block(NamedTuple):
+    """Some pairs (i, j) of bodies.
+
+    Attributes:
+        outlines, bodies: all bodies.
+        contacts: the answers.
+        first: the number of the first pair.
+        i, j: the bodies of the pairs.
+        spans: their time spans.
+        motions: the motions of i relative to j.
+    """
+
+    outlines: Outlines
+    bodies: BodyArrays
+    contacts: Contacts
+    first: int
+    i: Indices
+    j: Indices
+    spans: Spans
+    motions: Motions
+
+    def answer(self) -> None:
+        """Record the first contacts."""
+        near = self._near()
+        o, i, j = self.outlines, self.i[near], self.j[near]
+        overlaps, unclear = at_start(o, i, j, self.motions.take(near))
+        over = near[overlaps]
+        record_overlaps(self.contacts, over + self.first, self.spans.start[over])
+        counts = o.vertex_count[i] * o.edge_count[j] + o.vertex_count[j] * o.edge_count[i]
+        for k in near[~overlaps & (counts > LARGEST)].tolist():
+            search(self.contacts, self.first + k)
+        left = ~overlaps & (counts <= LARGEST)
+        near, unclear = near[left], unclear[left]
+        for first, last in ranges(counts[left], CHUNK):
+            self._compare(near[first:last], unclear[first:last])
+
+    @np.errstate(all="ignore")
+    def _near(self) -> Indices:
+        """The pairs whose boxes may meet during the span.
+
+        A gap takes two sums, of terms that add up to at most ``size``.
+        """
+        o, i, j = self.outlines, self.i, self.j
+        least, most, error = reaches(self.motions, self.spans.length.high)
+        gap = np.maximum(o.low[i] - o.high[j] + least, o.low[j] - o.high[i] - most)
+        size = np.maximum(np.abs(o.low[i]), np.abs(o.high[i]))
+        size += np.maximum(np.abs(o.low[j]), np.abs(o.high[j]))
+        size += np.maximum(np.abs(least), np.abs(most))
+        return np.flatnonzero(~(gap > (4.0 * U * size + error) * SLACK).any(axis=1))
+
+    @np.errstate(all="ignore")
+    def _compare(self, k: Indices, unclear: Flags) -> None:
+        """Record the contacts of the pairs k, of which some may touch at the start.
+
+        The first contact is certain if the enclosure of one candidate's meeting is before all
+        other times at which a candidate meets or may meet. All incidences at the time of the
+        first contact are of candidates that are left.
+        """
+        o, n = self.outlines, len(k)
+        candidates, starts = all_candidates(o, self.i[k], self.j[k])
+        pair = candidates.pair
+        relative = candidates.relative(o, self.motions.take(k))
+        low, high = first_meetings(relative, self.spans.length.take(k).take(pair))
+        best = np.minimum.reduceat(high, starts).reshape(2, n).min(axis=0)
+        left = np.flatnonzero((low <= best[pair]) & (low < INFINITY))
+        left = left[~_beside_until(relative, low, high, best[pair], left)]
+        counts = np.bincount(pair[left], minlength=n)
+        open_ = unclear | (counts > 1) | ((counts == 1) & (best == INFINITY))
+        hits = left[~open_[pair[left]]]
+        cs = orientations(relative.take(hits))
+        self._record(k[pair[hits]], candidates.take(hits), cs, low[hits], high[hits])
+        left = left[open_[pair[left]]]
+        left = left[np.argsort(pair[left], kind="stable")]
+        listed = candidates.take(left).listed(o)
+        end = np.cumsum(np.where(open_, counts, 0))
+        for m in np.flatnonzero(open_).tolist():
+            some = listed[int(end[m] - counts[m]) : int(end[m])]
+            self._decide(int(k[m]), some, unclear=bool(unclear[m]))
+
+    def _record(
+        self, k: Indices, hits: Candidates, cs: list[Coefficient], low: Floats, high: Floats
+    ) -> None:
+        """Record one meeting for each of the pairs k."""
+        o, second = self.outlines, hits.second == 1
+        a, b = np.where(second, (self.j[k], self.i[k]), (self.i[k], self.j[k]))
+        precise = hits.exact(o, self.bodies.coefficients, a, b, len(cs))
+        low, high = sharpened(precise, cs, self.spans.start[k], low, high)
+        vertex, edge = hits.vertex - o.first_vertex[a], hits.edge - o.first_edge[b]
+        record_edges(self.contacts, k + self.first, low, high, hits.second, vertex, edge)
+
+    def _decide(self, k: int, candidates: list[tuple[int, int, int]], *, unclear: bool) -> None:
+        if self.motions.degree > 2:
+            search(self.contacts, self.first + k)
+            return
+        bodies = Translating(self.bodies, int(self.i[k])), Translating(self.bodies, int(self.j[k]))
+        span = exact(float(self.spans.start[k])), exact(float(self.spans.end[k]))
+        decide(self.contacts, self.first + k, bodies, span, candidates, unclear=unclear)
+
+
+def _beside_until(
+    relative: Relative, low: Floats, high: Floats, until: Floats, some: Indices
+) -> Flags:
+    """Of some candidates, whether they are open and surely do not meet up to a time."""
+    beside = np.zeros(len(some), dtype=np.bool_)
+    at = np.flatnonzero((high[some] == INFINITY) & (until[some] < INFINITY))
+    doubtful = some[at]
+    beside[at] = sides(relative.take(doubtful), low[doubtful], until[doubtful])[1]
+    return beside

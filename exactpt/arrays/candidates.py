@@ -1,0 +1,132 @@
+"""All pairs of a vertex of one body and an edge of the other, for some pairs of bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from exactpt.arrays.motions import Motions
+from exactpt.arrays.outlines import Outlines
+from exactpt.arrays.relative import Relative
+from exactpt.arrays.sharpening import ExactRelative, Plane2
+from exactpt.geometry.ragged import spread
+from exactpt.kernel.double_double import exact_difference
+from exactpt.kernel.doubles import Floats, Indices
+from exactpt.kernel.rounding import SLACK, U
+
+__all__ = ["Candidates", "all_candidates", "shifted"]
+
+
+class Candidates(NamedTuple):
+    """Pairs of a vertex and an edge.
+
+    Attributes:
+        pair: the number of their pair of bodies.
+        second: whether the vertex is of the second body, and the edge of the first.
+        vertex, edge: their numbers in the arrays of all vertices and edges.
+    """
+
+    pair: Indices
+    second: Indices
+    vertex: Indices
+    edge: Indices
+
+    def take(self, index: Indices) -> Candidates:
+        """The entries at the given places."""
+        return Candidates(*(column[index] for column in self))
+
+    def relative(self, o: Outlines, motions: Motions) -> Relative:
+        """The vertices relative to the edges; ``motions`` are those of the pairs of bodies.
+
+        The difference of a vertex and an end of the edge is off by one unit, and its sum with a
+        displacement by another.
+        """
+        e, v, pair = self.edge, self.vertex, self.pair
+        ux, uy, length = o.ux[e], o.uy[e], None
+        if o.points:
+            point = o.edges.first[e] == o.edges.last[e]
+            uy[point] = 1.0
+            length = np.where(point, 0.0, 1.0)
+        sign = np.where(self.second, -1.0, 1.0)
+        wx, wy = o.x[v] - o.ax[e], o.y[v] - o.ay[e]
+        c = motions.coefficients
+        count = c.shape[2]
+        moved = [(c[:, 0, n][pair] * sign, c[:, 1, n][pair] * sign) for n in range(count)]
+        if motions.plain:
+            off: tuple[Floats | None, ...] = (None,) * count
+        else:
+            offs = [motions.off[:, n][pair] for n in range(count)]
+            wx, wy, offs[0] = shifted(wx, wy, *moved[0], offs[0])
+            off = tuple(offs)
+        return Relative(((ux, uy),), ((wx, wy), *moved[1:]), (None,), off, length)
+
+    def exact(
+        self, o: Outlines, coefficients: Floats, a: Indices, b: Indices, count: int
+    ) -> ExactRelative:
+        """The same without rounding, as polynomials in t of ``count`` coefficients.
+
+        Args:
+            o: the outlines.
+            coefficients: the motions of all bodies.
+            a: the bodies of the vertices.
+            b: the bodies of the edges.
+            count: all further coefficients of the motions are the same for a and b.
+        """
+        first, last = o.edges.first[self.edge], o.edges.last[self.edge]
+        u = _differences((o.x[last], o.y[last]), (o.x[first], o.y[first]))
+        start = _differences((o.x[self.vertex], o.y[self.vertex]), (o.x[first], o.y[first]))
+        shift, *moved = (
+            _differences(coefficients[a, :, n].T, coefficients[b, :, n].T)
+            for n in range(min(count, coefficients.shape[2]))
+        )
+        return ExactRelative((u,), (start, *moved), shift)
+
+    def listed(self, o: Outlines) -> list[tuple[int, int, int]]:
+        """For each whether the vertex is of the second body, the vertex, and the edge.
+
+        Vertices and edges are numbered within their bodies.
+        """
+        owners = (
+            np.searchsorted(first, numbers, side="right") - 1
+            for first, numbers in ((o.first_vertex, self.vertex), (o.first_edge, self.edge))
+        )
+        of_vertex, of_edge = owners
+        vertices = self.vertex - o.first_vertex[of_vertex]
+        edges = self.edge - o.first_edge[of_edge]
+        return list(zip(self.second.tolist(), vertices.tolist(), edges.tolist(), strict=True))
+
+
+def all_candidates(o: Outlines, i: Indices, j: Indices) -> tuple[Candidates, Indices]:
+    """All vertices of i with all edges of j, then the reverse, and where each of these starts.
+
+    The latter has two entries for each pair of bodies: first those of all pairs with a vertex of
+    the first body, then those of all pairs with a vertex of the second.
+    """
+    a, b = np.concatenate((i, j)), np.concatenate((j, i))
+    counts = o.vertex_count[a] * o.edge_count[b]
+    owner, position = spread(counts)
+    across = o.edge_count[b][owner]
+    v = position // across
+    e = position - v * across
+    v += o.first_vertex[a][owner]
+    e += o.first_edge[b][owner]
+    second = (owner >= len(i)).astype(np.int64)
+    return Candidates(owner - second * len(i), second, v, e), np.cumsum(counts) - counts
+
+
+def _differences(p: Iterable[Floats], q: Iterable[Floats]) -> Plane2:
+    x, y = (exact_difference(c, d) for c, d in zip(p, q, strict=True))
+    return x, y
+
+
+def shifted(
+    wx: Floats, wy: Floats, x: Floats, y: Floats, off: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """(wx + x, wy + y), and a bound on the absolute error of both coordinates.
+
+    wx and wy have relative errors of at most U, x and y absolute ones of at most ``off``.
+    """
+    size = np.abs(wx) + np.abs(wy) + (np.abs(x) + np.abs(y))
+    return wx + x, wy + y, (2.0 * U * size + off) * SLACK

@@ -1,0 +1,105 @@
+"""Pairs of polygons, chains, segments and points that translate: their first contacts."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from exactpt.arrays.blocks import Block
+from exactpt.arrays.contacts import Contacts
+from exactpt.arrays.exact import exact
+from exactpt.arrays.motions import relative_motions
+from exactpt.arrays.outlines import outlines_of
+from exactpt.arrays.spans import read_spans
+from exactpt.errors import InputError
+from exactpt.kernel.doubles import Indices, first_true, indices
+from exactpt.kernel.numbers import QQ
+from exactpt.scene.body_arrays import BodyArrays
+from exactpt.scene.scene import Scene, check_simple, scene_of
+
+__all__ = ["first_contacts"]
+
+BLOCK: Final = 1 << 14
+"""Number of pairs at a time."""
+
+
+def first_contacts(
+    vertices: ArrayLike,
+    offsets: ArrayLike,
+    pairs: ArrayLike,
+    *,
+    velocities: ArrayLike | None = None,
+    coefficients: ArrayLike | None = None,
+    closed: ArrayLike = True,
+    time: ArrayLike = (0.0, 1.0),
+) -> Contacts:
+    """The first contacts of pairs of bodies, of each pair for itself.
+
+    Each answer is that of `exactpt.first_contact` for a scene of the two bodies.
+
+    >>> found = first_contacts(
+    ...     [(0, 0), (2, 0), (0, 2), (5, 1), (7, 0), (7, 3)], [0, 3, 6], [(0, 1)],
+    ...     velocities=[(1, 0), (-2, 0)], time=(0, 10))
+    >>> found.found[0], found.contact(0).time
+    (np.True_, AlgebraicNumber('4/3'))
+
+    Polygons and chains of the pairs are validated, in numpy where its bounds allow it.
+
+    Args:
+        vertices: shape (N, 2), the vertices of all bodies.
+        offsets: shape (n + 1,): body k has the vertices ``offsets[k]`` to ``offsets[k + 1]`` - 1:
+            one (a point), two (a segment) or more.
+        pairs: shape (m, 2), the numbers of the bodies of each pair, which differ.
+        velocities: shape (n, 2); bodies are at rest if neither these nor ``coefficients`` are
+            given.
+        coefficients: shape (n, 2, d + 1): the translation of body k in x and in y is a polynomial
+            in t with these coefficients, constant first. Filters decide where the relative
+            motion has degree 1 or 2, or boxes are apart.
+        closed: for each body or for all, False for an open chain.
+        time: the start and the end of the closed time span, or of shape (m, 2) one for each pair.
+
+    Raises:
+        InputError: if the shapes do not match, a value is not a finite double, a span is empty,
+            or a body of a pair is not simple.
+    """
+    bodies = BodyArrays(
+        vertices, offsets, velocities=velocities, coefficients=coefficients, closed=closed
+    )
+    ij = _pairs(pairs, len(bodies))
+    spans = read_spans(time, len(ij))
+    used = np.zeros(len(bodies), dtype=np.bool_)
+    used[ij.ravel()] = True
+    for k in bodies.doubtful(np.flatnonzero(used)):
+        check_simple(bodies.make(k), QQ(0))
+
+    def scene(k: int) -> Scene:
+        i, j = ij[k].tolist()
+        start, end = (exact(float(s[k])) for s in (spans.start, spans.end))
+        return scene_of((bodies.make(i), bodies.make(j)), start, end)
+
+    contacts = Contacts(len(ij), scene)
+    outlines = outlines_of(bodies)
+    for first in range(0, len(ij), BLOCK):
+        last = min(first + BLOCK, len(ij))
+        i, j = ij[first:last].T
+        part = spans.part(first, last)
+        motions = relative_motions(bodies.coefficients, i, j, part)
+        Block(outlines, bodies, contacts, first, i, j, part, motions).answer()
+    return contacts
+
+
+def _pairs(pairs: ArrayLike, n: int) -> Indices:
+    ij = indices(pairs, "pairs")
+    if not ij.size:
+        ij = ij.reshape(0, 2)
+    if ij.ndim != 2 or ij.shape[1] != 2:
+        raise InputError(f"pairs: shape (m, 2) is needed, not {ij.shape}")
+    at = first_true((ij < 0) | (ij >= n))
+    if at is not None:
+        raise InputError(f"pairs{list(at)}: there is no body {ij[at]} among {n}")
+    at = first_true(ij[:, 0] == ij[:, 1])
+    if at is not None:
+        raise InputError(f"pairs{list(at)}: two bodies are asked for, not {ij[at][0]} twice")
+    return ij

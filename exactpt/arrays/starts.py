@@ -1,0 +1,110 @@
+"""Bodies that touch or overlap at the start: surely, surely not, or open."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from exactpt.arrays.candidates import shifted
+from exactpt.arrays.motions import Motions
+from exactpt.arrays.outlines import Outlines
+from exactpt.geometry.ragged import Flags, ranges, segments_meet, spread
+from exactpt.kernel.doubles import Floats, Indices
+from exactpt.kernel.rounding import SLACK, TINY, U
+
+__all__ = ["at_start"]
+
+CHUNK: Final = 1 << 14
+"""Maximum number of pairs of edges in a chunk."""
+
+
+@np.errstate(all="ignore")
+def at_start(o: Outlines, i: Indices, j: Indices, motions: Motions) -> tuple[Flags, Flags]:
+    """For each pair of bodies, whether they surely overlap without an incidence, and what is open.
+
+    They overlap if two edges cross or, where no edges meet, one contains a vertex of the other.
+    Bodies whose boxes are apart do not.
+    """
+    overlaps = np.zeros(len(i), dtype=np.bool_)
+    shift, off = motions.coefficients[:, :, 0], motions.off[:, 0]
+    gap = np.maximum(o.low[j] - o.high[i] - shift, o.low[i] - o.high[j] + shift)
+    size = np.maximum(np.abs(o.low[i]), np.abs(o.high[i])) + np.abs(shift)
+    size += np.maximum(np.abs(o.low[j]), np.abs(o.high[j]))
+    margin = (4.0 * U * size + off[:, None]) * SLACK
+    unclear: Flags = ~np.any(gap > margin, axis=1, keepdims=False)
+    near = np.flatnonzero(unclear)
+    counts = o.edge_count[i[near]] * o.edge_count[j[near]]
+    for first, last in ranges(counts, CHUNK):
+        k = near[first:last]
+        overlaps[k], unclear[k] = _meet(o, i[k], j[k], motions.take(k))
+    return overlaps, unclear
+
+
+def _meet(o: Outlines, i: Indices, j: Indices, motions: Motions) -> tuple[Flags, Flags]:
+    owner, position = spread(o.edge_count[i] * o.edge_count[j])
+    across = o.edge_count[j][owner]
+    e = o.first_edge[i][owner] + position // across
+    f = o.first_edge[j][owner] + position % across
+    shift = motions.coefficients[:, :, 0]
+    px, py = o.ax[f] - o.ax[e], o.ay[f] - o.ay[e]
+    error: Floats | float = 0.0
+    if not motions.plain:
+        x, y = shift[owner].T
+        px, py, error = shifted(px, py, -x, -y, motions.off[owner, 0])
+    apart, cross = segments_meet((o.ux[e], o.uy[e]), (o.ux[f], o.uy[f]), (px, py), error)
+    n = len(i)
+    crossing = np.bincount(owner[cross], minlength=n) > 0
+    unclear = np.bincount(owner[~(apart | cross)], minlength=n) > 0
+    for a, b, sign in ((i, j, 1.0), (j, i, -1.0)):
+        left = np.flatnonzero(~(unclear | crossing) & o.rings[b])
+        if len(left):
+            contained, unsure = _first_inside(
+                o, a[left], b[left], sign * shift[left], motions.off[left, 0], motions.plain
+            )
+            crossing[left] |= contained
+            unclear[left] |= unsure
+    return crossing & ~unclear, unclear
+
+
+def _first_inside(
+    o: Outlines,
+    a: Indices,
+    b: Indices,
+    shift: Floats,
+    off: Floats,
+    plain: bool,  # noqa: FBT001
+) -> tuple[Flags, Flags]:
+    """Whether the first vertex p of body a is inside polygon b, if it is not on it; what is open.
+
+    A ray from p to the right crosses the edges of which one end is above p and the other is not,
+    and p is on the left of an upward edge, or on the right of a downward one. Without an error a
+    difference of doubles has its exact sign, also 0.
+    """
+    owner, position = spread(o.edge_count[b])
+    e = o.first_edge[b][owner] + position
+    v = o.first_vertex[a][owner]
+    wx, wy = o.x[v] - o.ax[e], o.y[v] - o.ay[e]
+    error: Floats | float = 0.0
+    if not plain:
+        x, y = shift[owner].T
+        wx, wy, error = shifted(wx, wy, x, y, off[owner])
+    start, end = -wy, o.uy[e] - wy
+    margin = error
+    if plain:
+        end = o.y[o.edges.last[e]] - o.y[v]
+    else:
+        margin = (error + 2.0 * U * (np.abs(o.uy[e]) + np.abs(wy))) * SLACK
+    ux, uy = o.ux[e], o.uy[e]
+    turn = ux * wy - uy * wx
+    bound = 8.0 * U * (np.abs(ux * wy) + np.abs(uy * wx)) + TINY
+    bound += error * (np.abs(ux) + np.abs(uy)) * SLACK
+    straddles = (start > 0.0) != (end > 0.0)
+    crossed = straddles & ((turn > 0.0) == (end > 0.0))
+    sure = straddles & (np.abs(turn) > bound) | ~straddles
+    if not plain:
+        sure &= (np.abs(start) > margin) & (np.abs(end) > margin)
+    n = len(a)
+    inside = np.bincount(owner[crossed], minlength=n) % 2 == 1
+    unsure = np.bincount(owner[~sure], minlength=n) > 0
+    return inside & ~unsure, unsure

@@ -1,0 +1,69 @@
+"""Proofs of first contacts (docs/proofs.md), verified by the program cgal_check."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+from typing import Final, NamedTuple
+
+from exactpt.cgal.client import find_program
+from exactpt.errors import AuditError, BudgetExceeded, InputError
+
+__all__ = ["ProofVerdict", "check_proof"]
+
+_ACCEPTED: Final = 0
+_REJECTED: Final = 1
+_NO_PROOF: Final = 2
+
+
+class ProofVerdict(NamedTuple):
+    """The verdict on a proof.
+
+    Attributes:
+        accepted: whether the proof holds.
+        line: the answer in words: what has been proved, or the first line that does not hold.
+    """
+
+    accepted: bool
+    line: str
+
+
+def check_proof(
+    scene: str | Path,
+    proof: str | Path,
+    *,
+    jobs: int = 1,
+    program: str | Path | None = None,
+    max_seconds: float | None = None,
+) -> ProofVerdict:
+    """Have cgal_check verify a proof.
+
+    Args:
+        scene: the path of the scene's file.
+        proof: the path of the proof.
+        jobs: number of processes, from 1 to 256; the verdict does not depend on it.
+        program: the path of the program; by default the result of `find_program`.
+        max_seconds: maximum duration in seconds; None for no limit.
+
+    Raises:
+        InputError: if there is no program, or the file is no proof of this scene.
+        BudgetExceeded: if ``max_seconds`` is exceeded.
+        AuditError: if the program itself fails.
+    """
+    path = find_program() if program is None else Path(program)
+    command = [str(path), "proof", str(scene), str(proof), "--jobs", str(jobs)]
+    try:
+        done = subprocess.run(command, capture_output=True, timeout=max_seconds, check=False)
+    except subprocess.TimeoutExpired:
+        raise BudgetExceeded("the time is used up while the proof is verified", None) from None
+    except OSError as error:
+        raise InputError(f"cannot start {str(path)!r}: {error.strerror}") from None
+    line = done.stdout.decode("utf-8", "replace").strip()
+    if done.returncode == _ACCEPTED and line.startswith("accepted: "):
+        return ProofVerdict(accepted=True, line=line)
+    if done.returncode == _REJECTED and line.startswith("rejected: "):
+        return ProofVerdict(accepted=False, line=line)
+    if done.returncode == _NO_PROOF:
+        raise InputError(f"cgal_check: {line}")
+    said = done.stderr[-2000:].decode("utf-8", "replace").strip()
+    raise AuditError(f"cgal_check ended with {done.returncode}: {line} {said}".rstrip())

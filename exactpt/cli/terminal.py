@@ -1,0 +1,68 @@
+"""What commands print: printable lines, on streams whose faults change no exit code."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import sys
+from collections.abc import Iterator
+
+import click
+
+from exactpt.errors import printable
+
+__all__ = ["drop_standard_output", "encodable", "is_terminal", "say", "tell"]
+
+
+def say(*lines: str) -> None:
+    """Print lines of an answer on standard output, unprintable characters escaped."""
+    click.echo("\n".join(map(printable, lines)))
+
+
+def tell(*lines: str) -> None:
+    """Print lines on standard error, unprintable characters escaped.
+
+    If they cannot be written, they are lost: the exit code still says what has happened.
+    """
+    try:
+        click.echo("\n".join(map(printable, lines)), err=True)
+    except (OSError, ValueError):  # a full disk, a closed stream
+        with contextlib.suppress(OSError, ValueError):
+            _discard(sys.stderr.fileno())
+
+
+def is_terminal() -> bool:
+    """Whether standard error is shown on a terminal."""
+    try:
+        return sys.stderr is not None and sys.stderr.isatty()
+    except ValueError:  # closed
+        return False
+
+
+@contextlib.contextmanager
+def encodable() -> Iterator[None]:
+    """Within the context, characters that standard output cannot encode are escaped."""
+    stream = sys.stdout
+    if not isinstance(stream, io.TextIOWrapper):
+        yield
+        return
+    errors = stream.errors
+    stream.reconfigure(errors="backslashreplace")
+    try:
+        yield
+    finally:
+        if not stream.closed:
+            with contextlib.suppress(OSError):
+                stream.reconfigure(errors=errors)
+
+
+def drop_standard_output() -> None:
+    """Discard further output, after a broken pipe."""
+    _discard(sys.stdout.fileno())
+
+
+def _discard(stream: int) -> None:
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, stream)
+    os.close(nowhere)

@@ -1,0 +1,127 @@
+"""The obstacles of a planner, prepared once: their straight motions, and boxes of the others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import groupby, pairwise
+from typing import Final, NamedTuple, TypeAlias, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exactpt.collision.row_boxes import RowBoxes
+from exactpt.collision.straight_search import Row, rows_of
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.frame import Frame, frame_for
+from exactpt.motion.swept import SweptBoxes
+from exactpt.scene.scene import Scene
+
+__all__ = ["Obstacles", "SlabBoxes", "Stretch"]
+
+Floats: TypeAlias = NDArray[np.float64]
+
+SLABS: Final = 64
+"""Number of slabs of time, of equal length."""
+
+
+class Stretch(NamedTuple):
+    """A time during which a body is near some obstacles, by number; before, it is near none."""
+
+    start: QQ
+    end: QQ
+    obstacles: list[int]
+
+
+@final
+class SlabBoxes:
+    """Boxes of bodies during slabs of time, prepared for those that do not change.
+
+    Args:
+        bodies: the bodies.
+        start: the start of the first slab.
+        end: the end of the last one.
+    """
+
+    def __init__(self, bodies: Sequence[Body], start: QQ, end: QQ) -> None:
+        points = [point for body in bodies for point in body._at(start)]
+        self._frame: Frame = frame_for(points or [(QQ(0), QQ(0))], start, end)
+        self._cuts = [start + (end - start) * k / SLABS for k in range(SLABS + 1)]
+        times = [self._frame.time(t) for t in self._cuts]
+        self._lows = np.array([low for low, _ in times[:-1]])
+        self._highs = np.array([high for _, high in times[1:]])
+        self._boxes = np.stack([self._of(body) for body in bodies], axis=1)
+
+    def _of(self, body: Body) -> Floats:
+        """The box of a body during each slab: shape (SLABS, 4)."""
+        boxes = np.empty((SLABS, 4))
+        boxes[:, ::2], boxes[:, 1::2] = np.inf, -np.inf
+        start, end = self._cuts[0], self._cuts[-1]
+        inner = [t for t in body._breakpoints if start < t < end]
+        for since, until in pairwise([start, *inner, end]):
+            low, high = self._frame.time(since)[0], self._frame.time(until)[1]
+            during = np.nonzero((self._lows <= high) & (self._highs >= low))[0]
+            images = self._frame.images(body._piece_after(since).tracks)
+            swept = SweptBoxes(images, self._frame.errors, drifting=False)
+            lows, highs = np.maximum(self._lows[during], low), np.minimum(self._highs[during], high)
+            places = swept.during(lows, highs)
+            boxes[during, ::2] = np.minimum(boxes[during, ::2], places[..., ::2].min(axis=1))
+            boxes[during, 1::2] = np.maximum(boxes[during, 1::2], places[..., 1::2].max(axis=1))
+        return boxes
+
+    def stretches(self, body: Body) -> Iterator[Stretch]:
+        """The times during which the box of a body meets those of prepared ones, in order."""
+        box = self._of(body)[:, None, :]
+        others = self._boxes
+        beside = np.maximum(box, others)[..., ::2] > np.minimum(box, others)[..., 1::2]
+        meets: NDArray[np.bool_] = ~(beside[..., 0] | beside[..., 1])
+        slabs = enumerate(meets.max(axis=1).tolist())
+        for near, run in groupby(slabs, key=lambda slab: slab[1]):
+            if near:
+                numbers = [k for k, _ in run]
+                obstacles = np.nonzero(meets[numbers].max(axis=0))[0].tolist()
+                yield Stretch(self._cuts[numbers[0]], self._cuts[numbers[-1] + 1], obstacles)
+
+
+@final
+class Obstacles:
+    """Obstacles during a time span.
+
+    Args:
+        scene: the obstacles and the span.
+
+    Attributes:
+        rows: their straight motions; None if one of them moves otherwise.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        self.rows: list[Row] | None = rows_of(scene)
+        self._row_boxes = None if self.rows is None else RowBoxes(self.rows)
+        self._slab_boxes: SlabBoxes | None = None
+
+    def near(self, rows: Sequence[Row]) -> list[tuple[float, int, int]]:
+        """The obstacles' rows, by number, whose boxes meet those of rows, also by number.
+
+        Each comes with a time before which they do not; in the order of these times.
+        """
+        if self._row_boxes is None or not self._row_boxes:
+            return []
+        n, m = len(self._row_boxes), len(rows)
+        boxes = self._row_boxes.joined(RowBoxes(rows))
+        i, j = np.tile(np.arange(n), m), np.repeat(np.arange(n, n + m), n)
+        enter, leave = boxes.windows(i, j, -np.inf, np.inf)
+        meet = np.nonzero(enter <= leave)[0]
+        meet = meet[np.argsort(enter[meet], kind="stable")]
+        return list(
+            zip(enter[meet].tolist(), i[meet].tolist(), (j[meet] - n).tolist(), strict=True)
+        )
+
+    def stretches(self, body: Body) -> Iterator[Stretch]:
+        """The times during which a body is near obstacles, in order."""
+        scene = self._scene
+        if not scene.bodies:
+            return iter(())
+        if self._slab_boxes is None:
+            self._slab_boxes = SlabBoxes(scene.bodies, scene._start, scene._end)
+        return self._slab_boxes.stretches(body)

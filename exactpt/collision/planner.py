@@ -1,0 +1,145 @@
+"""First contacts of one shape among obstacles, for many motions: obstacles are prepared once."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Iterable, Sequence
+from typing import Final, final
+
+from exactpt.collision.contact import Contact, contact_of
+from exactpt.collision.initial import initial_touches
+from exactpt.collision.obstacles import Obstacles, Stretch
+from exactpt.collision.pairs import PairsSearch
+from exactpt.collision.straight import window
+from exactpt.collision.straight_search import MOST_VERTICES, Row, first_of_pairs, rows_during
+from exactpt.errors import InputError
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import Rational, enclosing_floats, shorten
+from exactpt.motion.body import Body, VertexLike
+from exactpt.motion.motions import Motion, Rigid, Translation
+from exactpt.motion.outline import Outline, pieces_of, rest_outline, straight_pieces
+from exactpt.scene.scene import Scene
+
+__all__ = ["Planner"]
+
+NAME: Final = "shape"
+"""The name of a shape that is given by its vertices."""
+
+
+@final
+class Planner:
+    """Obstacles among which one shape moves: the first contact of each of many motions.
+
+    >>> from exactpt import Body, Planner, Translation
+    >>> planner = Planner([Body("wall", [(4, -5), (5, -5), (5, 5), (4, 5)])], time=(0, 10))
+    >>> box = [(0, 0), (2, 0), (2, 1), (0, 1)]
+    >>> slow, fast = planner.first_contacts(box, [Translation([0, "1/8"]), Translation([0, 1])])
+    >>> slow, fast.time
+    (None, AlgebraicNumber('2'))
+
+    Obstacles are validated once. They may move; their contacts with each other, and of one with
+    itself, are ignored.
+
+    Args:
+        obstacles: bodies of different names.
+        time: the start and the end of all plans.
+
+    Raises:
+        InputError: see `exactpt.Scene`.
+    """
+
+    def __init__(self, obstacles: Iterable[Body], time: Sequence[Rational] = (0, 1)) -> None:
+        self._scene = Scene(obstacles, time)
+        self._obstacles = Obstacles(self._scene)
+
+    def first_contact(self, shape: Body | Iterable[VertexLike], motion: Motion) -> Contact | None:
+        """The first contact of a shape with an obstacle, or with itself; None if there is none.
+
+        The answer is that of `exactpt.first_contact` for the scene of the obstacles and the
+        shape as its last body, apart from contacts without the shape.
+
+        Args:
+            shape: vertices as of a `Body`, or a body: its own motion does not count.
+            motion: its motion.
+
+        Raises:
+            InputError: if the shape is no simple polygon or chain at the start, the motion
+                jumps, or an obstacle has its name.
+        """
+        return self.first_contacts(shape, [motion])[0]
+
+    def first_contacts(
+        self, shape: Body | Iterable[VertexLike], motions: Iterable[Motion]
+    ) -> list[Contact | None]:
+        """The `first_contact` of a shape for each of some motions.
+
+        Raises:
+            InputError: see `first_contact`.
+        """
+        at_rest = shape if isinstance(shape, Body) else Body(NAME, shape)
+        if any(body.name == at_rest.name for body in self._scene.bodies):
+            raise InputError(f"body {shorten(at_rest.name)}: the name is taken by an obstacle")
+        outline = rest_outline(at_rest)
+        return [self._first(at_rest.with_motion(motion), outline) for motion in motions]
+
+    def _first(self, body: Body, outline: Outline | None) -> Contact | None:
+        scene, rows = self._scene, self._obstacles.rows
+        Scene([body], (scene.start, scene.end))
+        if rows is not None and outline is not None and body.size <= MOST_VERTICES:
+            pieces = straight_pieces(body, outline)
+            if pieces is not None:
+                number = len(scene.bodies)
+                moving = list(rows_during(number, pieces, scene._start, scene._end))
+                return self._first_of_rows(body, rows, moving)
+        return self._first_of_any(body)
+
+    def _first_of_rows(
+        self, body: Body, rows: Sequence[Row], moving: Sequence[Row]
+    ) -> Contact | None:
+        """The first contact of a body with obstacles, if all of them move straight."""
+        start = self._scene._start
+        scene = self._scene.going_on((*self._scene.bodies, body), start)
+        near = self._obstacles.near(moving)
+        low, high = enclosing_floats(start)
+        begin = [
+            (rows[i].body, moving[j].body)
+            for time, i, j in near
+            if time <= high
+            and rows[i].start == moving[j].start == start
+            and not operator.gt(*window(rows[i].straight, moving[j].straight, low, high))
+        ]
+        if begin:
+            touches, overlaps = initial_touches(scene, begin)
+            if overlaps:
+                return contact_of(scene, AlgebraicNumber(start), touches, overlaps)
+        found = first_of_pairs((time, rows[i], moving[j]) for time, i, j in near)
+        if found is None:
+            return None
+        return contact_of(scene, AlgebraicNumber(found.time), found.touches)
+
+    def _first_of_any(self, body: Body) -> Contact | None:
+        """The first contact of a body with obstacles, or with itself, whatever the motions."""
+        scene = self._scene
+        stretches: Iterable[Stretch] = self._obstacles.stretches(body)
+        if not _is_rigid(body):
+            everything = list(range(len(scene.bodies)))
+            stretches = [Stretch(scene._start, scene._end, everything)]
+        for stretch in stretches:
+            obstacles = [scene.bodies[i] for i in stretch.obstacles]
+            names = [obstacle.name for obstacle in obstacles]
+            part = scene.going_on((*obstacles, body), stretch.start).until(stretch.end)
+            contact = PairsSearch(part, ignoring=[names], ignoring_self=names).run_to_contact()
+            if contact is not None:
+                return contact
+        return None
+
+
+def _is_rigid(body: Body) -> bool:
+    """Whether it certainly keeps its shape: it does not deform, and translates or turns."""
+    motions = (motion for motion, _ in pieces_of(body.motion))
+    at_rest = all(f.degree <= 0 for vertex in body.vertices for f in vertex)
+    return (
+        bool(body.vertices)
+        and at_rest
+        and all(isinstance(m, (Translation, Rigid)) for m in motions)
+    )

@@ -1,0 +1,201 @@
+"""Which rows of a search come near each other, and when: boxes in numpy, slab by slab of time.
+
+A filter, never a decision: rows that do not come near certainly do not touch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Final, TypeAlias, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exactpt.geometry.boxes import Boxes, overlapping_pairs, widen_unknown
+from exactpt.kernel.budget import ask
+from exactpt.kernel.numbers import QQ, enclosing_floats
+from exactpt.kernel.rounding import SLACK, TINY, U
+
+if TYPE_CHECKING:
+    from exactpt.collision.straight_search import Row
+
+__all__ = ["RowBoxes", "near_at_once", "near_rows"]
+
+Floats: TypeAlias = NDArray[np.float64]
+Indices: TypeAlias = NDArray[np.int64]
+
+U4: Final = 4.0 * U
+K: Final = 16.0 * U
+"""Relative bound on the rounding of sums of up to eight terms."""
+PIECES: Final = 4
+"""Maximum number of pieces of motion of a body, on average, in the first slab."""
+SHORTEST: Final = 2.0**-40
+"""The shortest slab, as a share of the time span."""
+
+
+_COLUMNS: Final = (
+    "_c", "_c_error", "_end", "_high", "_low", "_start", "_v", "_v_error", "body",
+)  # fmt: skip
+
+
+@final
+class RowBoxes:
+    """Boxes of rows: of the shape at rest, with the motion c + v t during [start, end].
+
+    Args:
+        rows: the rows.
+
+    Attributes:
+        body: the number of the body of each row.
+        drift: the median of the velocities.
+    """
+
+    __slots__ = (*_COLUMNS, "drift")
+
+    def __init__(self, rows: Sequence[Row]) -> None:
+        self.body: Indices = np.array([row.body for row in rows], dtype=np.int64)
+        straights = [row.straight for row in rows]
+        shapes = [straight.shape for straight in straights]
+        self._low = np.array([(shape.low_x, shape.low_y) for shape in shapes]).reshape(-1, 2)
+        self._high = np.array([(shape.high_x, shape.high_y) for shape in shapes]).reshape(-1, 2)
+        self._c = np.array([(s.cx, s.cy) for s in straights]).reshape(-1, 2)
+        self._v = np.array([(s.vx, s.vy) for s in straights]).reshape(-1, 2)
+        errors = [(s.c_error + s.shape.error, s.v_error) for s in straights]
+        self._c_error, self._v_error = np.array(errors).reshape(-1, 2).T
+        self._start = np.array([enclosing_floats(row.start)[0] for row in rows])
+        self._end = np.array([enclosing_floats(row.end)[1] for row in rows])
+        self.drift: Floats = np.median(self._v, axis=0) if len(rows) else np.zeros(2)
+
+    def __len__(self) -> int:
+        return len(self.body)
+
+    def joined(self, other: RowBoxes) -> RowBoxes:
+        """The boxes of these rows, and then of others."""
+        both = RowBoxes.__new__(RowBoxes)
+        for name in _COLUMNS:
+            setattr(both, name, np.concatenate((getattr(self, name), getattr(other, name))))
+        both.drift = self.drift
+        return both
+
+    @np.errstate(all="ignore")
+    def during(self, low: float, high: float) -> tuple[Indices, Boxes]:
+        """The rows that last during a part of [low, high], and boxes of them in that part.
+
+        Boxes are relative to the drift. A displacement c + (v - drift) t is off by at most
+        c_error + v_error |t|, the rounding of its terms, and U |v - drift| |t|.
+        """
+        active = np.nonzero((self._start <= high) & (self._end >= low))[0]
+        first = np.maximum(self._start[active], low)[:, None]
+        last = np.minimum(self._end[active], high)[:, None]
+        c, v = self._c[active], self._v[active] - self.drift
+        reach = np.maximum(np.abs(first), np.abs(last))
+        least, most = self._low[active], self._high[active]
+        off = self._c_error[active][:, None] + self._v_error[active][:, None] * reach
+        sizes = np.abs(c) + np.abs(v) * reach + np.abs(least) + np.abs(most)
+        margin = (off + K * sizes) * SLACK + TINY
+        begin, end = c + v * first, c + v * last
+        boxes = np.empty((len(active), 4))
+        boxes[:, ::2] = least + np.minimum(begin, end) - margin
+        boxes[:, 1::2] = most + np.maximum(begin, end) + margin
+        widen_unknown(boxes)
+        return active, boxes
+
+    @np.errstate(all="ignore")
+    def windows(self, i: Indices, j: Indices, low: float, high: float) -> tuple[Floats, Floats]:
+        """Bounds of the times in [low, high] at which the boxes of two rows meet.
+
+        The bounds of `exactpt.collision.straight.window`; the first is larger than the second
+        if they do not meet.
+        """
+        first = np.maximum(np.maximum(self._start[i], self._start[j]), low)
+        last = np.minimum(np.minimum(self._end[i], self._end[j]), high)
+        reach = np.maximum(np.abs(first), np.abs(last))
+        c, w = self._c[i] - self._c[j], self._v[i] - self._v[j]
+        off = self._c_error[i] + self._c_error[j] + (self._v_error[i] + self._v_error[j]) * reach
+        off = (off[:, None] + K * (np.abs(c) + np.abs(w) * reach[:, None])) * SLACK + TINY
+        least, most = self._low[j] - self._high[i], self._high[j] - self._low[i]
+        margin = 2.0 * off + K * (np.abs(c) + np.abs(least) + np.abs(most))
+        begin, end = least - margin - c, most + margin - c
+        enter = np.where(w > 0.0, begin, end) / w
+        leave = np.where(w > 0.0, end, begin) / w
+        still = w == 0.0
+        beside = still & ((begin > 0.0) | (end < 0.0))
+        enter = np.where(still, -np.inf, enter - U4 * np.abs(enter) - TINY)
+        leave = np.where(still, np.inf, leave + U4 * np.abs(leave) + TINY)
+        enter = np.where(beside, np.inf, enter)
+        # fmax and fmin take the other number instead of a NaN, which excludes no time.
+        first = np.fmax(first, np.fmax(enter[:, 0], enter[:, 1]))
+        last = np.fmin(last, np.fmin(leave[:, 0], leave[:, 1]))
+        return first, last
+
+    @np.errstate(all="ignore")
+    def stride(self, now: float) -> float:
+        """The time in which rows move by their mean distance, on average: an estimate.
+
+        Infinite if none moves relative to the drift; perhaps NaN.
+        """
+        there = self._c + self._v * now
+        gap = np.hypot(*np.ptp(there, axis=0)) / np.sqrt(len(there))
+        return float(gap / np.hypot(*(self._v - self.drift).T).mean())
+
+
+def near_at_once(rows: Sequence[Row], time: QQ) -> list[tuple[int, int]]:
+    """The pairs i < j of bodies whose boxes meet at a time at which each has one row."""
+    boxes = RowBoxes(rows)
+    _, first, second = _meeting(boxes, *enclosing_floats(time))
+    pairs = np.sort(np.stack((boxes.body[first], boxes.body[second]), axis=1), axis=1)
+    return [(i, j) for i, j in pairs.tolist()]
+
+
+def near_rows(rows: Sequence[Row], start: QQ, end: QQ) -> Iterator[tuple[float, int, int]]:
+    """The pairs of rows of different bodies that come near each other, once each.
+
+    Each comes with a time at or before which it does, in increasing order of these times.
+    """
+    boxes = RowBoxes(rows)
+    now, last = enclosing_floats(start)[0], enclosing_floats(end)[1]
+    span = last - now
+    least = SHORTEST * span
+    bodies = len(np.unique(boxes.body))
+    step = min(span, PIECES * span * bodies / len(rows))
+    stride = boxes.stride(now)
+    step = max(least, min(step, stride)) if stride > 0.0 else step
+    seen: set[tuple[int, int]] = set()
+    while now < last:
+        ask()
+        later = min(now + step, last)
+        active, first, second = _meeting(boxes, now, later)
+        while len(first) > 2 * active + 64 and step > least and later > now:
+            shorter = min(now + step / 4, last)
+            fewer = _meeting(boxes, now, shorter)
+            if 2 * len(fewer[1]) > len(first):
+                break
+            step, later, (active, first, second) = step / 4, shorter, fewer
+        enter, leave = boxes.windows(first, second, now, later)
+        near = enter <= leave
+        pairs = zip(enter[near].tolist(), first[near].tolist(), second[near].tolist(), strict=True)
+        for time, i, j in sorted(pairs):
+            if (i, j) not in seen:
+                seen.add((i, j))
+                yield time, i, j
+        if 4 * len(first) < 2 * active + 64:
+            step *= 2
+        if not later > now:
+            later = float(np.nextafter(now, np.inf))
+        now = later
+
+
+def _meeting(boxes: RowBoxes, low: float, high: float) -> tuple[int, Indices, Indices]:
+    """How many rows last during [low, high], and the pairs of two bodies whose boxes meet."""
+    active, places = boxes.during(low, high)
+    firsts: list[Indices] = []
+    seconds: list[Indices] = []
+    for i, j in overlapping_pairs(places):
+        i, j = active[i], active[j]  # noqa: PLW2901
+        two = boxes.body[i] != boxes.body[j]
+        firsts.append(i[two])
+        seconds.append(j[two])
+    if not firsts:
+        none = np.empty(0, dtype=np.int64)
+        return len(active), none, none
+    return len(active), np.concatenate(firsts), np.concatenate(seconds)

@@ -1,0 +1,244 @@
+"""The first contact of two bodies in straight motion.
+
+Relative to the second body, a vertex of the first one is at z + w t, with the same w for all.
+Its orientation with an edge from q to q + u, u x (z - q) + t u x w, is linear in t: so the time
+at which it can lie on the edge is rational. A float filter rules out most pairs of a vertex and
+an edge; the others are decided exactly, the earliest first.
+
+All incidences at the first contact T, before which the bodies are disjoint, are found in this
+way. A vertex inside an edge at T does not move along that edge's line, or it would have been on
+the edge just before; so T is the one zero of its orientation. Let two vertices coincide at T.
+If w is not parallel to one of the edges at one of them, T is the zero for that edge. Otherwise
+take an edge at one of them: the other one moves along its line, and does not come along the
+edge, so it enters the edge at T, at that end. `exactpt.collision.meeting` finds both. (The edge
+of a point is a single point, with the orientation 0.)
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final, NamedTuple
+
+from exactpt.collision.meeting import Candidate, Meeting, Span, earliest
+from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
+from exactpt.motion.outline import Outline, Straight
+
+__all__ = ["first_meeting", "window"]
+
+U2: Final = 2.0 * U
+U4: Final = 4.0 * U
+K: Final = 16.0 * U
+"""Relative bound on the rounding of sums of up to eight terms, and of products of two."""
+FEW: Final = 24
+"""Maximum number of pairs of a vertex and an edge that are all tested."""
+
+
+class _Path(NamedTuple):
+    """The relative motion c + w t of the vertices of one body, off by at most the errors."""
+
+    cx: float
+    cy: float
+    wx: float
+    wy: float
+    c_error: float
+    w_error: float
+
+
+class _Limits(NamedTuple):
+    """Bounds of the times to consider, and a double not before the start of the span."""
+
+    low: float
+    high: float
+    after: float
+
+
+def first_meeting(a: Straight, b: Straight, span: Span, before: float = math.inf) -> Meeting | None:
+    """The first contact of two bodies in (start, end]; None if there is none.
+
+    Args:
+        a: a body.
+        b: another body; the two are disjoint at the start.
+        span: the start and the end.
+        before: contacts certainly later than this do not count.
+    """
+    path = _relative(a, b)
+    low, high = _window(a.shape, b.shape, path, span.low, min(span.high, before))
+    if low > high:
+        return None
+    back = _Path(-path.cx, -path.cy, -path.wx, -path.wy, path.c_error, path.w_error)
+    candidates: list[Candidate] = []
+    limits = _Limits(low, high, span.after)
+    high = _collect(a, b, path, limits, candidates, of_first=True)
+    limits = _Limits(low, high, span.after)
+    high = _collect(b, a, back, limits, candidates, of_first=False)
+    candidates = [candidate for candidate in candidates if candidate.low <= high]
+    if not candidates:
+        return None
+    candidates.sort()
+    return earliest(a, b, span, candidates)
+
+
+def window(a: Straight, b: Straight, low: float, high: float) -> tuple[float, float]:
+    """Bounds of the times in [low, high] at which the boxes of two bodies meet; or low > high."""
+    return _window(a.shape, b.shape, _relative(a, b), low, high)
+
+
+def _relative(a: Straight, b: Straight) -> _Path:
+    """The motion of a relative to b."""
+    cx, cy, wx, wy = a.cx - b.cx, a.cy - b.cy, a.vx - b.vx, a.vy - b.vy
+    return _Path(
+        cx,
+        cy,
+        wx,
+        wy,
+        a.c_error + b.c_error + U2 * (abs(cx) + abs(cy)),
+        a.v_error + b.v_error + U2 * (abs(wx) + abs(wy)),
+    )
+
+
+def _window(a: Outline, b: Outline, path: _Path, low: float, high: float) -> tuple[float, float]:
+    """The bounds of `window`.
+
+    Along x this means b.low_x - a.high_x <= c + w t <= b.high_x - a.low_x. Both ends are moved
+    outward by the errors of the coordinates, of c and of w t, and by the rounding of the
+    numerators below; `U4` is for the quotient. A NaN excludes no time.
+    """
+    cx, cy, wx, wy, c_error, w_error = path
+    off = (a.error + b.error + c_error + w_error * max(abs(low), abs(high))) * SLACK + TINY
+    for c, w, least, most in (
+        (cx, wx, b.low_x - a.high_x, b.high_x - a.low_x),
+        (cy, wy, b.low_y - a.high_y, b.high_y - a.low_y),
+    ):
+        margin = 2.0 * off + K * (abs(c) + abs(least) + abs(most))
+        first, last = least - margin - c, most + margin - c
+        if w == 0.0:
+            if first > 0.0 or last < 0.0:
+                return 1.0, 0.0
+            continue
+        enter, leave = (first / w, last / w) if w > 0.0 else (last / w, first / w)
+        low = max(low, enter - U4 * abs(enter) - TINY)
+        high = min(high, leave + U4 * abs(leave) + TINY)
+    return low, high
+
+
+def _collect(
+    a: Straight,
+    b: Straight,
+    path: _Path,
+    limits: _Limits,
+    candidates: list[Candidate],
+    *,
+    of_first: bool,
+) -> float:
+    """Add the pairs of a vertex of a and an edge of b that may touch between the limits.
+
+    Let d bound the error of z = (p - q) + c and, its rounding aside, of u. The errors of the
+    coefficients of the orientation c0 + c1 t are at most
+        e0 = K (|ux| |zy| + |uy| |zx|) + d (|ux| + |uy| + |zx| + |zy| + 2 d),
+        e1 = K (|ux| |wy| + |uy| |wx|) + d (|wx| + |wy|) + w_error (|ux| + |uy| + 2 d),
+    and that of its zero is bounded as in `exactpt.kernel.filters.linear`. At that time, known
+    up to r, the vertex is at m = z + w t, off by at most
+        s = d + |w| r + w_error (|t| + r) + K (|z| + |w t|);
+    m . u is off by s (|ux| + |uy| + 2 d) + d (|mx| + |my|) and its rounding, and u . u by
+    2 d (|ux| + |uy|) + 2 d^2 and its rounding. The vertex is on the edge if
+    0 <= m . u <= u . u.
+
+    Returns:
+        The upper limit, or a time up to which one of the pairs certainly touches.
+    """
+    cx, cy, wx, wy, c_error, w_error = path
+    low, high, after = limits
+    xs, ys = b.shape.xs, b.shape.ys
+    vertices, edges = _near(a, b, path, limits)
+    reach = max(abs(low), abs(high))
+    off = 2.0 * (a.shape.error + b.shape.error + c_error) + K * (abs(cx) + abs(cy)) + TINY
+    w_size = abs(wx) + abs(wy)
+    for number, i, j in edges:
+        qx, qy = xs[i], ys[i]
+        ux, uy = xs[j] - qx, ys[j] - qy
+        u_size, length = abs(ux) + abs(uy), ux * ux + uy * uy
+        p, q = ux * wy, uy * wx
+        c1 = p - q
+        for vertex, px, py in vertices:
+            zx, zy = (px - qx) + cx, (py - qy) + cy
+            z_size = abs(zx) + abs(zy)
+            d = off + K * z_size
+            e1 = (K * (abs(p) + abs(q)) + d * w_size + w_error * (u_size + 2.0 * d)) * SLACK + TINY
+            r, s = ux * zy, uy * zx
+            c0 = r - s
+            e0 = (K * (abs(r) + abs(s)) + d * (u_size + z_size + 2.0 * d)) * SLACK + TINY
+            gap = abs(c1) - e1
+            if not gap > SMALL:
+                if not abs(c0) > (e0 + (abs(c1) + e1) * reach) * SLACK + TINY:
+                    candidates.append(Candidate(low, math.inf, of_first, vertex, number))
+                continue
+            time = -c0 / c1
+            size = abs(time)
+            error = ((e0 + e1 * size) / gap + U4 * size) * SLACK + TINY
+            first, last = time - error, time + error
+            if first > high or last < low:
+                continue
+            mx, my = zx + wx * time, zy + wy * time
+            along, m_size = mx * ux + my * uy, abs(mx) + abs(my)
+            at = d + w_size * error + w_error * (size + error) + K * (z_size + w_size * size)
+            bound = (
+                (at * (u_size + 2.0 * d) + d * m_size + 2.0 * d * (2.0 * u_size + d)) * SLACK
+                + K * (length + m_size * u_size) + TINY
+            )  # fmt: skip
+            if along < -bound or along > length + bound:
+                continue
+            if not error < math.inf:
+                first, last = low, math.inf
+            elif bound < along < length - bound and first > after:
+                high = min(high, last)
+            candidates.append(Candidate(first, last, of_first, vertex, number))
+    return high
+
+
+def _near(
+    a: Straight, b: Straight, path: _Path, limits: _Limits
+) -> tuple[list[tuple[int, float, float]], list[tuple[int, int, int]]]:
+    """The vertices of a, with their coordinates c + p, and the edges of b that may touch.
+
+    A vertex moves by a displacement between two bounds; it must come into the box of b, and
+    the box of a to the edge.
+    """
+    of_a, of_b = a.shape, b.shape
+    vertices = list(zip(range(len(of_a.xs)), of_a.xs, of_a.ys, strict=True))
+    edges = [(number, i, j) for number, (i, j) in enumerate(b.edges)]
+    if len(vertices) * len(edges) <= FEW:
+        return vertices, edges
+    off = of_a.error + of_b.error + path.c_error
+    of_x = max(abs(of_b.low_x), abs(of_b.high_x), abs(of_a.low_x), abs(of_a.high_x))
+    of_y = max(abs(of_b.low_y), abs(of_b.high_y), abs(of_a.low_y), abs(of_a.high_y))
+    least_x, most_x = _displacement(path.cx, path.wx, path.w_error, limits, off, of_x)
+    least_y, most_y = _displacement(path.cy, path.wy, path.w_error, limits, off, of_y)
+    low_x, high_x = of_b.low_x - most_x, of_b.high_x - least_x
+    low_y, high_y = of_b.low_y - most_y, of_b.high_y - least_y
+    met = [
+        v for v in vertices if not (v[1] < low_x or v[1] > high_x or v[2] < low_y or v[2] > high_y)
+    ]
+    low_x, high_x = of_a.low_x + least_x, of_a.high_x + most_x
+    low_y, high_y = of_a.low_y + least_y, of_a.high_y + most_y
+    xs, ys = of_b.xs, of_b.ys
+    crossed = [
+        (number, i, j)
+        for number, i, j in edges
+        if not (
+            (xs[i] < low_x and xs[j] < low_x)
+            or (xs[i] > high_x and xs[j] > high_x)
+            or (ys[i] < low_y and ys[j] < low_y)
+            or (ys[i] > high_y and ys[j] > high_y)
+        )
+    ]
+    return met, crossed
+
+
+def _displacement(
+    c: float, w: float, w_error: float, limits: _Limits, off: float, size: float
+) -> tuple[float, float]:
+    """Bounds of c + w t, moved outward by the errors of coordinates of this size."""
+    reach = max(abs(limits.low), abs(limits.high))
+    margin = 2.0 * (off + w_error * reach) + K * (abs(c) + abs(w) * reach + size) + TINY
+    ends = c + w * limits.low, c + w * limits.high
+    return min(ends) - margin, max(ends) + margin

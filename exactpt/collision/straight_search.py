@@ -1,0 +1,183 @@
+"""The first contact of bodies that all move straight, piece by piece.
+
+Each body is a row per piece of its motion. Rows whose boxes meet while both last are compared
+in the order in which their boxes meet, up to the first contact.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import combinations
+from typing import Final, NamedTuple
+
+from exactpt.collision.meeting import Meeting, Span, span_of
+from exactpt.collision.straight import first_meeting, window
+from exactpt.kernel.budget import ask
+from exactpt.kernel.numbers import QQ, enclosing_floats
+from exactpt.motion.incidence import Touch
+from exactpt.motion.outline import Straight, straight_pieces
+from exactpt.scene.scene import Scene
+
+__all__ = [
+    "MOST_VERTICES",
+    "Row",
+    "Touching",
+    "first_of_pairs",
+    "first_touching",
+    "near_at",
+    "rows_during",
+    "rows_of",
+]
+
+FEW: Final = 10
+"""Maximum number of rows of which all pairs are compared without numpy."""
+MOST_VERTICES: Final = 64
+"""Maximum number of vertices of a body for which comparing two bodies vertex by vertex pays."""
+
+
+class Row(NamedTuple):
+    """A body in one piece of its motion.
+
+    Attributes:
+        body: its number.
+        straight: its motion.
+        start, end: the piece, within the span of the search.
+    """
+
+    body: int
+    straight: Straight
+    start: QQ
+    end: QQ
+
+
+class Touching(NamedTuple):
+    """The first contact of some bodies: its time and what touches then."""
+
+    time: QQ
+    touches: list[Touch]
+
+
+def rows_of(scene: Scene) -> list[Row] | None:
+    """The rows of all bodies; None unless all of them move straight and are not large."""
+    rows: list[Row] = []
+    for i, body in enumerate(scene.bodies):
+        ask()
+        if body.size > MOST_VERTICES:
+            return None
+        pieces = straight_pieces(body)
+        if pieces is None:
+            return None
+        rows += rows_during(i, pieces, scene._start, scene._end)
+    return rows
+
+
+def rows_during(
+    body: int, pieces: Sequence[tuple[Straight, QQ | None]], start: QQ, end: QQ
+) -> Iterator[Row]:
+    """The rows of a body, of given pieces of motion, between two times."""
+    since = start
+    for straight, until in pieces:
+        if until is None or until >= end:
+            yield Row(body, straight, since, end)
+            return
+        if until > since:
+            yield Row(body, straight, since, until)
+            since = until
+
+
+def near_at(rows: Sequence[Row], start: QQ) -> list[tuple[int, int]]:
+    """The pairs i < j of bodies whose boxes meet at a time at which their first rows begin."""
+    first = [row for row in rows if row.start == start]
+    if len(first) > FEW:
+        from exactpt.collision.row_boxes import near_at_once
+
+        return near_at_once(first, start)
+    low, high = enclosing_floats(start)
+    near: list[tuple[int, int]] = []
+    for a, b in combinations(first, 2):
+        enter, leave = window(a.straight, b.straight, low, high)
+        if not enter > leave:
+            near.append((a.body, b.body))
+    return near
+
+
+def first_touching(
+    rows: Sequence[Row], start: QQ, end: QQ, apart: Callable[[int, int], bool]
+) -> Touching | None:
+    """The first contact in (start, end] of bodies that are disjoint at the start.
+
+    Args:
+        rows: of all bodies.
+        start: the start.
+        end: the end.
+        apart: whether two different bodies, by number, are to be compared.
+    """
+    if len(rows) <= FEW:
+        pairs = ((-math.inf, a, b) for a, b in combinations(rows, 2))
+    else:
+        from exactpt.collision.row_boxes import near_rows
+
+        pairs = ((enter, rows[i], rows[j]) for enter, i, j in near_rows(rows, start, end))
+    return first_of_pairs(
+        (enter, a, b) for enter, a, b in pairs if a.body != b.body and apart(a.body, b.body)
+    )
+
+
+def first_of_pairs(pairs: Iterable[tuple[float, Row, Row]]) -> Touching | None:
+    """The first contact of pairs of rows of two bodies that are disjoint when both begin.
+
+    Args:
+        pairs: two rows, and a time before which they do not touch; in the order of these times.
+    """
+    search = _Search()
+    for enter, a, b in pairs:
+        ask()
+        if enter > search.high:
+            break
+        search.compare(a, b)
+    return search.best
+
+
+class _Search:
+    """The first contact among the rows compared so far.
+
+    Attributes:
+        best: the contact.
+        high: a double at least its time.
+    """
+
+    def __init__(self) -> None:
+        self._spans: dict[tuple[QQ, QQ], Span] = {}
+        self.best: Touching | None = None
+        self.high: float = math.inf
+
+    def compare(self, a: Row, b: Row) -> None:
+        """Compare two rows."""
+        start = max(a.start, b.start)
+        end = min(a.end, b.end)
+        if start >= end:
+            return
+        span = self._spans.get((start, end))
+        if span is None:
+            span = self._spans[start, end] = span_of(start, end)
+        met = first_meeting(a.straight, b.straight, span, self.high)
+        if met is None:
+            return
+        touches = list(_touches(met, a.body, b.body))
+        if self.best is None or met.time < self.best.time:
+            self.best, self.high = Touching(met.time, touches), span_of(met.time, met.time).high
+        elif met.time == self.best.time:
+            self.best.touches.extend(touches)
+
+
+def _touches(met: Meeting, first: int, second: int) -> Iterator[Touch]:
+    """The incidences of two bodies; one of two vertices once, the lower body first."""
+    found: set[Touch] = set()
+    for of_first, vertex, edge, end in met.incidences:
+        body, other = (first, second) if of_first else (second, first)
+        if end >= 0 and other < body:
+            found.add(Touch(other, end, body, -1, vertex))
+        else:
+            found.add(Touch(body, vertex, other, edge, end))
+    return iter(found)

@@ -1,0 +1,104 @@
+"""The XML of a drawing, read within bounds of depth and of copies.
+
+What parses a drawing afterwards recurses into groups, and follows every ``use`` of an element,
+also of one that contains it. So both are bounded here, before anything is copied.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Final
+from xml.etree import ElementTree as Xml
+
+from exactpt.errors import InputError
+from exactpt.exchange.shapes import DEEPEST
+from exactpt.kernel.numbers import shorten
+
+__all__ = ["NAMESPACE", "read_drawing", "valid_text"]
+
+NAMESPACE: Final = "http://www.w3.org/2000/svg"
+
+_MOST_COPIES: Final = 100_000
+"""Maximum number of elements that copies by ``use`` add to a drawing."""
+
+_HREFS: Final = ("href", "{http://www.w3.org/1999/xlink}href")
+
+_NO_TEXT: Final = re.compile("[^\\t\\n\\r\\x20-\\ud7ff\\ue000-\\ufffd\\U00010000-\\U0010ffff]")
+"""The characters that XML cannot hold, not even escaped."""
+
+
+def valid_text(text: str) -> str:
+    """The text with the replacement character in place of those that XML cannot hold."""
+    return _NO_TEXT.sub("\ufffd", text)
+
+
+def read_drawing(text: str) -> Xml.Element:
+    """The root element of a drawing.
+
+    Raises:
+        InputError: if the text is no drawing, is nested too deeply, an element uses itself, or
+            there are too many copies.
+    """
+    try:
+        root = Xml.fromstring(text, Xml.XMLParser(target=_Shallow()))
+    except Xml.ParseError as error:
+        raise InputError(f"not XML: {error}") from None
+    if root.tag not in ("svg", f"{{{NAMESPACE}}}svg"):
+        raise InputError(f"not a drawing: its first element is {shorten(root.tag)[1:-1]}")
+    _check_copies(root)
+    return root
+
+
+class _Shallow(Xml.TreeBuilder):
+    """Builds a tree of bounded depth."""
+
+    depth = 0
+
+    def start(self, tag: str, attrs: dict[str, str], /) -> Xml.Element:
+        """Open an element."""
+        self.depth += 1
+        if self.depth > DEEPEST:
+            raise InputError(f"nested more than {DEEPEST} deep")
+        return super().start(tag, attrs)
+
+    def end(self, tag: str, /) -> Xml.Element:
+        """Close an element."""
+        self.depth -= 1
+        return super().end(tag)
+
+
+def _check_copies(root: Xml.Element) -> None:
+    """Check depth and number of the elements of a drawing in which each ``use`` is a copy.
+
+    An element that uses itself is infinitely deep, and is met at the depth allowed.
+    """
+    named = {name: element for element in root.iter() if (name := element.get("id")) is not None}
+    whole: dict[Xml.Element, tuple[int, int]] = {}
+
+    def expand(element: Xml.Element, depth: int) -> tuple[int, int]:
+        """The number of elements of a copy, and its depth."""
+        if element in whole:
+            count, height = whole[element]
+        elif depth <= DEEPEST:
+            parts = [expand(part, depth + 1) for part in _parts(element, named)]
+            count = 1 + sum(c for c, _ in parts)
+            height = 1 + max((h for _, h in parts), default=0)
+            whole[element] = count, height
+        else:
+            count, height = 0, 1
+        if depth + height > DEEPEST + 1:
+            raise InputError(f"copies are nested more than {DEEPEST} deep, or one is in itself")
+        return count, height
+
+    count, _ = expand(root, 1)
+    if count - len(whole) > _MOST_COPIES:
+        raise InputError(f"more than {_MOST_COPIES} elements are copies of others")
+
+
+def _parts(element: Xml.Element, named: dict[str, Xml.Element]) -> list[Xml.Element]:
+    """The children of an element, and the element that it uses."""
+    parts = list(element)
+    if element.tag.rpartition("}")[2] == "use":
+        links = [element.get(key) for key in _HREFS]
+        parts += [named[link[1:]] for link in links if link is not None and link[1:] in named]
+    return parts

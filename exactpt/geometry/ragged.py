@@ -1,0 +1,180 @@
+"""Many bodies in one array of vertices: their edges, and a filter that finds them simple.
+
+Body k has the vertices ``offsets[k]`` to ``offsets[k + 1]`` - 1. A filter, never a decision:
+what it does not find simple is for `exactpt.geometry.polygon.first_self_touch`.
+"""
+
+from __future__ import annotations
+
+from typing import Final, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exactpt.kernel.doubles import Floats, Indices
+from exactpt.kernel.rounding import SLACK, TINY, U
+
+__all__ = ["Edges", "Flags", "edges_of", "ranges", "segments_meet", "spread", "surely_simple"]
+
+Flags: TypeAlias = NDArray[np.bool_]
+
+K: Final = 8.0 * U
+"""Relative bound on the rounding of an orientation: see `segments_meet`."""
+MOST_EDGES: Final = 64
+"""Maximum number of edges of a body whose pairs of edges are all tested here."""
+_CHUNK: Final = 1 << 16
+"""Maximum number of pairs of edges in a chunk."""
+
+
+class Edges(NamedTuple):
+    """The edges of many bodies; a point has one, from itself to itself.
+
+    Attributes:
+        first, last: their vertices.
+        offsets: body k has the edges ``offsets[k]`` to ``offsets[k + 1]`` - 1; its edge i starts
+            at its vertex i.
+    """
+
+    first: Indices
+    last: Indices
+    offsets: Indices
+
+
+def spread(counts: Indices) -> tuple[Indices, Indices]:
+    """For each k the numbers 0 to ``counts[k]`` - 1, as arrays of k and of these numbers."""
+    ends = np.cumsum(counts)
+    owner = np.repeat(np.arange(len(counts)), counts)
+    return owner, np.arange(len(owner)) - np.repeat(ends - counts, counts)
+
+
+def ranges(counts: Indices, most: int) -> list[tuple[int, int]]:
+    """Consecutive ranges of counts, each with a sum of at most ``most`` or of one entry."""
+    ends = np.cumsum(counts)
+    cuts, first = [], 0
+    while first < len(counts):
+        before = int(ends[first - 1]) if first else 0
+        last = max(first + 1, int(np.searchsorted(ends, before + most, side="right")))
+        cuts.append((first, last))
+        first = last
+    return cuts
+
+
+def edges_of(offsets: Indices, closed: Flags) -> Edges:
+    """The edges of bodies: polygons if closed and of three or more vertices."""
+    sizes = np.diff(offsets)
+    rings = closed & (sizes > 2)
+    counts = np.where(rings, sizes, np.maximum(sizes - 1, 1))
+    owner, position = spread(counts)
+    first = offsets[owner] + position
+    last = offsets[owner] + (position + 1) % sizes[owner]
+    return Edges(first, last, np.concatenate(([0], np.cumsum(counts))))
+
+
+@np.errstate(all="ignore")
+def segments_meet(
+    u: tuple[Floats, Floats],
+    v: tuple[Floats, Floats],
+    p: tuple[Floats, Floats],
+    error: Floats | float,
+) -> tuple[Flags, Flags]:
+    """For pairs of closed segments ab and cd: whether they surely are disjoint, surely cross.
+
+    Two that cross have one common point, inside both.
+
+    Args:
+        u: b - a, each coordinate with a relative error of at most U.
+        v: d - c, likewise.
+        p: c - a, each coordinate with a relative error of at most U and an absolute one.
+        error: that absolute error.
+
+    With q = d - a the orientations are u x p, u x q of ab and c, d, and v x -p, v x (u - p) of cd
+    and a, b. A computed coordinate of q is off by at most 3 U (|p| + |v|) + error, one of u - p
+    likewise; with the product and the difference, the errors of the orientations are at most 6 U
+    times the sum of the products of absolute values, and ``error`` times the sum of the
+    coordinates of u or v; two more units cover the rounding of the bound.
+    """
+    (ux, uy), (vx, vy), (px, py) = u, v, p
+    ax, ay, bx, by, cx, cy = (np.abs(x) for x in (ux, uy, vx, vy, px, py))
+    off_u = error * (ax + ay) * SLACK + TINY
+    off_v = error * (bx + by) * SLACK + TINY
+    c = _sign(ux * py - uy * px, K * (ax * cy + ay * cx) + off_u)
+    d = _sign(ux * (py + vy) - uy * (px + vx), K * (ax * (cy + by) + ay * (cx + bx)) + off_u)
+    a = _sign(vy * px - vx * py, K * (bx * cy + by * cx) + off_v)
+    b = _sign(vx * (uy - py) - vy * (ux - px), K * (bx * (ay + cy) + by * (ax + cx)) + off_v)
+    apart = (c * d > 0) | (a * b > 0)
+    apart |= _beside(ux, px, vx, error) | _beside(uy, py, vy, error)
+    return apart, (c * d < 0) & (a * b < 0)
+
+
+def _beside(u: Floats, p: Floats, v: Floats, error: Floats | float) -> Flags:
+    """Whether the interval from 0 to u and that from p to p + v surely are disjoint.
+
+    p + v is off by at most 3 U (|p| + |v|) + error, and u by U |u|.
+    """
+    q = p + v
+    margin = (K * (np.abs(u) + np.abs(p) + np.abs(v)) + error) * SLACK + TINY
+    gap = np.minimum(p, q) - np.maximum(u, 0.0)
+    gap = np.maximum(gap, np.minimum(u, 0.0) - np.maximum(p, q))
+    beside: Flags = gap > margin
+    return beside
+
+
+def _sign(value: Floats, error: Floats) -> NDArray[np.int8]:
+    return (value > error).astype(np.int8) - (value < -error).astype(np.int8)
+
+
+@np.errstate(all="ignore")
+def surely_simple(vertices: Floats, offsets: Indices, closed: Flags) -> Flags:
+    """For each body, whether it surely is a simple polygon or chain, at rest.
+
+    Args:
+        vertices: shape (N, 2).
+        offsets: shape (n + 1,).
+        closed: shape (n,).
+
+    A difference of doubles is 0 only if they are equal, and has the sign of the exact one. A
+    polygon that turns the same way at every vertex, by less than a half turn, and whose edges
+    change from downward to upward once, turns by 2 pi: it is convex.
+    """
+    sizes = np.diff(offsets)
+    edges = edges_of(offsets, closed)
+    d = vertices[edges.last] - vertices[edges.first]
+    dx, dy = d[:, 0], d[:, 1]
+    before = np.arange(len(d)) - 1
+    before[edges.offsets[:-1]] = edges.offsets[1:] - 1
+    p, q = dx[before] * dy, dy[before] * dx
+    turn = _sign(p - q, K * (np.abs(p) + np.abs(q)) + TINY)
+    upward = (dy > 0.0) | ((dy == 0.0) & (dx > 0.0))
+    starts = edges.offsets[:-1]
+    rings = closed & (sizes > 2)
+    one_way = np.abs(np.add.reduceat(turn, starts, dtype=np.int64)) == sizes
+    rises = np.add.reduceat(upward & ~upward[before], starts, dtype=np.int64)
+    convex = rings & one_way & (rises == 1)
+    distinct = ~np.logical_or.reduceat((dx == 0.0) & (dy == 0.0), starts)
+    short = (sizes == 1) | ((sizes == 2) & distinct)
+    inner = turn != 0
+    inner[starts[~rings]] = True  # a chain does not turn at its ends
+    bends = np.logical_and.reduceat(inner, starts)
+    simple: Flags = short | convex
+    candidates = np.flatnonzero(~simple & distinct & bends & (np.diff(edges.offsets) <= MOST_EDGES))
+    counts = np.diff(edges.offsets)[candidates] ** 2
+    for first, last in ranges(counts, _CHUNK):
+        some = candidates[first:last]
+        simple[some] = _apart_from_itself(vertices, d, edges, some, rings[some])
+    return simple
+
+
+def _apart_from_itself(
+    vertices: Floats, d: Floats, edges: Edges, some: Indices, rings: Flags
+) -> Flags:
+    """Whether no two edges of a body meet that are not neighbours."""
+    sizes = edges.offsets[some + 1] - edges.offsets[some]
+    owner, position = spread(sizes * sizes)
+    i, j = np.divmod(position, sizes[owner])
+    near = (i + 1 >= j) | ((i == 0) & (j == sizes[owner] - 1) & rings[owner])
+    owner, i, j = owner[~near], i[~near], j[~near]
+    e, f = edges.offsets[some[owner]] + i, edges.offsets[some[owner]] + j
+    p = vertices[edges.first[f]] - vertices[edges.first[e]]
+    apart, _ = segments_meet((d[e, 0], d[e, 1]), (d[f, 0], d[f, 1]), (p[:, 0], p[:, 1]), 0.0)
+    simple: Flags = np.bincount(owner[~apart], minlength=len(some)) == 0
+    return simple

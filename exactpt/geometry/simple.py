@@ -1,0 +1,141 @@
+"""A float filter for simple polygons and chains: what it accepts is simple, and has an area.
+
+The sign of an orientation. With coordinates off by at most e, a rounded difference u has an
+error of at most 2 e + U |u|, so the determinant p - q of two differences u, v one of at most
+6 U (|p| + |q|) + 2 e (|ux| + |uy| + |vx| + |vy|) + 8 e^2; 8 U covers the rounding of the bound.
+An overflow makes the bound infinite or NaN, and then no sign is certain; `TINY` covers
+underflow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+from typing import Final
+
+import numpy as np
+
+from exactpt.geometry.boxes import overlapping_pairs
+from exactpt.geometry.polygon import edges
+from exactpt.kernel.rounding import SLACK, TINY, U
+
+__all__ = ["is_surely_simple"]
+
+Edge = tuple[float, float, float, float]
+
+K: Final = 8.0 * U
+FEW: Final = 20
+"""Maximum number of edges of which all pairs are tested without boxes."""
+
+
+def is_surely_simple(
+    xs: Sequence[float], ys: Sequence[float], *, closed: bool, error: float = 0.0
+) -> bool:
+    """Whether a polygon (or chain) certainly is simple, and a polygon has an area.
+
+    Args:
+        xs: finite coordinates.
+        ys: the other coordinates.
+        closed: whether it is a polygon, if it has three or more vertices.
+        error: a bound on the errors of all coordinates; 0, or at least U times the largest.
+    """
+    n = len(xs)
+    if n <= 2:
+        return n == 1 or abs(xs[1] - xs[0]) > 3.0 * error or abs(ys[1] - ys[0]) > 3.0 * error
+    if closed:
+        if _turns_once(xs, ys, error):
+            return True
+        if n == 3:
+            return False
+    return _no_edges_meet(xs, ys, error, closed=closed)
+
+
+def _turns_once(xs: Sequence[float], ys: Sequence[float], error: float) -> bool:
+    """Whether a polygon certainly is strictly convex.
+
+    It is, and hence simple, if it turns to the same side at each vertex, by less than pi, and
+    by 2 pi in all. Its edges then change their direction along x, those that go neither way
+    left out, twice in each turn of 2 pi: none of the two open half turns without an upright
+    edge can be left out, as that takes a turn of pi or more.
+    """
+    ux, uy = xs[0] - xs[-1], ys[0] - ys[-1]
+    side = changes = 0
+    along = first_along = 0.0
+    for i in range(len(xs)):
+        if abs(ux) > 3.0 * error:
+            if ux * along < 0.0:
+                changes += 1
+            along = 1.0 if ux > 0.0 else -1.0
+            first_along = first_along or along
+        elif error:
+            return False  # perhaps upright, perhaps not
+        j = i + 1 if i + 1 < len(xs) else 0
+        vx, vy = xs[j] - xs[i], ys[j] - ys[i]
+        s = _cross_sign(ux, uy, vx, vy, error)
+        if s in (0, -side):
+            return False
+        side = s
+        ux, uy = vx, vy
+    return changes + (first_along != along) == 2
+
+
+def _no_edges_meet(xs: Sequence[float], ys: Sequence[float], error: float, *, closed: bool) -> bool:
+    """Whether certainly no two edges share more than a common end.
+
+    Two with a common end do not if they are not parallel.
+    """
+    n = len(xs)
+    rows = [(xs[i], ys[i], xs[j], ys[j]) for i, j in edges(n, closed=closed)]
+    m = len(rows)
+    if m <= FEW:
+        pairs = list(combinations(range(m), 2))
+    else:
+        ends = np.array(rows)
+        x, y = ends[:, ::2], ends[:, 1::2]
+        low_x, low_y = x.min(axis=1) - 4.0 * error, y.min(axis=1) - 4.0 * error
+        boxes = np.stack((low_x, x.max(axis=1), low_y, y.max(axis=1)), axis=1)
+        pairs = [
+            pair
+            for first, second in overlapping_pairs(boxes)
+            for pair in zip(first.tolist(), second.tolist(), strict=True)
+        ]
+    for i, j in pairs:
+        if j == i + 1 or (closed and j - i == m - 1):
+            a, b = (rows[i], rows[j]) if j == i + 1 else (rows[j], rows[i])
+            if not _cross_sign(a[2] - a[0], a[3] - a[1], b[2] - b[0], b[3] - b[1], error):
+                return False
+        elif not _are_apart(rows[i], rows[j], error):
+            return False
+    return True
+
+
+def _are_apart(e: Edge, f: Edge, error: float) -> bool:
+    """Whether two edges certainly are disjoint: by their boxes, or one by the other's line."""
+    ax, ay, bx, by = e
+    cx, cy, dx, dy = f
+    off = 4.0 * error  # of which two count, and one covers rounding
+    if (
+        min(ax, bx) - off > max(cx, dx)
+        or min(cx, dx) - off > max(ax, bx)
+        or min(ay, by) - off > max(cy, dy)
+        or min(cy, dy) - off > max(ay, by)
+    ):
+        return True
+    ux, uy = bx - ax, by - ay
+    s = _cross_sign(ux, uy, cx - ax, cy - ay, error)
+    if s and s == _cross_sign(ux, uy, dx - ax, dy - ay, error):
+        return True
+    vx, vy = dx - cx, dy - cy
+    s = _cross_sign(vx, vy, ax - cx, ay - cy, error)
+    return bool(s) and s == _cross_sign(vx, vy, bx - cx, by - cy, error)
+
+
+def _cross_sign(ux: float, uy: float, vx: float, vy: float, error: float) -> int:
+    """The sign of u x v, rounded differences of coordinates; 0 if it is not certain."""
+    p, q = ux * vy, uy * vx
+    bound = K * (abs(p) + abs(q)) + TINY
+    if error:
+        size = abs(ux) + abs(uy) + abs(vx) + abs(vy)
+        bound = (bound + 2.0 * error * (size + 4.0 * error)) * SLACK
+    value = p - q
+    return 1 if value > bound else -1 if value < -bound else 0

@@ -1,0 +1,28 @@
+"""Indices of vertices, half-edges and certificates, which the type checker tells apart.
+
+At run time, and for mypyc, they are plain integers.
+"""
+
+from __future__ import annotations
+
+from typing import Final, NewType, TypeAlias
+
+__all__ = ["NO_HALF_EDGE", "NO_VERTEX", "CertificateId", "Ends", "HalfEdge", "Triple", "VertexId"]
+
+VertexId = NewType("VertexId", int)
+"""A vertex: its position among the moving vertices of a scene, or in a planar map."""
+
+HalfEdge = NewType("HalfEdge", int)
+"""A half-edge of a planar map; its twin is h ^ 1."""
+
+CertificateId = NewType("CertificateId", int)
+"""A certificate in the queue: its kind and its part (`exactpt.certificates.certificate`)."""
+
+Ends: TypeAlias = tuple[VertexId, VertexId]
+"""The ends of an edge."""
+
+Triple: TypeAlias = tuple[VertexId, VertexId, VertexId]
+"""Three vertices with an orientation: those of an angle, its apex in the middle."""
+
+NO_VERTEX: Final = VertexId(-1)
+NO_HALF_EDGE: Final = HalfEdge(-1)

@@ -1,0 +1,159 @@
+"""Values of quotients of polynomials at algebraic numbers, and square roots, as algebraic numbers.
+
+For a root t of p, the value y = n(t) / d(t) is a root of R(y), the product of n - y d over all
+roots of p: up to a factor, the resultant of p and n - y d. The degree of R is at most that of p,
+so its values at that many points and one determine it.
+
+Source: S. Basu, R. Pollack, M.-F. Roy, *Algorithms in Real Algebraic Geometry*, 2nd ed.,
+section 4.2 (resultants).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import lcm
+
+from exactpt.errors import InputError
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.integer_polynomial import (
+    IntPoly,
+    evaluate,
+    greatest_common_divisor,
+    primitive,
+    quotient,
+    range_on,
+    scale,
+    square_free,
+    subtract,
+    trimmed,
+)
+from exactpt.kernel.numbers import QQ, ZZ, isqrt, power_of_two
+from exactpt.kernel.sturm import count_roots, sturm_sequence
+
+__all__ = ["lowest_terms", "quotient_at", "square_root"]
+
+
+def lowest_terms(n: IntPoly, d: IntPoly) -> tuple[IntPoly, IntPoly]:
+    """Numerator and denominator of the same quotient, without a common factor."""
+    common = greatest_common_divisor(n, d)
+    if len(common) <= 1:
+        return n, d
+    p, q = quotient(n, common), quotient(d, common)
+    factor = QQ(n[-1] * q[-1], d[-1] * p[-1])
+    return scale(p, ZZ(factor.numerator)), scale(q, ZZ(factor.denominator))
+
+
+def quotient_at(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> AlgebraicNumber:
+    """n(t) / d(t).
+
+    Raises:
+        InputError: if d vanishes at t and n does not; where both do, the limit is returned.
+    """
+    n, d = lowest_terms(n, d)
+    if t.sign_of(d) == 0:
+        raise InputError("the denominator vanishes")
+    if not n or t.is_rational:
+        return AlgebraicNumber(evaluate(n, t._low) / evaluate(d, t._low))
+    p = t._polynomial
+    common = greatest_common_divisor(p, d)
+    if len(common) > 1:
+        p = quotient(p, common)
+    return _root_near(_norm_in_y(p, n, d), lambda: _range(n, d, t))
+
+
+def square_root(y: AlgebraicNumber) -> AlgebraicNumber:
+    """The square root of a number >= 0."""
+    if y.compare_rational(0) == 0:
+        return AlgebraicNumber(0)
+    polynomial: list[ZZ] = []
+    for c in y._polynomial:
+        polynomial += [c, ZZ(0)]
+    return _root_near(trimmed(polynomial), lambda: _range_of_root(y))
+
+
+def _root_near(f: IntPoly, narrow: Callable[[], tuple[QQ, QQ]]) -> AlgebraicNumber:
+    """The root of f in the intervals that are narrowed around it, one by one."""
+    f = square_free(f)
+    sequence = sturm_sequence(f)
+    while True:
+        low, high = narrow()
+        if low == high:
+            return AlgebraicNumber(low)
+        if count_roots(sequence, low, high) == 1 and evaluate(f, low) != 0:
+            return AlgebraicNumber._root(f, low, high)
+
+
+def _range(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> tuple[QQ, QQ]:
+    """Bounds of n(t) / d(t); they narrow with every call."""
+    while True:
+        t.refine()
+        low, high = range_on(d, t._low, t._high)
+        if low > 0 or high < 0:
+            break
+    ends = [x / y for x in range_on(n, t._low, t._high) for y in (low, high)]
+    return min(ends), max(ends)
+
+
+def _range_of_root(y: AlgebraicNumber) -> tuple[QQ, QQ]:
+    """Bounds of the square root of y; they narrow with every call."""
+    y.refine()
+    while y._low <= 0 and not y.is_rational:
+        y.refine()
+    bits = 2 * max(8, y._high.denominator.bit_length() + y._low.denominator.bit_length())
+    unit = power_of_two(bits)
+    low, high = (
+        isqrt(v.numerator * (ZZ(1) << 2 * bits) // v.denominator) for v in (y._low, y._high)
+    )
+    if y.is_rational and QQ(low) * low == y._low * unit * unit:
+        return QQ(low) / unit, QQ(low) / unit
+    return QQ(low) / unit, QQ(high + 1) / unit
+
+
+def _norm_in_y(p: IntPoly, n: IntPoly, d: IntPoly) -> IntPoly:
+    """The product of n - y d over the roots of p, as a polynomial in y, up to a factor."""
+    count = len(p)
+    table = [_norm(p, subtract(n, scale(d, ZZ(y)))) for y in range(count)]
+    for k in range(1, count):  # Newton's divided differences
+        for i in range(count - 1, k - 1, -1):
+            table[i] = (table[i] - table[i - 1]) / k
+    result = [QQ(0)]
+    for k in range(count - 1, -1, -1):  # Horner's rule on the Newton form
+        result = [QQ(0), *result]
+        for i in range(len(result) - 1):
+            result[i] -= k * result[i + 1]
+        result[0] += table[k]
+    common = lcm(*(c.denominator for c in result))
+    return primitive(trimmed([ZZ(c * common) for c in result]))
+
+
+def _norm(p: IntPoly, g: IntPoly) -> QQ:
+    """The product of g over the complex roots of p, by Euclid's algorithm.
+
+    With leading coefficients a of p and b of g, and degrees k and m, it is
+    (-1)^(k m) b^k / a^m times the product of p over the roots of g.
+    """
+    over, under = [QQ(c) for c in g], [QQ(c) for c in p]
+    product = QQ(1)
+    while True:
+        over = _remainder(over, under)
+        if not over:
+            return QQ(0)
+        k, m = len(under) - 1, len(over) - 1
+        product *= over[-1] ** k
+        if m == 0:
+            return product
+        product *= (-1) ** (k * m) / under[-1] ** m
+        over, under = under, over
+
+
+def _remainder(f: list[QQ], g: list[QQ]) -> list[QQ]:
+    rest = f[:]
+    while len(rest) >= len(g):
+        factor = rest[-1] / g[-1]
+        shift = len(rest) - len(g)
+        for i, c in enumerate(g[:-1]):
+            rest[shift + i] -= factor * c
+        rest.pop()
+    while rest and rest[-1] == 0:
+        rest.pop()
+    return rest

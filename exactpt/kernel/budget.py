@@ -1,0 +1,93 @@
+"""Budgets of time and memory: long loops ask whether the budget of their thread is used up.
+
+A budget holds in the thread that has set it, needs no signals, and is asked for wherever a
+loop may take long: over vertices, certificates, coefficients of long polynomials, bisections.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+import threading
+import time as clock
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Final, final
+
+from exactpt.errors import BudgetExceeded
+
+__all__ = ["GRACE", "LONG", "ask", "within"]
+
+LONG: Final = 64
+"""Number of coefficients from which on loops over the coefficients of a polynomial ask."""
+
+GRACE: Final = 0.25
+"""Seconds after its deadline in which a search may still stop by itself, between two steps."""
+
+BETWEEN: Final = 0.05
+"""Seconds between two looks at the memory of the process."""
+
+
+@final
+class _Limits(threading.local):
+    """The limits of a thread; infinite if it has none."""
+
+    deadline: float = float("inf")
+    memory: float = float("inf")
+    look: float = float("inf")
+    """The earliest time at which anything may be exceeded."""
+
+
+_LIMITS: Final = _Limits()
+
+
+def ask() -> None:
+    """Raise `BudgetExceeded` if the time or the memory of this thread is used up."""
+    now = clock.monotonic()
+    if now < _LIMITS.look:
+        return
+    if now >= _LIMITS.deadline:
+        raise BudgetExceeded("the time is used up", None)
+    _LIMITS.look = min(_LIMITS.deadline, now + BETWEEN)
+    if _memory() > _LIMITS.memory:
+        raise BudgetExceeded("the memory is used up", None)
+
+
+@contextlib.contextmanager
+def within(deadline: float | None, memory: int | None = None) -> Iterator[None]:
+    """Within the context, long loops of this thread end with `BudgetExceeded`.
+
+    A budget around this one holds too.
+
+    Args:
+        deadline: the time of ``time.monotonic`` at which the time is used up; None for none.
+        memory: maximum memory of the process, in bytes; None for no limit.
+    """
+    old = _LIMITS.deadline, _LIMITS.memory, _LIMITS.look
+    if deadline is not None:
+        _LIMITS.deadline = min(_LIMITS.deadline, deadline)
+    if memory is not None:
+        _LIMITS.memory = min(_LIMITS.memory, memory)
+    _LIMITS.look = min(_LIMITS.look, _LIMITS.deadline)
+    if _LIMITS.memory < float("inf"):
+        _LIMITS.look = 0.0
+    try:
+        yield
+    finally:
+        _LIMITS.deadline, _LIMITS.memory, _LIMITS.look = old
+
+
+def _memory() -> int:
+    """The memory of this process in bytes: what it has now, or where unknown, its maximum."""
+    try:
+        pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
+    except (OSError, ValueError):
+        pass
+    else:
+        return pages * os.sysconf("SC_PAGE_SIZE")
+    try:
+        from resource import RUSAGE_SELF, getrusage
+    except ImportError:  # Windows: no limit holds
+        return 0
+    return getrusage(RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)

@@ -1,0 +1,77 @@
+"""Arrays of doubles from a caller's arrays, without loss."""
+
+from __future__ import annotations
+
+from typing import Final, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import shorten
+
+__all__ = ["Floats", "Indices", "doubles", "first_true", "indices"]
+
+Floats: TypeAlias = NDArray[np.float64]
+Indices: TypeAlias = NDArray[np.int64]
+
+INTEGERS: Final = 2.0**53
+"""All integers of at most this absolute value are doubles."""
+
+
+def doubles(values: ArrayLike, what: str) -> Floats:
+    """The values as float64, all of them finite.
+
+    Args:
+        values: floats of at most 64 bits, or integers that are doubles.
+        what: what they are, for the message.
+
+    Raises:
+        InputError: if a value is no number, not finite, or not a double.
+    """
+    try:
+        given = np.asarray(values)
+    except ValueError:
+        raise InputError(f"{what}: not an array: {shorten(values)}") from None
+    if given.dtype.kind not in "fiu":
+        raise InputError(f"{what}: not an array of numbers: {shorten(values)}")
+    with np.errstate(over="ignore"):
+        result = given.astype(np.float64, copy=False)
+    if given.dtype.kind != "f":
+        large = np.abs(result) > INTEGERS
+        exact = given[large].astype(object) == result[large].astype(object)
+        large[large] = ~exact.astype(bool)
+        _refuse(large, given, what, "not a double")
+    elif given.dtype.itemsize > 8:
+        _refuse(result.astype(given.dtype) != given, given, what, "not a double")
+    _refuse(~np.isfinite(result), given, what, "not a finite number")
+    return result
+
+
+def indices(values: ArrayLike, what: str) -> Indices:
+    """The values as int64.
+
+    Raises:
+        InputError: if a value is no integer.
+    """
+    try:
+        given = np.asarray(values)
+    except ValueError:
+        raise InputError(f"{what}: not an array: {shorten(values)}") from None
+    if given.dtype.kind not in "iu" and given.size:
+        raise InputError(f"{what}: not an array of integers: {shorten(values)}")
+    return given.astype(np.int64)
+
+
+def first_true(flags: NDArray[np.bool_]) -> tuple[int, ...] | None:
+    """The indices of the first true entry; None if there is none."""
+    if not flags.any():
+        return None
+    return tuple(int(i) for i in np.unravel_index(int(flags.argmax()), flags.shape))
+
+
+def _refuse(wrong: NDArray[np.bool_], given: NDArray[np.generic], what: str, why: str) -> None:
+    at = first_true(wrong)
+    if at is not None:
+        place = f"[{', '.join(map(str, at))}]" if at else ""
+        raise InputError(f"{what}{place}: {why}: {given[at]!s}")

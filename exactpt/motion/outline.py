@@ -1,0 +1,171 @@
+"""Shapes in doubles: the vertices of a body that does not deform, and its straight motions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple, final
+
+from exactpt.kernel.numbers import QQ, nearest_float
+from exactpt.kernel.polynomial import Polynomial
+from exactpt.kernel.rounding import TINY, U
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Motion, Pieces, Rigid, SimpleMotion, Translation
+
+__all__ = ["Outline", "Straight", "outline_at", "pieces_of", "rest_outline", "straight_pieces"]
+
+
+class Outline(NamedTuple):
+    """Vertices in doubles.
+
+    Attributes:
+        xs, ys: finite coordinates.
+        error: a bound on the errors of all coordinates: 0, or at least U times the largest.
+        low_x, high_x, low_y, high_y: the bounding box of the doubles.
+    """
+
+    xs: list[float]
+    ys: list[float]
+    error: float
+    low_x: float
+    high_x: float
+    low_y: float
+    high_y: float
+
+
+def pieces_of(motion: Motion) -> list[tuple[SimpleMotion, QQ | None]]:
+    """The motions by one formula that it consists of, each with its end."""
+    if isinstance(motion, Pieces):
+        return list(zip(motion.motions, (*motion._until, None), strict=True))
+    return [(motion, None)]
+
+
+def rest_outline(body: Body) -> Outline | None:
+    """The vertices in the rest frame; None if the body deforms there, or is out of range."""
+    if body._doubles is not None:
+        return _outline(*body._doubles, exact=True)
+    points: list[tuple[QQ, QQ]] = []
+    for x, y in body.vertices:
+        if x.degree > 0 or y.degree > 0:
+            return None
+        points.append((x._at(QQ(0)), y._at(QQ(0))))
+    return _nearest(points) if points else None
+
+
+def outline_at(body: Body, t: QQ) -> Outline | None:
+    """An outline congruent to the body at a time: at rest if its motion is rigid."""
+    if all(isinstance(motion, (Translation, Rigid)) for motion, _ in pieces_of(body.motion)):
+        shape = rest_outline(body)
+        if shape is not None:
+            return shape
+    return _nearest(body._at(t))
+
+
+def _nearest(points: Iterable[tuple[QQ, QQ]]) -> Outline | None:
+    xs: list[float] = []
+    ys: list[float] = []
+    for x, y in points:
+        xs.append(nearest_float(x))
+        ys.append(nearest_float(y))
+    return _outline(xs, ys, exact=False)
+
+
+def _outline(xs: list[float], ys: list[float], *, exact: bool) -> Outline | None:
+    low_x, high_x, low_y, high_y = min(xs), max(xs), min(ys), max(ys)
+    size = max(-low_x, high_x, -low_y, high_y)
+    if size == math.inf:
+        return None
+    return Outline(xs, ys, 0.0 if exact else _off(size), low_x, high_x, low_y, high_y)
+
+
+def _off(size: float) -> float:
+    """A bound on the distance of a number to its nearest double, of this size at most."""
+    return 2.0 * U * size + TINY
+
+
+@final
+class Straight:
+    """A body in straight motion: its vertices at c + v t, as doubles and exactly.
+
+    Attributes:
+        body: the body.
+        shape: its vertices in the rest frame.
+        motion: its translation, of degree at most 1.
+        edges: its edges, as pairs of vertices; of a point, from the vertex to itself.
+        cx, cy, vx, vy: the coefficients of the translation, as doubles.
+        c_error, v_error: bounds on the errors of these.
+
+    The exact vertices are made when they are needed, once for all motions of the body.
+    """
+
+    __slots__ = (
+        "_points", "body", "c_error", "cx", "cy", "edges", "motion", "shape", "v_error", "vx", "vy"
+    )  # fmt: skip
+
+    def __init__(
+        self,
+        body: Body,
+        shape: Outline,
+        motion: Translation,
+        edges: list[tuple[int, int]],
+        points: list[tuple[QQ, QQ] | None],
+    ) -> None:
+        self.body = body
+        self.shape = shape
+        self.motion = motion
+        self.edges = edges
+        self._points = points
+        self.cx, self.vx, c_error, v_error = _linear(motion.x)
+        self.cy, self.vy, c_of_y, v_of_y = _linear(motion.y)
+        self.c_error = max(c_error, c_of_y)
+        self.v_error = max(v_error, v_of_y)
+
+    def point(self, i: int) -> tuple[QQ, QQ]:
+        """Vertex i in the rest frame."""
+        point = self._points[i]
+        if point is None:
+            x, y = self.body.vertices[i]
+            self._points[i] = point = x._at(QQ(0)), y._at(QQ(0))
+        return point
+
+    def line(self) -> tuple[QQ, QQ, QQ, QQ]:
+        """The exact coefficients of the translation: c in x and y, v in x and y."""
+        x, y = self.motion.x._coefficients, self.motion.y._coefficients
+        zero = QQ(0)
+        return (
+            x[0] if x else zero,
+            y[0] if y else zero,
+            x[1] if len(x) > 1 else zero,
+            y[1] if len(y) > 1 else zero,
+        )
+
+
+def _linear(f: Polynomial) -> tuple[float, float, float, float]:
+    """The coefficients of a polynomial of degree at most 1, and their errors; perhaps infinite."""
+    near = f._doubles
+    if near is not None:
+        return near[0] if near else 0.0, near[1] if len(near) > 1 else 0.0, 0.0, 0.0
+    exact = f._coefficients
+    c = nearest_float(exact[0]) if exact else 0.0
+    v = nearest_float(exact[1]) if len(exact) > 1 else 0.0
+    return c, v, _off(abs(c)), _off(abs(v))
+
+
+def straight_pieces(
+    body: Body, shape: Outline | None = None
+) -> list[tuple[Straight, QQ | None]] | None:
+    """The straight motions of a body, each with its end; None unless all its motions are.
+
+    Its vertices keep their positions in the rest frame, of which the outline may be given.
+    """
+    shape = shape or rest_outline(body)
+    if shape is None:
+        return None
+    edges = body.edges or [(0, 0)]
+    points: list[tuple[QQ, QQ] | None] = [None] * body.size
+    pieces: list[tuple[Straight, QQ | None]] = []
+    for motion, end in pieces_of(body.motion):
+        if not isinstance(motion, Translation) or motion.x.degree > 1 or motion.y.degree > 1:
+            return None
+        pieces.append((Straight(body, shape, motion, edges, points), end))
+    return pieces

@@ -1,0 +1,225 @@
+"""The Euclidean distance of two bodies as a function of time.
+
+While two bodies do not meet, one pair of features is nearest, from one algebraic time to the
+next; the squared distance is then a quotient of two polynomials. Let f be nearest just after a
+time, and g another pair. g becomes nearer only at a time at which the numerator of g - f
+vanishes: where the foot of g's perpendicular comes onto its edge, g is as far as a pair of
+vertices, so not nearer than f. f itself ends where its foot leaves its edge. At each such time
+the pairs are compared anew, just after it, by signs of polynomials.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, cmp_to_key
+from typing import NamedTuple, final
+
+from exactpt.errors import InputError
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.algebraic_value import lowest_terms, quotient_at, square_root
+from exactpt.kernel.budget import ask
+from exactpt.kernel.integer_polynomial import IntPoly, derivative, evaluate, multiply, subtract
+from exactpt.kernel.numbers import QQ, ZZ, Rational, fraction, rational, show
+from exactpt.kernel.roots import roots_after
+from exactpt.kernel.square_root import nearest_square_root
+from exactpt.motion.body import Body
+from exactpt.proximity.features import Feature, FeaturePair, feature_pairs
+from exactpt.proximity.intervals import intervals
+from exactpt.proximity.stretches import stretches, two_bodies
+from exactpt.scene.scene import Scene
+
+__all__ = ["Clearance", "ClearancePiece", "Minimum", "clearance"]
+
+_in_order = cmp_to_key(AlgebraicNumber.compare)
+
+
+class ClearancePiece(NamedTuple):
+    """A time interval in which one pair of features is nearest.
+
+    Attributes:
+        start, end: the closed interval.
+        features: of the first body and of the second one; None where the bodies meet.
+        numerator, denominator: polynomials with integer coefficients, the constant first, whose
+            quotient is the squared distance. Where both vanish, which they do at single times,
+            it is the limit.
+    """
+
+    start: AlgebraicNumber
+    end: AlgebraicNumber
+    features: tuple[Feature, Feature] | None
+    numerator: tuple[int, ...]
+    denominator: tuple[int, ...]
+
+
+class Minimum(NamedTuple):
+    """The least distance; ``float`` gives the nearest double.
+
+    Attributes:
+        time: the first time of the least distance.
+        squared: its square, exactly.
+    """
+
+    time: AlgebraicNumber
+    squared: AlgebraicNumber
+
+    @property
+    def distance(self) -> AlgebraicNumber:
+        """The least distance, exactly."""
+        return square_root(self.squared)
+
+    def __float__(self) -> float:
+        return float(self.distance)
+
+
+@final
+@dataclass(frozen=True)
+class Clearance:
+    """The distance of two bodies over a time span.
+
+    Attributes:
+        a, b: the names of the bodies.
+        pieces: from the start of the span to its end, each beginning where the last one ends.
+    """
+
+    a: str
+    b: str
+    pieces: tuple[ClearancePiece, ...]
+
+    def squared(self, at: Rational) -> Fraction:
+        """The squared distance at a rational time.
+
+        Raises:
+            InputError: if the time is outside of the time span.
+        """
+        t = rational(at)
+        for piece in self.pieces:
+            if piece.start.compare_rational(t) <= 0 <= piece.end.compare_rational(t):
+                below = evaluate(_poly(piece.denominator), t)
+                if below:
+                    return fraction(evaluate(_poly(piece.numerator), t) / below)
+        raise InputError(f"the time {show(t)} is outside of the time span")
+
+    def __call__(self, at: Rational) -> float:
+        """The double nearest to the distance at a rational time."""
+        return nearest_square_root(QQ(self.squared(at)))
+
+    @cached_property
+    def minimum(self) -> Minimum:
+        """The least distance in the time span, and the first time at which it occurs."""
+        best: Minimum | None = None
+        for piece in self.pieces:
+            for time in _candidates(piece):
+                value = quotient_at(_poly(piece.numerator), _poly(piece.denominator), time)
+                if best is None or value.compare(best.squared) < 0:
+                    best = Minimum(time, value)
+        assert best is not None  # noqa: S101 - there is a piece
+        return best
+
+
+def clearance(scene: Scene, a: str, b: str) -> Clearance:
+    """The Euclidean distance of two bodies over the time span of a scene.
+
+    >>> from exactpt import Body, Scene, Translation
+    >>> ball = Body("ball", [(-9, 3)], Translation([0, 1]))
+    >>> box = Body("box", [(0, 0), (2, 0), (2, 2), (0, 2)])
+    >>> gap = clearance(Scene([ball, box], time=(0, 20)), "ball", "box")
+    >>> gap.squared(0), gap(10), gap.minimum.time, float(gap.minimum)
+    (Fraction(82, 1), 1.0, AlgebraicNumber('9'), 1.0)
+
+    Args:
+        scene: the bodies and the time span.
+        a: the name of a body.
+        b: the name of another body.
+
+    Raises:
+        InputError: if there is no such body, or both are the same.
+    """
+    first, second = two_bodies(scene, a, b)
+    now = AlgebraicNumber(scene._start)
+    pieces: list[ClearancePiece] = []
+    for start, end in [*intervals(first, second, scene._start, scene._end), (None, None)]:
+        stop = AlgebraicNumber(scene._end) if start is None else start
+        pieces += _apart(first, second, now, stop)
+        if start is not None and end is not None:
+            pieces.append(ClearancePiece(start, end, None, (), (1,)))
+            now = end
+    return Clearance(a, b, tuple(pieces))
+
+
+def _apart(a: Body, b: Body, begin: AlgebraicNumber, end: AlgebraicNumber) -> list[ClearancePiece]:
+    """The pieces of the distance between two times; between them the bodies do not meet."""
+    pieces = []
+    now = begin
+    for stretch in stretches(a, b, begin._low, end._high):
+        until = AlgebraicNumber(stretch.end)
+        until = min(until, end)
+        pairs = list(feature_pairs(a, b, stretch.first, stretch.second))
+        while now < until:
+            ask()
+            nearest = _nearest_after(pairs, now)
+            stop = _first_change(nearest, pairs, now, until)
+            pieces.append(_piece(now, stop, nearest))
+            now = stop
+    return pieces
+
+
+def _piece(start: AlgebraicNumber, end: AlgebraicNumber, pair: FeaturePair) -> ClearancePiece:
+    n, d = (tuple(map(int, f)) for f in lowest_terms(*pair.squared))
+    return ClearancePiece(start, end, pair.features, n, d)
+
+
+def _nearest_after(pairs: list[FeaturePair], now: AlgebraicNumber) -> FeaturePair:
+    """The nearest pair just after a time; of equal ones the first, vertices before edges."""
+    holding = [pair for pair in pairs if pair.holds_after(now)]
+    nearest = holding[0]
+    for pair in holding[1:]:
+        if now.sign_after(_lead(pair, nearest)) < 0:
+            nearest = pair
+    return nearest
+
+
+def _lead(g: FeaturePair, f: FeaturePair) -> IntPoly:
+    """A polynomial with the sign of the difference of the squared distances of g and f."""
+    (n, d), (m, e) = g.squared, f.squared
+    return subtract(multiply(n, e), multiply(m, d))
+
+
+def _first_change(
+    nearest: FeaturePair, pairs: list[FeaturePair], now: AlgebraicNumber, until: AlgebraicNumber
+) -> AlgebraicNumber:
+    """The first time after now at which another pair is nearest just after it; else until."""
+    until_above = until._high
+    times: list[tuple[AlgebraicNumber, FeaturePair | None]] = []
+    for f in filter(None, nearest.limits):
+        times += [(root.time, None) for root in roots_after(f, now, until_above)]
+    for other in pairs:
+        lead = _lead(other, nearest) if other is not nearest else ()
+        if lead:
+            times += [(root.time, other) for root in roots_after(lead, now, until_above)]
+    for time, pair in sorted(times, key=lambda found: _in_order(found[0])):
+        if time >= until:
+            break
+        if pair is None:
+            if not nearest.holds_after(time):
+                return time
+        elif pair.holds_after(time) and time.sign_after(_lead(pair, nearest)) < 0:
+            return time
+    return until
+
+
+def _candidates(piece: ClearancePiece) -> Iterator[AlgebraicNumber]:
+    """The times at which the distance may be least in a piece, in increasing order."""
+    yield piece.start
+    n, d = _poly(piece.numerator), _poly(piece.denominator)
+    slope = subtract(multiply(derivative(n), d), multiply(n, derivative(d)))
+    if slope and piece.start < piece.end:
+        for root in roots_after(slope, piece.start, piece.end._high):
+            if root.time < piece.end:
+                yield root.time
+        yield piece.end
+
+
+def _poly(coefficients: tuple[int, ...]) -> IntPoly:
+    return tuple(map(ZZ, coefficients))

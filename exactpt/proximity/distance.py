@@ -1,0 +1,121 @@
+"""The Euclidean distance of two bodies at a rational time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+from typing import final
+
+from exactpt.errors import InputError
+from exactpt.geometry.predicates import Point
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ, Rational, fraction, rational
+from exactpt.kernel.square_root import nearest_square_root
+from exactpt.motion.body import Body
+from exactpt.proximity.features import Feature
+from exactpt.proximity.stretches import meet, two_bodies
+from exactpt.scene.scene import Scene
+
+__all__ = ["Distance", "distance", "squared_distance"]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Distance:
+    """The distance of two bodies at one time; ``float`` gives the nearest double.
+
+    Attributes:
+        squared: the square of the distance, exactly.
+        features: the pairs of nearest features, of the first body and of the second one: a
+            vertex and a vertex, or a vertex and the interior of an edge. At distance 0 these
+            are incidences; there may be none, if edges cross or one body contains the other.
+    """
+
+    squared: Fraction
+    features: tuple[tuple[Feature, Feature], ...]
+
+    def __float__(self) -> float:
+        return nearest_square_root(QQ(self.squared))
+
+
+def distance(scene: Scene, a: str, b: str, at: Rational | AlgebraicNumber) -> Distance:
+    """The Euclidean distance of two bodies at a time.
+
+    >>> from exactpt import Body, Scene
+    >>> scene = Scene([Body("point", [(3, 1)]), Body("line", [(0, 0), (1, -1)])], time=(0, 1))
+    >>> there = distance(scene, "point", "line", at=0)
+    >>> there.squared, float(there)
+    (Fraction(8, 1), 2.8284271247461903)
+    >>> there.features
+    ((Feature(vertex=0, edge=None), Feature(vertex=1, edge=None)),)
+
+    Args:
+        scene: the bodies.
+        a: the name of a body.
+        b: the name of another body.
+        at: a rational time in the time span of the scene.
+
+    Raises:
+        InputError: if there is no such body, or the time is irrational or outside the span.
+    """
+    first, second = two_bodies(scene, a, b)
+    t = _rational_time(scene, at)
+    found = list(_near_features(first, second, t))
+    least = min(squared for squared, _ in found)
+    if least and meet(first, second, t):
+        return Distance(Fraction(0), ())
+    return Distance(
+        fraction(least), tuple(sorted({pair for s, pair in found if s == least}, key=_in_order))
+    )
+
+
+def squared_distance(a: Body, b: Body, t: QQ) -> QQ:
+    """The squared distance of two bodies at a rational time."""
+    return QQ(0) if meet(a, b, t) else min(squared for squared, _ in _near_features(a, b, t))
+
+
+def _rational_time(scene: Scene, at: Rational | AlgebraicNumber) -> QQ:
+    if isinstance(at, AlgebraicNumber):
+        at = at.simplified()
+        if not at.is_rational:
+            raise InputError("an irrational time: use .low, .high or float()")
+        t = at._low
+    else:
+        t = rational(at)
+    if not scene._start <= t <= scene._end:
+        raise InputError(f"the time {t} is outside of [{scene._start}, {scene._end}]")
+    return t
+
+
+def _in_order(pair: tuple[Feature, Feature]) -> list[int]:
+    return [-1 if number is None else number for feature in pair for number in feature]
+
+
+def _near_features(a: Body, b: Body, t: QQ) -> Iterator[tuple[QQ, tuple[Feature, Feature]]]:
+    """The squared distances of vertices from vertices, and from the interiors of edges."""
+    p, q = a._at(t), b._at(t)
+    for (i, u), (j, v) in product(enumerate(p), enumerate(q)):
+        yield _squared(u, v), (Feature(i, None), Feature(j, None))
+    for (e, (k, l)), (j, v) in product(enumerate(a.edges), enumerate(q)):
+        squared = _from_interior(v, p[k], p[l])
+        if squared is not None:
+            yield squared, (Feature(None, e), Feature(j, None))
+    for (i, u), (e, (k, l)) in product(enumerate(p), enumerate(b.edges)):
+        squared = _from_interior(u, q[k], q[l])
+        if squared is not None:
+            yield squared, (Feature(i, None), Feature(None, e))
+
+
+def _squared(u: Point, v: Point) -> QQ:
+    return (u[0] - v[0]) ** 2 + (u[1] - v[1]) ** 2
+
+
+def _from_interior(v: Point, a: Point, b: Point) -> QQ | None:
+    """The squared distance of v from ab; None if the nearest point is an end."""
+    x, y = b[0] - a[0], b[1] - a[1]
+    along, length = x * (v[0] - a[0]) + y * (v[1] - a[1]), x * x + y * y
+    if not 0 < along < length:
+        return None
+    return (x * (v[1] - a[1]) - y * (v[0] - a[0])) ** 2 / length

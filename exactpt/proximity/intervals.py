@@ -1,0 +1,158 @@
+"""The maximal intervals of time in which two bodies meet; they may pass through each other.
+
+Whether two bodies have a common point changes only at a time at which their boundaries touch
+without crossing: then a vertex of one lies on an edge of the other. The times of all
+incidences, together with one rational time between any two consecutive ones, decide.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cmp_to_key
+from itertools import chain, product
+from typing import final
+
+from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt.kernel.budget import ask
+from exactpt.kernel.numbers import QQ
+from exactpt.kernel.roots import common_roots, roots_after
+from exactpt.motion.body import Body
+from exactpt.motion.incidence import difference, lies_on, orientation
+from exactpt.motion.track import Track
+from exactpt.proximity.near import pairs_that_come_near
+from exactpt.proximity.stretches import Stretch, meet, segments_of, stretches, two_bodies
+from exactpt.scene.scene import Scene
+
+__all__ = ["ContactInterval", "contact_intervals", "contacts", "incidence_times", "intervals"]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class ContactInterval:
+    """A maximal closed interval of time in which two bodies have a point in common.
+
+    Attributes:
+        a, b: the names of the bodies, in the order of the scene.
+        start, end: the exact ends; equal if the bodies only touch.
+    """
+
+    a: str
+    b: str
+    start: AlgebraicNumber
+    end: AlgebraicNumber
+
+    def to_json(self) -> dict[str, object]:
+        """The interval as a JSON object, see docs/format.md."""
+        return {"a": self.a, "b": self.b, "from": self.start.to_json(), "to": self.end.to_json()}
+
+
+def contact_intervals(scene: Scene, a: str, b: str) -> list[ContactInterval]:
+    """All maximal closed intervals of the scene's time span in which two bodies meet.
+
+    >>> from exactpt import Body, Scene, Translation
+    >>> ball = Body("ball", [(0, 0), (1, 0), (0, 1)], Translation([0, 2]))
+    >>> scene = Scene([ball, Body("wall", [(9, -5), (9, 5)])], time=(0, 10))
+    >>> [(float(i.start), float(i.end)) for i in contact_intervals(scene, "ball", "wall")]
+    [(4.0, 4.5)]
+
+    Args:
+        scene: the bodies and the time span; bodies other than a and b are irrelevant.
+        a: the name of a body.
+        b: the name of another body.
+
+    Raises:
+        InputError: if there is no such body, or both are the same.
+    """
+    first, second = two_bodies(scene, a, b)
+    return [
+        ContactInterval(a, b, start, end)
+        for start, end in intervals(first, second, scene._start, scene._end)
+    ]
+
+
+def contacts(scene: Scene) -> list[ContactInterval]:
+    """The intervals in which any two bodies meet, in the order of their starts, then of names.
+
+    Contacts of a deforming body with itself are not included.
+    """
+    found = [
+        ContactInterval(scene.bodies[i].name, scene.bodies[j].name, start, end)
+        for i, j in pairs_that_come_near(scene)
+        for start, end in intervals(scene.bodies[i], scene.bodies[j], scene._start, scene._end)
+    ]
+    found.sort(key=lambda interval: (interval.a, interval.b))
+    found.sort(key=lambda interval: _in_order(interval.start))
+    return found
+
+
+_in_order = cmp_to_key(AlgebraicNumber.compare)
+
+
+def intervals(
+    a: Body, b: Body, start: QQ, end: QQ
+) -> Iterator[tuple[AlgebraicNumber, AlgebraicNumber]]:
+    """The maximal closed intervals in [start, end] in which two bodies meet."""
+    times = incidence_times(a, b, start, end)
+    begin = AlgebraicNumber(start) if meet(a, b, start) else None
+    last = AlgebraicNumber(start)
+    for time in times:
+        if not meet(a, b, rational_between(last, time)):
+            if begin is not None:
+                yield begin, last
+            begin = time
+        last = time
+    if last.compare_rational(end) < 0:
+        stop = AlgebraicNumber(end)
+        if begin is not None and not meet(a, b, rational_between(last, stop)):
+            yield begin, last
+            begin = None
+        last = stop
+    if begin is not None:
+        yield begin, last
+
+
+def incidence_times(a: Body, b: Body, start: QQ, end: QQ) -> list[AlgebraicNumber]:
+    """The times in (start, end] at which a vertex of one body comes onto an edge of the other.
+
+    In increasing order, each once. Where a vertex stays on the line of an edge, the times at
+    which it passes an end of the edge, and that at which the motion ends, if it is on the edge.
+    """
+    found = chain.from_iterable(
+        _incidences(a, b, stretch) for stretch in stretches(a, b, start, end)
+    )
+    return _distinct(found)
+
+
+def _distinct(times: Iterable[AlgebraicNumber]) -> list[AlgebraicNumber]:
+    distinct: list[AlgebraicNumber] = []
+    for time in sorted(times, key=_in_order):
+        if not distinct or distinct[-1].compare(time) < 0:
+            distinct.append(time)
+    return distinct
+
+
+def _incidences(a: Body, b: Body, stretch: Stretch) -> Iterator[AlgebraicNumber]:
+    p, q = stretch.first, stretch.second
+    triples = chain(
+        ((v, q[i], q[j]) for v, (i, j) in product(p, segments_of(b))),
+        ((v, p[i], p[j]) for v, (i, j) in product(q, segments_of(a))),
+    )
+    begin = AlgebraicNumber(stretch.begin)
+    for v, u, w in triples:
+        ask()
+        f = orientation(u, w, v)
+        if f:
+            times = (root.time for root in roots_after(f, begin, stretch.end))
+            yield from (time for time in times if lies_on(v, u, w, time))
+        else:
+            yield from _coincidences(v, u, begin, stretch.end)
+            yield from _coincidences(v, w, begin, stretch.end)
+            end = AlgebraicNumber(stretch.end)
+            if lies_on(v, u, w, end):
+                yield end  # it may leave the line there
+
+
+def _coincidences(v: Track, u: Track, begin: AlgebraicNumber, end: QQ) -> Iterator[AlgebraicNumber]:
+    dx, dy = difference(u.x, u.w, v.x, v.w), difference(u.y, u.w, v.y, v.w)
+    return (root.time for root in common_roots(dx, dy, begin, end))

@@ -1,0 +1,84 @@
+"""The time span of two bodies, cut where one of them changes its motion; whether they meet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from exactpt.errors import InputError
+from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
+from exactpt.geometry.polygon import contains, segments_meet
+from exactpt.geometry.predicates import Point
+from exactpt.kernel.budget import ask
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.track import Track
+from exactpt.scene.scene import Scene
+
+__all__ = ["Stretch", "meet", "segments_of", "stretches", "two_bodies"]
+
+
+class Stretch(NamedTuple):
+    """A time interval in which neither of two bodies changes its motion.
+
+    Attributes:
+        begin, end: the interval (begin, end].
+        first, second: the trajectories of the vertices of each body.
+    """
+
+    begin: QQ
+    end: QQ
+    first: tuple[Track, ...]
+    second: tuple[Track, ...]
+
+
+def two_bodies(scene: Scene, a: str, b: str) -> tuple[Body, Body]:
+    """Two different bodies of a scene, by name.
+
+    Raises:
+        InputError: if there is no such body, or both are the same.
+    """
+    first, second = scene.body(a), scene.body(b)
+    if first is second:
+        raise InputError(f"two bodies are asked for, not {a!r} twice")
+    return first, second
+
+
+def stretches(a: Body, b: Body, start: QQ, end: QQ) -> Iterator[Stretch]:
+    """The time span of two bodies from piece to piece of their motions."""
+    times = {t for t in (*a._breakpoints, *b._breakpoints) if start < t < end}
+    begin = start
+    for until in (*sorted(times), end):
+        yield Stretch(begin, until, a._piece_after(begin).tracks, b._piece_after(begin).tracks)
+        begin = until
+
+
+def segments_of(body: Body) -> list[tuple[int, int]]:
+    """The edges of a body as pairs of vertices; a point is an edge from itself to itself."""
+    return body.edges or [(0, 0)]
+
+
+def meet(a: Body, b: Body, t: QQ) -> bool:
+    """Whether two bodies have a point in common at a rational time."""
+    p, q = a._at(t), b._at(t)
+    return (
+        _boundaries_meet(p, segments_of(a), q, segments_of(b))
+        or (a.has_interior and contains(p, q[0]))
+        or (b.has_interior and contains(q, p[0]))
+    )
+
+
+def _boundaries_meet(
+    p: Sequence[Point],
+    p_edges: Sequence[tuple[int, int]],
+    q: Sequence[Point],
+    q_edges: Sequence[tuple[int, int]],
+) -> bool:
+    ends = [(p[i], p[j]) for i, j in p_edges] + [(q[i], q[j]) for i, j in q_edges]
+    count = len(p_edges)
+    for first, second in overlapping_pairs(boxes_of_points(ends)):
+        for i, j in zip(first.tolist(), second.tolist(), strict=True):
+            ask()
+            if i < count <= j and segments_meet(*ends[i], *ends[j]):
+                return True
+    return False

@@ -1,0 +1,227 @@
+"""The first time at which two bodies are within a distance, in a norm that is named.
+
+In the Euclidean norm, a vertex of one body is then at this distance from a vertex of the other,
+or from an edge, at the foot of the perpendicular; see `exactpt.proximity.features`.
+
+In the maximum norm two sets are within distance d if and only if one of them meets the
+Minkowski sum of the other with a square of half-side d. At the first such time either a vertex
+of one body lies on an edge of the other translated by a corner of the square, or two vertices
+differ by exactly d in one coordinate and by at most d in the other. Both are roots of
+polynomials in time, as contacts are.
+
+All pairs of features are tested: the question concerns two bodies, not a whole scene.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator
+from itertools import chain, product
+from typing import Final, Literal, TypeAlias
+
+from exactpt.errors import InputError
+from exactpt.geometry.predicates import Point
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale, subtract
+from exactpt.kernel.numbers import QQ, ZZ, Rational, rational, shorten, show
+from exactpt.kernel.roots import roots_after
+from exactpt.motion.body import Body
+from exactpt.motion.incidence import difference, lies_on, orientation
+from exactpt.motion.track import Track
+from exactpt.proximity.distance import squared_distance
+from exactpt.proximity.features import feature_pairs
+from exactpt.proximity.stretches import Stretch, meet, segments_of, stretches, two_bodies
+from exactpt.scene.scene import Scene
+
+__all__ = ["NORMS", "Norm", "first_within"]
+
+Norm: TypeAlias = Literal["euclidean", "max", "x", "y"]
+NORMS: Final = ("euclidean", "max", "x", "y")
+"""Supported norms: "max" is the larger of the distances in x and y; "x", "y" use one axis."""
+
+Candidate: TypeAlias = "tuple[IntPoly, Callable[[AlgebraicNumber], bool]]"
+"""A polynomial, and the predicate that tells which of its roots count."""
+
+
+def first_within(
+    scene: Scene,
+    a: str,
+    b: str,
+    distance: Rational | None = None,
+    *,
+    norm: Norm | None = None,
+    distance_squared: Rational | None = None,
+) -> AlgebraicNumber | None:
+    """The first time in the scene's span at which two bodies are at most a distance apart.
+
+    >>> from exactpt import Body, Scene, Translation
+    >>> ball = Body("ball", [(0, 0), (1, 0), (0, 1)], Translation([0, 2]))
+    >>> scene = Scene([ball, Body("wall", [(9, -5), (9, 5)])], time=(0, 10))
+    >>> first_within(scene, "ball", "wall", 1, norm="euclidean")
+    AlgebraicNumber('7/2')
+
+    Args:
+        scene: the bodies and the time span; bodies other than a and b are irrelevant.
+        a: the name of a body.
+        b: the name of another body.
+        distance: a number >= 0; 0 asks for the first contact.
+        norm: "euclidean"; "max": the larger of the distances in x and in y; "x" or "y": the gap
+            between the projections of the bodies on that axis. To leave it out means "max", and
+            is deprecated.
+        distance_squared: the square of the distance, instead of it, so that the square root of
+            a rational number can be asked for; for the Euclidean norm.
+
+    Returns:
+        The exact time; None if the bodies stay farther apart.
+
+    Raises:
+        InputError: if there is no such body or norm, or the distance is negative.
+    """
+    norm = _named(norm)
+    d = _asked(distance, distance_squared, norm)
+    first, second = two_bodies(scene, a, b)
+    if _is_within(first, second, scene._start, d, norm):
+        return AlgebraicNumber(scene._start)
+    for stretch in stretches(first, second, scene._start, scene._end):
+        candidates = _candidates(first, second, stretch, d, norm)
+        time = _earliest(candidates, AlgebraicNumber(stretch.begin), stretch.end)
+        if time is not None:
+            return time
+    return None
+
+
+def _named(norm: Norm | None) -> Norm:
+    if norm is None:
+        warnings.warn(
+            'first_within without a norm means norm="max"; name the norm',
+            DeprecationWarning,
+            stacklevel=3,
+        )
+        return "max"
+    if norm not in NORMS:
+        raise InputError(f"no norm {shorten(norm)}; there are: {', '.join(NORMS)}")
+    return norm
+
+
+def _asked(distance: Rational | None, squared: Rational | None, norm: Norm) -> QQ:
+    """The distance in the maximum norm or along an axis; the square of a Euclidean one."""
+    asked = squared if distance is None else distance
+    if asked is None or (distance is not None and squared is not None):
+        raise InputError("either a distance or its square is asked for")
+    given = rational(asked)
+    if given < 0:
+        raise InputError(f"a distance is not negative: {show(given)}")
+    if norm != "euclidean" and distance is None:
+        raise InputError(f"a squared distance is for the Euclidean norm, not for {norm!r}")
+    return given * given if norm == "euclidean" and squared is None else given
+
+
+def _candidates(a: Body, b: Body, stretch: Stretch, d: QQ, norm: Norm) -> Iterator[Candidate]:
+    p, q = stretch.first, stretch.second
+    if norm == "euclidean":
+        pairs = feature_pairs(a, b, p, q)
+        return ((pair.at_distance(d), pair.holds) for pair in pairs)
+    if norm == "max":
+        return _in_both(a, b, p, q, d)
+    return _on_axis(p, q, d, norm)
+
+
+def _earliest(
+    candidates: Iterator[Candidate], begin: AlgebraicNumber, end: QQ
+) -> AlgebraicNumber | None:
+    """The earliest root in (begin, end] that satisfies the predicate of its candidate."""
+    best: AlgebraicNumber | None = None
+    for f, counts in candidates:
+        limit = end if best is None else best._high
+        # If f vanishes identically, another candidate yields the time.
+        for root in roots_after(f, begin, limit) if f else ():
+            if counts(root.time):
+                if best is None or root.time.compare(best) < 0:
+                    best = root.time
+                break
+    return best
+
+
+def _on_axis(
+    p: tuple[Track, ...], q: tuple[Track, ...], d: QQ, axis: Literal["x", "y"]
+) -> Iterator[Candidate]:
+    """Candidates for "x" and "y": two vertices d apart; at the first such time none are nearer."""
+    for u, v in product(p, q):
+        for side in (d, -d):
+            yield _offset(u, v, side, axis), lambda _: True
+
+
+def _in_both(
+    a: Body, b: Body, p: tuple[Track, ...], q: tuple[Track, ...], d: QQ
+) -> Iterator[Candidate]:
+    """Candidates for "max": a vertex on a translated edge, or two vertices d apart in x or y."""
+    corners: list[Point] = [(x, y) for x in (d, -d) for y in (d, -d)]
+    pairs = chain(
+        product(p, ((q[i], q[j]) for i, j in b.edges)),
+        product(q, ((p[i], p[j]) for i, j in a.edges)),
+    )
+    for (v, (u, w)), corner in product(pairs, corners):
+        moved = _moved(v, corner)
+        yield orientation(u, w, moved), _on_edge(moved, u, w)
+    for u, v in product(p, q):
+        for side in (d, -d):
+            yield _offset(u, v, side, "x"), _at_most(u, v, d, "y")
+            yield _offset(u, v, side, "y"), _at_most(u, v, d, "x")
+
+
+def _offset(u: Track, v: Track, d: QQ, axis: Literal["x", "y"]) -> IntPoly:
+    """A positive multiple of the polynomial v - u - d in one coordinate."""
+    along = (u.x, v.x) if axis == "x" else (u.y, v.y)
+    gap = scale(difference(along[0], u.w, along[1], v.w), ZZ(d.denominator))
+    return subtract(gap, scale(multiply(u.w, v.w), ZZ(d.numerator)))
+
+
+def _at_most(
+    u: Track, v: Track, d: QQ, axis: Literal["x", "y"]
+) -> Callable[[AlgebraicNumber], bool]:
+    def holds(t: AlgebraicNumber) -> bool:
+        low, high = _offset(u, v, -d, axis), _offset(u, v, d, axis)
+        return t.sign_of(low) >= 0 and t.sign_of(high) <= 0
+
+    return holds
+
+
+def _on_edge(v: Track, a: Track, b: Track) -> Callable[[AlgebraicNumber], bool]:
+    return lambda t: lies_on(v, a, b, t)
+
+
+def _moved(v: Track, by: Point) -> Track:
+    """The trajectory of a vertex translated by a constant vector."""
+    m = ZZ(by[0].denominator * by[1].denominator)
+    x, y = (add(scale(f, m), scale(v.w, ZZ(c * m))) for f, c in zip((v.x, v.y), by, strict=True))
+    return Track(x, y, scale(v.w, m), None)
+
+
+def _is_within(a: Body, b: Body, t: QQ, d: QQ, norm: Norm) -> bool:
+    if norm == "euclidean":
+        return squared_distance(a, b, t) <= d
+    p, q = a._at(t), b._at(t)
+    if norm != "max":
+        axis = "xy".index(norm)
+        (low, high), (left, right) = (
+            (min(v[axis] for v in points), max(v[axis] for v in points)) for points in (p, q)
+        )
+        return left - high <= d and low - right <= d
+    return (
+        meet(a, b, t)
+        or any(_is_near(v, q[k], q[l], d) for v in p for k, l in segments_of(b))
+        or any(_is_near(v, p[i], p[j], d) for v in q for i, j in segments_of(a))
+    )
+
+
+def _is_near(v: Point, a: Point, b: Point, d: QQ) -> bool:
+    """Whether the closed segment ab meets the square of half-side d around v."""
+    low, high = QQ(0), QQ(1)
+    for at, start, end in zip(v, a, b, strict=True):
+        if start == end:
+            if abs(start - at) > d:
+                return False
+            continue
+        enter, leave = sorted(((at - d - start) / (end - start), (at + d - start) / (end - start)))
+        low, high = max(low, enter), min(high, leave)
+    return low <= high

@@ -1,0 +1,205 @@
+"""Bodies in numpy arrays: each becomes a `Body` when somebody asks for it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, TypeVar, cast, final, overload
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from exactpt.errors import InputError
+from exactpt.geometry.ragged import Flags, surely_simple
+from exactpt.kernel.doubles import Floats, Indices, doubles, first_true, indices
+from exactpt.kernel.numbers import shorten
+from exactpt.motion.body import Body, is_text
+from exactpt.motion.motions import REST, Translation
+
+if TYPE_CHECKING:
+    from exactpt.motion.motions import Motion
+
+__all__ = ["BodyArrays"]
+
+Array = TypeVar("Array", bound="np.ndarray[tuple[int, ...], np.dtype[np.generic]]")
+
+
+@final
+class BodyArrays(Sequence[Body]):
+    """A sequence of bodies in arrays of doubles, which are copied.
+
+    Args:
+        vertices: shape (N, 2), the vertices of all bodies.
+        offsets: shape (n + 1,): body k has the vertices ``offsets[k]`` to ``offsets[k + 1]`` - 1.
+        velocities: shape (n, 2); at rest if neither these nor ``coefficients`` are given.
+        coefficients: shape (n, 2, d + 1): the translation of body k in x and in y is a
+            polynomial in t with these coefficients, constant first.
+        closed: for each body or for all, whether it is a polygon if it has three or more
+            vertices; else it is an open chain.
+        names: of the bodies; their numbers if not given.
+
+    Attributes:
+        vertices, offsets: as given.
+        coefficients: of shape (n, 2, d + 1), also where velocities were given.
+        closed: shape (n,).
+
+    Raises:
+        InputError: if the shapes of the arrays do not match, or a value is not a finite double,
+            or a name is taken twice. Whether polygons are simple is not tested here.
+    """
+
+    def __init__(
+        self,
+        vertices: ArrayLike,
+        offsets: ArrayLike,
+        *,
+        velocities: ArrayLike | None = None,
+        coefficients: ArrayLike | None = None,
+        closed: ArrayLike = True,
+        names: Sequence[str] | None = None,
+    ) -> None:
+        self.vertices: Floats = _kept(_shaped(doubles(vertices, "vertices"), "vertices", 2))
+        self.offsets: Indices = _kept(_offsets(offsets, len(self.vertices)))
+        n = len(self.offsets) - 1
+        self.coefficients: Floats = _kept(_motions(velocities, coefficients, n))
+        self.closed: Flags = _kept(_flags(closed, n))
+        self._names = None if names is None else _names(names, n)
+        self._made: dict[int, Body] = {}
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    @overload
+    def __getitem__(self, i: int) -> Body: ...
+    @overload
+    def __getitem__(self, i: slice) -> tuple[Body, ...]: ...
+    def __getitem__(self, i: int | slice) -> Body | tuple[Body, ...]:
+        if isinstance(i, slice):
+            return tuple(self[k] for k in range(len(self))[i])
+        k = range(len(self))[i]
+        if k not in self._made:
+            self._made[k] = self.make(k)
+        return self._made[k]
+
+    def make(self, k: int) -> Body:
+        """A body that is not kept."""
+        rows = self.vertices[self.offsets[k] : self.offsets[k + 1]].tolist()
+        x, y = self.coefficients[k].tolist()
+        motion: Motion = Translation(x, y) if any((*x, *y)) else REST
+        return Body(self.name(k), rows, motion, closed=bool(self.closed[k]))
+
+    def name(self, k: int) -> str:
+        """The name of a body."""
+        return str(k) if self._names is None else self._names[k]
+
+    def named(self, name: str) -> int | None:
+        """The number of the body of this name; None if there is none."""
+        names = map(str, range(len(self))) if self._names is None else self._names
+        return next((k for k, known in enumerate(names) if known == name), None)
+
+    @property
+    def vertex_count(self) -> int:
+        """The number of vertices of all bodies."""
+        return len(self.vertices)
+
+    def doubtful(self, some: Indices | None = None) -> list[int]:
+        """The bodies, all or of some, that the filter does not find simple."""
+        if some is None:
+            return np.flatnonzero(~surely_simple(self.vertices, self.offsets, self.closed)).tolist()
+        sizes = np.diff(self.offsets)[some]
+        ends = np.concatenate(([0], np.cumsum(sizes)))
+        at = np.arange(ends[-1]) + np.repeat(self.offsets[some] - ends[:-1], sizes)
+        simple = surely_simple(self.vertices[at], ends, self.closed[some])
+        return cast("list[int]", some[~simple].tolist())
+
+    def __iter__(self) -> Iterator[Body]:
+        return (self[k] for k in range(len(self)))
+
+    def __eq__(self, other: object) -> bool:
+        if self is other:
+            return True
+        if not isinstance(other, (tuple, BodyArrays)):
+            return NotImplemented
+        return tuple(self) == tuple(other)
+
+    def __hash__(self) -> int:
+        return hash(tuple(self))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _restored, (
+            self.vertices, self.offsets, self.coefficients, self.closed, self._names
+        )  # fmt: skip
+
+    def __repr__(self) -> str:
+        return f"<BodyArrays: {len(self)} bodies, {self.vertex_count} vertices>"
+
+
+def _restored(
+    vertices: Floats, offsets: Indices, coefficients: Floats, closed: Flags,
+    names: list[str] | None,
+) -> BodyArrays:  # fmt: skip
+    return BodyArrays(vertices, offsets, coefficients=coefficients, closed=closed, names=names)
+
+
+def _kept(array: Array) -> Array:
+    copy = array.copy()
+    copy.flags.writeable = False
+    return copy
+
+
+def _shaped(array: Floats, what: str, width: int) -> Floats:
+    if array.ndim != 2 or array.shape[1] != width:
+        raise InputError(f"{what}: shape (N, {width}) is needed, not {array.shape}")
+    return array
+
+
+def _offsets(values: ArrayLike, count: int) -> Indices:
+    offsets = indices(values, "offsets")
+    if offsets.ndim != 1 or not len(offsets):
+        raise InputError(f"offsets: shape (n + 1,) is needed, not {offsets.shape}")
+    if offsets[0] != 0 or offsets[-1] != count:
+        raise InputError(
+            f"offsets: they go from 0 to {count}, the number of vertices, "
+            f"not from {offsets[0]} to {offsets[-1]}"
+        )
+    at = first_true(np.diff(offsets) < 1)
+    if at is not None:
+        raise InputError(f"offsets: body {at[0]}: at least one vertex is needed")
+    return offsets
+
+
+def _motions(velocities: ArrayLike | None, coefficients: ArrayLike | None, n: int) -> Floats:
+    if coefficients is None:
+        motions = np.zeros((n, 2, 2))
+        if velocities is not None:
+            given = _shaped(doubles(velocities, "velocities"), "velocities", 2)
+            if len(given) != n:
+                raise InputError(f"velocities: {n} are needed, one for each body, not {len(given)}")
+            motions[:, :, 1] = given
+        return motions
+    if velocities is not None:
+        raise InputError("give either velocities or coefficients")
+    motions = doubles(coefficients, "coefficients")
+    if motions.ndim != 3 or motions.shape[:2] != (n, 2) or not motions.shape[2]:
+        raise InputError(f"coefficients: shape ({n}, 2, d + 1) is needed, not {motions.shape}")
+    return motions
+
+
+def _flags(closed: ArrayLike, n: int) -> Flags:
+    flags = np.asarray(closed)
+    if flags.dtype != np.bool_ or flags.shape not in {(), (n,)}:
+        raise InputError(f"closed: a boolean or {n} of them are needed: {shorten(closed)}")
+    return np.broadcast_to(flags, (n,)).copy()
+
+
+def _names(names: Sequence[str], n: int) -> list[str]:
+    listed = list(names)
+    if isinstance(names, str) or len(listed) != n:
+        raise InputError(f"names: {n} are needed, one for each body: {shorten(names)}")
+    seen: set[str] = set()
+    for name in listed:
+        if not is_text(name):
+            raise InputError(f"a body's name is a text that is not empty: {shorten(name)}")
+        if name in seen:
+            raise InputError(f"body {shorten(name)}: the name is taken by another body")
+        seen.add(name)
+    return listed

@@ -1,0 +1,70 @@
+"""The bounds on a run: a number of events, seconds, and memory."""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager, nullcontext
+from time import monotonic
+from typing import final
+
+from exactpt.errors import InputError
+from exactpt.kernel.budget import GRACE, within
+
+__all__ = ["Budget"]
+
+
+@final
+class Budget:
+    """What a run may still use.
+
+    Args:
+        events: maximum number of events; None for no limit.
+        seconds: maximum number of seconds of wall-clock time, from now on; None for no limit.
+        memory: maximum memory of the process, in bytes; None for no limit.
+
+    Raises:
+        InputError: if a bound is not a number >= 0.
+    """
+
+    def __init__(
+        self, events: int | None, seconds: float | None, memory: int | None = None
+    ) -> None:
+        bounds = {"max_events": events, "max_seconds": seconds, "max_memory": memory}
+        for what, bound in bounds.items():
+            if bound is not None and not bound >= 0:
+                raise InputError(f"{what}: not a number from 0 on: {bound!r}")
+        self._events = events
+        self._deadline = None if seconds is None else monotonic() + seconds
+        self._memory = memory
+
+    @property
+    def is_bounded(self) -> bool:
+        """Whether the number of events or the time has a limit."""
+        return self._events is not None or self._deadline is not None
+
+    def spend(self, events: int) -> bool:
+        """Use up some events; whether there were as many."""
+        if self._events is None:
+            return True
+        self._events -= events
+        return self._events >= 0
+
+    def is_late(self) -> bool:
+        """Whether the seconds are used up."""
+        return self._deadline is not None and monotonic() > self._deadline
+
+    def held(self) -> AbstractContextManager[None]:
+        """A context whose long loops stop when the time or the memory is used up.
+
+        A little more time is allowed than between two events, where a run can be interrupted and
+        go on.
+        """
+        if self._deadline is None and self._memory is None:
+            return nullcontext()
+        deadline = None if self._deadline is None else self._deadline + GRACE
+        return within(deadline, self._memory)
+
+    def rest(self) -> tuple[int | None, float | None, int | None]:
+        """The events, seconds and memory that are left, None for no limit."""
+        events = None if self._events is None else max(0, self._events)
+        seconds = None if self._deadline is None else max(0.0, self._deadline - monotonic())
+        return events, seconds, self._memory

@@ -1,0 +1,43 @@
+"""The last contact that a callback has answered, to recognise it when it recurs."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from exactpt.collision.contact import Contact
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.motion.body import Body
+from exactpt.simulation.living import LivingScene
+
+__all__ = ["Met", "met"]
+
+
+class Met(NamedTuple):
+    """A contact, with the motions that its bodies had just before it.
+
+    Attributes:
+        time: the exact time.
+        bodies: the bodies of its incidences, by name.
+    """
+
+    time: AlgebraicNumber
+    bodies: dict[str, Body]
+
+    def is_again(self, other: Met) -> bool:
+        """Whether another contact is the same: at one time, of bodies with the same motions."""
+        mine, theirs = self.bodies, other.bodies
+        return (
+            self.time.compare(other.time) == 0
+            and mine.keys() == theirs.keys()
+            and all(mine[name] is theirs[name] for name in mine)
+        )
+
+    def may_recur(self, living: LivingScene) -> bool:
+        """Whether all of its bodies still have the same motions."""
+        return all(living.has(body) for body in self.bodies.values())
+
+
+def met(contact: Contact, living: LivingScene) -> Met:
+    """A contact that lies ahead of a scene."""
+    names = {name for pair in contact.pairs for name in (pair.body, pair.other)}
+    return Met(contact.time, {name: living.body(name) for name in names})

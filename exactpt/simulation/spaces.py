@@ -1,0 +1,56 @@
+"""The free space at the current time of a run, or between it and the next event."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, final
+
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ, Rational, rational
+
+if TYPE_CHECKING:
+    from exactpt.certificates.queue import EventTime
+    from exactpt.query.space import FreeSpace
+    from exactpt.tiling.tiling import Tiling
+
+__all__ = ["SpaceCache"]
+
+
+@final
+class SpaceCache:
+    """The last free space that was asked for, kept until time passes or bodies change.
+
+    Either gives the tiling a new `EventTime` as its current time.
+    """
+
+    def __init__(self) -> None:
+        self._now: EventTime | None = None
+        self._space: FreeSpace | None = None
+
+    def space(self, kinetic: Tiling, at: Rational | None) -> FreeSpace:
+        """The free space at a time, see `Simulation.space`."""
+        t = _now(kinetic) if at is None else _before_next_event(kinetic, rational(at))
+        now = kinetic.certifier.now
+        if self._space is None or self._now is not now or self._space._at != t:
+            from exactpt.query.space import FreeSpace
+
+            self._now, self._space = now, FreeSpace(kinetic, t)
+        return self._space
+
+
+def _now(kinetic: Tiling) -> QQ:
+    now = kinetic.now.simplified()
+    if not now.is_rational:
+        raise InputError(f"now, t = {float(now)!r}, is not rational: give a time")
+    return now._low
+
+
+def _before_next_event(kinetic: Tiling, t: QQ) -> QQ:
+    following = kinetic.next_number()
+    late = t > kinetic.certifier.end or (
+        following is not None and following.compare_rational(t) <= 0
+    )
+    if late or kinetic.now.compare_rational(t) > 0:
+        raise InputError(
+            f"t = {t} is not between now, t = {float(kinetic.now)!r}, and the next event"
+        )
+    return t

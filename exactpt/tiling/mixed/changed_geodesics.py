@@ -1,0 +1,100 @@
+"""Insertion and removal of bodies in the mixed tiling: which geodesics change.
+
+Between a geodesic and its chain of the boundary lie the tiles of its node and of the nodes
+below. A new body changes the geodesic if it meets one of these tiles. Otherwise there is
+nothing new between the two, and a shortest path in the free space remains shortest in a
+smaller free space. A removed body changes the geodesic if the geodesic bends at it. The body
+is on its right then; the geodesic of a longer chain passes between the two, and so bends at
+the body too. In either case, if the geodesic of a node changes, so do those of all its
+ancestors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import pairwise
+from typing import NamedTuple
+
+from exactpt.indices import HalfEdge
+from exactpt.pseudotriangulation.mesh import FREE
+from exactpt.tiling.mixed.forest import BodyTree
+from exactpt.tiling.mixed.labels import LabelledMesh
+from exactpt.tiling.mixed.tree import ROOT, TOP
+
+__all__ = [
+    "ChangedGeodesics",
+    "changed_geodesics",
+    "nodes_changed_by_insertion",
+    "nodes_changed_by_removal",
+]
+
+
+class ChangedGeodesics(NamedTuple):
+    """The geodesics of one body that have to be recomputed, and the chains along which.
+
+    Attributes:
+        tree: the tree of the body.
+        edges: a cycle of half-edges around the body, made of geodesics that do not change.
+        after: for half-edges in the cycle, the next one along the same geodesic.
+        spans: for each node of the tree that has to be recomputed, its range in the cycle.
+    """
+
+    tree: BodyTree
+    edges: list[HalfEdge]
+    after: dict[HalfEdge, HalfEdge]
+    spans: dict[int, tuple[int, int]]
+
+
+def nodes_changed_by_insertion(mesh: LabelledMesh, faces: Iterable[HalfEdge]) -> set[int]:
+    """The nodes whose geodesics change when a body is added that meets some faces."""
+    return _with_ancestors(mesh, (mesh.node(h) for h in faces if mesh.region[h] == FREE))
+
+
+def nodes_changed_by_removal(
+    mesh: LabelledMesh, own: BodyTree, sides: Iterable[HalfEdge]
+) -> set[int]:
+    """The nodes of other bodies whose geodesics change when a body is removed.
+
+    Args:
+        mesh: the tiling.
+        own: the tree of the body.
+        sides: the half-edges that start or end at the body.
+    """
+    return _with_ancestors(
+        mesh, {node for h in sides for node in mesh.labels[h]}.difference(own.nodes)
+    )
+
+
+def _with_ancestors(mesh: LabelledMesh, nodes: Iterable[int]) -> set[int]:
+    """Some nodes with all their ancestors; -1 is no node."""
+    found: set[int] = set()
+    for node in nodes:
+        while node >= 0 and node not in found:
+            found.add(node)
+            node = mesh.forest.parent[node]  # noqa: PLW2901
+    return found
+
+
+def changed_geodesics(
+    mesh: LabelledMesh, body_tree: BodyTree, changing: set[int]
+) -> ChangedGeodesics:
+    """The chains of a body: the geodesics of its highest nodes that do not change, in order."""
+    tree = body_tree.tree
+    edges: list[HalfEdge] = []
+    after: dict[HalfEdge, HalfEdge] = {}
+    spans: dict[int, tuple[int, int]] = {}
+
+    def descend(k: int) -> None:
+        if body_tree.nodes[k] not in changing:
+            geodesic = mesh.geodesic(body_tree, k)
+            edges.extend(geodesic)
+            after.update(pairwise(geodesic))
+            return
+        start = len(edges)
+        for child in (tree.child[k], tree.child[k] + 1):
+            descend(child)
+        spans[k] = (start, len(edges))
+
+    descend(ROOT)
+    spans[TOP] = (0, len(edges))
+    return ChangedGeodesics(body_tree, edges, after, spans)

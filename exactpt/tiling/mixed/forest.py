@@ -1,0 +1,106 @@
+"""The trees of all bodies, and labels: sets of their nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final, NamedTuple, TypeAlias, final
+
+from exactpt.indices import VertexId
+from exactpt.motion.vertices import Vertices
+from exactpt.tiling.mixed.tree import ROOT, GeodesicTree, tree_of_size
+
+__all__ = ["NO_LABEL", "BodyTree", "Forest", "Label"]
+
+Label: TypeAlias = frozenset[int]
+"""A set of nodes; the nodes of all bodies are numbered consecutively, two for each vertex."""
+
+NO_LABEL: Final[Label] = frozenset()
+
+
+class BodyTree(NamedTuple):
+    """The tree of one body.
+
+    Attributes:
+        tree: its shape, shared by all polygons of one size.
+        nodes: for each node of the tree, its number among the nodes of all bodies.
+        chain: the ring with its first vertex repeated: the vertices 0 to n of the tree.
+    """
+
+    tree: GeodesicTree
+    nodes: list[int]
+    chain: list[VertexId]
+
+
+@final
+class Forest:
+    """The trees of all bodies, with consecutive numbers for their nodes.
+
+    A ring of n vertices has a tree of 2 n nodes. So each vertex id stands for two numbers,
+    which are reused when the id is.
+
+    Attributes:
+        vertices: the moving vertices.
+        bodies: for each body, its tree.
+        parent, depth: for each node, its parent (-1 for a `TOP`) and its depth.
+        leaves: the nodes that are leaves.
+        pinned: for vertex 0 of each body, the root, whose loop passes it and is pinned there.
+    """
+
+    def __init__(self, vertices: Vertices) -> None:
+        self.vertices = vertices
+        self.bodies: list[BodyTree] = []
+        self.parent: list[int] = []
+        self.depth: list[int] = []
+        self.leaves: set[int] = set()
+        self.pinned: dict[VertexId, Label] = {}
+        for moving in vertices.bodies:
+            self.add(moving.ring)
+
+    def add(self, ring: Sequence[VertexId]) -> BodyTree:
+        """Add the tree of a new body, the last one."""
+        tree = tree_of_size(len(ring))
+        nodes = [2 * v + side for v in ring for side in (0, 1)]
+        missing = 2 * len(self.vertices.all) - len(self.parent)
+        self.parent += [-1] * missing
+        self.depth += [0] * missing
+        for node, parent, depth in zip(nodes, tree.parent, tree.depth, strict=True):
+            self.parent[node] = nodes[parent] if parent >= 0 else -1
+            self.depth[node] = depth
+        self.leaves.update(nodes[leaf] for leaf in tree.leaf)
+        self.pinned[ring[0]] = frozenset((nodes[ROOT],))
+        self.bodies.append(BodyTree(tree, nodes, [*ring, ring[0]]))
+        return self.bodies[-1]
+
+    def remove(self, i: int) -> None:
+        """Remove the tree of a body; the last body takes over its number."""
+        _, nodes, chain = self.bodies[i]
+        last = self.bodies.pop()
+        if i < len(self.bodies):
+            self.bodies[i] = last
+        self.leaves.difference_update(nodes)
+        del self.pinned[chain[0]]
+
+    def body(self, node: int) -> int:
+        """The number of the body to which a node belongs."""
+        return self.vertices.all[node >> 1].body
+
+    def bot(self, label: Label) -> int:
+        """The deepest node of a label."""
+        return max(label, key=self.depth.__getitem__)
+
+    def top(self, label: Label) -> int:
+        """The highest node of a label."""
+        return min(label, key=self.depth.__getitem__)
+
+    def is_path(self, label: Label) -> bool:
+        """Whether a label is a path of ancestors."""
+        return not label or (
+            self.depth[self.bot(label)] - self.depth[self.top(label)] + 1 == len(label)
+            and all(self.parent[v] in label for v in label if v != self.top(label))
+        )
+
+    def node(self, label: Label, twin: Label) -> int:
+        """The node whose tile is on the left of a half-edge with these labels; -1 in F2."""
+        if label:
+            return self.bot(label)
+        return self.parent[self.top(twin)] if twin else -1

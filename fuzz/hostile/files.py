@@ -1,0 +1,96 @@
+"""Valid files of every format, and hostile ones made from them."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from pathlib import Path
+from random import Random
+from tempfile import TemporaryDirectory
+from typing import Final, NamedTuple
+
+from exactpt.exchange.files import write_shapes
+from exactpt.proof.written import write_proof
+from exactpt.scene.generate import FAMILIES, POINTS
+from exactpt.simulation.simulation import Simulation
+from exactpt.simulation.store import sealed
+from fuzz.hostile.wounds import damaged, with_another_value, with_another_word
+from fuzz.subscene import scene_of
+
+__all__ = ["FORMATS", "Hostile", "hostile", "scene_text"]
+
+FORMATS: Final = ("scene", "geojson", "wkt", "svg", "saved", "proof")
+SEEDS: Final = 40
+"""Number of valid files of each format."""
+
+DRAWING: Final = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 90 60" width="45mm">
+<defs><path id="t" d="M0 0h2v3z"/><clipPath id="c"><circle r="3"/></clipPath></defs>
+<style>.a {fill: none} #t {stroke: red}</style>
+<g transform="translate(3 4) rotate(30) scale(1 2)"><use href="#t" x="9" class="a"/>
+<rect x="1" y="2" width="3" height="4" rx="1"/></g><ellipse cx="40" cy="9" rx="5" ry="3"/>
+<path d="M60 10 C 70 0 80 20 70 30 S 50 30 60 10 Z M63 12 a2 1 20 1 0 4 4 z"/>
+<polyline points="5,50 9,55 14,50"/><line x1="20" y1="50" x2="29" y2="59"/></svg>"""
+
+
+class Hostile(NamedTuple):
+    """A hostile file.
+
+    Attributes:
+        content: what it contains.
+        seed: number of the valid file that it was made from.
+        wound: "value", if one value of that was changed; else "text".
+    """
+
+    content: bytes
+    seed: int
+    wound: str
+
+
+def hostile(kind: str, number: int, seed: int) -> Hostile:
+    """A hostile file of a format; half of them have one changed value."""
+    rng = Random(f"hostile {kind} {seed} {number}")
+    which = rng.randrange(SEEDS)
+    text = _valid(kind, which)
+    if rng.random() < 0.5:
+        return Hostile(damaged(text, rng), which, "text")
+    if kind in ("wkt", "svg", "proof"):
+        content = with_another_word(text, rng)
+    elif kind == "saved":
+        data = with_another_value(_unsealed(text), rng)
+        content = json.dumps(sealed(data) if isinstance(data, dict) else data)
+    else:
+        content = json.dumps(with_another_value(json.loads(text), rng))
+    return Hostile(content.encode("utf-8", "surrogatepass"), which, "value")
+
+
+def _unsealed(text: str) -> object:
+    data = json.loads(text)
+    del data["exactpt-simulation"], data["sha256"]
+    return data
+
+
+def scene_text(which: int) -> str:
+    """The scene file from which the valid files of this number are made."""
+    return _valid("scene", which)
+
+
+@cache
+def _valid(kind: str, which: int) -> str:
+    """A valid file of a format, made from a scene of a family."""
+    families = [*FAMILIES, *POINTS]
+    scene = scene_of(families[which % len(families)], 1 + which)
+    if kind == "svg" and which % 2:
+        return DRAWING
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / f"file.{kind}"
+        if kind == "scene":
+            scene.save(path)
+        elif kind == "saved":
+            simulation = Simulation(scene)
+            simulation.step()
+            simulation.save(path)
+        elif kind == "proof":
+            write_proof(scene, path, scene_file=scene_text(which).encode())
+        else:
+            write_shapes(scene, path)
+        return path.read_text(encoding="utf-8")

@@ -1,0 +1,100 @@
+"""Campaigns of hostile files, and their table."""
+
+from __future__ import annotations
+
+import time as clock
+from collections import Counter
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from random import Random
+from tempfile import TemporaryDirectory
+from typing import Final
+
+from exactpt.files import write_atomically
+from exactpt.kernel import budget
+from fuzz.hostile.files import Hostile, hostile
+from fuzz.hostile.readers import Ended, read
+
+__all__ = ["OUTCOMES", "Tally", "run", "table"]
+
+OUTCOMES: Final = ("read", "refused", "spent", "broken", "FAULT")
+
+MOST_MEMORY: Final = 300_000_000
+"""Maximum growth of the process, in bytes, by the reading of one file."""
+
+
+@dataclass(slots=True)
+class Tally:
+    """The outcomes of one format.
+
+    Attributes:
+        outcomes: number of each.
+        values: number of files with one changed value.
+        seconds: processor time, in all and for the slowest.
+        grown: the largest growth of memory by one file, in bytes.
+    """
+
+    outcomes: Counter[str] = field(default_factory=Counter)
+    values: int = 0
+    seconds: float = 0.0
+    slowest: float = 0.0
+    grown: int = 0
+
+    def add(self, file: Hostile, ended: Ended, grown: int) -> None:
+        """Count a file."""
+        self.outcomes[ended.outcome] += 1
+        self.values += file.wound == "value"
+        self.seconds += ended.seconds
+        self.slowest = max(self.slowest, ended.seconds)
+        self.grown = max(self.grown, grown)
+
+
+def run(
+    formats: Sequence[str],
+    count: int,
+    *,
+    seed: int = 0,
+    start: int = 0,
+    seconds: float | None = None,
+    report: Callable[[str], None],
+    keep: Path,
+) -> dict[str, Tally]:
+    """Read hostile files, the formats in turn; files with a fault are kept in a folder.
+
+    Interrupted, it returns what it has counted.
+    """
+    tallies = {kind: Tally() for kind in formats}
+    deadline = None if seconds is None else clock.monotonic() + seconds
+    with suppress(KeyboardInterrupt), TemporaryDirectory() as folder:
+        for number in range(start, start + count):
+            if deadline is not None and clock.monotonic() > deadline:
+                break
+            kind = formats[number % len(formats)]
+            file = hostile(kind, number, seed)
+            before = budget._memory()
+            ended = read(kind, file, Random(f"reader {seed} {number}"), Path(folder))
+            grown = budget._memory() - before
+            if not ended.fault and grown > MOST_MEMORY:
+                ended = ended._replace(outcome="FAULT", fault=f"{grown >> 20} MB more memory")
+            tallies[kind].add(file, ended, grown)
+            if ended.fault:
+                keep.mkdir(exist_ok=True)
+                path = keep / f"{kind}-{seed}-{number}"
+                write_atomically(path, file.content)
+                report(f"{path}: {ended.reader}: {ended.fault[:400]}")
+    return tallies
+
+
+def table(tallies: dict[str, Tally]) -> list[str]:
+    """One line for each format: files, of these with one changed value, outcomes, cost."""
+    head = ("format", "files", "value", *OUTCOMES, "ms", "slowest s", "MB more")
+    lines = [f"{head[0]:10}" + "".join(f"{word:>10}" for word in head[1:])]
+    for kind, tally in tallies.items():
+        files = sum(tally.outcomes.values())
+        numbers = [files, tally.values, *(tally.outcomes[word] for word in OUTCOMES)]
+        mean = 1000 * tally.seconds / files if files else 0.0
+        cost = f"{mean:>10.1f}{tally.slowest:>10.2f}{tally.grown / 2**20:>10.0f}"
+        lines.append(f"{kind:10}" + "".join(f"{n:>10}" for n in numbers) + cost)
+    return lines

@@ -1,0 +1,126 @@
+"""Limits of time: what takes too long is interrupted, in any thread, and is a finding."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import signal
+import threading
+import time as clock
+from collections.abc import Iterator
+from types import FrameType
+from typing import Final, NoReturn
+
+from exactpt.scene.scene import Scene
+
+__all__ = ["HANGS", "TimeIsUp", "TooSlow", "limit", "patience_of"]
+
+HANGS: Final = "hangs"
+
+WAITING: Final = 6.0
+"""Elapsed time, in units of the limit of processor time, after which work that waits is stuck."""
+
+AGAIN: Final = 0.5
+"""Seconds between repeated interrupts: Python drops an exception raised in a finalizer."""
+
+
+class TooSlow(BaseException):
+    """A limit of time is reached."""
+
+
+class TimeIsUp(BaseException):
+    """The time of the whole campaign is over."""
+
+
+def patience_of(scene: Scene) -> float:
+    """Seconds of processor time within which any witness answers on a scene.
+
+    No witness has taken a tenth of this in any scene of the families.
+    """
+    return 5.0 + scene.vertex_count / 10
+
+
+@contextlib.contextmanager
+def limit(seconds: float, ends: float | None = None) -> Iterator[None]:
+    """Interrupt what takes longer.
+
+    In the main thread processor time counts, and `WAITING` times as much elapsed time for work
+    that waits for something. Other threads receive no signals; there elapsed time counts, and
+    the exception is raised between two instructions of Python.
+
+    Args:
+        seconds: the limit.
+        ends: the time (of ``time.time``) at which the campaign is over; None if it has no end.
+
+    Raises:
+        TooSlow: after the limit.
+        TimeIsUp: at the end, if that is earlier.
+    """
+    left = WAITING * seconds if ends is None else min(WAITING * seconds, ends - clock.time())
+    if left <= 0:
+        raise TimeIsUp
+    if threading.current_thread() is threading.main_thread():
+        with _signals(seconds, left, ends):
+            yield
+    else:
+        with _watched(min(seconds, left), ends):
+            yield
+
+
+def _over(ends: float | None) -> type[BaseException]:
+    return TooSlow if ends is None or clock.time() < ends else TimeIsUp
+
+
+@contextlib.contextmanager
+def _signals(seconds: float, left: float, ends: float | None) -> Iterator[None]:
+    def interrupt(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001
+        raise _over(ends)
+
+    old = [signal.signal(number, interrupt) for number in (signal.SIGPROF, signal.SIGALRM)]
+    signal.setitimer(signal.ITIMER_PROF, seconds, AGAIN)
+    signal.setitimer(signal.ITIMER_REAL, left, AGAIN)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        for number, handler in zip((signal.SIGPROF, signal.SIGALRM), old, strict=True):
+            signal.signal(number, handler)
+
+
+@contextlib.contextmanager
+def _watched(seconds: float, ends: float | None) -> Iterator[None]:
+    """The same for a thread, by a second thread that watches the time."""
+    over = threading.Lock()
+    over.acquire()
+    thread = ctypes.c_ulong(threading.get_ident())
+
+    def watch() -> None:
+        wait = seconds
+        while not over.acquire(timeout=wait):
+            kind = ctypes.py_object(_over(ends))
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, kind)
+            wait = AGAIN
+
+    watcher = threading.Thread(target=watch, daemon=True)
+    watcher.start()
+    try:
+        yield
+    finally:
+        _withdraw(over, watcher, thread)
+
+
+def _withdraw(over: threading.Lock, watcher: threading.Thread, thread: ctypes.c_ulong) -> None:
+    """End a watch: no exception is raised after this; one that is under way is dropped.
+
+    It may arrive anywhere in here, so nothing is held here that others wait for. A watch that
+    went on would raise it in whichever thread got the identifier next.
+    """
+    ended = False
+    while not ended:
+        with contextlib.suppress(TooSlow, TimeIsUp):
+            if over.locked():
+                over.release()
+            watcher.join()
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, None)
+            ended = True

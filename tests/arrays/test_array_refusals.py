@@ -1,0 +1,93 @@
+"""Bad arrays are refused by one line that says which value."""
+
+import numpy as np
+import pytest
+
+from exactpt import InputError, Scene
+from exactpt.arrays import first_contacts, point_segment_contacts
+
+CORNERS = [(0, 0), (2, 0), (0, 2), (5, 1)]
+
+
+def pairs_of(vertices=CORNERS, offsets=(0, 3, 4), pairs=((0, 1),), **options):
+    return first_contacts(vertices, offsets, pairs, **options)
+
+
+@pytest.mark.parametrize(
+    "given, line",
+    [
+        ({"vertices": [(0, 0), (1, np.nan)]}, "vertices[1, 1]: not a finite number: nan"),
+        ({"vertices": [0, 1]}, "vertices: shape (N, 2) is needed, not (2,)"),
+        ({"vertices": "ab"}, "vertices: not an array of numbers: 'ab'"),
+        ({"vertices": [(0, 0), (1,)]}, "vertices: not an array: [(0, 0), (1,)]"),
+        ({"vertices": [(0, 2**60 + 1)]}, "vertices[0, 1]: not a double: 1152921504606846977"),
+        ({"offsets": [1, 4]}, "offsets: they go from 0 to 4, the number of vertices, not from 1"),
+        ({"offsets": [0, 3, 3, 4]}, "offsets: body 1: at least one vertex is needed"),
+        ({"offsets": [0.0, 4.0]}, "offsets: not an array of integers: [0.0, 4.0]"),
+        ({"offsets": []}, "offsets: shape (n + 1,) is needed, not (0,)"),
+        ({"pairs": [(0, 2)]}, "pairs[0, 1]: there is no body 2 among 2"),
+        ({"pairs": [(1, 1)]}, "pairs[0]: two bodies are asked for, not 1 twice"),
+        ({"pairs": [0, 1]}, "pairs: shape (m, 2) is needed, not (2,)"),
+        ({"velocities": [(0, 1)]}, "velocities: 2 are needed, one for each body, not 1"),
+        ({"velocities": [(0, 1), (0, -np.inf)]}, "velocities[1, 1]: not a finite number: -inf"),
+        ({"coefficients": np.zeros((2, 3))}, "coefficients: shape (2, 2, d + 1) is needed"),
+        ({"velocities": 0, "coefficients": 0}, "give either velocities or coefficients"),
+        ({"closed": [1, 0]}, "closed: a boolean or 2 of them are needed: [1, 0]"),
+        ({"time": (1, 1)}, "time: the span from 1.0 to 1.0 is empty"),
+        ({"time": [(2, 1)]}, "time[0]: the span from 2.0 to 1.0 is empty"),
+        ({"time": (0, 1, 2)}, "time: shape (2,) or (1, 2) is needed, not (3,)"),
+        ({"vertices": [(0, 0), (1, 1), (2, 2), (5, 1)]}, "body '0': not a simple polygon"),
+        ({"vertices": [(0, 0), (0, 0), (2, 2), (5, 1)]}, "body '0': vertex 0 and the next one"),
+    ],
+)
+def test_pairs(given, line):
+    with pytest.raises(InputError) as refused:
+        pairs_of(**given)
+
+    assert str(refused.value).startswith(line)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    "given, line",
+    [
+        ({"lasts": [(1, 1)]}, "lasts: shape (2, 2) is needed, not (1, 2)"),
+        ({"points": 3.0}, "points: shape (0, 2) is needed, not ()"),
+        ({"firsts": None}, "firsts: shape (2, 2) is needed, not None"),
+        ({"velocities": (None, None)}, "velocities: three arrays are needed, not 2"),
+        ({"velocities": (None, [(1, 0)], None)}, "velocities[1]: shape (2, 2) is needed, not (1,"),
+        ({"lasts": [(1, 1), (0, 1e400)]}, "lasts[1, 1]: not a finite number: inf"),
+        ({"lasts": [(1, 1), (0, 5)]}, "query 1: the segment is a point at the start, t = 0"),
+    ],
+)
+def test_queries(given, line):
+    asked = {"points": [(0, 0), (1, 2)], "firsts": [(3, 3), (0, 5)], "lasts": [(4, 4), (4, 5)]}
+    with pytest.raises(InputError) as refused:
+        point_segment_contacts(**(asked | given))
+
+    assert str(refused.value).startswith(line)
+
+
+@pytest.mark.parametrize(
+    "given, line",
+    [
+        ({"names": ["a"]}, "names: 2 are needed, one for each body: ['a']"),
+        ({"names": ["a", "a"]}, "body 'a': the name is taken by another body"),
+        ({"names": ["a", ""]}, "a body's name is a text that is not empty: ''"),
+        ({"time": (3, 3)}, "time: the span from 3 to 3 is empty"),
+        ({"closed": [True]}, "closed: a boolean or 2 of them are needed: [True]"),
+    ],
+)
+def test_scenes(given, line):
+    with pytest.raises(InputError) as refused:
+        Scene.from_arrays(CORNERS, [0, 3, 4], **given)
+
+    assert str(refused.value) == line
+
+
+def test_integers_and_single_precision_are_taken_exactly():
+    single = np.array(CORNERS, dtype=np.float32)
+    unsigned = np.array(CORNERS, dtype=np.uint64)
+
+    assert pairs_of(vertices=single).scene(0) == pairs_of(vertices=unsigned).scene(0)
+    assert pairs_of(vertices=[*CORNERS[:3], (2**60, 1)]).scene(0).bodies[1].at(0) == [(2**60, 1)]

@@ -1,0 +1,268 @@
+"""Proofs before the checker in C++: it agrees with that in Python, and survives any file."""
+
+import hashlib
+import subprocess
+from fractions import Fraction
+from random import Random
+
+import pytest
+
+from exactpt import proof_check
+from exactpt.cgal import check_proof
+from exactpt.check import check_scene
+from exactpt.errors import AuditError, BudgetExceeded, InputError
+from exactpt.proof import prove
+from exactpt.scene.generate import FAMILIES, POINTS, generate
+from exactpt.scene.scene import Scene
+from fuzz import corpus
+
+pytestmark = pytest.mark.cgal
+
+TILINGS = ("lazy", "greedy", "mixed")
+
+
+@pytest.fixture
+def in_cpp(program, tmp_path):
+    """The exit code and the line of an answer; the files are those given, byte for byte."""
+
+    def run(scene, proof, *options):
+        (tmp_path / "scene.json").write_bytes(scene)
+        (tmp_path / "proof").write_bytes(proof)
+        command = [program, "proof", tmp_path / "scene.json", tmp_path / "proof", *options]
+        done = subprocess.run(command, capture_output=True, check=False, timeout=60)
+        assert done.stdout.endswith(b"\n")
+        assert done.stdout.count(b"\n") == 1
+        assert done.stderr == b""
+        return done.returncode, done.stdout.decode().rstrip("\n")
+
+    return run
+
+
+def in_python(scene, proof):
+    """The exit code, and the line."""
+    try:
+        return 0, proof_check.check(scene, proof)
+    except proof_check.Rejected as rejected:
+        return 1, str(rejected)
+    except proof_check.NoProofError as refused:
+        return 2, str(refused)
+
+
+def text(lines):
+    return ("\n".join(lines) + "\n").encode()
+
+
+def nudged(words, random):
+    """An event at a time next to its own, or just after it."""
+    k = next((k for k, word in enumerate(words) if word in "-+="), len(words))
+    by = random.choice([Fraction(999, 1000), Fraction(1001, 1000), 1 + Fraction(1, 2**60)])
+    time = str(Fraction(words[1]) * by)
+    return ["event", time, time, *words[k:]]
+
+
+def without_an_item(words, random):
+    at = [k for k, word in enumerate(words) if word in "-+="]
+    i = random.choice(at)
+    return words[:i] + words[min([k for k in at if k > i], default=len(words)) :]
+
+
+def another_number(words, random):
+    k = random.randrange(1, len(words))
+    if words[k].lstrip("-").isdigit():
+        return [*words[:k], str(int(words[k]) + random.choice([-2, -1, 1, 2])), *words[k + 1 :]]
+    return [*words[:k], random.choice("-+=@"), *words[k + 1 :]]
+
+
+def mutant(lines, random):
+    """A proof of which one line, or the order of two, is another one."""
+    i, j = random.randrange(2, len(lines)), random.randrange(2, len(lines))
+    words = lines[i].split()
+    is_event = words[0] == "event"
+    kind = random.randrange(8)
+    if kind == 0:
+        return lines[:i] + lines[i + 1 :]
+    if kind == 1:
+        return lines[: i + 1] + lines[i:]
+    if kind == 2:
+        swapped = lines[:]
+        swapped[i], swapped[j] = lines[j], lines[i]
+        return swapped
+    if kind == 3:
+        return [*lines[:-1], "none"]
+    if kind == 4 and lines[-1] != "none":
+        last = lines[-1].split()
+        return [*lines[:-1], " ".join([*last[:-1], str(int(last[-1]) ^ 1)])]
+    if kind == 5 and is_event:
+        words = nudged(words, random)
+    elif kind == 6 and is_event:
+        words = without_an_item(words, random)
+    elif len(words) > 1:
+        words = another_number(words, random)
+    return [*lines[:i], " ".join(words), *lines[i + 1 :]]
+
+
+@pytest.mark.parametrize("family", [*FAMILIES, *POINTS])
+def test_both_checkers_agree(in_cpp, family):
+    random, wrong = Random(family), 0
+    tilings = [*TILINGS, *(["incremental"] if family in POINTS else [])]
+    for seed in (5, 6):
+        scene = generate(family, seed)
+        for tiling in tilings:
+            contact, file, proof = prove(scene, tiling=tiling)
+            code, answer = in_cpp(file, proof)
+            other = in_python(file, proof)[1]
+            assert code == 0
+            if contact is None or contact.time.is_rational:
+                assert answer == other
+            else:
+                assert answer.split("; ")[1] == other.split("; ")[1]
+            lines = proof.decode().splitlines()
+            for _ in range(4):
+                mutated = text(mutant(lines, random))
+                codes = in_cpp(file, mutated)[0], in_python(file, mutated)[0]
+                assert (codes[0] == 0) == (codes[1] == 0), mutated.decode()
+                assert codes[0] in (0, 1, 2)
+                wrong += codes[0] != 0
+    assert wrong > 4
+
+
+@pytest.mark.parametrize("path", corpus.files(), ids=lambda path: path.stem)
+def test_proofs_of_the_corpus(in_cpp, path):
+    scene = Scene.load(path)
+    for tiling in TILINGS:
+        _, file, proof = prove(scene, tiling=tiling, scene_file=path.read_bytes())
+        code, answer = in_cpp(file, proof)
+        assert (code, answer.split(": ")[0]) == (0, "accepted")
+
+
+def test_the_number_of_processes_changes_no_answer(in_cpp):
+    random = Random(3)
+    for family in ("convex", "turning_stars", "ballistic_points"):
+        _, file, proof = prove(generate(family, 7))
+        lines = proof.decode().splitlines()
+        for proof in (text(lines), *(text(mutant(lines, random)) for _ in range(12))):
+            answers = {in_cpp(file, proof, "--jobs", str(jobs)) for jobs in (1, 2, 5)}
+            assert len(answers) == 1
+
+
+@pytest.fixture
+def proved():
+    _, file, proof = prove(generate("stars", 6))
+    return file, proof
+
+
+def test_truncated_files_are_no_proofs(in_cpp, proved):
+    file, proof = proved
+    for length in range(0, len(proof) - 1, 7):
+        assert in_cpp(file, proof[:length])[0] == 2
+
+
+def test_random_bytes_are_no_proofs(in_cpp, proved):
+    file, proof = proved
+    random = Random(8)
+    for _ in range(60):
+        length = random.randrange(200)
+        assert in_cpp(file, random.randbytes(length))[0] == 2
+        begin = proof[: proof.index(b"span")]
+        assert in_cpp(file, begin + random.randbytes(length))[0] == 2
+        i = random.randrange(len(proof))
+        damaged = proof[:i] + random.randbytes(1) + proof[i + 1 :]
+        assert in_cpp(file, damaged)[0] in (0, 1, 2)
+
+
+SCENES = [
+    b"",
+    b"[]",
+    b"{}",
+    b"{" * 100_000,
+    b"[" * 100_000 + b"]" * 100_000,
+    b'{"exactpt": 1, "time": [0, 1], "bodies": [',
+    b'{"exactpt": 2, "time": [0, 1], "bodies": []}',
+    b'{"exactpt": 1, "time": [1, 1], "bodies": []}',
+    b'{"exactpt": 1, "time": [0, NaN], "bodies": []}',
+    b'{"exactpt": 1, "time": [0, 01], "bodies": []}',
+    b'{"exactpt": 1, "time": [0, 1e200000], "bodies": []}',
+    b'{"exactpt": 1, "time": [0, 1], "bodies": [], "bodies": []}',
+    b'{"exactpt": 1, "time": [0, 1], "bodies": [{"name": "a", "vertices": []}]}',
+    b'{"exactpt": 1, "time": [0, 1], "bodies": [{"name": "a", "vertices": [["1/0", 1]]}]}',
+    b'{"exactpt": 1, "time": [0, 1], "bodies": [{"name": "a", "keyframes": []}]}',
+    b'{"exactpt": 1, "time": [0, 1], "bodies": [{"name": "a", "vertices": [[0, 0]], "radius": 1}]}',
+    b'{"exactpt": 1, "time": [0, 1], "bodies": [{"name": "\xff", "vertices": [[0, 0]]}]}',
+]
+
+
+@pytest.mark.parametrize("scene", SCENES, ids=range(len(SCENES)))
+def test_what_is_no_scene(in_cpp, scene):
+    lines = ["exactpt-proof 1", f"scene sha256 {hashlib.sha256(scene).hexdigest()}", "span 0 1"]
+    code, answer = in_cpp(scene, text([*lines, "none"]))
+    assert (code, answer.split(":")[0]) == (2, "no proof")
+
+
+def test_numbers_of_scenes_are_exact(in_cpp):
+    scene = (
+        b'{"exactpt": 1, "time": [-1e0, 2.5e0], "bodies": ['
+        b'{"name": "a", "vertices": [[0.1, "1/3"]], "motion": {"x": [0, 1]}},'
+        b'{"name": "b", "vertices": [["+1.1", "333333e-6"]], "motion": {"y": ["1/3000000"]}}]}'
+    )
+    lines = ["exactpt-proof 1", f"scene sha256 {hashlib.sha256(scene).hexdigest()}"]
+    lines += ["span -1 5/2", "outer 0 1", "contact 1 1 vertex 0 vertex 1"]
+    answer = "accepted: no contact before T = 1; contact of a vertex 0 with b vertex 0 at T"
+    assert in_cpp(scene, text(lines)) == (0, answer)
+    assert in_python(scene, text(lines)) == (0, answer)
+
+
+def test_calls(program, proved, tmp_path):
+    file, proof = proved
+    (tmp_path / "s").write_bytes(file)
+    (tmp_path / "p").write_bytes(proof)
+    for words in (
+        ["proof"],
+        ["proof", "s"],
+        ["proof", "s", "p", "p"],
+        ["proof", "s", "none"],
+        ["proof", ".", "p"],
+        ["proof", "s", "p", "--jobs"],
+        ["proof", "s", "p", "--jobs", "0"],
+        ["proof", "p", "s"],
+        ["prove", "s", "p"],
+    ):
+        done = subprocess.run([program, *words], capture_output=True, cwd=tmp_path, check=False)
+        assert (done.returncode, done.stdout.count(b"\n")) == (2, 1), words
+
+
+def test_client(program, proved, tmp_path):
+    scene, path = tmp_path / "scene.json", tmp_path / "proof"
+    scene.write_bytes(proved[0])
+    path.write_bytes(proved[1])
+    verdict = check_proof(scene, path, program=program, jobs=2)
+    assert verdict == (True, in_python(*proved)[1])
+    lines = proved[1].decode().splitlines()
+    path.write_bytes(text([*lines[:-1], "none"]))
+    verdict = check_proof(str(scene), str(path), program=program)
+    assert not verdict.accepted
+    assert verdict.line.startswith("rejected: line ")
+    with pytest.raises(BudgetExceeded):
+        check_proof(scene, path, program=program, max_seconds=0.0)
+    path.write_bytes(b"no proof\n")
+    with pytest.raises(InputError, match="the file is no proof"):
+        check_proof(scene, path, program=program)
+    with pytest.raises(InputError, match="cannot start"):
+        check_proof(scene, path, program=tmp_path / "none")
+    with pytest.raises(AuditError, match="ended with 1"):
+        check_proof(scene, path, program="/bin/false")
+
+
+def test_a_check_verifies_the_proof_first(program, monkeypatch):
+    monkeypatch.setenv("EXACTPT_CGAL_CHECK", str(program))
+    scene = generate("convex", 3)
+    report = check_scene(scene)
+    assert report.proof
+    assert report.to_json()["proof"] is True
+    assert report.lines()[0].startswith("CGAL agrees: the proof is accepted; ")
+    monkeypatch.setattr("exactpt.proof.emit.Proof._is_body_edge", lambda *_: True)
+    monkeypatch.setattr("exactpt.proof.emit.change", lambda *_: ["- 0 1"])
+    report = check_scene(scene)
+    assert report.proof is False
+    assert not report.ok
+    assert report.failures[0].startswith("proof rejected: line ")
+    assert "the proof is REJECTED" in report.lines()[0]

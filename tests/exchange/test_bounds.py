@@ -1,0 +1,269 @@
+"""Shapes made to exhaust a reader: refused in one line by depth, number and size."""
+
+import json
+import os
+import sys
+
+import pytest
+
+from exactpt.cli import main
+from exactpt.collision import initial
+from exactpt.errors import InputError
+from exactpt.exchange import shapes, svg
+from exactpt.exchange.files import read_shapes
+from exactpt.scene.scene import Scene
+
+HEAD = '<svg xmlns="http://www.w3.org/2000/svg">'
+OUTLINE = '<path d="M0 0h1v1z"/>'
+
+
+def convert(source, *options):
+    with pytest.raises(SystemExit) as end:
+        main(["convert", str(source), str(source.with_name("out.json")), *options])
+    return end.value.code
+
+
+@pytest.fixture
+def refused(tmp_path, capsys):
+    """Write a file, convert it, and return the one line that refuses it."""
+
+    def refused(name, text, *options):
+        source = tmp_path / name
+        source.write_text(text)
+        assert convert(source, *options) == 2
+        out, err = capsys.readouterr()
+        assert (out, err.count("\n")) == ("", 1)
+        assert not source.with_name("out.json").exists()
+        return err
+
+    return refused
+
+
+@pytest.mark.parametrize("depth", [101, 5_000, 100_000])
+def test_collections_in_collections_of_wkt(refused, depth):
+    """At depth 100,000 shapely ended the process; at 5,000 it took 650 MB."""
+    text = "GEOMETRYCOLLECTION(" * depth + "POINT (1 1)" + ")" * depth
+
+    assert "geometry 0: nested more than 100 deep" in refused("shapes.wkt", text)
+
+
+@pytest.mark.parametrize("depth", [101, 300, 100_000])
+def test_collections_in_collections_of_geojson(refused, depth):
+    inner = '{"type": "Point", "coordinates": [1, 2]}'
+    text = '{"type":"GeometryCollection","geometries":[' * depth + inner + "]}" * depth
+
+    said = refused("shapes.geojson", text)
+
+    assert "nested more than 100 deep" in said or "nested too deeply" in said
+
+
+def test_what_is_nested_moderately_is_read(tmp_path):
+    wkt, drawing = tmp_path / "shapes.wkt", tmp_path / "shapes.svg"
+    wkt.write_text("GEOMETRYCOLLECTION(" * 90 + "POINT (1 1)" + ")" * 90)
+    drawing.write_text(HEAD + "<g>" * 90 + OUTLINE + "</g>" * 90 + "</svg>")
+
+    assert len(read_shapes(wkt).bodies) == len(read_shapes(drawing).bodies) == 1
+
+
+def test_groups_in_groups(refused):
+    text = HEAD + "<g>" * 50_000 + OUTLINE + "</g>" * 50_000 + "</svg>"
+
+    assert "nested more than 100 deep" in refused("drawing.svg", text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '<g id="a"><use href="#a"/></g>',
+        '<g id="a"><use href="#b"/></g><g id="b"><use href="#a"/></g>',
+        '<use id="a" href="#a"/>',
+        '<g xmlns:x="http://www.w3.org/1999/xlink" id="a"><use x:href="#a"/></g>',
+        "".join(f'<use id="u{i}" href="#u{i + 1}"/>' for i in range(50_000)),
+    ],
+    ids=["itself", "each other", "one element", "xlink", "chain"],
+)
+def test_groups_that_use_themselves(refused, text):
+    assert "or one is in itself" in refused("drawing.svg", HEAD + text + "</svg>")
+
+
+def test_copies_of_copies(refused):
+    """Eight levels of ten copies are 100,000,000 outlines in a file of 2 kB."""
+    levels = [f'<g id="g{i + 1}">' + f'<use href="#g{i}"/>' * 10 + "</g>" for i in range(8)]
+    text = HEAD + '<path id="g0" d="M0 0h1v1z"/>' + "".join(levels) + "</svg>"
+
+    assert "more than 100000 elements are copies" in refused("drawing.svg", text)
+
+
+def test_a_few_copies_are_made(tmp_path):
+    drawing = tmp_path / "drawing.svg"
+    drawing.write_text(
+        HEAD + '<defs><path id="p" d="M0 0h1v1z"/></defs>'
+        '<g id="g"><use href="#p"/><use href="#p" x="5"/></g><use href="#g" y="5"/></svg>'
+    )
+
+    assert len(read_shapes(drawing).bodies) == 4
+
+
+def test_points_of_curves_are_counted(refused, monkeypatch):
+    monkeypatch.setattr(svg, "_MOST_POINTS", 1000)
+    text = HEAD + '<circle r="100"/>' * 20 + "</svg>"
+
+    assert "more than 1000 points: raise" in refused("drawing.svg", text, "--tolerance", "0.01")
+
+
+class Counting(dict):
+    asked = 0
+
+    def __contains__(self, key):
+        self.asked += 1
+        return super().__contains__(key)
+
+
+@pytest.mark.parametrize("wanted", ["a", "a 7"])
+def test_one_name_for_all(wanted):
+    """The names tried grow with the number of bodies, not with its square."""
+    taken, last = Counting(), {}
+    for i in range(2000):
+        taken[shapes._free_name("a" if i % 2 else wanted, taken, last)] = None
+
+    assert len(taken) == 2000
+    assert taken.asked < 8000
+
+
+@pytest.mark.parametrize("how", ["parts", "features"])
+def test_many_bodies_of_one_name(tmp_path, how):
+    places = [[i, i] for i in range(3000)]
+    feature = {"type": "Feature", "properties": {"name": "a"}}
+    point = {"type": "MultiPoint", "coordinates": places}
+    data = feature | {"geometry": point}
+    if how == "features":
+        points = [feature | {"geometry": {"type": "Point", "coordinates": p}} for p in places]
+        data = {"type": "FeatureCollection", "features": points}
+    (tmp_path / "shapes.geojson").write_text(json.dumps(data))
+
+    names = [body.name for body in read_shapes(tmp_path / "shapes.geojson").bodies]
+
+    assert names == ["a", *(f"a {i}" for i in range(2, 3001))]
+
+
+def rings(kind, count):
+    if kind == "apart":
+        corners = [(3 * (i % 60), 3 * (i // 60), 1) for i in range(count)]
+    else:
+        corners = [(i, i, 2 * (count - i)) for i in range(count)]
+    return [[(x, y), (x + a, y), (x + a, y + a), (x, y + a)] for x, y, a in corners]
+
+
+@pytest.mark.parametrize("kind", ["apart", "concentric"])
+def test_many_rings_of_one_path(monkeypatch, kind):
+    inside, asked = shapes._inside, []
+    monkeypatch.setattr(shapes, "_inside", lambda *pair: asked.append(pair) or inside(*pair))
+
+    found = shapes.nested(rings(kind, 1000))
+
+    assert len(asked) <= 1000
+    if kind == "apart":
+        assert found == [(i, []) for i in range(1000)]
+    else:
+        assert found == [(i, [i + 1]) for i in range(0, 1000, 2)]
+
+
+def test_rings_nested_without_end_are_refused(monkeypatch):
+    monkeypatch.setattr(shapes, "_MOST_NESTED", 1000)
+
+    with pytest.raises(InputError, match="more than 1000 pairs of its outlines are nested"):
+        shapes.nested(rings("concentric", 100))
+
+
+@pytest.mark.parametrize("command", ["collide", "convert"])
+def test_all_in_one_place(tmp_path, capsys, monkeypatch, command):
+    """Of 20,000 points in one place 200 million pairs touch."""
+    monkeypatch.setattr(initial, "MOST_PAIRS", 1000)
+    source = tmp_path / "shapes.wkt"
+    source.write_text(f"MULTIPOINT ({', '.join(['(1 1)'] * 100)})")
+    assert convert(source) == 0
+    told = capsys.readouterr()
+    if command == "collide":
+        with pytest.raises(SystemExit) as end:
+            main(["collide", str(source.with_name("out.json"))])
+        told = capsys.readouterr()
+        assert (end.value.code, told.out) == (2, "")
+
+    assert told.err.endswith("more than 1000 pairs of bodies share a point at the start\n")
+
+
+COMMANDS = {
+    "collide": [],
+    "simulate": [],
+    "tile": [],
+    "check": [],
+    "draw": ["-o", "picture.svg"],
+    "convert": ["out.geojson"],
+}
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def code_of(*arguments):
+    with pytest.raises(SystemExit) as end:
+        main(list(arguments))
+    return end.value.code
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_refuses_by_size(folder, capsys, command):
+    """A file of a terabyte, all of it a hole, is refused by its size: it is not read."""
+    with (folder / "scene.json").open("wb") as file:
+        file.truncate(10**12)
+
+    assert code_of(command, "scene.json", *COMMANDS[command]) == 2
+
+    said = "scene.json: more than 100000000 bytes: allow more by --max-bytes (in Python max_bytes)"
+    assert capsys.readouterr().err == f"exactpt: {said}\n"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="devices of a Unix")
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("device", ["/dev/zero", "/dev/urandom", "/dev/null"])
+def test_every_command_refuses_devices(folder, capsys, command, device):
+    os.symlink(device, "scene.json")
+
+    assert code_of(command, "scene.json", *COMMANDS[command]) == 2
+    assert capsys.readouterr().err == "exactpt: scene.json: cannot be read: a device\n"
+
+
+@pytest.mark.parametrize("command", [c for c in COMMANDS if c != "check"])
+def test_the_size_allowed_is_an_option(folder, capsys, command):
+    (folder / "scene.json").write_text('{"exactpt": 1, "time": [0, 1], "bodies": []}')
+    arguments = [command, "scene.json", *COMMANDS[command], "--max-bytes"]
+
+    assert code_of(*arguments, "43") == 2
+    assert "more than 43 bytes" in capsys.readouterr().err
+    assert code_of(*arguments, "44") == 0
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes of a Unix")
+def test_a_pipe_is_read_up_to_the_limit():
+    ours, theirs = os.pipe()
+    os.write(theirs, b'{"exactpt": 1, "time": [0, 1], "bodies": []}' + b" " * 100)
+    os.close(theirs)
+    path = f"/dev/fd/{ours}"
+
+    with pytest.raises(InputError, match="more than 50 bytes"):
+        Scene.load(path, max_bytes=50)
+
+    os.close(ours)
+
+
+def test_conversion_within_a_time(folder, capsys, monkeypatch):
+    (folder / "shapes.wkt").write_text("POINT (1 1)")
+    monkeypatch.setattr("exactpt.cli.alarm.GRACE", 0.01)
+    monkeypatch.setattr(shapes.Body, "__init__", lambda *_, **__: any(0 for _ in iter(int, 1)))
+
+    assert code_of("convert", "shapes.wkt", "out.json", "--max-seconds", "0.05") == 4
+    assert capsys.readouterr().err == "exactpt: the time is used up\n"
+    assert not (folder / "out.json").exists()

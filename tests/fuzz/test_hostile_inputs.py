@@ -1,0 +1,128 @@
+"""Hostile files: what the harness makes, and that it notices what it is there for."""
+
+import json
+import sys
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from exactpt.scene.format import loads
+from exactpt.simulation.store import _checksum
+from fuzz.hostile import readers
+from fuzz.hostile.files import FORMATS, hostile, scene_text
+from fuzz.hostile.run import run, table
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_files_of_every_format_are_read_or_refused(tmp_path, kind):
+    faults = []
+
+    tallies = run([kind], 60, report=faults.append, keep=tmp_path)
+
+    tally = tallies[kind]
+    assert faults == []
+    assert sum(tally.outcomes.values()) == 60
+    assert tally.outcomes["refused"] > 10
+    assert 10 < tally.values < 50
+    assert list(tmp_path.iterdir()) == []
+    assert table(tallies)[1].split()[:2] == [kind, "60"]
+
+
+def test_a_file_is_the_same_for_its_number():
+    assert hostile("svg", 7, 1) == hostile("svg", 7, 1)
+    assert len({hostile(kind, i, 0).content for kind in FORMATS for i in range(20)}) > 100
+
+
+def test_half_of_the_files_have_one_changed_value():
+    files = [hostile("scene", i, 0) for i in range(100)]
+    values = [file for file in files if file.wound == "value"]
+
+    assert 35 < len(values) < 65
+    for file in values:
+        valid = json.loads(scene_text(file.seed))
+        assert not isinstance(json.loads(file.content), list)
+        assert loads(json.dumps(valid))
+
+
+def test_saved_runs_with_a_changed_value_have_a_right_checksum():
+    files = [hostile("saved", i, 0) for i in range(40)]
+    values = [file for file in files if file.wound == "value"]
+    for file in values:
+        data = json.loads(file.content)
+        del data["exactpt-simulation"]
+        assert data.pop("sha256") == _checksum(data)
+    assert values
+
+
+def faulty(*_):
+    raise ZeroDivisionError
+
+
+def hanging(*_, **__):
+    for _ in iter(int, 1):
+        pass
+
+
+def loud(*_, **__):
+    sys.stdout.write("\x1b[31m")
+    raise SystemExit(0)
+
+
+@pytest.mark.parametrize(
+    "target, how, fault",
+    [
+        ("exactpt.scene.scene.Scene.load", faulty, "exit code 3"),
+        ("fuzz.hostile.readers.main", faulty, "ZeroDivisionError"),
+        ("fuzz.hostile.readers.main", hanging, "hangs"),
+        ("fuzz.hostile.readers.main", loud, "not printable"),
+    ],
+)
+def test_faults_are_noticed_and_kept(tmp_path, monkeypatch, target, how, fault):
+    monkeypatch.setattr(readers, "PATIENCE", 0.3)
+    monkeypatch.setattr(readers, "COMMANDS", ("tile {0}",))
+    monkeypatch.setattr(target, how)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    told = []
+
+    tallies = run(["scene"], 3, report=told.append, keep=tmp_path / "found")
+
+    assert tallies["scene"].outcomes["FAULT"] == 3
+    assert all(fault in line for line in told)
+    assert len(list((tmp_path / "found").iterdir())) == 3
+
+
+@pytest.mark.parametrize(
+    "code, out, err, written, fault",
+    [
+        (0, "answer\n", "", ["out.json"], ""),
+        (2, "", "exactpt: no\n", [], ""),
+        (2, "", "exactpt: no\nand no\n", [], "not one line"),
+        (2, "answer", "exactpt: no\n", [], "refused in"),
+        (2, "", "exactpt: no\n", ["out.json"], "but written"),
+        (0, "", "", [".exactpt-1234"], "but written"),
+        (3, "", "exactpt: bug\n", [], "exit code 3"),
+        (0, "", "x.py:1: RuntimeWarning: overflow\n", [], "a warning"),
+    ],
+)
+def test_what_is_promised(code, out, err, written, fault):
+    found = readers._fault(code, out, err, written)
+
+    assert (fault in found) if fault else found == ""
+
+
+@pytest.mark.slow
+def test_ten_thousand_files(tmp_path):
+    faults = []
+
+    run(FORMATS, 10_000, seed=7, report=faults.append, keep=tmp_path)
+
+    assert faults == []
+
+
+def test_the_working_folder_stays(tmp_path):
+    here = Path.cwd()
+
+    readers.read("scene", hostile("scene", 1, 0), Random(1), tmp_path)
+
+    assert Path.cwd() == here

@@ -1,0 +1,124 @@
+"""Certificates of any motion, from trajectories through a frame to the filter's answer.
+
+Judged by exact arithmetic: whatever is decided must hold for the true trajectories, at times
+chosen next to the roots of the true polynomial.
+"""
+
+import random
+from collections import Counter
+
+import pytest
+from attacks import asked, judge
+from random_motions import MOTIONS, NUMBERS, SETTINGS, lanes, random_scene
+
+from exactpt.certificates import coefficients
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.integer_polynomial import primitive
+from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, rational
+from exactpt.kernel.polynomial import Polynomial
+from exactpt.kernel.roots import roots_after
+from exactpt.motion.frame import frame_for
+from exactpt.motion.incidence import difference, orientation
+from exactpt.motion.track import track
+
+STYLES = ["free", "collinear", "near", "lanes"]
+
+
+def hostile_tracks(rng):
+    """Three trajectories of a random scene, and its frame; also of three nearly in line."""
+    style, motion, numbers = rng.choice(STYLES), rng.choice(sorted(MOTIONS)), rng.choice(NUMBERS)
+    if style == "lanes":
+        motion = "linear"
+        scene = lanes(numbers, rng.random(), bodies=4)
+    else:
+        setting = SETTINGS[rng.choice(sorted(SETTINGS))]
+        scene = random_scene(motion, numbers, rng.random(), setting=setting, side=2)
+    places = [p for body in scene.bodies for p in body._at(scene._start)]
+    frame = frame_for(places, scene._start, scene._end)
+    tracks = [t for body in scene.bodies for t in body._piece_after(scene._start).tracks]
+    a, b, c = rng.sample(tracks, 3)
+    if style in ("collinear", "near"):
+        grain = power_of_two(-rng.choice([40, 52, 60])) * (places[0][1] - places[-1][1])
+        c = through(a, b, QQ(rng.randint(-4, 4), 3), grain if style == "near" else QQ(0))
+    return style, motion, rng.sample([a, b, c], 3), frame, scene
+
+
+def through(a, b, k, grain):
+    """The trajectory a + k (b - a), and a grain upwards: collinear with a and b, or nearly."""
+    v, w = Polynomial(a.w), Polynomial(b.w)
+    x, y = (
+        Polynomial(p) * w * Polynomial([1 - k]) + Polynomial(q) * v * Polynomial([k])
+        for p, q in ((a.x, b.x), (a.y, b.y))
+    )
+    y += v * w * Polynomial([grain])
+    if v.degree == w.degree == 0:
+        scale = Polynomial([1 / (a.w[0] * QQ(b.w[0]))])
+        return track(x * scale, y * scale, None, None)
+    return track(x, y, v * w, ("through", a.motion, b.motion, k, grain))
+
+
+def in_frame(frame, f):
+    """A polynomial in the scene's time, as one in the frame's."""
+    step, result = power_of_two(frame.time_scale), Polynomial()
+    for c in reversed(f):
+        result = result * Polynomial([frame.origin, step]) + Polynomial([c])
+    return list(result._coefficients)
+
+
+def near_roots(rng, true, end):
+    """Times next to which the question is asked: roots of the polynomial, or any."""
+    f = primitive(tuple((q * _common(true)).numerator for q in true))
+    found = [r.time for r in roots_after(f, AlgebraicNumber(-abs(end)), 2 * abs(end))][:4]
+    return [rational(nearest_float(r._low)) for r in found] or [end * QQ(rng.randint(0, 8), 8)]
+
+
+def _common(values):
+    common = QQ(1)
+    for q in values:
+        common *= (q * common).denominator
+    return common
+
+
+def attack(seed, cases):
+    """What was decided wrongly; how many were asked and decided, by style and motion."""
+    rng, wrong, seen, decided = random.Random(seed), [], Counter(), Counter()
+    for _ in range(cases):
+        style, motion, tracks, frame, scene = hostile_tracks(rng)
+        images = frame.images(tracks)
+        if rng.random() < 0.7:
+            function, ask = orientation(*tracks), coefficients.orientation
+        else:
+            a, b = tracks[:2]
+            function, ask = difference(a.x, a.w, b.x, b.w), coefficients.x_difference
+            images = images[:2]
+        true, end = in_frame(frame, function), rational(frame.time(scene._end)[1])
+        if not any(true):
+            now = *frame.time(scene._start), float(end)
+            assert ask(*images, frame.errors, *now, at_root=False)[0] == 0
+            continue
+        case = asked(rng, true, near_roots(rng, true, end), (), ())
+        said = ask(*images, frame.errors, case.now_low, case.now_high, case.horizon, case.at_root)
+        for key in (style, motion):
+            seen[key] += 1
+            decided[key] += said[0] != 0
+        if fault := judge(case, said):
+            wrong.append((fault, style, motion, case, said))
+    return wrong, seen, decided
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_certificate_is_decided_wrongly(seed):
+    wrong, seen, decided = attack(seed, 400)
+
+    assert wrong == []
+    assert all(decided[motion] > seen[motion] / 4 for motion in MOTIONS)
+    assert decided["free"] > seen["free"] / 3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(100, 105))
+def test_none_of_10_000_certificates_is_decided_wrongly(seed):
+    wrong, _, decided = attack(seed, 2_000)
+
+    assert wrong == []
+    assert decided["free"] > 150

@@ -1,0 +1,109 @@
+"""The distance over time: by hand, and against samples at rational times."""
+
+from fractions import Fraction
+from itertools import pairwise
+from random import Random
+
+import pytest
+from tiny import scene_of
+
+from exactpt import Body, InputError, Scene, Translation, clearance, contact_intervals, distance
+from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt.kernel.algebraic_value import quotient_at, square_root
+from exactpt.kernel.numbers import QQ, ZZ
+
+BOX = Body("box", [(0, 0), (2, 0), (2, 2), (0, 2)])
+
+
+def gap_of(body, time=(0, 20)):
+    return clearance(Scene([body, BOX], time), body.name, "box")
+
+
+def test_a_point_that_passes_a_box():
+    gap = gap_of(Body("point", [(-9, 3)], Translation([0, 1])))
+
+    assert [(float(p.start), float(p.end), p.features) for p in gap.pieces] == [
+        (0, 9, ((0, None), (3, None))),
+        (9, 11, ((0, None), (None, 2))),
+        (11, 20, ((0, None), (2, None))),
+    ]
+    assert gap.minimum == (9, 1)
+
+
+def test_a_least_distance_at_an_irrational_time():
+    """Along a parabola past the corner (2, 2): the least distance is where a cubic vanishes."""
+    gap = gap_of(Body("point", [(6, -1)], Translation([0, -1], [0, "1/2", "1/7"])), time=(0, 9))
+
+    assert not gap.minimum.time.is_rational
+    t, least = float(gap.minimum.time), float(gap.minimum)
+    assert gap(t) == pytest.approx(least, abs=1e-12)
+    assert all(gap(Fraction(k, 16)) >= least for k in range(144))
+
+
+def test_where_bodies_meet_the_distance_is_zero():
+    gap = gap_of(Body("point", [(-9, 1)], Translation([0, 1])))
+
+    assert [p.features for p in gap.pieces].count(None) == 1
+    assert gap.squared(10) == 0
+    assert gap.minimum == (9, 0)
+    assert gap(12) == 1.0
+
+
+def test_edges_that_stay_parallel():
+    gap = gap_of(Body("other", [(5, 0), (7, 0), (7, 2), (5, 2)], Translation([0, 1])))
+
+    assert len(gap.pieces) == 1
+    assert gap.minimum == (0, 9)
+
+
+def test_outside_of_the_span():
+    with pytest.raises(InputError, match="outside of the time span"):
+        gap_of(Body("point", [(5, 5)])).squared(21)
+
+
+def check(scene):
+    """Pieces follow each other without a jump, and are right in their middles and at ends."""
+    a, b = (body.name for body in scene.bodies)
+    gap = clearance(scene, a, b)
+    start, end = AlgebraicNumber(scene._start), AlgebraicNumber(scene._end)
+    assert gap.pieces[0].start == start
+    assert gap.pieces[-1].end == end
+    for before, after in pairwise(gap.pieces):
+        assert before.end == after.start
+        assert value(before, before.end) == value(after, after.start)
+    samples = [scene._start + (scene._end - scene._start) * k / 12 for k in range(13)]
+    for piece in gap.pieces:
+        if piece.start < piece.end:
+            middle = rational_between(piece.start, piece.end)
+            samples += [middle, rational_between(piece.start, AlgebraicNumber(middle))]
+    least = gap.minimum.squared
+    for t in samples:
+        squared = distance(scene, a, b, at=t).squared
+        assert gap.squared(t) == squared
+        assert least <= squared
+    assert (least == 0) == bool(contact_intervals(scene, a, b))
+    return len(gap.pieces)
+
+
+def value(piece, t):
+    return quotient_at(tuple(map(ZZ, piece.numerator)), tuple(map(ZZ, piece.denominator)), t)
+
+
+@pytest.mark.parametrize(
+    "count", [60, pytest.param(2_000, marks=pytest.mark.slow)], ids=["few", "many"]
+)
+def test_tiny_scenes_against_samples(count):
+    random = Random(f"clearance {count}")
+
+    assert sum(check(scene_of(random)) for _ in range(count)) > 2 * count
+
+
+def test_values_of_quotients():
+    root = AlgebraicNumber.root((-2, 0, 1), 1, 2)
+
+    assert quotient_at((ZZ(0), ZZ(0), ZZ(1)), (ZZ(3),), root) == QQ(2, 3)
+    shifted = quotient_at((ZZ(1), ZZ(1)), (ZZ(0), ZZ(1)), root)
+    assert shifted.minimal_polynomial() == (1, -4, 2)  # 1 + 1 / sqrt(2)
+    assert square_root(AlgebraicNumber(QQ(9, 4))) == QQ(3, 2)
+    assert square_root(root).minimal_polynomial() == (-2, 0, 0, 0, 1)
+    assert square_root(AlgebraicNumber(0)) == 0
