@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterable, Mapping, Sequence
+from decimal import Decimal
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple, TypeAlias, final
+from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple, TypeAlias, final, overload
 
 from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.geometry.polygon import edges
+from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
+from exactpt.kernel.decimals import decimal_quotient_at
 from exactpt.kernel.numbers import (
     QQ,
     Rational,
@@ -20,10 +23,12 @@ from exactpt.kernel.numbers import (
     fractions,
     place,
     rational,
+    rationals,
     shorten,
     show,
 )
 from exactpt.kernel.polynomial import Polynomial, polynomial
+from exactpt.motion.local_time import Velocity
 from exactpt.motion.motions import (
     REST,
     Coefficients,
@@ -89,7 +94,8 @@ class Body:
         vertices: one (a point), two (a segment) or more; each a pair of numbers, or a
             mapping with polynomials "x" and "y" (missing: 0) for a vertex that moves in
             the body's rest frame. A numpy array of shape (n, 2) is accepted. The vertices
-            may be in either orientation.
+            may be in either orientation. A last one that repeats the first is dropped, if
+            the body is closed.
         motion: the motion of the shape; at rest if not given.
         closed: False for an open chain.
         keyframes: instead of vertices, pairs (t, vertices) with increasing t; the shape is
@@ -138,7 +144,7 @@ class Body:
             self._positions = ()
             self._size = len(self._keyframes[0].vertices)
         else:
-            given = _listed(name, "vertices", vertices)
+            given = _without_closing_point(_listed(name, "vertices", vertices), closed=closed)
             self._doubles = _read_doubles(given)
             if self._doubles is None:
                 self._positions = tuple(_read_vertex(name, i, v) for i, v in enumerate(given))
@@ -170,6 +176,35 @@ class Body:
         """
         body: Body = extension("body from shapely")(geometry, name, motion, holes)
         return body
+
+    @classmethod
+    def launched(
+        cls,
+        name: str,
+        shape: Iterable[VertexLike],
+        *,
+        at: Rational,
+        velocity: Sequence[Rational],
+        closed: bool = True,
+    ) -> Body:
+        """The body that has a shape at a time, and moves with a constant velocity.
+
+        >>> ball = Body.launched("ball", [(0, 0), (1, 0), (0, 1)], at=3, velocity=(2, 0))
+        >>> ball.at(3)[0], ball.at(4)[0]
+        ((Fraction(0, 1), Fraction(0, 1)), (Fraction(2, 1), Fraction(0, 1)))
+
+        Args:
+            name: the name of the body.
+            shape: its vertices at that time.
+            at: the time.
+            velocity: the velocity (x, y).
+            closed: False for an open chain.
+
+        Raises:
+            InputError: see `Body`.
+        """
+        vx, vy = rationals(velocity, 2, "a velocity has two coordinates")
+        return cls(name, shape, Velocity(vx, vy, since=at), closed=closed)
 
     def with_motion(self, motion: Motion) -> Body:
         """A body of the same name and shape with another motion.
@@ -242,9 +277,34 @@ class Body:
             self._pieces[end] = BodyPiece(end, tracks)
         return self._pieces[end]
 
-    def at(self, t: Rational) -> list[tuple[Fraction, Fraction]]:
-        """The exact positions of the vertices at a rational time."""
-        return list(map(place, self._at(rational(t))))
+    @overload
+    def at(self, t: Rational) -> list[tuple[Fraction, Fraction]]: ...
+    @overload
+    def at(self, t: Rational | AlgebraicNumber, digits: int) -> list[tuple[Decimal, Decimal]]: ...
+    def at(
+        self, t: Rational | AlgebraicNumber, digits: int | None = None
+    ) -> list[tuple[Fraction, Fraction]] | list[tuple[Decimal, Decimal]]:
+        """The positions of the vertices at a time: exact, or correctly rounded decimals.
+
+        Args:
+            t: the time; without ``digits``, a rational one.
+            digits: the number of significant digits of each coordinate.
+
+        Raises:
+            InputError: if the time is irrational and no digits are given.
+        """
+        if digits is None:
+            return list(map(place, self._at(rational(t))))
+        time = t if isinstance(t, AlgebraicNumber) else AlgebraicNumber(t)
+        passed = [b for b in self._breakpoints if time.compare_rational(b) >= 0]
+        tracks = self._piece_after(passed[-1] if passed else time._low).tracks
+        return [
+            (
+                decimal_quotient_at(p.x, p.w, time, digits),
+                decimal_quotient_at(p.y, p.w, time, digits),
+            )
+            for p in tracks
+        ]
 
     def _at(self, t: QQ) -> list[tuple[QQ, QQ]]:
         """The positions at a time; those at the last time asked for are cached."""
@@ -333,6 +393,16 @@ def _listed(name: str, what: str, values: object) -> list[Any]:
     if isinstance(values, Iterable) and not isinstance(values, (str, Mapping)):
         return list(values)
     raise InputError(f"body {shorten(name)}: {what}: not a list: {shorten(values)}")
+
+
+def _without_closing_point(vertices: list[Any], *, closed: bool) -> list[Any]:
+    """The vertices of a ring, without a last one that repeats the first."""
+    if not closed or len(vertices) <= 3:
+        return vertices
+    first, last = vertices[0], vertices[-1]
+    if not isinstance(first, Mapping) and isinstance(first, Iterable):
+        first, last = list(first), list(last) if isinstance(last, Iterable) else last
+    return vertices[:-1] if first == last else vertices
 
 
 def _pair(point: object) -> tuple[Any, Any]:

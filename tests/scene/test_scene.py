@@ -145,3 +145,49 @@ def test_a_name_can_be_taken_once():
 
 def test_bug_a_keyframed_triangle_shaken_flat_is_shaken_again():
     assert generate("keyframed", 20028).bodies[0].name == "b0"
+
+
+@pytest.mark.parametrize("last", [(0, 0), [0.0, "0"], (Fraction(0), 0)], ids=repr)
+def test_a_closing_point_is_dropped(last):
+    ring = [(0, 0), (2, 0), (0, 2)]
+
+    assert Body("a", [*ring, last]).size == (3 if tuple(last) == (0, 0) else 4)
+
+
+def test_a_closing_point_of_a_ring_that_deforms_is_dropped():
+    corner = {"x": [0, 1], "y": [0]}
+
+    assert Body("a", [corner, (2, 0), (0, 2), corner]).size == 3
+
+
+def test_vertices_that_only_have_the_same_keys_are_not_one():
+    ring = [{"x": [0]}, {"x": [2]}, {"x": [1], "y": [2]}, {"x": [0], "y": [3]}, {"x": [-1]}]
+
+    assert Body("a", ring).size == 5
+
+
+def test_the_end_of_a_chain_is_kept():
+    assert Body("a", [(0, 0), (2, 0), (0, 2), (0, 0)], closed=False).size == 4
+
+
+def test_a_closing_point_in_a_file_is_refused():
+    """A checker of proofs that reads the file would number the vertices in another way."""
+    ring = [["0", "0"], ["2", "0"], ["0", "2"], ["0", "0"]]
+    data = {"exactpt": 1, "time": ["0", "1"], "bodies": [{"name": "a", "vertices": ring}]}
+
+    with pytest.raises(InputError, match="body 'a'.*the last repeats the first"):
+        Scene.from_json(data)
+
+
+def test_positions_at_an_irrational_time_are_decimals():
+    time = AlgebraicNumber.root([-2, 0, 1], 1, 2)
+    pieces = Pieces([(1, Translation([0, 1])), (None, Translation([-1, 2]))])
+    scene = Scene([Body("a", [(0, 0)], pieces), Body("b", [("1/3", 1)])], (0, 9))
+
+    assert scene.at(time, digits=20) == {
+        "a": [(Decimal("1.8284271247461900976"), Decimal(0))],
+        "b": [(Decimal("0.33333333333333333333"), Decimal(1))],
+    }
+    assert scene.at("1/2", digits=3)["a"] == [(Decimal("0.5"), 0)]
+    with pytest.raises(InputError, match="irrational"):
+        scene.at(time)
