@@ -23,7 +23,6 @@ from exactpt.kernel.integer_polynomial import (
     quotient,
     range_on,
     scale,
-    sign_on,
     square_free,
     subtract,
     trimmed,
@@ -31,7 +30,7 @@ from exactpt.kernel.integer_polynomial import (
 from exactpt.kernel.numbers import QQ, ZZ, isqrt, power_of_two
 from exactpt.kernel.sturm import count_roots, sturm_sequence
 
-__all__ = ["lowest_terms", "quotient_at", "square_root", "value_bounds"]
+__all__ = ["lowest_terms", "quotient_at", "square_root"]
 
 
 def lowest_terms(n: IntPoly, d: IntPoly) -> tuple[IntPoly, IntPoly]:
@@ -59,7 +58,7 @@ def quotient_at(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> AlgebraicNumber:
     common = greatest_common_divisor(p, d)
     if len(common) > 1:
         p = quotient(p, common)
-    return _root_near(_norm_in_y(p, n, d), lambda: _narrower_bounds(n, d, t))
+    return _root_near(_norm_in_y(p, n, d), lambda: _range(n, d, t))
 
 
 def square_root(y: AlgebraicNumber) -> AlgebraicNumber:
@@ -84,18 +83,15 @@ def _root_near(f: IntPoly, narrow: Callable[[], tuple[QQ, QQ]]) -> AlgebraicNumb
             return AlgebraicNumber._root(f, low, high)
 
 
-def value_bounds(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> tuple[QQ, QQ]:
-    """Bounds of n(t) / d(t) from the interval of t, refined if d may vanish there."""
-    while not sign_on(d, t._low, t._high):
+def _range(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> tuple[QQ, QQ]:
+    """Bounds of n(t) / d(t); they narrow with every call."""
+    while True:
         t.refine()
-    low, high = range_on(d, t._low, t._high)
+        low, high = range_on(d, t._low, t._high)
+        if low > 0 or high < 0:
+            break
     ends = [x / y for x in range_on(n, t._low, t._high) for y in (low, high)]
     return min(ends), max(ends)
-
-
-def _narrower_bounds(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> tuple[QQ, QQ]:
-    t.refine()
-    return value_bounds(n, d, t)
 
 
 def _range_of_root(y: AlgebraicNumber) -> tuple[QQ, QQ]:

@@ -237,10 +237,10 @@ def _body_to_json(body: Body) -> dict[str, object]:
     data: dict[str, object] = {"name": body.name}
     if not body.closed:
         data["closed"] = False
-    if body._keyframes:
+    if body._shape.keyframes:
         data["keyframes"] = [
             {"t": _text(f.t), "vertices": [[_text(x), _text(y)] for x, y in f.vertices]}
-            for f in body._keyframes
+            for f in body._shape.keyframes
         ]
     else:
         data["vertices"] = [

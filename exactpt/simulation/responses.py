@@ -17,7 +17,7 @@ from exactpt.kernel.integer_polynomial import derivative, evaluate
 from exactpt.kernel.numbers import QQ, Rational, nearest_float, rational, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.motions import made
-from exactpt.simulation.plans import GRID, moved, onward, translation_at
+from exactpt.simulation.plans import GRID, onward, translation_at
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact, Pair
@@ -165,7 +165,7 @@ class Bounce:
             min(max(v + dv, -self._fastest), self._fastest)
             for v, dv in zip(_translation_speed(body, t), change, strict=True)
         ]
-        return moved(body, onward(body, t, velocity, grid=self._grid))
+        return body.with_motion(onward(body, t, velocity, grid=self._grid))
 
 
 def _velocity(body: Body, vertex: int, t: QQ) -> tuple[float, float]:

@@ -23,13 +23,13 @@ clouds = st.lists(st.tuples(polynomials, polynomials), min_size=3, max_size=6)
 @pytest.fixture(scope="module")
 def built():
     """The classes of the tutorial."""
-    scope = dict(
-        CertificateQueue=CertificateQueue, orientation=orientation, x_order=x_order,
-        squared_distance=squared_distance, cmp_to_key=cmp_to_key, pairwise=pairwise,
+    names = (
+        CertificateQueue, orientation, x_order, squared_distance, cmp_to_key, pairwise
     )  # fmt: skip
+    scope = {value.__name__: value for value in names}
     for example in doctest.DocTestParser().get_examples(TUTORIAL.read_text()):
         if example.source.startswith(("class ClosestPair", "class ConvexHull")):
-            exec(example.source, scope)  # noqa: S102 - as the tutorial does
+            exec(example.source, scope)
     return scope
 
 

@@ -10,8 +10,8 @@ from strategies import fractions
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.decimals import decimal_quotient_at
 from exactpt.kernel.numbers import ZZ
+from exactpt.kernel.quotients import decimal_quotient
 
 
 def poly(*coefficients):
@@ -28,7 +28,7 @@ ROOT_OF_TWO = AlgebraicNumber.root([-2, 0, 1], 1, 2)
 
 @given(t=fractions, digits=st.integers(1, 50))
 def test_at_a_rational_time_it_is_the_quotient_rounded(t, digits):
-    found = decimal_quotient_at(poly(1, 3, 2), poly(2, 0, 1), AlgebraicNumber(t), digits)
+    found = decimal_quotient(poly(1, 3, 2), poly(2, 0, 1), AlgebraicNumber(t), digits)
 
     assert found == nearest((1 + 3 * t + 2 * t * t) / (2 + t * t), digits)
 
@@ -37,7 +37,7 @@ def test_at_a_rational_time_it_is_the_quotient_rounded(t, digits):
 def test_the_square_root_of_two(digits):
     expected = Context(digits, ROUND_HALF_EVEN).sqrt(Decimal(2))
 
-    assert decimal_quotient_at(poly(0, 1), poly(1), ROOT_OF_TWO, digits) == expected
+    assert decimal_quotient(poly(0, 1), poly(1), ROOT_OF_TWO, digits) == expected
 
 
 @pytest.mark.parametrize("halfway", [Fraction(5, 2), Fraction(7, 2), Fraction(-25, 2)])
@@ -46,16 +46,16 @@ def test_a_value_halfway_between_two_decimals_becomes_the_even_one(halfway):
     p, q = halfway.numerator, halfway.denominator
     digits = len(str(abs(p) // q))
 
-    found = decimal_quotient_at(poly(p, -2, 0, 1), poly(q), ROOT_OF_TWO, digits)
+    found = decimal_quotient(poly(p, -2, 0, 1), poly(q), ROOT_OF_TWO, digits)
 
     assert found == nearest(halfway, digits)
     assert found % 2 == 0
 
 
 def test_zero_is_found():
-    assert decimal_quotient_at(poly(-2, 0, 1), poly(3, 1), ROOT_OF_TWO, 20) == 0
+    assert decimal_quotient(poly(-2, 0, 1), poly(3, 1), ROOT_OF_TWO, 20) == 0
 
 
 def test_no_digits_are_refused():
     with pytest.raises(InputError, match="digits: at least 1"):
-        decimal_quotient_at(poly(1), poly(1), ROOT_OF_TWO, 0)
+        decimal_quotient(poly(1), poly(1), ROOT_OF_TWO, 0)

@@ -1,5 +1,6 @@
 """Scenes from Python: validated when they are made, simple polygons by brute force."""
 
+from decimal import Decimal
 from fractions import Fraction
 from itertools import combinations
 
@@ -10,8 +11,9 @@ from oracles import exact
 from strategies import as_rational, fractions
 
 from exactpt.errors import InputError
+from exactpt.kernel import AlgebraicNumber
 from exactpt.motion.body import Body
-from exactpt.motion.motions import Translation
+from exactpt.motion.motions import Pieces, Translation
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 
@@ -65,6 +67,8 @@ def is_simple(points, *, closed):
 @example(points=[(0, 0), (2, 0), (2, 2), (1, 0), (0, 2)], closed=True)
 def test_simple_is_simple_by_definition(points, closed):
     body = Body("a", points, closed=closed)
+    if closed and len(points) > 3 and points[0] == points[-1]:
+        points = points[:-1]
 
     if is_simple(points, closed=closed):
         assert Scene([body]).bodies == (body,)
@@ -151,7 +155,7 @@ def test_bug_a_keyframed_triangle_shaken_flat_is_shaken_again():
 def test_a_closing_point_is_dropped(last):
     ring = [(0, 0), (2, 0), (0, 2)]
 
-    assert Body("a", [*ring, last]).size == (3 if tuple(last) == (0, 0) else 4)
+    assert Body("a", [*ring, last]).size == 3
 
 
 def test_a_closing_point_of_a_ring_that_deforms_is_dropped():
@@ -175,7 +179,7 @@ def test_a_closing_point_in_a_file_is_refused():
     ring = [["0", "0"], ["2", "0"], ["0", "2"], ["0", "0"]]
     data = {"exactpt": 1, "time": ["0", "1"], "bodies": [{"name": "a", "vertices": ring}]}
 
-    with pytest.raises(InputError, match="body 'a'.*the last repeats the first"):
+    with pytest.raises(InputError, match=r"body 'a'.*the last repeats the first"):
         Scene.from_json(data)
 
 
