@@ -13,6 +13,7 @@ __all__ = ["BENCHMARKS", "run"]
 BENCHMARKS: Final[dict[str, str]] = {
     "first-contact": "run time against error in the time of the first contact",
     "small": "small questions, building scenes, plans among obstacles, many pieces of motion",
+    "within": "first_within beside first_contact, of the same crowds",
     "wrong-answers": "contacts missed, invented and late, close to degeneracy",
     "arithmetic": "wrong signs, orders and structures by kind of number",
     "stability": "the same answer, and its cost, for extreme input",

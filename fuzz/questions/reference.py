@@ -3,24 +3,40 @@
 It shares nothing with `exactpt.proximity` but the kernel, the trajectories and orientations.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cmp_to_key
 from itertools import combinations, pairwise, product
+from typing import TypeAlias
 
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.kernel.integer_polynomial import add, multiply, scale, subtract
-from exactpt.kernel.numbers import ZZ
+from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale, subtract
+from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
+from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference, orientation
+from exactpt.motion.track import Track
+
+__all__ = [
+    "contact_intervals", "critical_times", "edges_of", "first_within", "is_within", "meet_at",
+    "moments", "pieces", "tracks",
+]  # fmt: skip
+
+Tracks: TypeAlias = tuple[Track, ...]
+Vector: TypeAlias = tuple[IntPoly, IntPoly]
+Interval: TypeAlias = tuple[AlgebraicNumber, AlgebraicNumber]
 
 
-def pieces(a, b, start, end):
+def pieces(a: Body, b: Body, start: QQ, end: QQ) -> Iterator[tuple[QQ, QQ, Tracks, Tracks]]:
+    """The time span from one change of a motion to the next, with the trajectories."""
     cuts = {t for body in (a, b) for t in body._breakpoints if start < t < end}
     times = [start, *sorted(cuts), end]
     for begin, until in pairwise(times):
         yield begin, until, a._piece_after(begin).tracks, b._piece_after(begin).tracks
 
 
-def critical_times(polynomials, begin, until):
+def critical_times(polynomials: Iterable[IntPoly], begin: QQ, until: QQ) -> list[AlgebraicNumber]:
     """The distinct roots in (begin, until] of any of the polynomials, and the end."""
     found = [AlgebraicNumber(until)]
     for f in polynomials:
@@ -30,25 +46,27 @@ def critical_times(polynomials, begin, until):
     return [t for k, t in enumerate(found) if not k or found[k - 1].compare(t) < 0]
 
 
-def edges_of(body):
+def edges_of(body: Body) -> list[tuple[int, int]]:
+    """The edges as pairs of vertices; a point is an edge from itself to itself."""
     return body.edges or [(0, 0)]
 
 
-def within_box(t, a, b, v):
+def within_box(t: AlgebraicNumber, a: Track, b: Track, v: Track) -> bool:
     """Whether v, on the line ab, is between a and b."""
-    for axis in ("x", "y"):
-        to_a = t.sign_of(difference(getattr(v, axis), v.w, getattr(a, axis), a.w))
-        to_b = t.sign_of(difference(getattr(v, axis), v.w, getattr(b, axis), b.w))
+    for to, fro in zip(gap(v, a), gap(v, b), strict=True):
+        to_a, to_b = t.sign_of(to), t.sign_of(fro)
         if to_a * to_b > 0:
             return False
     return True
 
 
-def on_segment(t, a, b, v):
+def on_segment(t: AlgebraicNumber, a: Track, b: Track, v: Track) -> bool:
+    """Whether v is on the closed segment ab."""
     return t.sign_of(orientation(a, b, v)) == 0 and within_box(t, a, b, v)
 
 
-def segments_meet(t, a, b, c, d):
+def segments_meet(t: AlgebraicNumber, a: Track, b: Track, c: Track, d: Track) -> bool:
+    """Whether the closed segments ab and cd share a point."""
     signs = [t.sign_of(orientation(*o)) for o in ((a, b, c), (a, b, d), (c, d, a), (c, d, b))]
     if signs[0] * signs[1] < 0 and signs[2] * signs[3] < 0:
         return True
@@ -60,7 +78,7 @@ def segments_meet(t, a, b, c, d):
     )
 
 
-def contains(t, ring, v):
+def contains(t: AlgebraicNumber, ring: Sequence[Track], v: Track) -> bool:
     """By the crossings of a ray to the right; v is on no edge."""
     inside = False
     for a, b in zip(ring, [*ring[1:], ring[0]], strict=True):
@@ -71,7 +89,8 @@ def contains(t, ring, v):
     return inside
 
 
-def meet_at(t, a, b, p, q):
+def meet_at(t: AlgebraicNumber, a: Body, b: Body, p: Tracks, q: Tracks) -> bool:
+    """Whether two bodies share a point."""
     return (
         any(
             segments_meet(t, p[i], p[j], q[k], q[l])
@@ -82,69 +101,76 @@ def meet_at(t, a, b, p, q):
     )
 
 
-def contact_intervals(a, b, start, end):
+def moments(begin: QQ, until: QQ, p: Tracks, q: Tracks) -> list[AlgebraicNumber]:
+    """All times in (begin, until] at which anything about two bodies may change, in order."""
+    orientations = [orientation(*triple) for triple in combinations([*p, *q], 3)]
+    gaps = [f for u, v in product(p, q) for f in gap(u, v)]
+    return critical_times(orientations + gaps, begin, until)
+
+
+def contact_intervals(a: Body, b: Body, start: QQ, end: QQ) -> list[Interval]:
     """The maximal intervals as pairs of algebraic numbers."""
-    states = [(AlgebraicNumber(start), meet_at(AlgebraicNumber(start), a, b, *tracks(a, b, start)))]
+    last = AlgebraicNumber(start)
+    states: list[tuple[AlgebraicNumber | None, bool]] = [
+        (last, meet_at(last, a, b, *tracks(a, b, start)))
+    ]
     for begin, until, p, q in pieces(a, b, start, end):
-        orientations = [orientation(*triple) for triple in combinations([*p, *q], 3)]
-        gaps = [
-            difference(getattr(u, axis), u.w, getattr(v, axis), v.w)
-            for u, v in product(p, q)
-            for axis in ("x", "y")
-        ]
-        for time in critical_times(orientations + gaps, begin, until):
-            between = AlgebraicNumber(rational_between(states[-1][0], time))
+        for time in moments(begin, until, p, q):
+            between = AlgebraicNumber(rational_between(last, time))
             states.append((None, meet_at(between, a, b, p, q)))
             states.append((time, meet_at(time, a, b, p, q)))
-    found, since, last = [], None, None
-    for time, meets in states:
-        if time is not None:
-            if meets:
-                since = since or time
-                last = time
-        elif not meets and since is not None:
+            last = time
+    found: list[Interval] = []
+    since: AlgebraicNumber | None = None
+    for at, meets in [*states, (None, False)]:
+        if at is not None and meets:
+            since = since or at
+            last = at
+        elif at is None and not meets and since is not None:
             found.append((since, last))
             since = None
-    if since is not None:
-        found.append((since, last))
     return found
 
 
-def tracks(a, b, t):
+def tracks(a: Body, b: Body, t: QQ) -> tuple[Tracks, Tracks]:
+    """The trajectories just after a time."""
     return a._piece_after(t).tracks, b._piece_after(t).tracks
 
 
-def gap(u, v):
+def gap(u: Track, v: Track) -> Vector:
     """(x, y) of v - u, times w_u w_v."""
     return difference(u.x, u.w, v.x, v.w), difference(u.y, u.w, v.y, v.w)
 
 
-def dot(e, f):
+def dot(e: Vector, f: Vector) -> IntPoly:
+    """The scalar product."""
     return add(multiply(e[0], f[0]), multiply(e[1], f[1]))
 
 
-def cross(e, f):
+def cross(e: Vector, f: Vector) -> IntPoly:
+    """The determinant."""
     return subtract(multiply(e[0], f[1]), multiply(e[1], f[0]))
 
 
-def excess_of_vertices(u, v, s):
+def excess_of_vertices(u: Track, v: Track, s: QQ) -> IntPoly:
     """Positive where the squared distance of u and v is more than s."""
     w = multiply(u.w, v.w)
     return less(dot(gap(u, v), gap(u, v)), multiply(w, w), s)
 
 
-def excess_of_line(v, a, b, s):
+def excess_of_line(v: Track, a: Track, b: Track, s: QQ) -> IntPoly:
     """Positive where the squared distance of v from the line ab is more than s."""
     e, f = gap(a, b), gap(a, v)
     w = multiply(a.w, v.w)
     return less(multiply(cross(e, f), cross(e, f)), multiply(multiply(w, w), dot(e, e)), s)
 
 
-def less(n, d, s):
+def less(n: IntPoly, d: IntPoly, s: QQ) -> IntPoly:
+    """n - s d, times a positive number."""
     return subtract(scale(n, ZZ(s.denominator)), scale(d, ZZ(s.numerator)))
 
 
-def is_within(t, a, b, p, q, s):
+def is_within(t: AlgebraicNumber, a: Body, b: Body, p: Tracks, q: Tracks, s: QQ) -> bool:
     """Whether the squared distance is at most s at an algebraic time."""
     if meet_at(t, a, b, p, q):
         return True
@@ -160,7 +186,7 @@ def is_within(t, a, b, p, q, s):
     )
 
 
-def first_within(a, b, start, end, s):
+def first_within(a: Body, b: Body, start: QQ, end: QQ, s: QQ) -> AlgebraicNumber | None:
     """The first time at which the squared distance is at most s."""
     now = AlgebraicNumber(start)
     if is_within(now, a, b, *tracks(a, b, start), s):
