@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Final
 
 import numpy as np
@@ -15,6 +15,8 @@ from exactpt.scene.scene import Scene
 
 __all__ = ["pairs_that_come_near"]
 
+FEW: Final = 4
+"""Maximum number of bodies of which all pairs are named at once."""
 SLABS: Final = 64
 """Number of slabs into which each piece of motion is cut: boxes are swept through one slab."""
 
@@ -24,8 +26,8 @@ def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
 
     A superset of those whose distance in the maximum norm is ever at most the reach.
     """
-    if len(scene.bodies) < 2:
-        return []
+    if len(scene.bodies) <= FEW:
+        return list(combinations(range(len(scene.bodies)), 2))
     vertices = Vertices.of(scene.bodies, scene._start, scene._end, plain=True)
     cuts = {t for body in scene.bodies for t in body._breakpoints}
     inner = sorted(t for t in cuts if scene._start < t < scene._end)
