@@ -14,7 +14,7 @@ from exactpt.cli.alarm import time_limit
 from exactpt.cli.intervals import collide_all
 from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, max_memory
 from exactpt.cli.progress import QUIET, progress
-from exactpt.cli.searches import names_in, search_for
+from exactpt.cli.searches import names_in, search_for, two_names
 from exactpt.cli.terminal import drop_standard_output, say
 from exactpt.cli.words import answer_in_words, event_in_words, stats_in_words
 from exactpt.errors import BudgetExceeded, InputError
@@ -123,7 +123,7 @@ def collide(
                 tiling,
                 ignoring=[names_in(text, "--ignore") for text in ignore],
                 after_start=after_start,
-                between=[names_in(text, "--between") for text in between] or None,
+                between=[two_names(text, "--between") for text in between] or None,
                 exact_only=exact_only,
                 max_events=max_events,
                 max_seconds=max_seconds,

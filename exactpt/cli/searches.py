@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     Search: TypeAlias = Simulation | PairsSearch | ProvedSearch | SelectedSearch
 
-__all__ = ["names_in", "search_for"]
+__all__ = ["names_in", "search_for", "two_names"]
 
 
 def names_in(text: str, option: str) -> list[str]:
@@ -30,6 +30,14 @@ def names_in(text: str, option: str) -> list[str]:
     return names
 
 
+def two_names(text: str, option: str) -> tuple[str, str]:
+    """The names of two bodies in a text."""
+    names = names_in(text, option)
+    if len(names) != 2:
+        raise InputError(f"{option}: not the names of two bodies: {shorten(text)}")
+    return names[0], names[1]
+
+
 def search_for(
     scene: Scene,
     method: str,
@@ -37,7 +45,7 @@ def search_for(
     *,
     ignoring: list[list[str]],
     after_start: bool,
-    between: list[list[str]] | None,
+    between: list[tuple[str, str]] | None,
     exact_only: bool,
     max_events: int | None,
     max_seconds: float | None,
