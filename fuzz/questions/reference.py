@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cmp_to_key
 from itertools import combinations, pairwise, product
-from typing import TypeAlias
+from typing import Protocol, TypeAlias
 
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale, subtract
@@ -23,8 +23,18 @@ __all__ = [
     "moments", "pieces", "tracks",
 ]  # fmt: skip
 
+
+class Instant(Protocol):
+    """A time at which signs of polynomials are known."""
+
+    def sign_of(self, f: IntPoly, /) -> int:
+        """-1, 0 or 1."""
+
+
 Tracks: TypeAlias = tuple[Track, ...]
 Vector: TypeAlias = tuple[IntPoly, IntPoly]
+Point: TypeAlias = tuple[QQ, QQ]
+Place: TypeAlias = tuple[str, int]
 Interval: TypeAlias = tuple[AlgebraicNumber, AlgebraicNumber]
 
 
@@ -51,7 +61,7 @@ def edges_of(body: Body) -> list[tuple[int, int]]:
     return body.edges or [(0, 0)]
 
 
-def within_box(t: AlgebraicNumber, a: Track, b: Track, v: Track) -> bool:
+def within_box(t: Instant, a: Track, b: Track, v: Track) -> bool:
     """Whether v, on the line ab, is between a and b."""
     for to, fro in zip(gap(v, a), gap(v, b), strict=True):
         to_a, to_b = t.sign_of(to), t.sign_of(fro)
@@ -60,12 +70,12 @@ def within_box(t: AlgebraicNumber, a: Track, b: Track, v: Track) -> bool:
     return True
 
 
-def on_segment(t: AlgebraicNumber, a: Track, b: Track, v: Track) -> bool:
+def on_segment(t: Instant, a: Track, b: Track, v: Track) -> bool:
     """Whether v is on the closed segment ab."""
     return t.sign_of(orientation(a, b, v)) == 0 and within_box(t, a, b, v)
 
 
-def segments_meet(t: AlgebraicNumber, a: Track, b: Track, c: Track, d: Track) -> bool:
+def segments_meet(t: Instant, a: Track, b: Track, c: Track, d: Track) -> bool:
     """Whether the closed segments ab and cd share a point."""
     signs = [t.sign_of(orientation(*o)) for o in ((a, b, c), (a, b, d), (c, d, a), (c, d, b))]
     if signs[0] * signs[1] < 0 and signs[2] * signs[3] < 0:
@@ -78,7 +88,7 @@ def segments_meet(t: AlgebraicNumber, a: Track, b: Track, c: Track, d: Track) ->
     )
 
 
-def contains(t: AlgebraicNumber, ring: Sequence[Track], v: Track) -> bool:
+def contains(t: Instant, ring: Sequence[Track], v: Track) -> bool:
     """By the crossings of a ray to the right; v is on no edge."""
     inside = False
     for a, b in zip(ring, [*ring[1:], ring[0]], strict=True):
@@ -89,7 +99,7 @@ def contains(t: AlgebraicNumber, ring: Sequence[Track], v: Track) -> bool:
     return inside
 
 
-def meet_at(t: AlgebraicNumber, a: Body, b: Body, p: Tracks, q: Tracks) -> bool:
+def meet_at(t: Instant, a: Body, b: Body, p: Tracks, q: Tracks) -> bool:
     """Whether two bodies share a point."""
     return (
         any(
@@ -170,7 +180,7 @@ def less(n: IntPoly, d: IntPoly, s: QQ) -> IntPoly:
     return subtract(scale(n, ZZ(s.denominator)), scale(d, ZZ(s.numerator)))
 
 
-def is_within(t: AlgebraicNumber, a: Body, b: Body, p: Tracks, q: Tracks, s: QQ) -> bool:
+def is_within(t: Instant, a: Body, b: Body, p: Tracks, q: Tracks, s: QQ) -> bool:
     """Whether the squared distance is at most s at an algebraic time."""
     if meet_at(t, a, b, p, q):
         return True
@@ -200,3 +210,40 @@ def first_within(a: Body, b: Body, start: QQ, end: QQ, s: QQ) -> AlgebraicNumber
             if is_within(time, a, b, p, q, s):
                 return time
     return None
+
+
+def nearest(a: Body, b: Body, t: QQ) -> tuple[QQ, set[tuple[Place, Place]]]:
+    """The squared distance at a rational time, and the pairs of features with it.
+
+    A place is ("v", i), or ("e", i) for the interior of an edge.
+    """
+    p, q = a._at(t), b._at(t)
+    found: list[tuple[QQ, tuple[Place, Place]]] = []
+    for (i, u), (j, v) in product(enumerate(p), enumerate(q)):
+        found.append(((u[0] - v[0]) ** 2 + (u[1] - v[1]) ** 2, (("v", i), ("v", j))))
+        found += [
+            (s, (("e", e), ("v", j)))
+            for e, (k, l) in enumerate(a.edges)
+            if i == 0 and (s := to_interior(v, p[k], p[l])) is not None
+        ]
+        found += [
+            (s, (("v", i), ("e", e)))
+            for e, (k, l) in enumerate(b.edges)
+            if j == 0 and (s := to_interior(u, q[k], q[l])) is not None
+        ]
+    least = min(s for s, _ in found)
+    if least and meet_at(AlgebraicNumber(t), a, b, *tracks(a, b, t)):
+        return QQ(0), set()
+    return least, {features for s, features in found if s == least}
+
+
+def to_interior(v: Point, a: Point, b: Point) -> QQ | None:
+    """The squared distance of v from its foot on ab; None if that is not between a and b."""
+    (x, y), (ax, ay), (bx, by) = v, a, b
+    length = (bx - ax) ** 2 + (by - ay) ** 2
+    if length == 0:
+        return None
+    share = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length
+    if not 0 < share < 1:
+        return None
+    return (ax + share * (bx - ax) - x) ** 2 + (ay + share * (by - ay) - y) ** 2

@@ -245,7 +245,10 @@ def run(capsys, *words):
 def test_on_the_command_line(scene_file, capsys):
     assert "kind initial" in run(capsys, "collide", scene_file)[1]
     code, out, _ = run(capsys, "collide", scene_file, "--after-start", "--exit-code")
-    assert (code, out.splitlines()[0]) == (1, "first new contact at t = 3.0 (3), kind vertex-vertex")
+    assert (code, out.splitlines()[0]) == (
+        1,
+        "first new contact at t = 3.0 (3), kind vertex-vertex",
+    )
     _, out, _ = run(capsys, "collide", scene_file, "--between", '"a,b",c', "--json", "--stats")
     answer = json.loads(out)
     assert answer["contact"]["time"]["low"] == "3"
@@ -261,7 +264,7 @@ def test_on_the_command_line(scene_file, capsys):
     "words, error",
     [
         (["--after-start", "--method", "kinetic"], "a tiling watches all bodies"),
-        (["--between", "c"], "between: not the names of two bodies"),
+        (["--between", "c"], "--between: not the names of two bodies"),
         (["--between", "c,z"], "between: there is no body 'z'"),
         (["--after-start", "--proof", "x"], "a proof is about all bodies"),
         (["--since", "3", "--proof", "x"], "--since: a proof is about the scene file"),
