@@ -7,11 +7,11 @@ from html import escape
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from exactpt.kernel.numbers import QQ, finite, nearest_float
+from exactpt.render.fixed import near
 from exactpt.render.palette import DARK, LIGHT
 from exactpt.render.words import clean, short, time_in_words
 
 if TYPE_CHECKING:
-    from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.proximity.clearance import Clearance
 
 __all__ = ["Plot", "plot_of", "strip_of", "svg_of_plot"]
@@ -19,8 +19,6 @@ __all__ = ["Plot", "plot_of", "strip_of", "svg_of_plot"]
 SAMPLES: Final = 240
 """Number of equal parts of the time span at whose ends the distance is computed."""
 MOST_TICKS: Final = 10
-NEAR: Final = QQ(1, 1 << 40)
-"""Share of the time span to which irrational times are rounded for a curve."""
 WIDTH, HEIGHT, LEFT, TOP, ROOM, BELOW = 800, 300, 70, 64, 20, 44
 """Size of a document in pixels, and its margins: left, above, right, below."""
 FONT: Final = "ui-sans-serif, system-ui, 'DejaVu Sans', Arial, sans-serif"
@@ -53,30 +51,23 @@ def plot_of(gap: Clearance) -> Plot:
     """
     start, end = gap.pieces[0].start.simplified()._low, gap.pieces[-1].end.simplified()._low
     least = gap.minimum
-    width = (end - start) * NEAR
-    times = {start + (end - start) * k / SAMPLES for k in range(SAMPLES + 1)}
-    times |= {min(_near(t, width), end) for t in (least.time, *(p.end for p in gap.pieces))}
+    span = end - start
+    times = {start + span * k / SAMPLES for k in range(SAMPLES + 1)}
+    times |= {min(near(t, span), end) for t in (least.time, *(p.end for p in gap.pieces))}
     curve = [(t, finite(gap(t))) for t in sorted(times)]
     top = max(d for _, d in curve)
     scale = top or 1.0
     return Plot(
-        points=[(float((t - start) / (end - start)), d / scale) for t, d in curve],
+        points=[(float((t - start) / span), d / scale) for t, d in curve],
         top=top,
         least=(
-            float((_near(least.time, width) - start) / (end - start)),
+            float((near(least.time, span) - start) / span),
             finite(float(least)) / scale,
         ),
-        ticks=[(float((t - start) / (end - start)), text) for t, text in _ticks(start, end)],
+        ticks=[(float((t - start) / span), text) for t, text in _ticks(start, end)],
         title=f"distance of {short(gap.a)} and {short(gap.b)}",
         words=f"least {float(least):.6g} at {time_in_words(least.time.simplified())}",
     )
-
-
-def _near(time: AlgebraicNumber, width: QQ) -> QQ:
-    """A rational within a distance below the time; the time itself if it is rational."""
-    while time._high - time._low > width:
-        time.refine()
-    return time._low
 
 
 def _ticks(start: QQ, end: QQ) -> Iterator[tuple[QQ, str]]:
