@@ -15,6 +15,7 @@ from exactpt.extensions import register
 
 if TYPE_CHECKING:
     from exactpt import arrays as arrays
+    from exactpt.collision.approach import Approach, first_within
     from exactpt.collision.contact import Contact, Pair
     from exactpt.collision.detector import first_contact
     from exactpt.collision.planner import Planner
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from exactpt.proximity.clearance import Clearance, clearance
     from exactpt.proximity.distance import Distance, distance
     from exactpt.proximity.intervals import ContactInterval, contact_intervals, contacts
-    from exactpt.proximity.within import first_within
     from exactpt.query.answers import Hit, Path, Place
     from exactpt.query.space import FreeSpace
     from exactpt.scene.scene import Scene
@@ -40,6 +40,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Affine",
     "AlgebraicNumber",
+    "Approach",
     "AuditError",
     "Body",
     "Bounce",
@@ -79,6 +80,10 @@ __all__ = [
 ]
 
 _ROOMS: Final = {
+    "exactpt.collision.approach": (
+        "Approach",
+        "first_within",
+    ),
     "exactpt.collision.contact": (
         "Contact",
         "Pair",
@@ -122,7 +127,6 @@ _ROOMS: Final = {
         "contact_intervals",
         "contacts",
     ),
-    "exactpt.proximity.within": ("first_within",),
     "exactpt.query.answers": (
         "Hit",
         "Path",

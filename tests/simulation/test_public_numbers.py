@@ -182,6 +182,7 @@ def test_bug_numbers_of_a_contact_are_pythons_own(method):
     assert not contact.time.is_rational
     for norm in ("euclidean", "max"):
         assert no_leaks(near=exactpt.first_within(scene, "box", "mill", "1/3", norm=norm))
+        assert no_leaks(first=exactpt.first_within(scene, distance="1/3", norm=norm)) > 1
     assert no_leaks(there=exactpt.distance(scene, "box", "mill", at=1)) > 1
     assert no_leaks(gap=exactpt.clearance(scene, "box", "mill")) > 5
     assert no_leaks(meeting=exactpt.contacts(scene)) > 5
@@ -229,6 +230,7 @@ def test_every_public_name_is_walked_through():
         "Translation", "BudgetExceeded", "first_contact", "first_within", "onward", "Clearance",
         "ContactInterval", "Distance", "clearance", "contact_intervals", "contacts", "distance",
         "Velocity", "in_local_time", "spline",
+            "Approach",
     }  # fmt: skip
     without_numbers = {
         "AuditError", "ExactPTError", "InputError", "read_shapes", "stop", "write_shapes",
