@@ -6,17 +6,17 @@ scene; infinitesimal copies and faces that have no area for ever have been contr
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import zip_longest
-from typing import TYPE_CHECKING, Final, NamedTuple, final
+from collections.abc import Callable, Iterator
+from functools import cache
+from typing import TYPE_CHECKING, NamedTuple, final
 
 from exactpt.collision.tilings import start_tiling
 from exactpt.errors import BudgetExceeded
-from exactpt.indices import NO_VERTEX, HalfEdge, VertexId
+from exactpt.indices import NO_VERTEX, HalfEdge
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.incidence import orientation
-from exactpt.proof.contraction import Cycle, Face, contract
+from exactpt.proof.contraction import Contraction, Cycle, Face
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, OUTER, SOLID, Mesh
 from exactpt.tiling.events import ContactFound
 
@@ -27,9 +27,6 @@ if TYPE_CHECKING:
     from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Run", "Step"]
-
-CHUNK: Final = 256
-"""Number of links of half-edges that are compared at once."""
 
 
 class Step(NamedTuple):
@@ -71,23 +68,21 @@ class Run:
         self._most = max_events
         self._node = self.kinetic.vertices.nodes()
         self.touches: list[Touch] = []
-        self._changes = -1
+        bodies = self.kinetic.vertices.bodies
+        self._changes, self._since = -1, [moving.since for moving in bodies]
         self._flat: dict[tuple[int, ...], bool] = {}
-        self._forget()
-        self._shown: set[Cycle] = set()
-
-    def _forget(self) -> None:
-        """Forget the faces of the mesh, so that all of them count as new."""
-        self._following: list[HalfEdge] = []
-        self._origin: list[VertexId] = []
-        self._faces: dict[HalfEdge, tuple[list[HalfEdge], Face | None]] = {}
+        self._faces: dict[HalfEdge, list[HalfEdge]] = {}
         self._face_of: dict[HalfEdge, HalfEdge] = {}
-        self._cutting: set[HalfEdge] = set()
+        self._corners: dict[HalfEdge, list[int]] = {}
+        self._with_corner_of: list[set[HalfEdge]] = [set() for _ in bodies]
+        self._contraction = Contraction(self._is_flat)
 
     def steps(self) -> Iterator[Step]:
         """The tiling at the start, and after each event before the contact."""
         kinetic, end = self.kinetic, self._scene.end
-        yield self._step()
+        first = self._step()
+        # A single point has no half-edge.
+        yield first._replace(come=first.come or {Cycle("outer", (0,))})
         count = 0
         try:
             while (events := kinetic.advance(end)) is not None:
@@ -116,47 +111,50 @@ class Run:
         return [tuple([node[v] for v in t if v >= 0]) for t in triples if t[0] >= 0]
 
     def _step(self) -> Step:
-        kinetic = self.kinetic
-        if kinetic.vertices.changes != self._changes:
-            self._changes = kinetic.vertices.changes
-            self._flat.clear()
-            self._forget()
-        all_new, were_cut = not self._faces, bool(self._cutting)
-        gone, come = self._update(kinetic.mesh_after())
-        if all_new or were_cut or self._cutting:
-            now = contract([f for _, f in self._faces.values() if f], self._is_flat, self._later)
-            # A single point has no half-edge.
-            now = now or {Cycle("outer", (0,))}
-            before = self._shown
-        else:
-            now, before = (contract(faces, self._is_flat, self._later) for faces in (come, gone))
-        self._shown = (self._shown - before) | now
-        return Step(self.now, self.names(), before - now, now - before)
+        changed, mesh = self.kinetic.changes(), self.kinetic.mesh_after()
+        if changed is None:
+            changed = {*mesh.map.half_edges(), *self._face_of}
+        if self.kinetic.vertices.changes != self._changes:
+            self._changes = self.kinetic.vertices.changes
+            changed |= self._of_new_pieces()
+        gone, come = self._contraction.update(*self._update(mesh, changed), self._later())
+        return Step(self.now, self.names(), gone, come)
 
-    def _update(self, mesh: Mesh) -> tuple[list[Face], list[Face]]:
-        """Update the faces of the mesh; returns those removed and those added."""
+    def _of_new_pieces(self) -> set[HalfEdge]:
+        """Half-edges of the faces with a corner of a body that has begun a piece of its motion."""
+        bodies, found = self.kinetic.vertices.bodies, set[HalfEdge]()
+        for i, (moving, since) in enumerate(zip(bodies, self._since, strict=True)):
+            if moving.since != since:
+                found |= self._with_corner_of[i]
+        self._since = [moving.since for moving in bodies]
+        self._flat.clear()
+        return found
+
+    def _update(
+        self, mesh: Mesh, changed: set[HalfEdge]
+    ) -> tuple[list[HalfEdge], list[tuple[HalfEdge, Face]]]:
+        """Update the faces of the mesh; returns the keys of those removed, and those added."""
         m = mesh.map
-        changed = {*_differing(self._following, m.following), *_differing(self._origin, m.origin)}
-        self._following, self._origin = m.following[:], m.origin[:]
-        keys = {self._face_of[h] for h in changed if h in self._face_of}
-        old = [self._faces.pop(key) for key in sorted(keys)]
-        self._cutting -= keys
-        pool = changed.union(*(cycle for cycle, _ in old))
+        gone = sorted({self._face_of[h] for h in changed if h in self._face_of})
+        pool = changed.union(*(self._faces.pop(key) for key in gone))
         for h in pool:
             self._face_of.pop(h, None)
+        for key in gone:
+            for i in self._corners.pop(key, ()):
+                self._with_corner_of[i].discard(key)
         come = []
         for h in sorted(pool):
             if h >= len(m.origin) or m.origin[h] == NO_VERTEX or h in self._face_of:
                 continue
-            cycle = m.face(h)
+            cycle = self._faces[h] = m.face(h)
             self._face_of.update(dict.fromkeys(cycle, h))
             face = self._face(mesh, cycle)
-            self._faces[h] = cycle, face
             if face is not None:
-                come.append(face)
-                if len(set(face.around)) > 2 and face.corners and self._is_flat(*face.corners):
-                    self._cutting.add(h)
-        return [face for _, face in old if face is not None], come
+                come.append((h, face))
+                self._corners[h] = [self._nodes.body_of[v] for v in face.corners]
+                for i in self._corners[h]:
+                    self._with_corner_of[i].add(h)
+        return gone, come
 
     def _face(self, mesh: Mesh, cycle: list[HalfEdge]) -> Face | None:
         """A face in vertices of the scene; None for the interior of a rigid or a thin body."""
@@ -178,21 +176,15 @@ class Run:
             self._flat[corners] = not orientation(*tracks)
         return self._flat[corners]
 
-    def _later(self) -> list[tuple[QQ, QQ]]:
-        """The positions of all vertices at a rational time before the next event."""
-        now, following = self.now, self.kinetic.next_number()
-        end = AlgebraicNumber(self._scene.end)
-        if following is None or following.compare(end) > 0:
-            following = end
-        t = rational_between(now, following)
-        return [self._nodes.track(v, t).at(t) for v in range(len(self._nodes.body_of))]
+    def _later(self) -> Callable[[int], tuple[QQ, QQ]]:
+        """The positions of vertices at a rational time before the next event."""
 
+        @cache
+        def time() -> QQ:
+            following = self.kinetic.next_number()
+            end = AlgebraicNumber(self._scene.end)
+            if following is None or following.compare(end) > 0:
+                following = end
+            return rational_between(self.now, following)
 
-def _differing(old: Sequence[int], new: Sequence[int]) -> Iterator[HalfEdge]:
-    """The half-edges at which two lists differ; either may be longer."""
-    for i in range(0, max(len(old), len(new)), CHUNK):
-        a, b = old[i : i + CHUNK], new[i : i + CHUNK]
-        if a != b:
-            for k, (x, y) in enumerate(zip_longest(a, b)):
-                if x != y:
-                    yield HalfEdge(i + k)
+        return cache(lambda v: self._nodes.track(v, time()).at(time()))
