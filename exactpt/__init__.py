@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from exactpt.kernel.polynomial import Polynomial
     from exactpt.motion.body import Body
     from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
+    from exactpt.proof.written import Proof, prove
     from exactpt.proximity.clearance import Clearance, clearance
     from exactpt.proximity.distance import Distance, distance
     from exactpt.proximity.intervals import ContactInterval, contact_intervals, contacts
@@ -58,6 +59,7 @@ __all__ = [
     "Place",
     "Planner",
     "Polynomial",
+    "Proof",
     "Rigid",
     "Scene",
     "Simulation",
@@ -69,6 +71,7 @@ __all__ = [
     "first_contact",
     "first_within",
     "onward",
+    "prove",
     "read_shapes",
     "stop",
     "write_shapes",
@@ -99,6 +102,10 @@ _ROOMS: Final = {
         "Pieces",
         "Rigid",
         "Translation",
+    ),
+    "exactpt.proof.written": (
+        "Proof",
+        "prove",
     ),
     "exactpt.proximity.clearance": (
         "Clearance",
@@ -140,6 +147,7 @@ for _name, _place in {
     "picture of a scene": "exactpt.render.notebook:scene_svg",
     "picture of a simulation": "exactpt.render.notebook:simulation_svg",
     "proof of a first contact": "exactpt.proof.written:write_proof",
+    "proofs of a simulation": "exactpt.proof.living:ProofFolder",
     "table of a contact": "exactpt.render.notebook:contact_html",
 }.items():
     register(_name, _place)

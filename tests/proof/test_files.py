@@ -181,7 +181,7 @@ def test_nothing_that_is_malformed_crashes_the_checker(scene):
 def test_a_proof_is_the_same_in_every_process():
     code = (
         "from exactpt.proof import prove; from exactpt.scene.generate import generate;"
-        "print(*(prove(generate(f, 1), tiling='lazy').proof for f in ('pieces', 'flat')))"
+        "print(*(prove(generate(f, 1), tiling='lazy').text for f in ('pieces', 'flat')))"
     )
     proofs = {
         subprocess.run(

@@ -1,4 +1,4 @@
-"""The run of a tiling, reduced to what a proof contains: the changes of faces, and their times.
+"""A tiling reduced to what a proof contains: the changes of faces, and their times.
 
 This is the only module of the package that depends on tilings. Vertices are those of the
 scene; infinitesimal copies and faces that have no area for ever have been contracted.
@@ -6,27 +6,22 @@ scene; infinitesimal copies and faces that have no area for ever have been contr
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING, NamedTuple, final
 
-from exactpt.collision.tilings import start_tiling
-from exactpt.errors import BudgetExceeded
 from exactpt.indices import NO_VERTEX, HalfEdge
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.incidence import orientation
 from exactpt.proof.contraction import Contraction, Cycle, Face
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, OUTER, SOLID, Mesh
-from exactpt.tiling.events import ContactFound
 
 if TYPE_CHECKING:
-    from exactpt.motion.incidence import Touch
     from exactpt.proof.nodes import Nodes
-    from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
 
-__all__ = ["Run", "Step"]
+__all__ = ["Step", "Watch"]
 
 
 class Step(NamedTuple):
@@ -46,30 +41,20 @@ class Step(NamedTuple):
 
 
 @final
-class Run:
-    """A tiling of a scene on its way to the first contact.
+class Watch:
+    """What changes in a tiling, event by event.
 
-    Attributes:
-        kinetic: the tiling.
-        touches: the incidences at the first contact; empty if there is none.
+    Args:
+        kinetic: the tiling, between two events.
+        nodes: the vertices of its bodies.
     """
 
-    def __init__(
-        self,
-        scene: Scene,
-        nodes: Nodes,
-        tiling: str,
-        *,
-        exact_only: bool = False,
-        max_events: int | None = None,
-    ) -> None:
-        self._scene, self._nodes = scene, nodes
-        self.kinetic: Tiling = start_tiling(scene, tiling, scene._start, exact_only=exact_only)
-        self._most = max_events
-        self._node = self.kinetic.vertices.nodes()
-        self.touches: list[Touch] = []
-        bodies = self.kinetic.vertices.bodies
-        self._changes, self._since = -1, [moving.since for moving in bodies]
+    def __init__(self, kinetic: Tiling, nodes: Nodes) -> None:
+        self.kinetic = kinetic
+        self._nodes = nodes
+        self._node = kinetic.vertices.nodes()
+        bodies = kinetic.vertices.bodies
+        self._changes, self._since = kinetic.vertices.changes, [moving.since for moving in bodies]
         self._flat: dict[tuple[int, ...], bool] = {}
         self._faces: dict[HalfEdge, list[HalfEdge]] = {}
         self._face_of: dict[HalfEdge, HalfEdge] = {}
@@ -77,31 +62,28 @@ class Run:
         self._with_corner_of: list[set[HalfEdge]] = [set() for _ in bodies]
         self._contraction = Contraction(self._is_flat)
 
-    def steps(self) -> Iterator[Step]:
-        """The tiling at the start, and after each event before the contact."""
-        kinetic, end = self.kinetic, self._scene.end
-        first = self._step()
-        # A single point has no half-edge.
-        yield first._replace(come=first.come or {Cycle("outer", (0,))})
-        count = 0
-        try:
-            while (events := kinetic.advance(end)) is not None:
-                count += len(events)
-                if self._most is not None and count > self._most:
-                    raise BudgetExceeded("the number of events is used up", self.reached())
-                if kinetic.now.compare_rational(end) < 0:
-                    yield self._step()
-        except ContactFound as found:
-            self.touches = sorted(found.touches)
-
     @property
     def now(self) -> AlgebraicNumber:
         """The time of the last event, or of the contact."""
         return self.kinetic.now
 
-    def reached(self) -> QQ:
-        """A rational time not after now."""
-        return self.now._low if self.now.is_rational else self.now._canonical_interval()[0]
+    def first(self) -> set[Cycle]:
+        """All faces just after now."""
+        self.kinetic.changes()
+        mesh = self.kinetic.mesh_after()
+        _, come = self._replace(mesh, set(mesh.map.half_edges()))
+        # A single point has no half-edge.
+        return come or {Cycle("outer", (v,)) for v in range(len(self._nodes.body_of))}
+
+    def step(self) -> Step:
+        """The changes since the last call."""
+        changed, mesh = self.kinetic.changes(), self.kinetic.mesh_after()
+        if changed is None:
+            changed = {*mesh.map.half_edges(), *self._face_of}
+        if self.kinetic.vertices.changes != self._changes:
+            self._changes = self.kinetic.vertices.changes
+            changed |= self._of_new_pieces()
+        return Step(self.now, self.names(), *self._replace(mesh, changed))
 
     def names(self) -> list[tuple[int, ...]]:
         """The vertices whose function may vanish now, as in `Step`."""
@@ -109,16 +91,6 @@ class Run:
         cause = certifier.now
         triples = [(cause.a, cause.b, cause.c), *certifier.roots_now]
         return [tuple([node[v] for v in t if v >= 0]) for t in triples if t[0] >= 0]
-
-    def _step(self) -> Step:
-        changed, mesh = self.kinetic.changes(), self.kinetic.mesh_after()
-        if changed is None:
-            changed = {*mesh.map.half_edges(), *self._face_of}
-        if self.kinetic.vertices.changes != self._changes:
-            self._changes = self.kinetic.vertices.changes
-            changed |= self._of_new_pieces()
-        gone, come = self._contraction.update(*self._update(mesh, changed), self._later())
-        return Step(self.now, self.names(), gone, come)
 
     def _of_new_pieces(self) -> set[HalfEdge]:
         """Half-edges of the faces with a corner of a body that has begun a piece of its motion."""
@@ -129,6 +101,10 @@ class Run:
         self._since = [moving.since for moving in bodies]
         self._flat.clear()
         return found
+
+    def _replace(self, mesh: Mesh, changed: set[HalfEdge]) -> tuple[set[Cycle], set[Cycle]]:
+        """Update the faces of the mesh; returns those removed and those added."""
+        return self._contraction.update(*self._update(mesh, changed), self._later())
 
     def _update(
         self, mesh: Mesh, changed: set[HalfEdge]
@@ -160,7 +136,7 @@ class Run:
         """A face in vertices of the scene; None for the interior of a rigid or a thin body."""
         around = [self._node[mesh.map.origin[h]] for h in cycle]
         region, i = mesh.region[cycle[0]], self._nodes.body_of[around[0]]
-        body = self._scene.bodies[i]
+        body = self._nodes.scene.bodies[i]
         is_thin = body.size < 3 or not body.closed
         if region in (SOLID, INSIDE) and (self._nodes.rigid[i] or is_thin):
             return None
@@ -182,7 +158,7 @@ class Run:
         @cache
         def time() -> QQ:
             following = self.kinetic.next_number()
-            end = AlgebraicNumber(self._scene.end)
+            end = AlgebraicNumber(self._nodes.scene.end)
             if following is None or following.compare(end) > 0:
                 following = end
             return rational_between(self.now, following)
