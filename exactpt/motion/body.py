@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
+from decimal import Decimal
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING, Literal, NamedTuple, final
+from typing import TYPE_CHECKING, Literal, NamedTuple, final, overload
 
 from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.geometry.polygon import edges
+from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import (
     QQ,
@@ -19,9 +21,12 @@ from exactpt.kernel.numbers import (
     fractions,
     place,
     rational,
+    rationals,
     shorten,
     show,
 )
+from exactpt.kernel.quotients import decimal_quotient
+from exactpt.motion.local_time import Velocity
 from exactpt.motion.motions import (
     REST,
     Motion,
@@ -71,7 +76,8 @@ class Body:
         vertices: one (a point), two (a segment) or more; each a pair of numbers, or a
             mapping with polynomials "x" and "y" (missing: 0) for a vertex that moves in
             the body's rest frame. A numpy array of shape (n, 2) is accepted. The vertices
-            may be in either orientation.
+            may be in either orientation. A last one that repeats the first is dropped, if
+            the body is closed.
         motion: the motion of the shape; at rest if not given.
         closed: False for an open chain.
         keyframes: instead of vertices, pairs (t, vertices) with increasing t; the shape is
@@ -101,7 +107,7 @@ class Body:
         self.name = name
         self.closed = closed
         try:
-            self._shape = Shape(vertices, keyframes)
+            self._shape = Shape(vertices, keyframes, ring=closed)
         except InputError as error:
             raise InputError(f"body {shorten(name)}: {error}") from None
         self._set_motion(motion)
@@ -128,6 +134,35 @@ class Body:
         """
         body: Body = extension("body from shapely")(geometry, name, motion, holes)
         return body
+
+    @classmethod
+    def launched(
+        cls,
+        name: str,
+        shape: Iterable[VertexLike],
+        *,
+        at: Rational,
+        velocity: Sequence[Rational],
+        closed: bool = True,
+    ) -> Body:
+        """The body that has a shape at a time, and moves with a constant velocity.
+
+        >>> ball = Body.launched("ball", [(0, 0), (1, 0), (0, 1)], at=3, velocity=(2, 0))
+        >>> ball.at(3)[0], ball.at(4)[0]
+        ((Fraction(0, 1), Fraction(0, 1)), (Fraction(2, 1), Fraction(0, 1)))
+
+        Args:
+            name: the name of the body.
+            shape: its vertices at that time.
+            at: the time.
+            velocity: the velocity (x, y).
+            closed: False for an open chain.
+
+        Raises:
+            InputError: see `Body`.
+        """
+        vx, vy = rationals(velocity, 2, "a velocity has two coordinates")
+        return cls(name, shape, Velocity(vx, vy, since=at), closed=closed)
 
     def with_motion(self, motion: Motion) -> Body:
         """A body of the same name and shape with another motion.
@@ -195,9 +230,34 @@ class Body:
             self._pieces[end] = BodyPiece(end, tracks)
         return self._pieces[end]
 
-    def at(self, t: Rational) -> list[tuple[Fraction, Fraction]]:
-        """The exact positions of the vertices at a rational time."""
-        return list(map(place, self._at(rational(t))))
+    @overload
+    def at(self, t: Rational) -> list[tuple[Fraction, Fraction]]: ...
+    @overload
+    def at(self, t: Rational | AlgebraicNumber, digits: int) -> list[tuple[Decimal, Decimal]]: ...
+    def at(
+        self, t: Rational | AlgebraicNumber, digits: int | None = None
+    ) -> list[tuple[Fraction, Fraction]] | list[tuple[Decimal, Decimal]]:
+        """The positions of the vertices at a time: exact, or correctly rounded decimals.
+
+        Args:
+            t: the time; without ``digits``, a rational one.
+            digits: the number of significant digits of each coordinate.
+
+        Raises:
+            InputError: if the time is irrational and no digits are given.
+        """
+        if digits is None:
+            return list(map(place, self._at(rational(t))))
+        time = t if isinstance(t, AlgebraicNumber) else AlgebraicNumber(t)
+        passed = [b for b in self._breakpoints if time.compare_rational(b) >= 0]
+        tracks = self._piece_after(passed[-1] if passed else time._low).tracks
+        return [
+            (
+                decimal_quotient(p.x, p.w, time, digits),
+                decimal_quotient(p.y, p.w, time, digits),
+            )
+            for p in tracks
+        ]
 
     def _at(self, t: QQ) -> list[tuple[QQ, QQ]]:
         """The positions at a time; those at the last time asked for are cached."""

@@ -39,6 +39,11 @@ class Shape:
 
     Vertices given as doubles are kept, and become rationals when these are needed.
 
+    Args:
+        vertices: as in `Body`.
+        keyframes: as in `Body`.
+        ring: whether a last vertex that repeats the first, of more than three, is dropped.
+
     Attributes:
         size: the number of vertices.
         doubles: the coordinates x and y, if all were given as doubles.
@@ -48,7 +53,11 @@ class Shape:
     __slots__ = ("_pieces", "_positions", "doubles", "keyframes", "size")
 
     def __init__(
-        self, vertices: Iterable[VertexLike] | None, keyframes: Keyframes | None = None
+        self,
+        vertices: Iterable[VertexLike] | None,
+        keyframes: Keyframes | None = None,
+        *,
+        ring: bool = False,
     ) -> None:
         self.doubles: tuple[list[float], list[float]] | None = None
         self.keyframes: tuple[Keyframe, ...] = ()
@@ -66,8 +75,22 @@ class Shape:
             if self.doubles is None:
                 self._positions = tuple(_read_vertex(i, v) for i, v in enumerate(given))
             self.size = len(given)
+            if ring and self.size > 3:
+                self._drop_closing_point()
         if not self.size:
             raise InputError("at least one vertex is needed")
+
+    def _drop_closing_point(self) -> None:
+        if self._positions is not None:
+            if self._positions[0] != self._positions[-1]:
+                return
+            self._positions = self._positions[:-1]
+        elif self.doubles is not None:
+            xs, ys = self.doubles
+            if (xs[0], ys[0]) != (xs[-1], ys[-1]):
+                return
+            self.doubles = xs[:-1], ys[:-1]
+        self.size -= 1
 
     @property
     def is_exact(self) -> bool:

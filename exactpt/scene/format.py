@@ -112,6 +112,8 @@ def _body(data: Json, index: int) -> Body:
     rows = a_list(body["vertices"], f'{where}: "vertices"')
     if not rows:
         raise InputError(f'{where}: "vertices": at least one is needed')
+    if closed and len(rows) > 3 and rows[0] == rows[-1]:
+        raise InputError(f'{where}: "vertices": the last repeats the first: {shown(rows[-1])}')
     vertices = [_vertex(row, f"{where}: vertex {i}") for i, row in enumerate(rows)]
     return Body(name, vertices, motion, closed=closed)
 
