@@ -155,6 +155,34 @@ def test_wrong_questions(options, words):
         first_within(scene, **options)
 
 
+def test_points_that_meet_in_one_coordinate_at_one_time():
+    """Along an axis only neighbours are searched: with d = 0 there may be points between."""
+    points = [Body(f"p{i}", [(i, 3 * i * i)], Translation([0, 4 - i])) for i in range(3)]
+    bodies = [*points, Body("q", [(9, 0), (10, 0)], Translation([0, -5])), Body("r", [(20, 0)])]
+    found = first_within(Scene(bodies, (0, 9)), distance=0, norm="x")
+
+    assert found == Approach(found.time, tuple(combinations(["p0", "p1", "p2", "q"], 2)))
+    assert found.time == 1
+
+
+@pytest.mark.parametrize("d", ["1e-400", "1e-30", "1e30", "1e400"])
+@pytest.mark.parametrize("norm", ["euclidean", "max", "x", "y"])
+def test_distances_beyond_the_range_of_doubles(norm, d):
+    """Few bodies and many: the searches with boxes are asked with all of them."""
+    for count in (2, 14):
+        bodies = [Body(f"p{i:2}", [(10 * i, 10 * i)], Translation([0, -i])) for i in range(count)]
+        scene = Scene(bodies, (0, 20))
+        found = first_within(scene, distance=d, norm=norm)
+
+        every = {
+            (a.name, b.name): first_within(scene, a.name, b.name, d, norm=norm)
+            for a, b in combinations(bodies, 2)
+        }
+        least = min((time for time in every.values() if time is not None), default=None)
+        pairs = tuple(sorted(ab for ab, time in every.items() if time == least))
+        assert found == (None if least is None else Approach(least, pairs))
+
+
 def test_bodies_that_stay_apart():
     scene = Scene([Body("p", [(0, 0)]), Body("q", [(5, 0)])])
     for norm in ("euclidean", "max", "x"):
