@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
-from itertools import combinations
-from typing import Final, final, overload
+from functools import partial
+from itertools import combinations, islice, pairwise, takewhile
+from typing import Final, Literal, final, overload
 
 from exactpt.collision.straight_search import Row, rows_of
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, Rational, enclosing_floats
-from exactpt.kernel.square_root import nearest_square_root
+from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, isqrt
 from exactpt.proximity.near import pairs_that_come_near
 from exactpt.proximity.search import ApproachSearch, Nearest
 from exactpt.proximity.stretches import two_bodies
@@ -116,19 +116,60 @@ def first_within(
         raise InputError("two names of bodies are given, or none for all bodies")
     found: Nearest | None = None
     if len(scene.bodies) > 1:
-        found = _euclidean(scene, d) if norm == "euclidean" else _by_pairs(scene, d, norm)
+        found = _first(scene, d, norm)
     if found is None:
         return None
     names = [(scene.bodies[i].name, scene.bodies[j].name) for i, j in found.pairs]
     return Approach(found.time, tuple(sorted(names)))
 
 
-def _by_pairs(scene: Scene, d: QQ, norm: Norm) -> Nearest | None:
-    """The first approach: each pair is searched up to the best time so far."""
+def _first(scene: Scene, d: QQ, norm: Norm) -> Nearest | None:
+    """The first approach of any two bodies, of which there are two."""
+    if norm == "euclidean":
+        return _euclidean(scene, d)
+    if norm == "max":
+        return _by_pairs(scene, pairs_that_come_near(scene, d), d, norm)
+    return _on_axis(scene, d, norm)
+
+
+def _on_axis(scene: Scene, d: QQ, norm: Literal["x", "y"]) -> Nearest | None:
+    """The first approach along an axis.
+
+    If all gaps between projections are more than d at the start, the order of the projections
+    stays the same until one is d: a first approach is one of neighbours. Another pair can be
+    within d at that time only if d is 0 and points are between them.
+    """
+    axis = "xy".index(norm)
+    spans: list[tuple[QQ, QQ, int]] = []
+    for i, body in enumerate(scene.bodies):
+        places = [point[axis] for point in body._at(scene._start)]
+        spans.append((min(places), max(places), i))
+    spans.sort()
+    near: list[tuple[int, int]] = []
+    for k, (_, high, i) in enumerate(spans):
+        beside = takewhile(partial(_starts_by, high + d), islice(spans, k + 1, None))
+        near += [(min(i, j), max(i, j)) for _, _, j in beside]
+    if near:
+        return Nearest(AlgebraicNumber(scene._start), tuple(sorted(near)))
+    order = [i for _, _, i in spans]
+    found = _by_pairs(scene, pairwise(order), d, norm)
+    if found is None or d:
+        return found
+    met = sorted({i for pair in found.pairs for i in pair})
+    return _by_pairs(scene, combinations(met, 2), d, norm)
+
+
+def _starts_by(limit: QQ, span: tuple[QQ, QQ, int]) -> bool:
+    return span[0] <= limit
+
+
+def _by_pairs(
+    scene: Scene, candidates: Iterable[tuple[int, int]], d: QQ, norm: Norm
+) -> Nearest | None:
+    """The first approach of some pairs: each is searched up to the best time so far."""
     best: AlgebraicNumber | None = None
     pairs: list[tuple[int, int]] = []
-    candidates: Iterator[tuple[int, int]] = combinations(range(len(scene.bodies)), 2)
-    for i, j in pairs_that_come_near(scene, d) if norm == "max" else candidates:
+    for i, j in map(sorted, candidates):
         until = scene._end if best is None else min(best._high, scene._end)
         time = time_within(scene.bodies[i], scene.bodies[j], scene._start, until, d, norm)
         order = -1 if best is None else 1 if time is None else time.compare(best)
@@ -139,7 +180,8 @@ def _by_pairs(scene: Scene, d: QQ, norm: Norm) -> Nearest | None:
 
 
 def _euclidean(scene: Scene, squared: QQ) -> Nearest | None:
-    most = QQ(math.nextafter(nearest_square_root(squared), math.inf))
+    n, d = squared.numerator, squared.denominator
+    most = QQ(isqrt(n * d) + 1, d)  # at least the root of n / d, which is that of n d, over d
     rows = rows_of(scene) if len(scene.bodies) > MANY else None
     if rows is not None:
         return _of_rows(scene, rows, squared, most)

@@ -82,10 +82,8 @@ def _ticks(start: QQ, end: QQ) -> Iterator[tuple[QQ, str]]:
     number = -((-start) // step)
     while number * step <= end:
         t = number * step
-        yield (
-            t,
-            str(t) if t.denominator == 1 and abs(t) < 10**9 else f"{finite(nearest_float(t)):.10g}",
-        )
+        is_short = t.denominator == 1 and abs(t) < 10**9
+        yield t, str(t) if is_short else f"{finite(nearest_float(t)):.10g}"
         number += 1
 
 

@@ -18,9 +18,12 @@ from exactpt.proximity.features import Feature
 from exactpt.proximity.intervals import contact_intervals
 from exactpt.scene.scene import Scene
 from fuzz.questions import by_cgal, reference
+from fuzz.questions.norms import Norm, first_within_norm
 from fuzz.questions.renewal import first_new_contact
 from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
 from fuzz.questions.tiny import touching_scene
+
+OTHERS: Final[tuple[Norm, ...]] = ("max", "x", "y")
 
 __all__ = ["QUESTIONS", "Checked", "checked"]
 
@@ -146,6 +149,22 @@ def _approach(random: Random) -> Checked:
     return Checked(scene, kind, fault)
 
 
+def _norms(random: Random) -> Checked:
+    """first_within in the other norms, of two bodies and of all."""
+    scene = distant_scene(random)
+    a, b = scene.bodies
+    d = QQ(random.choice([0, 1, 1, 2, 3]), random.choice([1, 1, 2, 3]))
+    norm = random.choice(OTHERS)
+    time = first_within(scene, "a", "b", d, norm=norm)
+    expected = first_within_norm(a, b, scene._start, scene._end, d, norm)
+    every = first_within(scene, distance=d, norm=norm)
+    kind = "never" if time is None else "at the start" if time == scene.start else "later"
+    fault = None
+    if time != expected or (every and every.time) != expected:
+        fault = f"within {d}, {norm}: {time}, {every}, not {expected}"
+    return Checked(scene, f"{norm}, {kind}", fault)
+
+
 def _intervals(random: Random) -> Checked:
     """contact_intervals of two bodies."""
     scene = meeting_scene(random)
@@ -201,6 +220,7 @@ def _cgal(random: Random) -> Checked:
 QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "distance": _distance,
     "approach": _approach,
+    "norms": _norms,
     "intervals": _intervals,
     "after-start": _after_start,
     "cgal": _cgal,

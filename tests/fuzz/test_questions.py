@@ -59,6 +59,7 @@ def never(*_, **__):
     [
         ("distance", "first_within", never),
         ("approach", "first_within", never),
+        ("norms", "first_within", never),
         ("intervals", "contact_intervals", lambda *_: []),
         ("after-start", "first_contact", never),
         ("after-start", "first_new_contact", never),

@@ -9,6 +9,7 @@ from exactpt import Approach, Body, InputError, Rigid, Scene, Translation, first
 from exactpt.bench.shapes import crowd
 from exactpt.collision import approach
 from exactpt.kernel.numbers import QQ
+from exactpt.proximity import near
 from exactpt.proximity.search import ApproachSearch
 from exactpt.scene.generate import FAMILIES, generate
 from fuzz.questions import reference
@@ -90,6 +91,17 @@ def test_all_bodies_against_the_definition(count):
     assert {(True, True), (True, False), (False, False)} <= seen
 
 
+@pytest.mark.parametrize("family", sorted(FAMILIES))
+def test_pairs_that_are_passed_over_are_farther_apart(family, monkeypatch):
+    """In the maximum norm, pairs are passed over by boxes; in small scenes too, here."""
+    scene = small(family, 1)
+    if scene is not None:
+        extent = max(abs(c) for body in scene.bodies for p in body.at(scene.start) for c in p)
+        every = first_within(scene, distance=extent / 20, norm="max")
+        monkeypatch.setattr(near, "FEW", 0)
+        assert first_within(scene, distance=extent / 20, norm="max") == every
+
+
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("norm", ["euclidean", "max", "x", "y"])
 def test_every_norm_is_the_least_of_all_pairs(norm, seed):
@@ -110,8 +122,8 @@ def test_however_many_pairs_are_searched_first(first, monkeypatch):
     """A crowd, and two pairs that come within the distance at the same time as another one."""
     scene = crowd(40, Random(first), radius=100, end=4)
     far = [Body(f"far{i}", [(9000 + 50 * i, y)]) for i in range(3) for y in (0,)]
-    near = [Body(f"near{i}", [(9000 + 50 * i, 40)], Translation([0], [0, -300])) for i in range(3)]
-    both = Scene([*scene.bodies, *far, *near], (0, 4))
+    close = [Body(f"near{i}", [(9000 + 50 * i, 40)], Translation([0], [0, -300])) for i in range(3)]
+    both = Scene([*scene.bodies, *far, *close], (0, 4))
     monkeypatch.setattr(approach, "FIRST", first)
 
     found = first_within(both, distance=10, norm="euclidean")
@@ -141,6 +153,34 @@ def test_wrong_questions(options, words):
     scene = Scene([Body("p", [(0, 0)]), Body("q", [(5, 0)])])
     with pytest.raises(InputError, match=words):
         first_within(scene, **options)
+
+
+def test_points_that_meet_in_one_coordinate_at_one_time():
+    """Along an axis only neighbours are searched: with d = 0 there may be points between."""
+    points = [Body(f"p{i}", [(i, 3 * i * i)], Translation([0, 4 - i])) for i in range(3)]
+    bodies = [*points, Body("q", [(9, 0), (10, 0)], Translation([0, -5])), Body("r", [(20, 0)])]
+    found = first_within(Scene(bodies, (0, 9)), distance=0, norm="x")
+
+    assert found == Approach(found.time, tuple(combinations(["p0", "p1", "p2", "q"], 2)))
+    assert found.time == 1
+
+
+@pytest.mark.parametrize("d", ["1e-400", "1e-30", "1e30", "1e400"])
+@pytest.mark.parametrize("norm", ["euclidean", "max", "x", "y"])
+def test_distances_beyond_the_range_of_doubles(norm, d):
+    """Few bodies and many: the searches with boxes are asked with all of them."""
+    for count in (2, 14):
+        bodies = [Body(f"p{i:2}", [(10 * i, 10 * i)], Translation([0, -i])) for i in range(count)]
+        scene = Scene(bodies, (0, 20))
+        found = first_within(scene, distance=d, norm=norm)
+
+        every = {
+            (a.name, b.name): first_within(scene, a.name, b.name, d, norm=norm)
+            for a, b in combinations(bodies, 2)
+        }
+        least = min((time for time in every.values() if time is not None), default=None)
+        pairs = tuple(sorted(ab for ab, time in every.items() if time == least))
+        assert found == (None if least is None else Approach(least, pairs))
 
 
 def test_bodies_that_stay_apart():

@@ -42,6 +42,7 @@ ARGUMENTS = {
     "locate": ((50, 50),),
     "neighbours": ("box",),
     "path": ((-50, -50), (50, 50)),
+    "since": ("1/3",),
     "ray_cast": ((-50, "1/4"), (1, 0)),
     "refine_to": (Fraction(1, 100),),
     "relative_hull": ("box",),
@@ -230,12 +231,11 @@ def test_every_public_name_is_walked_through():
         "Pair", "Path", "Pieces", "Place", "Planner", "Polynomial", "Rigid", "Scene", "Simulation",
         "Translation", "BudgetExceeded", "first_contact", "first_within", "onward", "Clearance",
         "ContactInterval", "Distance", "clearance", "contact_intervals", "contacts", "distance",
-        "Velocity", "in_local_time", "spline",
-            "Approach",
+        "Approach", "Velocity", "in_local_time", "spline",
     }  # fmt: skip
     without_numbers = {
         "AuditError", "ExactPTError", "InputError", "Proof", "prove", "read_shapes", "stop",
-            "write_shapes",
+        "write_shapes",
     }  # fmt: skip
     assert reached | without_numbers == set(exactpt.__all__)
     assert Snapshot.__module__.startswith("exactpt")
