@@ -53,7 +53,6 @@ ARGUMENTS = {
     "Polynomial.sign_after": ("1/3",),
     "sign_before": ((-1, 1),),
     "sign_of": ((-1, 1),),
-    "since": ("1/4",),
     "until": (8.75,),
     "with_motion": (Translation([0, "1/3"]),),
 }
