@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from exactpt.motion.body import Body
     from exactpt.motion.local_time import Velocity, in_local_time, spline
     from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
+    from exactpt.proof.written import Proof, prove
     from exactpt.proximity.clearance import Clearance, clearance
     from exactpt.proximity.distance import Distance, distance
     from exactpt.proximity.intervals import ContactInterval, contact_intervals, contacts
@@ -60,6 +61,7 @@ __all__ = [
     "Place",
     "Planner",
     "Polynomial",
+    "Proof",
     "Rigid",
     "Scene",
     "Simulation",
@@ -73,6 +75,7 @@ __all__ = [
     "first_within",
     "in_local_time",
     "onward",
+    "prove",
     "read_shapes",
     "spline",
     "stop",
@@ -114,6 +117,10 @@ _ROOMS: Final = {
         "Rigid",
         "Translation",
     ),
+    "exactpt.proof.written": (
+        "Proof",
+        "prove",
+    ),
     "exactpt.proximity.clearance": (
         "Clearance",
         "clearance",
@@ -153,6 +160,7 @@ for _name, _place in {
     "picture of a scene": "exactpt.render.notebook:scene_svg",
     "picture of a simulation": "exactpt.render.notebook:simulation_svg",
     "proof of a first contact": "exactpt.proof.written:write_proof",
+    "proofs of a simulation": "exactpt.proof.living:ProofFolder",
     "table of a contact": "exactpt.render.notebook:contact_html",
 }.items():
     register(_name, _place)

@@ -66,7 +66,7 @@ def fuzz(
     scheduler: str | None,
     shrink: float,
 ) -> None:
-    r"""Look for scenes on which the witnesses disagree, by default 200 of all families.
+    """Look for scenes on which the witnesses disagree, by default 200 of all families.
 
     \b
     Examples:

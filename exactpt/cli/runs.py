@@ -160,6 +160,12 @@ def collide(
 @click.option("-v", "--verbose", is_flag=True, help="Print one event per line, in words.")
 @QUIET
 @TILING
+@click.option(
+    "--proof",
+    metavar="FOLDER",
+    type=click.Path(path_type=Path),
+    help="Write a proof of the run into a new folder, with its scene: 1.proof, 1.scene.json.",
+)
 @budget
 def simulate(
     scene: Path,
@@ -168,6 +174,7 @@ def simulate(
     verbose: bool,
     quiet: bool,
     tiling: str,
+    proof: Path | None,
     max_events: int | None,
     max_seconds: float | None,
 ) -> int:
@@ -178,6 +185,7 @@ def simulate(
       exactpt simulate scene.json
       exactpt simulate scene.json --events events.jsonl --until 5
       exactpt simulate scene.json --verbose --max-events 20
+      exactpt simulate scene.json --proof folder
     """
     from exactpt.files import writing
 
@@ -195,6 +203,7 @@ def simulate(
             tell,
             quiet=quiet or verbose,
             tiling=tiling,
+            proof=proof,
             max_events=max_events,
             max_seconds=max_seconds,
         )
@@ -220,6 +229,7 @@ def _run(
     *,
     quiet: bool,
     tiling: str,
+    proof: Path | None,
     max_events: int | None,
     max_seconds: float | None,
 ) -> list[str]:
@@ -231,7 +241,11 @@ def _run(
         with time_limit(max_seconds, max_memory()):
             given = load(path, until)
             simulation = Simulation(
-                given, tiling=tiling, max_events=max_events, max_seconds=max_seconds
+                given,
+                tiling=tiling,
+                max_events=max_events,
+                max_seconds=max_seconds,
+                proof=proof,
             )
             with progress(given, "simulating", quiet=quiet) as reached:
                 for event in simulation.run():

@@ -163,7 +163,7 @@ def near_rows(
     now, last = enclosing_floats(start)[0], enclosing_floats(end)[1]
     span = last - now
     least = SHORTEST * span
-    bodies = len(np.unique(boxes.body))
+    bodies = len(set(boxes.body.tolist()))
     step = min(span, PIECES * span * bodies / len(rows))
     stride = boxes.stride(now)
     step = max(least, min(step, stride)) if stride > 0.0 else step

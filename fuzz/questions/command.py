@@ -41,7 +41,7 @@ EVERY: Final = 1000
     help="Folder for scenes with a difference.",
 )
 def questions(asked: tuple[str, ...], cases: int, seed: int, start: int, keep: Path) -> None:
-    r"""Compare answers about distance, intervals and new contacts with their definitions.
+    """Compare answers about distance, intervals and new contacts with their definitions.
 
     \b
     Examples:
