@@ -121,6 +121,8 @@ def _points(subpath: svgelements.Subpath, tolerance: float, most: int) -> list[P
 
     first = subpath[0]
     found = [] if isinstance(first, svgelements.Move) else [first.start]
+    if None in found:
+        raise InputError("a path that does not begin with a move (M)")
     for segment in subpath:
         if isinstance(segment, svgelements.Curve):
             count = _chord_count(segment, tolerance)
