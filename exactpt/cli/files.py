@@ -92,10 +92,7 @@ def convert(
         raise InputError(f"--time: the span from {show(time[0])} to {show(time[1])} is empty")
     idle = _typed("time", "tolerance", "holes", "skip_invalid")
 
-    def leave_out(line: str) -> None:
-        if not quiet:
-            tell(f"left out: {line}")
-
+    left_out: list[str] = []
     with time_limit(max_seconds, max_memory()):
         if idle and holds_scene(source, max_bytes()):
             raise InputError(f"{idle[0]}: {source} is a scene, which is read as it is")
@@ -104,10 +101,13 @@ def convert(
             time=time,
             tolerance=tolerance,
             holes=holes,
-            skipped=leave_out if skip_invalid else None,
+            skipped=left_out.append if skip_invalid else None,
             max_bytes=max_bytes(),
         )
         write_shapes(scene, target, at)
+        if not quiet:
+            for line in left_out:
+                tell(f"left out: {line}")
         if target.suffix.lower() == ".json" and not quiet:
             say(f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices: {target}")
             _say_what_touches(scene)

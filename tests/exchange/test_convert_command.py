@@ -149,3 +149,16 @@ def test_generate_prints_a_scene():
 def test_generate_guesses_what_was_meant(capsys):
     assert "no family 'staers': perhaps stars" in refused(capsys, "generate", "staers")
     assert "perhaps convex (all: --help)" in refused(capsys, "generate", "zzz")
+
+
+def test_a_refusal_is_one_line_though_an_outline_was_left_out(tmp_path, capsys):
+    """The hostile fuzzer found the line about the outline before the one about the error."""
+    source = tmp_path / "two.wkt"
+    source.write_text("POLYGON ((0 0, 2 2, 2 0, 0 2, 0 0))\nPOLPOLYGON\n")
+
+    with pytest.raises(SystemExit):
+        main(["convert", str(source), str(tmp_path / "two.json"), "--skip-invalid"])
+
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert "not well-known text" in error
