@@ -104,13 +104,16 @@ def convert(
             skipped=left_out.append if skip_invalid else None,
             max_bytes=max_bytes(),
         )
+        remarks = [f"left out: {line}" for line in left_out]
+        is_scene = target.suffix.lower() == ".json"
+        if is_scene and not quiet:
+            remarks += _what_touches(scene)
         write_shapes(scene, target, at)
-        if not quiet:
-            for line in left_out:
-                tell(f"left out: {line}")
-        if target.suffix.lower() == ".json" and not quiet:
+    if not quiet:
+        for line in remarks:
+            tell(line)
+        if is_scene:
             say(f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices: {target}")
-            _say_what_touches(scene)
     return 0
 
 
@@ -121,22 +124,22 @@ def _typed(*names: str) -> list[str]:
     return [f"--{name.replace('_', '-')}" for name in given]
 
 
-def _say_what_touches(scene: Scene) -> None:
+def _what_touches(scene: Scene) -> list[str]:
+    """A line about the bodies that touch at the start, if there are any."""
     from exactpt.collision.initial import initial_touches
 
     try:
         _, pairs = initial_touches(scene)
     except InputError as error:  # too many to be listed
-        tell(str(error))
-        return
-    if pairs:
-        names = [name_in_words(body.name) for body in scene.bodies]
-        some = [f"{names[i]} and {names[j]}" for i, j in pairs[:_FEW]]
-        more = [f"{len(pairs) - _FEW} more pairs"] if len(pairs) > _FEW else []
-        tell(
-            f"bodies touch at the start, so that the first contact is there: "
-            f"{', '.join(some + more)}"
-        )
+        return [str(error)]
+    if not pairs:
+        return []
+    names = [name_in_words(body.name) for body in scene.bodies]
+    some = [f"{names[i]} and {names[j]}" for i, j in pairs[:_FEW]]
+    more = [f"{len(pairs) - _FEW} more pairs"] if len(pairs) > _FEW else []
+    return [
+        f"bodies touch at the start, so that the first contact is there: {', '.join(some + more)}"
+    ]
 
 
 class _WithFamilies(click.Command):
