@@ -40,7 +40,7 @@ def _near_during(vertices: Vertices, begin: QQ, end: QQ) -> set[tuple[int, int]]
     images = [vertices.all[v].image for moving in vertices.bodies for v in moving.ring]
     sizes = [len(moving.ring) for moving in vertices.bodies]
     firsts = np.cumsum([0, *sizes[:-1]])
-    swept = SweptBoxes(images, vertices.frame.errors)
+    swept = SweptBoxes(images, vertices.enclosures.errors)
     found: set[tuple[int, int]] = set()
     width = (end - begin) / SLABS
     for k in range(SLABS):
