@@ -238,6 +238,22 @@ class Scene:
             )
         return scene_of(self.bodies, self._start, last)
 
+    def since(self, start: Rational) -> Scene:
+        """The scene from a later start on; an earlier start changes nothing.
+
+        Raises:
+            InputError: if the start is not before the end, or a polygon or chain is not simple
+                then.
+        """
+        first = max(rational(start), self._start)
+        if first >= self._end:
+            raise InputError(
+                f"the start t = {show(first)} is not before the end t = {show(self._end)}"
+            )
+        for body in self.bodies:
+            check_simple(body, first)
+        return scene_of(self.bodies, first, self._end)
+
     def going_on(self, bodies: Iterable[Body], start: QQ) -> Scene:
         """The scene from a later start on, with bodies already known to be valid then."""
         return scene_of(tuple(bodies), start, self._end)

@@ -9,14 +9,14 @@ from exactpt import proof_check
 from exactpt.cgal import check_proof
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.errors import InputError
-from exactpt.proof.emit import Proof, scene_bytes
+from exactpt.proof.emit import ProofRun, scene_bytes
 
 __all__ = ["accepted", "agrees", "by_both_checkers", "proof_of", "verdict"]
 
 
 def proof_of(scene, tiling="auto"):
     """The lines of a proof, and the contact that it claims."""
-    proof = Proof(scene, tiling=tiling)
+    proof = ProofRun(scene, tiling=tiling)
     lines = list(proof.lines())
     return lines, proof.contact
 
@@ -26,6 +26,8 @@ def in_python(scene, proof):
         return proof_check.check(scene, proof)
     except proof_check.Rejected as rejected:
         return str(rejected)
+    except proof_check.NoProofError as refused:
+        return f"rejected: {refused}"
 
 
 def in_cpp(scene, proof):
