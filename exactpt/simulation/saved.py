@@ -64,7 +64,7 @@ def tiling_to_json(kinetic: Tiling) -> Data:
             for moving in vertices.bodies
         ],
         "free": list(vertices.free),
-        "frame": _frame_to_json(vertices.frame),
+        "frame": _frame_to_json(vertices.frame) | {"errors": list(vertices.enclosures.errors)},
         "counts": [certifier.made, certifier.skipped, certifier.zeros],
         "stats": {"events": dict(stats.events)} | {name: getattr(stats, name) for name in _STATS},
         "queue": [
@@ -105,7 +105,7 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], last: QQ, *, exact_only
         parse_rational(data["end"]),
         data["free"],
     )
-    vertices.frame.errors[:] = data["frame"]["errors"]
+    vertices.enclosures.errors[:] = data["frame"]["errors"]
     for moving, body in zip(vertices.bodies, data["bodies"], strict=True):
         moving.is_tiled = body["tiled"]
     certifier = Certifier(vertices, QQ(0), parse_rational(data["end"]), exact_only=exact_only)
@@ -163,7 +163,6 @@ def _frame_to_json(frame: Frame) -> Data:
         "scale": list(frame.scale),
         "origin": str(frame.origin),
         "time_scale": frame.time_scale,
-        "errors": list(frame.errors),
     }
 
 
