@@ -15,6 +15,7 @@ BENCHMARKS: Final[dict[str, str]] = {
     "small": "small questions, building scenes, plans among obstacles, many pieces of motion",
     "auto": "the default method beside all others, on twenty families of everyday scenes",
     "cliffs": "convoys, long spans, turning bodies, lanes: beside the best method",
+    "within": "first_within beside first_contact, of the same crowds",
     "wrong-answers": "contacts missed, invented and late, close to degeneracy",
     "arithmetic": "wrong signs, orders and structures by kind of number",
     "stability": "the same answer, and its cost, for extreme input",

@@ -29,7 +29,7 @@ from exactpt.proximity.features import Feature, FeaturePair
 from exactpt.proximity.stretches import segments_of
 from exactpt.scene.scene import Scene
 
-__all__ = ["Approach", "ApproachSearch"]
+__all__ = ["ApproachSearch", "Nearest"]
 
 Indices: TypeAlias = NDArray[np.int64]
 Limit: TypeAlias = Callable[[int, int], QQ]
@@ -42,7 +42,7 @@ DEPTH: Final = 12
 """Maximum number of bisections of a slab."""
 
 
-class Approach(NamedTuple):
+class Nearest(NamedTuple):
     """The first time at which bodies are within their distance.
 
     Attributes:
@@ -83,11 +83,11 @@ class ApproachSearch:
         self._body: Indices = np.array([self._vertices.all[v].body for v in ids])
         self._read_tracks()
 
-    def run(self) -> Approach | None:
+    def run(self) -> Nearest | None:
         """The first approach in the closed time span; None if there is none."""
         pairs = tuple(self._within_at_start())
         if pairs:
-            return Approach(AlgebraicNumber(self._scene._start), pairs)
+            return Nearest(AlgebraicNumber(self._scene._start), pairs)
         now, end = self._scene._start, self._scene._end
         step = (end - now) / SLABS
         while now < end:
@@ -163,7 +163,7 @@ class ApproachSearch:
 
     def _search(
         self, now: QQ, later: QQ, near: tuple[Indices, Indices], depth: int
-    ) -> Approach | None:
+    ) -> Nearest | None:
         """The first approach in (now, later] of vertices to edges, given by their numbers."""
         v, e = near
         may = self._may_be_near(self._boxes(now, later), v, e)
@@ -203,7 +203,7 @@ class ApproachSearch:
         may: NDArray[np.bool_] = ~(bound > 64.0 * U * size)  # NaN: it may
         return may
 
-    def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> Approach | None:
+    def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> Nearest | None:
         """The first approach, exactly."""
         begin = AlgebraicNumber(now)
         found: list[tuple[AlgebraicNumber, tuple[int, int]]] = []
@@ -220,7 +220,7 @@ class ApproachSearch:
                     break
         if best is None:
             return None
-        return Approach(best, tuple(sorted({ij for t, ij in found if t.compare(best) == 0})))
+        return Nearest(best, tuple(sorted({ij for t, ij in found if t.compare(best) == 0})))
 
     def _feature_pairs(
         self, v: Indices, e: Indices

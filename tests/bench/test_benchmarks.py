@@ -22,6 +22,7 @@ from exactpt.bench import (
     small,
     stability,
     timing,
+    within,
     wrong_answers,
 )
 from exactpt.bench.catalogue import BENCHMARKS
@@ -293,6 +294,19 @@ def test_a_folder_that_is_a_file_is_refused(tmp_path, capsys):
         main(["bench", "kernel", "-o", str(tmp_path / "file")])
     assert stop.value.code == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_within(results, alone):
+    within.run(results.output, within.Sizes(bodies=12, runs=1), 0)
+    rows = results.rows("within")
+    assert [row["ratio"] for row in rows if row["question"] == "first_contact"] == ["1.0"] * 3
+    assert len(rows) == 12
+
+
+def test_a_wrong_approach_is_an_error(results, monkeypatch, alone):
+    monkeypatch.setattr(within, "first_within", lambda *_, **__: None)
+    with pytest.raises(AuditError, match="disagree about distance"):
+        within.run(results.output, within.Sizes(bodies=12, runs=1), 0)
 
 
 def test_small(results, alone):
