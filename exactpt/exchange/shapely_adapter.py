@@ -104,18 +104,23 @@ def _parts(geometry: BaseGeometry) -> Iterator[BaseGeometry]:
             yield from _parts(part)
 
 
-def body_from(geometry: object, name: str, motion: Motion, holes: Holes) -> Body:
+def body_from(
+    geometry: object, name: str, motion: Motion, holes: Holes, radius: Rational
+) -> Body:
     """The body of a geometry with one part, see `Body.from_shapely`."""
     shapes = list(shapes_of_geometry(geometry, "geometry", name))
     if len(shapes) != 1:
         raise InputError(
             f"geometry {name!r} has {len(shapes)} parts, and a body has one: see Scene.from_shapely"
         )
-    return body_of(shapes[0], name, motion, holes=holes)
+    return body_of(shapes[0], name, motion, holes=holes, radius=radius)
 
 
 def scene_from(
-    geometries: Iterable[object] | Mapping[str, object], time: Sequence[Rational], holes: Holes
+    geometries: Iterable[object] | Mapping[str, object],
+    time: Sequence[Rational],
+    holes: Holes,
+    radius: Rational,
 ) -> Scene:
     """The scene at rest of geometries, see `Scene.from_shapely`."""
     if isinstance(geometries, Mapping):
@@ -127,7 +132,7 @@ def scene_from(
         for i, (name, geometry) in enumerate(named)
         for shape in shapes_of_geometry(geometry, f"geometry {i}", name)
     )
-    return scene_of(shapes, time=time, holes=holes)
+    return scene_of(shapes, time=time, holes=holes, radius=radius)
 
 
 def geometries_of(scene: Scene, at: QQ) -> dict[str, BaseGeometry]:

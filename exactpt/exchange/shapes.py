@@ -73,6 +73,7 @@ def scene_of(
     *,
     time: Sequence[Rational] = (0, 1),
     holes: Holes = "refuse",
+    radius: Rational = 0,
     skipped: Callable[[str], None] | None = None,
 ) -> Scene:
     """The scene at rest of some shapes, in their order.
@@ -81,6 +82,7 @@ def scene_of(
         shapes: the shapes, one for each body; a name that is taken gets a number.
         time: the start and the end of the time span.
         holes: "refuse" polygons with holes, or "fill" them.
+        radius: the radius of each body.
         skipped: called with a message for each shape that cannot be a body and is left out;
             if None, such a shape is an error.
 
@@ -92,7 +94,8 @@ def scene_of(
     last: dict[str, int] = {}
     for shape in shapes:
         try:
-            body = body_of(shape, _free_name(shape.name, bodies, last), holes=holes)
+            name = _free_name(shape.name, bodies, last)
+            body = body_of(shape, name, holes=holes, radius=radius)
             _check_simple(shape, body, time)
         except InputError as error:
             if skipped is None:
@@ -103,7 +106,9 @@ def scene_of(
     return empty.going_on(bodies.values(), empty._start)
 
 
-def body_of(shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "refuse") -> Body:
+def body_of(
+    shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "refuse", radius: Rational = 0
+) -> Body:
     """The body that a shape becomes.
 
     Repeated consecutive points count once. A line that ends where it began becomes the polygon
@@ -131,7 +136,7 @@ def body_of(shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "r
             f"{shape.where}: {kind} {shorten(shape.name)} has no {lacks}: "
             "remove it, or leave such shapes out (--skip-invalid)"
         )
-    return Body(name, points, motion, closed=is_polygon or len(points) < 3)
+    return Body(name, points, motion, closed=is_polygon or len(points) < 3, radius=radius)
 
 
 def shapes_at(scene: Scene, at: QQ) -> list[Shape]:

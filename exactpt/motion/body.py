@@ -48,7 +48,9 @@ VertexLike: TypeAlias = (
 
 
 _PAIRS: Final = (tuple, list)
-_SHAPE: Final = ("_doubles", "_keyframes", "_positions", "_shapes", "_size", "closed", "name")
+_SHAPE: Final = (
+    "_doubles", "_keyframes", "_positions", "_radius", "_shapes", "_size", "closed", "name"
+)  # fmt: skip
 
 
 def is_text(name: object) -> bool:
@@ -82,6 +84,9 @@ class BodyPiece(NamedTuple):
 class Body:
     """A closed set that moves: a point, a segment, an open chain, or a simple polygon.
 
+    With a radius it is rounded: all points within the radius of that set, its core. So a point
+    becomes a disc, a segment a capsule.
+
     Vertices given as doubles are kept, and become rationals when these are needed.
 
     Args:
@@ -95,6 +100,7 @@ class Body:
         keyframes: instead of vertices, pairs (t, vertices) with increasing t; the shape is
             interpolated linearly between them, and rests before the first and after the
             last.
+        radius: a number >= 0.
 
     Raises:
         InputError: if the arguments do not describe a body, or the motion jumps.
@@ -107,6 +113,7 @@ class Body:
         "_last",
         "_pieces",
         "_positions",
+        "_radius",
         "_shapes",
         "_size",
         "closed",
@@ -122,6 +129,7 @@ class Body:
         *,
         closed: bool = True,
         keyframes: Sequence[tuple[Rational, Sequence[Sequence[Rational]]]] | None = None,
+        radius: Rational = 0,
     ) -> None:
         if not is_text(name):
             raise InputError(f"a body's name is a text that is not empty: {shorten(name)}")
@@ -130,6 +138,7 @@ class Body:
             raise InputError(f"body {shorten(name)}: give either vertices or keyframes")
         self.name = name
         self.closed = closed
+        self._radius = _read_radius(name, radius)
         self._keyframes: tuple[Keyframe, ...] = ()
         self._doubles: tuple[list[float], list[float]] | None = None
         self._positions: tuple[Position, ...] | None = None
@@ -156,6 +165,7 @@ class Body:
         motion: Motion = REST,
         *,
         holes: Literal["refuse", "fill"] = "refuse",
+        radius: Rational = 0,
     ) -> Body:
         """The body of a shapely point, line or polygon, with the exact values of its doubles.
 
@@ -164,11 +174,12 @@ class Body:
             name: the name of the body.
             motion: the motion of the shape; at rest if not given.
             holes: "refuse" a polygon with holes, or "fill" them.
+            radius: the radius of the body.
 
         Raises:
             InputError: if the geometry is not one part, or cannot be a body.
         """
-        body: Body = extension("body from shapely")(geometry, name, motion, holes)
+        body: Body = extension("body from shapely")(geometry, name, motion, holes, radius)
         return body
 
     def with_motion(self, motion: Motion) -> Body:
@@ -199,6 +210,11 @@ class Body:
     def size(self) -> int:
         """The number of vertices."""
         return self._size
+
+    @property
+    def radius(self) -> Fraction:
+        """The body is all points within this distance of its core; 0 unless it is rounded."""
+        return fraction(self._radius)
 
     @property
     def vertices(self) -> tuple[Position, ...]:
@@ -299,6 +315,7 @@ class Body:
             return NotImplemented
         return (
             (self.name, self.closed, self.size) == (other.name, other.closed, other.size)
+            and self._radius == other._radius
             and self.vertices == other.vertices
             and (self._keyframes, self.motion) == (other._keyframes, other.motion)
         )
@@ -317,16 +334,29 @@ class Body:
                 (str(frame.t), tuple((str(x), str(y)) for x, y in frame.vertices))
                 for frame in self._keyframes
             )}  # fmt: skip
+        if self._radius:
+            shape["radius"] = str(self._radius)
         return made, (Body, (self.name,), shape | {"motion": self.motion, "closed": self.closed})
 
     def __repr__(self) -> str:
         what = {1: "point", 2: "segment"}.get(self.size, "polygon" if self.closed else "chain")
-        return f"<Body {self.name!r}: {what} of {self.size} vertices>"
+        rounded = f", radius {show(self._radius)}" if self._radius else ""
+        return f"<Body {self.name!r}: {what} of {self.size} vertices{rounded}>"
 
 
 def _check_motion(name: str, motion: object) -> None:
     if not (isinstance(motion, Pieces) or hasattr(motion, "track")):
         raise InputError(f"body {shorten(name)}: not a motion: {shorten(motion)}")
+
+
+def _read_radius(name: str, radius: Rational) -> QQ:
+    try:
+        exact = rational(radius)
+    except InputError as error:
+        raise InputError(f"body {shorten(name)}: radius: {error}") from None
+    if exact < 0:
+        raise InputError(f"body {shorten(name)}: radius: it is negative: {show(exact)}")
+    return exact
 
 
 def _listed(name: str, what: str, values: object) -> list[Any]:
