@@ -39,7 +39,7 @@ from exactpt.motion.track import Track
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["Body", "BodyPiece", "Keyframe", "VertexLike", "is_text"]
+__all__ = ["Body", "BodyPiece", "Keyframe", "VertexLike", "is_text", "refuse_rounded"]
 
 VertexLike: TypeAlias = (
     "Sequence[Rational] | Mapping[str, Coefficients] | tuple[Polynomial, Polynomial]"
@@ -59,6 +59,24 @@ def is_text(name: object) -> bool:
         return isinstance(name, str) and bool(name.encode())
     except UnicodeEncodeError:
         return False
+
+
+def refuse_rounded(bodies: Iterable[Body], why: str) -> None:
+    """Refuse bodies with a radius where a tiling is kept, which would keep only cores apart.
+
+    Args:
+        bodies: the bodies.
+        why: what needs a tiling, as the beginning of a sentence.
+
+    Raises:
+        InputError: if one of them has a radius.
+    """
+    for body in bodies:
+        if body._radius:
+            raise InputError(
+                f"body {shorten(body.name)} has a radius: {why}, and a tiling keeps no distance; "
+                "first_contact and collide search rounded bodies by pairs"
+            )
 
 
 class Keyframe(NamedTuple):

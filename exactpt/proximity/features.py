@@ -82,6 +82,10 @@ class FeaturePair:
             not self.is_of_edge or t.sign_of(_norm(*self.ends)) > 0
         )
 
+    def is_inside(self, t: AlgebraicNumber) -> bool:
+        """Whether the foot of the perpendicular is no end of the edge; true of two vertices."""
+        return all(t.sign_of(f) > 0 for f in self.limits)
+
     def holds_after(self, t: AlgebraicNumber) -> bool:
         """Whether it is so just after a time."""
         return all(t.sign_after(f) >= 0 for f in self.limits) and (

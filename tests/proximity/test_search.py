@@ -12,7 +12,7 @@ from exactpt.scene.generate import FAMILIES, generate
 
 
 def search(scene, d):
-    return ApproachSearch(scene, lambda i, j: d * d, d).run()  # noqa: ARG005
+    return ApproachSearch(scene, lambda i, j: d * d, [d / 2] * len(scene.bodies)).run()  # noqa: ARG005
 
 
 def by_pairs(scene, d):
@@ -47,7 +47,7 @@ def test_pairs_with_limits_of_their_own():
     radius = [1, 2, 3]
 
     found = ApproachSearch(
-        Scene(bodies, (0, 20)), lambda i, j: QQ(radius[i] + radius[j]) ** 2, QQ(6)
+        Scene(bodies, (0, 20)), lambda i, j: QQ(radius[i] + radius[j]) ** 2, list(map(QQ, radius))
     ).run()
 
     assert found == (QQ(5), ((1, 2),)) if found.time == 5 else found.time == 7
