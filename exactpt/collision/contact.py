@@ -27,7 +27,7 @@ from exactpt.motion.track import Track
 from exactpt.proximity.features import excess
 from exactpt.scene.scene import Scene
 
-__all__ = ["Contact", "Pair", "contact_of", "nearest_value", "tracks_before"]
+__all__ = ["Contact", "Pair", "contact_of", "nearest_value", "tracks_before", "tracks_just_before"]
 
 
 @final
@@ -170,10 +170,11 @@ def tracks_before(scene: Scene, time: AlgebraicNumber) -> list[tuple[Track, ...]
 
     The time is later than the start of the scene.
     """
-    return [_tracks_of(body, time, scene._start) for body in scene.bodies]
+    return [tracks_just_before(body, time, scene._start) for body in scene.bodies]
 
 
-def _tracks_of(body: Body, time: AlgebraicNumber, start: QQ) -> tuple[Track, ...]:
+def tracks_just_before(body: Body, time: AlgebraicNumber, start: QQ) -> tuple[Track, ...]:
+    """Those of one body; at the start, in the piece just after it."""
     since = max((b for b in body._breakpoints if time.compare_rational(b) > 0), default=start)
     return body._piece_after(since).tracks
 
@@ -203,7 +204,7 @@ def _details(
     """The time in the form that does not depend on the search, and the incidences."""
     outward = {i: _outward(scene, i) for i in {touch.other for touch in touches}}
     involved = sorted({i for touch in touches for i in (touch.body, touch.other)})
-    tracks = {i: _tracks_of(scene.bodies[i], time, scene._start) for i in involved}
+    tracks = {i: tracks_just_before(scene.bodies[i], time, scene._start) for i in involved}
     number = _as_root(scene, time, tracks, touches)
     pairs = tuple(_pair(scene, tracks, touch, number, outward[touch.other]) for touch in touches)
     return number, pairs

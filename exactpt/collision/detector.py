@@ -129,10 +129,8 @@ def _of_rounded(
     Raises:
         InputError: if a tiling or a proof is asked for.
     """
-    if proof is not None:
-        refuse_rounded(scene.bodies, "a proof needs a tiling")
-    if not searches_pairs(method, tiling, groups):
-        refuse_rounded(scene.bodies, "a tiling is asked for")
+    if proof is not None or not searches_pairs(method, tiling, groups):
+        refuse_rounded(scene.bodies)
     from exactpt.collision.rounded import first_contact_of_rounded
 
     def plain(part: Scene, some: list[Collection[str]]) -> Contact | None:

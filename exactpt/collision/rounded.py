@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from typing import NamedTuple, TypeAlias
 
-from exactpt.collision.contact import Contact, contact_of, tracks_before
+from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.rounded_search import RoundedSearch
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -35,8 +35,7 @@ def first_contact_of_rounded(
         if met or first.overlaps:
             touching = [ij for ij, overlaps in met.items() if not overlaps]
             start = AlgebraicNumber(scene._start)
-            tracks = [body._piece_after(scene._start).tracks for body in scene.bodies]
-            touches = list(search.touches(touching, tracks, start))
+            touches = list(search.touches(touching, start))
             if first.overlaps:
                 touches += first.touches
             return contact_of(scene, start, touches, sorted([*first.overlaps, *met]))
@@ -46,7 +45,7 @@ def first_contact_of_rounded(
         raise
     if found is None or (first.time is not None and found.time.compare(first.time) > 0):
         return None if first.time is None else contact_of(scene, first.time, first.touches)
-    touches = list(search.touches(found.pairs, tracks_before(scene, found.time), found.time))
+    touches = list(search.touches(found.pairs, found.time))
     if first.time is not None and found.time.compare(first.time) == 0:
         touches += first.touches
     return contact_of(scene, found.time, touches)
@@ -79,4 +78,3 @@ def _first_of_plain(scene: Scene, groups: Groups, plain: Plain) -> _First:
         for pair in contact.pairs
     ]
     return _First(contact.time, touches, [(index[a], index[b]) for a, b in contact.overlaps])
-

@@ -74,8 +74,10 @@ def first_at_distance(
     """The first time in (start, end] at which features of the cores are at distance R.
 
     Args:
-        a, b: bodies whose cores are farther apart than R at the start.
-        p, q: the trajectories of their vertices.
+        a: a body.
+        b: another one; the cores are farther apart than R at the start.
+        p: the trajectories of the vertices of the first.
+        q: those of the second.
         span: the start and the end.
     """
     squared = (a._radius + b._radius) ** 2

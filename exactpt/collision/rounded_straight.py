@@ -179,11 +179,12 @@ def _at_edges(
 def _smaller_root(
     a: float, b: float, c: float, a_error: float, b_error: float, c_error: float, times: float
 ) -> _Range | None:
-    """Bounds of the smaller root of a t^2 + 2 b t + c; None if it certainly has none up to a size.
+    """Bounds of the smaller root of a t^2 + 2 b t + c; None if it certainly has none.
 
-    If a may be 0, it has none where c is larger than the rest: a t^2 is never negative. With errors of the coefficients, that of the discriminant D = b^2 - a c is at most
+    With errors of the coefficients, that of the discriminant D = b^2 - a c is at most
     b_error (2 |b| + b_error) + (a + a_error) c_error + |c| a_error, and rounding; the root is
-    (-b - sqrt(D)) / a.
+    (-b - sqrt(D)) / a. Where a may be 0, there is no root of size ``times`` or less if c is larger
+    than 2 |b| times that: a t^2 is not negative.
     """
     a_error, b_error, c_error = (x * SLACK + TINY for x in (a_error, b_error, c_error))
     d = b * b - a * c

@@ -60,7 +60,5 @@ def _foot(v: Track, a: Track, b: Track) -> Track:
     gx, gy = difference(a.x, a.w, v.x, v.w), difference(a.y, a.w, v.y, v.w)
     along = add(multiply(ex, gx), multiply(ey, gy))
     length = multiply(add(multiply(ex, ex), multiply(ey, ey)), v.w)
-    x, y = (
-        add(multiply(at, length), multiply(e, along)) for at, e in ((a.x, ex), (a.y, ey))
-    )
+    x, y = (add(multiply(at, length), multiply(e, along)) for at, e in ((a.x, ex), (a.y, ey)))
     return Track(x, y, multiply(a.w, length), None)

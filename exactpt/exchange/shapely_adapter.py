@@ -104,9 +104,7 @@ def _parts(geometry: BaseGeometry) -> Iterator[BaseGeometry]:
             yield from _parts(part)
 
 
-def body_from(
-    geometry: object, name: str, motion: Motion, holes: Holes, radius: Rational
-) -> Body:
+def body_from(geometry: object, name: str, motion: Motion, holes: Holes, radius: Rational) -> Body:
     """The body of a geometry with one part, see `Body.from_shapely`."""
     shapes = list(shapes_of_geometry(geometry, "geometry", name))
     if len(shapes) != 1:

@@ -48,6 +48,8 @@ VertexLike: TypeAlias = (
 
 
 _PAIRS: Final = (tuple, list)
+_PLAIN: Final = (int, float)
+_SHARP: Final = QQ(0)
 _SHAPE: Final = (
     "_doubles", "_keyframes", "_positions", "_radius", "_shapes", "_size", "closed", "name"
 )  # fmt: skip
@@ -61,21 +63,17 @@ def is_text(name: object) -> bool:
         return False
 
 
-def refuse_rounded(bodies: Iterable[Body], why: str) -> None:
-    """Refuse bodies with a radius where a tiling is kept, which would keep only cores apart.
-
-    Args:
-        bodies: the bodies.
-        why: what needs a tiling, as the beginning of a sentence.
+def refuse_rounded(bodies: Iterable[Body]) -> None:
+    """Refuse rounded bodies where a tiling is kept, which would keep only their cores apart.
 
     Raises:
-        InputError: if one of them has a radius.
+        InputError: if one of them is rounded.
     """
     for body in bodies:
         if body._radius:
             raise InputError(
-                f"body {shorten(body.name)} has a radius: {why}, and a tiling keeps no distance; "
-                "first_contact and collide search rounded bodies by pairs"
+                f"body {shorten(body.name)} has a radius: no tiling holds rounded bodies; "
+                "their contacts are found by pairs (first_contact, collide)"
             )
 
 
@@ -368,6 +366,8 @@ def _check_motion(name: str, motion: object) -> None:
 
 
 def _read_radius(name: str, radius: Rational) -> QQ:
+    if type(radius) in _PLAIN and radius == 0:
+        return _SHARP
     try:
         exact = rational(radius)
     except InputError as error:

@@ -12,6 +12,7 @@ from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import check_tiling, tiling_for_contact
 from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.motion.body import refuse_rounded
 from exactpt.proof.changes import Angle, Angles, DirectedEdge, change, followers
 from exactpt.proof.nodes import Nodes
 from exactpt.proof.run import Run, Step
@@ -58,6 +59,7 @@ class Proof:
         max_events: int | None = None,
     ) -> None:
         self._scene = scene
+        refuse_rounded(scene.bodies)
         check_tiling(tiling)
         self.tiling: str = tiling_for_contact(scene, tiling)
         self._options = exact_only, max_events

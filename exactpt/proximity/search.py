@@ -9,7 +9,7 @@ that remain are decided by exact arithmetic, in the order of time.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Final, NamedTuple, TypeAlias, final
 
 import numpy as np
@@ -29,7 +29,7 @@ from exactpt.proximity.features import Feature, FeaturePair
 from exactpt.proximity.stretches import segments_of
 from exactpt.scene.scene import Scene
 
-__all__ = ["Apart", "Approach", "ApproachSearch", "Limit", "within_at_start"]
+__all__ = ["Apart", "Approach", "ApproachSearch", "Limit", "near_at_start", "within_at_start"]
 
 Indices: TypeAlias = NDArray[np.int64]
 Limit: TypeAlias = Callable[[int, int], QQ]
@@ -57,13 +57,8 @@ class Approach(NamedTuple):
     pairs: tuple[tuple[int, int], ...]
 
 
-def within_at_start(
-    scene: Scene, squared: Limit, reach: Sequence[QQ], apart: Apart
-) -> Iterator[tuple[tuple[int, int], bool]]:
-    """The pairs of bodies within their distance at the start, and whether they are nearer.
-
-    For the arguments see `ApproachSearch`.
-    """
+def near_at_start(scene: Scene, reach: Sequence[QQ], apart: Apart) -> Iterator[tuple[int, int]]:
+    """The pairs i < j of bodies whose grown boxes meet at the start; see `ApproachSearch`."""
     points = [body._at(scene._start) for body in scene.bodies]
     grown = [
         [(x + s * d, y + s * d) for x, y in ring for s in (-1, 1)]
@@ -71,12 +66,19 @@ def within_at_start(
     ]
     for first, second in overlapping_pairs(boxes_of_points(grown)):
         watched = apart(first, second)
-        for i, j in sorted(zip(first[watched].tolist(), second[watched].tolist(), strict=True)):
-            ask()
-            limit = squared(i, j)
-            d = squared_distance(scene.bodies[i], scene.bodies[j], scene._start)
-            if d <= limit:
-                yield (i, j), d < limit
+        yield from sorted(zip(first[watched].tolist(), second[watched].tolist(), strict=True))
+
+
+def within_at_start(
+    scene: Scene, squared: Limit, near: Iterable[tuple[int, int]]
+) -> Iterator[tuple[tuple[int, int], bool]]:
+    """Those of some pairs of bodies that are within their distance, and whether they are nearer."""
+    for i, j in near:
+        ask()
+        limit = squared(i, j)
+        d = squared_distance(scene.bodies[i], scene.bodies[j], scene._start)
+        if d <= limit:
+            yield (i, j), d < limit
 
 
 @final
@@ -114,9 +116,8 @@ class ApproachSearch:
 
     def run(self) -> Approach | None:
         """The first approach in the closed time span; None if there is none."""
-        pairs = tuple(
-            ij for ij, _ in within_at_start(self._scene, self._squared, self._reach, self._apart)
-        )
+        near = near_at_start(self._scene, self._reach, self._apart)
+        pairs = tuple(ij for ij, _ in within_at_start(self._scene, self._squared, near))
         if pairs:
             return Approach(AlgebraicNumber(self._scene._start), pairs)
         return self.run_after_start()
