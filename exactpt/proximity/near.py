@@ -7,8 +7,9 @@ from typing import Final
 
 import numpy as np
 
-from exactpt.geometry.boxes import overlapping_pairs
-from exactpt.kernel.numbers import QQ
+from exactpt.geometry.boxes import Boxes, overlapping_pairs
+from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
+from exactpt.motion.frame import Frame
 from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.vertices import Vertices
 from exactpt.scene.scene import Scene
@@ -31,11 +32,11 @@ def pairs_that_come_near(scene: Scene) -> list[tuple[int, int]]:
         for i, moving in enumerate(vertices.bodies):
             if moving.until == begin:
                 vertices.enter_piece(i, begin)
-        found |= _near_during(vertices, begin, end)
+        found |= _near_during(vertices, [body._radius for body in scene.bodies], begin, end)
     return sorted(found)
 
 
-def _near_during(vertices: Vertices, begin: QQ, end: QQ) -> set[tuple[int, int]]:
+def _near_during(vertices: Vertices, radii: list[QQ], begin: QQ, end: QQ) -> set[tuple[int, int]]:
     """The pairs whose boxes meet in one of the slabs between two changes of motion."""
     images = [vertices.all[v].image for moving in vertices.bodies for v in moving.ring]
     sizes = [len(moving.ring) for moving in vertices.bodies]
@@ -49,6 +50,20 @@ def _near_during(vertices: Vertices, begin: QQ, end: QQ) -> set[tuple[int, int]]
         boxes = swept.during(low, high)
         boxes[:, ::2] = np.repeat(np.minimum.reduceat(boxes[:, ::2], firsts), sizes, axis=0)
         boxes[:, 1::2] = np.repeat(np.maximum.reduceat(boxes[:, 1::2], firsts), sizes, axis=0)
-        for first, second in overlapping_pairs(boxes[firsts]):
+        for first, second in overlapping_pairs(_widened(boxes[firsts], radii, vertices.frame)):
             found.update(zip(first.tolist(), second.tolist(), strict=True))
     return found
+
+
+def _widened(boxes: Boxes, radii: list[QQ], frame: Frame) -> Boxes:
+    """The boxes of bodies, normalised, widened by radii; the rounding is outward."""
+    if not any(radii):
+        return boxes
+    wide = boxes.copy()
+    for axis in (0, 1):
+        unit = power_of_two(-frame.scale[axis])
+        by = np.array([enclosing_floats(r * unit)[1] for r in radii])
+        low, high = 2 * axis, 2 * axis + 1
+        wide[:, low] = np.nextafter(boxes[:, low] - by, -np.inf)
+        wide[:, high] = np.nextafter(boxes[:, high] + by, np.inf)
+    return wide

@@ -9,6 +9,9 @@ of one body lies on an edge of the other translated by a corner of the square, o
 differ by exactly d in one coordinate and by at most d in the other. Both are roots of
 polynomials in time, as contacts are.
 
+Rounded bodies are within a distance if their cores are within it and the radii: in the Euclidean
+norm and along an axis, not in the maximum norm.
+
 All pairs of features are tested: the question concerns two bodies, not a whole scene.
 """
 
@@ -25,6 +28,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale, subtract
 from exactpt.kernel.numbers import QQ, ZZ, Rational, rational, shorten, show
 from exactpt.kernel.roots import roots_after
+from exactpt.kernel.square_root import exact_square_root
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference, lies_on, orientation
 from exactpt.motion.track import Track
@@ -69,17 +73,20 @@ def first_within(
             between the projections of the bodies on that axis. To leave it out means "max", and
             is deprecated.
         distance_squared: the square of the distance, instead of it, so that the square root of
-            a rational number can be asked for; for the Euclidean norm.
+            a rational number can be asked for; for the Euclidean norm. (Of rounded bodies it must
+            be the square of a rational number.)
 
     Returns:
         The exact time; None if the bodies stay farther apart.
 
     Raises:
-        InputError: if there is no such body or norm, or the distance is negative.
+        InputError: if there is no such body or norm, the distance is negative, or the bodies are
+            rounded and the norm is "max".
     """
     norm = _named(norm)
     d = _asked(distance, distance_squared, norm)
     first, second = two_bodies(scene, a, b)
+    d = _of_cores(d, first._radius + second._radius, norm)
     if _is_within(first, second, scene._start, d, norm):
         return AlgebraicNumber(scene._start)
     for stretch in stretches(first, second, scene._start, scene._end):
@@ -114,6 +121,22 @@ def _asked(distance: Rational | None, squared: Rational | None, norm: Norm) -> Q
     if norm != "euclidean" and distance is None:
         raise InputError(f"a squared distance is for the Euclidean norm, not for {norm!r}")
     return given * given if norm == "euclidean" and squared is None else given
+
+
+def _of_cores(d: QQ, radii: QQ, norm: Norm) -> QQ:
+    """The distance of the cores, given as `_asked` does, at which rounded bodies are within d."""
+    if not radii:
+        return d
+    if norm == "max":
+        raise InputError('norm "max" is for bodies without radius; there are: euclidean, x, y')
+    if norm != "euclidean":
+        return d + radii
+    root = exact_square_root(d)
+    if root is None:
+        raise InputError(
+            f"distance_squared={show(d)}: of rounded bodies it must be the square of a rational"
+        )
+    return (root + radii) ** 2
 
 
 def _candidates(a: Body, b: Body, stretch: Stretch, d: QQ, norm: Norm) -> Iterator[Candidate]:
