@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.polynomial import Polynomial
     from exactpt.motion.body import Body
+    from exactpt.motion.local_time import Velocity, in_local_time, spline
     from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
     from exactpt.proximity.clearance import Clearance, clearance
     from exactpt.proximity.distance import Distance, distance
@@ -62,14 +63,17 @@ __all__ = [
     "Scene",
     "Simulation",
     "Translation",
+    "Velocity",
     "clearance",
     "contact_intervals",
     "contacts",
     "distance",
     "first_contact",
     "first_within",
+    "in_local_time",
     "onward",
     "read_shapes",
+    "spline",
     "stop",
     "write_shapes",
 ]
@@ -94,6 +98,11 @@ _ROOMS: Final = {
     "exactpt.kernel.algebraic": ("AlgebraicNumber",),
     "exactpt.kernel.polynomial": ("Polynomial",),
     "exactpt.motion.body": ("Body",),
+    "exactpt.motion.local_time": (
+        "Velocity",
+        "in_local_time",
+        "spline",
+    ),
     "exactpt.motion.motions": (
         "Affine",
         "Pieces",

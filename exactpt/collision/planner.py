@@ -15,9 +15,10 @@ from exactpt.collision.straight_search import MOST_VERTICES, Row, first_of_pairs
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import Rational, enclosing_floats, shorten
-from exactpt.motion.body import Body, VertexLike
+from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion, Rigid, Translation
 from exactpt.motion.outline import Outline, pieces_of, rest_outline, straight_pieces
+from exactpt.motion.shape import VertexLike
 from exactpt.scene.scene import Scene
 
 __all__ = ["Planner"]

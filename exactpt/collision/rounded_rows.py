@@ -86,12 +86,13 @@ def rounded_rows(scene: Scene) -> RoundedRows | None:
 
 def _doubles_of(body: Body) -> tuple[float, ...] | None:
     """The grown box, c and v of a body in straight motion; None unless doubles are exact."""
-    if body._doubles is None or type(body.motion) is not Translation or body.size > MOST_VERTICES:
+    doubles = body._shape.doubles
+    if doubles is None or type(body.motion) is not Translation or body.size > MOST_VERTICES:
         return None
     x, y = body.motion.x._doubles, body.motion.y._doubles
     if x is None or y is None or len(x) > 2 or len(y) > 2:
         return None
-    xs, ys = body._doubles
+    xs, ys = doubles
     radius = enclosing_floats(body._radius)[1]
     low_x, low_y, high_x, high_y = min(xs), min(ys), max(xs), max(ys)
     (cx, vx, *_), (cy, vy, *_) = (*x, 0.0, 0.0), (*y, 0.0, 0.0)

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, final
+from typing import TYPE_CHECKING, Literal, final, overload
 
 from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.geometry.polygon import first_self_touch, signed_area2
 from exactpt.geometry.simple import is_surely_simple
+from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, rationals, shorten, show
 from exactpt.motion.body import Body
 from exactpt.motion.outline import outline_at
@@ -173,9 +175,27 @@ class Scene:
             return found
         raise InputError(f"there is no body {shorten(name)}")
 
-    def at(self, t: Rational) -> dict[str, list[tuple[Fraction, Fraction]]]:
-        """The exact vertex positions of every body at a rational time, by name."""
-        return {body.name: body.at(t) for body in self.bodies}
+    @overload
+    def at(self, t: Rational) -> dict[str, list[tuple[Fraction, Fraction]]]: ...
+    @overload
+    def at(
+        self, t: Rational | AlgebraicNumber, digits: int
+    ) -> dict[str, list[tuple[Decimal, Decimal]]]: ...
+    def at(
+        self, t: Rational | AlgebraicNumber, digits: int | None = None
+    ) -> dict[str, list[tuple[Fraction, Fraction]]] | dict[str, list[tuple[Decimal, Decimal]]]:
+        """The positions of the vertices of every body at a time, by name; see `Body.at`.
+
+        Args:
+            t: the time; without ``digits``, a rational one.
+            digits: the number of significant digits of each coordinate.
+
+        Raises:
+            InputError: if the time is irrational and no digits are given.
+        """
+        if digits is None:
+            return {body.name: body.at(rational(t)) for body in self.bodies}
+        return {body.name: body.at(t, digits) for body in self.bodies}
 
     @classmethod
     def from_shapely(

@@ -10,6 +10,7 @@ from exactpt.collision.detector import first_contact, searches_pairs
 from exactpt.collision.pairs import PairsSearch
 from exactpt.geometry.boxes import overlapping_pairs
 from exactpt.kernel.numbers import QQ, rational
+from exactpt.motion import swept_edges
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.scene.scene import Scene
@@ -100,7 +101,7 @@ def compared(monkeypatch):
             counted.append(len(first))
             yield first, second
 
-    monkeypatch.setattr(pairs, "overlapping_pairs", counting)
+    monkeypatch.setattr(swept_edges, "overlapping_pairs", counting)
     return counted
 
 
