@@ -43,9 +43,8 @@ _FEW = 3
 @click.option(
     "--tolerance",
     type=float,
-    default=0.1,
-    show_default=True,
-    help="SVG: maximum distance of a chord from its curve, in units of the drawing.",
+    help="Maximum distance of a chord from its curve: by default 0.1 in an SVG that is read, a "
+    "hundredth of the radius of a rounded body that is written.",
 )
 @click.option(
     "--holes",
@@ -62,7 +61,7 @@ def convert(
     target: Path,
     at: QQ | None,
     time: tuple[QQ, QQ],
-    tolerance: float,
+    tolerance: float | None,
     holes: Literal["refuse", "fill"],
     skip_invalid: bool,
     quiet: bool,
@@ -90,7 +89,7 @@ def convert(
 
     if time[0] >= time[1]:
         raise InputError(f"--time: the span from {show(time[0])} to {show(time[1])} is empty")
-    idle = _typed("time", "tolerance", "holes", "skip_invalid")
+    idle = _typed("time", "holes", "skip_invalid")
 
     def leave_out(line: str) -> None:
         if not quiet:
@@ -102,12 +101,14 @@ def convert(
         scene = read_shapes(
             source,
             time=time,
-            tolerance=tolerance,
+            tolerance=0.1 if tolerance is None else tolerance,
             holes=holes,
             skipped=leave_out if skip_invalid else None,
             max_bytes=max_bytes(),
         )
-        write_shapes(scene, target, at)
+        if _typed("tolerance") and not scene.is_rounded and holds_scene(source, max_bytes()):
+            raise InputError(f"--tolerance: {source} is a scene, which is read as it is")
+        write_shapes(scene, target, at, tolerance=tolerance)
         if target.suffix.lower() == ".json" and not quiet:
             say(f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices: {target}")
             _say_what_touches(scene)

@@ -33,6 +33,7 @@ __all__ = [
     "body_of",
     "nested",
     "rounded",
+    "rounded_rings",
     "scene_of",
     "shapes_at",
 ]
@@ -59,6 +60,7 @@ class Shape(NamedTuple):
         kind: a line is open (a segment or a chain), a polygon has an interior.
         points: its points in order; the first may be repeated at the end.
         holes: rings inside a polygon that bound its holes.
+        radius: all points within it belong to the shape: only of shapes to be written.
     """
 
     where: str
@@ -66,6 +68,7 @@ class Shape(NamedTuple):
     kind: Kind
     points: Sequence[Point]
     holes: Sequence[Sequence[Point]] = ()
+    radius: QQ | int = 0
 
 
 def scene_of(
@@ -149,7 +152,13 @@ def shapes_at(scene: Scene, at: QQ) -> list[Shape]:
         span = f"from {show(scene._start)} to {show(scene._end)}"
         raise InputError(f"t = {show(at)} is outside the time span {span}")
     return [
-        Shape(f"body {shorten(body.name)}", body.name, _kind(body), body._at(at))
+        Shape(
+            f"body {shorten(body.name)}",
+            body.name,
+            _kind(body),
+            body._at(at),
+            radius=body._radius,
+        )
         for body in scene.bodies
     ]
 
@@ -166,7 +175,16 @@ def rounded(shape: Shape) -> list[tuple[float, float]]:
     Raises:
         InputError: if a coordinate is larger than the largest double.
     """
-    points = [(nearest_float(x), nearest_float(y)) for x, y in shape.points]
+    return _rounded(shape, shape.points)
+
+
+def rounded_rings(shape: Shape) -> list[list[tuple[float, float]]]:
+    """The boundary of a polygon and those of its holes, likewise."""
+    return [_rounded(shape, ring) for ring in (shape.points, *shape.holes)]
+
+
+def _rounded(shape: Shape, ring: Sequence[Point]) -> list[tuple[float, float]]:
+    points = [(nearest_float(x), nearest_float(y)) for x, y in ring]
     if not all(map(math.isfinite, chain.from_iterable(points))):
         raise InputError(f"{shape.where}: a coordinate is too large for a double")
     return points

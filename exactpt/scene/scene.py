@@ -220,15 +220,22 @@ class Scene:
         scene: Scene = extension("scene from shapely")(geometries, time, holes, radius)
         return scene
 
-    def to_shapely(self, t: Rational) -> dict[str, BaseGeometry]:
+    def to_shapely(self, t: Rational, *, tolerance: float | None = None) -> dict[str, BaseGeometry]:
         """The bodies at a rational time as shapely geometries, by name.
 
-        Coordinates are the nearest doubles.
+        Coordinates are the nearest doubles. A rounded body becomes a polygon of chords, by
+        shapely's buffer, which also fills dents shallower than a hundredth of the radius.
+
+        Args:
+            t: the time.
+            tolerance: maximum distance of a chord from its arc; by default a hundredth of the
+                radius.
 
         Raises:
-            InputError: if the time is outside the time span.
+            InputError: if the time is outside the time span, or the tolerance is not positive.
         """
-        geometries: dict[str, BaseGeometry] = extension("scene to shapely")(self, rational(t))
+        convert = extension("scene to shapely")
+        geometries: dict[str, BaseGeometry] = convert(self, rational(t), tolerance)
         return geometries
 
     def until(self, end: Rational) -> Scene:
