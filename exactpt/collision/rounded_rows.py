@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from exactpt.collision.row_boxes import RowBoxes, near_boxes, pairs_at
 from exactpt.collision.straight_search import MOST_VERTICES, Row, rows_during
 from exactpt.kernel.budget import ask
-from exactpt.kernel.numbers import QQ, enclosing_floats
+from exactpt.kernel.numbers import QQ, nearest_float
+from exactpt.kernel.rounding import TINY, U
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.outline import Outline, Straight, rest_outline, straight_pieces
@@ -93,10 +94,15 @@ def _doubles_of(body: Body) -> tuple[float, ...] | None:
     if x is None or y is None or len(x) > 2 or len(y) > 2:
         return None
     xs, ys = doubles
-    radius = enclosing_floats(body._radius)[1]
+    radius = _above(body._radius)
     low_x, low_y, high_x, high_y = min(xs), min(ys), max(xs), max(ys)
     (cx, vx, *_), (cy, vy, *_) = (*x, 0.0, 0.0), (*y, 0.0, 0.0)
     return (low_x - radius, low_y - radius, high_x + radius, high_y + radius, cx, cy, vx, vy)
+
+
+def _above(radius: QQ) -> float:
+    """A double that is not less."""
+    return nearest_float(radius) * (1.0 + 4.0 * U) + TINY
 
 
 def _pieces(body: Body) -> list[tuple[Straight, QQ | None]] | None:
@@ -112,7 +118,7 @@ def _grown(body: Body, shape: Outline) -> Outline:
 
     Bounds made of boxes allow for the rounding of a sum of sides.
     """
-    radius = enclosing_floats(body._radius)[1]
+    radius = _above(body._radius)
     return shape._replace(
         low_x=shape.low_x - radius,
         high_x=shape.high_x + radius,

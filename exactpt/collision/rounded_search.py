@@ -40,7 +40,8 @@ class RoundedSearch:
     ) -> None:
         self._scene = scene
         self._radii = [body._radius for body in scene.bodies]
-        self._group: Indices = np.array(groups_of(scene, groups), dtype=np.int64)
+        self._groups = groups_of(scene, groups)
+        self._group: Indices = np.array(self._groups, dtype=np.int64)
         self._rows = None if exact_only else rounded_rows(scene)
         self._is_rounded: NDArray[np.bool_] = np.array([r > 0 for r in self._radii], np.bool_)
 
@@ -90,7 +91,7 @@ class RoundedSearch:
 
     def _watched(self, ij: tuple[int, int]) -> bool:
         i, j = ij
-        return bool((self._radii[i] or self._radii[j]) and self._group[i] != self._group[j])
+        return bool(self._radii[i] or self._radii[j]) and self._groups[i] != self._groups[j]
 
     def _of_rows(self, rows: RoundedRows, before: float) -> Approach | None:
         """As `after_start`, for bodies that all move straight."""
