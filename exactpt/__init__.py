@@ -15,6 +15,7 @@ from exactpt.extensions import register
 
 if TYPE_CHECKING:
     from exactpt import arrays as arrays
+    from exactpt.collision.approach import Approach, first_within
     from exactpt.collision.contact import Contact, Pair
     from exactpt.collision.detector import first_contact
     from exactpt.collision.planner import Planner
@@ -25,10 +26,10 @@ if TYPE_CHECKING:
     from exactpt.motion.body import Body
     from exactpt.motion.local_time import Velocity, in_local_time, spline
     from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
+    from exactpt.proof.written import Proof, prove
     from exactpt.proximity.clearance import Clearance, clearance
     from exactpt.proximity.distance import Distance, distance
     from exactpt.proximity.intervals import ContactInterval, contact_intervals, contacts
-    from exactpt.proximity.within import first_within
     from exactpt.query.answers import Hit, Path, Place
     from exactpt.query.space import FreeSpace
     from exactpt.scene.scene import Scene
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Affine",
     "AlgebraicNumber",
+    "Approach",
     "AuditError",
     "Body",
     "Bounce",
@@ -59,6 +61,7 @@ __all__ = [
     "Place",
     "Planner",
     "Polynomial",
+    "Proof",
     "Rigid",
     "Scene",
     "Simulation",
@@ -72,6 +75,7 @@ __all__ = [
     "first_within",
     "in_local_time",
     "onward",
+    "prove",
     "read_shapes",
     "spline",
     "stop",
@@ -79,6 +83,10 @@ __all__ = [
 ]
 
 _ROOMS: Final = {
+    "exactpt.collision.approach": (
+        "Approach",
+        "first_within",
+    ),
     "exactpt.collision.contact": (
         "Contact",
         "Pair",
@@ -109,6 +117,10 @@ _ROOMS: Final = {
         "Rigid",
         "Translation",
     ),
+    "exactpt.proof.written": (
+        "Proof",
+        "prove",
+    ),
     "exactpt.proximity.clearance": (
         "Clearance",
         "clearance",
@@ -122,7 +134,6 @@ _ROOMS: Final = {
         "contact_intervals",
         "contacts",
     ),
-    "exactpt.proximity.within": ("first_within",),
     "exactpt.query.answers": (
         "Hit",
         "Path",
@@ -149,6 +160,7 @@ for _name, _place in {
     "picture of a scene": "exactpt.render.notebook:scene_svg",
     "picture of a simulation": "exactpt.render.notebook:simulation_svg",
     "proof of a first contact": "exactpt.proof.written:write_proof",
+    "proofs of a simulation": "exactpt.proof.living:ProofFolder",
     "table of a contact": "exactpt.render.notebook:contact_html",
 }.items():
     register(_name, _place)

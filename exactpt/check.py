@@ -23,7 +23,7 @@ from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
-from exactpt.proof.emit import Proof, scene_bytes
+from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.pseudotriangulation.snapshot import snapshot
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
@@ -118,7 +118,7 @@ def check_scene(
     deadline = None if max_seconds is None else clock.monotonic() + max_seconds
     name = plan_tiling(scene, tiling, scene._start).name
     file = scene_bytes(scene) if scene_file is None else scene_file
-    proof = Proof(scene, tiling=name, scene_file=file, max_events=max_events)
+    proof = ProofRun(scene, tiling=name, scene_file=file, max_events=max_events)
     verdict = _verdict(proof, file, deadline)
     report = check_run(
         scene,
@@ -179,7 +179,7 @@ def _left(deadline: float | None) -> float | None:
     return None if deadline is None else max(0.0, deadline - clock.monotonic())
 
 
-def _verdict(proof: Proof, scene_file: bytes, deadline: float | None) -> ProofVerdict:
+def _verdict(proof: ProofRun, scene_file: bytes, deadline: float | None) -> ProofVerdict:
     """Write a proof, and have it verified."""
     with TemporaryDirectory() as folder:
         scene_path, path = Path(folder) / "scene.json", Path(folder) / "proof"

@@ -23,6 +23,7 @@ from fuzz.campaign import Campaign, run
 from fuzz.cases import Outcome
 from fuzz.hostile import run as hostile_run
 from fuzz.hostile.files import FORMATS
+from fuzz.questions.command import questions
 from fuzz.record import differences, record
 from fuzz.small_scope.command import small_scope
 from fuzz.thin import SUFFIX
@@ -65,7 +66,7 @@ def fuzz(
     scheduler: str | None,
     shrink: float,
 ) -> None:
-    r"""Look for scenes on which the witnesses disagree, by default 200 of all families.
+    """Look for scenes on which the witnesses disagree, by default 200 of all families.
 
     \b
     Examples:
@@ -74,6 +75,7 @@ def fuzz(
       python -m fuzz battery
       python -m fuzz planted
       python -m fuzz small-scope
+      python -m fuzz questions
       python -m fuzz --hostile --cases 100000
       python -m fuzz --soak 60
     """
@@ -231,6 +233,7 @@ COMMANDS = {
     "battery": run_battery,
     "planted": find_planted,
     "small-scope": small_scope,
+    "questions": questions,
 }
 
 

@@ -125,14 +125,14 @@ def proof(scene: Scene, turn: int | None) -> None:
         proved = prove(scene, tiling=name)
         with TemporaryDirectory() as folder:
             paths = [Path(folder) / "scene.json", Path(folder) / "proof"]
-            for path, content in zip(paths, (proved.scene, proved.proof), strict=True):
+            for path, content in zip(paths, (proved.scene, proved.text), strict=True):
                 path.write_bytes(content)
             verdict = check_proof(*paths)
         if not verdict.accepted:
             raise Difference(f"{name}: proof", verdict.line)
         if turn is None or turn % 4 == 0:
             try:
-                proof_check.check(proved.scene, proved.proof)
+                proof_check.check(proved.scene, proved.text)
             except proof_check.Rejected as rejected:
                 raise Difference(f"{name}: proof in Python", str(rejected)) from None
 

@@ -7,7 +7,7 @@ only the kernel and the trajectories with the tilings. Where a body has a radius
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from itertools import combinations
 
 from exactpt.collision.contact import Contact, contact_of, tracks_before
@@ -25,7 +25,7 @@ from exactpt.motion.incidence import Touch, coincide, difference, lies_on, orien
 from exactpt.motion.track import Track
 from exactpt.scene.scene import Scene
 
-__all__ = ["first_contact_allpairs"]
+__all__ = ["first_contact_allpairs", "touches_at"]
 
 
 def first_contact_allpairs(scene: Scene) -> Contact | None:
@@ -34,7 +34,7 @@ def first_contact_allpairs(scene: Scene) -> Contact | None:
     overlaps = _overlapping_at_start(scene)
     if overlaps:
         tracks = [b._piece_after(scene._start).tracks for b in scene.bodies]
-        return contact_of(scene, start, _touches(scene, tracks, start, overlaps), overlaps)
+        return contact_of(scene, start, touches_at(scene, tracks, start), overlaps)
     best: AlgebraicNumber | None = None
     for i in range(len(scene.bodies)):
         for j in range(i + 1):
@@ -44,8 +44,7 @@ def first_contact_allpairs(scene: Scene) -> Contact | None:
                 best = time
     if best is None:
         return None
-    rounded = combinations(range(len(scene.bodies)), 2)
-    return contact_of(scene, best, _touches(scene, tracks_before(scene, best), best, rounded))
+    return contact_of(scene, best, touches_at(scene, tracks_before(scene, best), best))
 
 
 def _reach(a: Body, b: Body) -> QQ:
@@ -121,18 +120,15 @@ def _meetings(
         yield min(times)
 
 
-def _touches(
-    scene: Scene,
-    tracks: list[tuple[Track, ...]],
-    time: AlgebraicNumber,
-    met: Iterable[tuple[int, int]],
+def touches_at(
+    scene: Scene, tracks: list[tuple[Track, ...]], time: AlgebraicNumber
 ) -> Iterator[Touch]:
     """Every incidence of a vertex with a vertex or an edge at a time.
 
-    Rounded bodies are among them, of the pairs ``met``, if they do not overlap.
+    Of rounded bodies: of features at the sum of the radii, unless the bodies overlap at the start.
     """
     bodies = scene.bodies
-    for i, j in met:
+    for i, j in combinations(range(len(bodies)), 2):
         reach = _reach(bodies[i], bodies[j])
         overlap = time.compare_rational(scene._start) == 0 and (
             core_distance(bodies[i], bodies[j], scene._start) < reach**2

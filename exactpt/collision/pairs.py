@@ -174,34 +174,47 @@ class PairsSearch:
         """Search slab by slab."""
         now, end = self._scene._start, self._scene._end
         step = self._first_step()
-        least = (end - now) / SMALLEST_SLAB
         while now < end:
             self._passed = now
             if self._deadline is not None and clock.monotonic() > self._deadline:
                 raise BudgetExceeded("the time is used up", fraction(now))
-            until = self._swept.until(end)
-            later = min(now + step, until)
-            near = self._near(now, later)
-            many = 2 * len(self._swept.ids) + 64
-            while len(near[0]) > many and step > least:
-                shorter = min(now + step / 4, until)
-                fewer = self._near(now, shorter)
-                if 2 * len(fewer[0]) > len(near[0]):
-                    break  # these pairs stay near each other: a shorter slab is no help
-                step, later, near = step / 4, shorter, fewer
+            step, later, near = self._slab(now, step, self._swept.until(end))
             contact = self._search(now, later, near)
             if contact is not None:
                 return contact
-            if later == now + step and 4 * len(near[0]) < many:
+            if later == now + step and 4 * len(near[0]) < self._many():
                 step *= 2
             now = later
             self._swept.enter_pieces(now)
         return None
 
-    def _first_step(self) -> QQ:
-        """Length of the first slab: the average vertex moves as far as vertices are apart.
+    def _slab(self, now: QQ, step: QQ, until: QQ) -> tuple[QQ, QQ, tuple[Indices, Indices]]:
+        """A slab from now on: its length, its end, not after ``until``, and the candidates in it.
 
-        It depends on how fast bodies pass each other, not on how long they are watched.
+        With many candidates it is shortened, by 4 or by 16, as long as these get fewer by the
+        square root of that at least; else they stay near each other, and shorter slabs are no
+        help.
+        """
+        later = min(now + step, until)
+        near = self._near(now, later)
+        least = (self._scene._end - self._scene._start) / SMALLEST_SLAB
+        tried = step
+        while len(near[0]) > self._many() and tried > least and 8 * tried >= step:
+            tried /= 4
+            fewer = self._near(now, min(now + tried, until))
+            if len(fewer[0]) ** 2 * step <= len(near[0]) ** 2 * tried:
+                step, later, near = tried, min(now + tried, until), fewer
+        return step, later, near
+
+    def _many(self) -> int:
+        """Number of candidates above which a slab is shortened."""
+        return 2 * len(self._swept.ids) + 64
+
+    def _first_step(self) -> QQ:
+        """Length of the first slab: the average vertex moves an eighth as far as others are.
+
+        It depends on how fast bodies pass each other, not on how long they are watched. Slabs
+        with few candidates grow longer.
         """
         start, span = self._scene._start, self._scene._end - self._scene._start
         frame = self._swept.vertices.frame
@@ -210,7 +223,7 @@ class PairsSearch:
             return span / SLABS
         if math.isinf(stride):
             return span
-        return min(span, power_of_two(math.frexp(stride)[1] + frame.time_scale))
+        return min(span, power_of_two(math.frexp(stride / 8.0)[1] + frame.time_scale))
 
     def _near(self, now: QQ, later: QQ) -> tuple[Indices, Indices]:
         """Candidate pairs in a slab: numbers of vertices and of edges whose swept boxes meet."""
@@ -279,8 +292,8 @@ class PairsSearch:
         certifier.move_to(EventTime(*vertices.frame.enclosure(best), -1, -1, -1, best), [])
         # All incidences at that time are among the candidates of this slab: pairs excluded by
         # `_may_touch` cannot start to touch.
-        features = np.unique(np.concatenate((near[0], ends[near[1]].ravel())))
-        found = touches(certifier, vertices, [ids[i] for i in features.tolist()])
+        features = sorted({*near[0].tolist(), *ends[near[1]].ravel().tolist()})
+        found = touches(certifier, vertices, [ids[i] for i in features])
         return contact_of(
             self._scene, best, [t for t in found if not self._ignores(t.body, t.other)]
         )

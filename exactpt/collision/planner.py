@@ -21,7 +21,7 @@ from exactpt.motion.outline import Outline, pieces_of, rest_outline, straight_pi
 from exactpt.motion.shape import VertexLike
 from exactpt.scene.scene import Scene
 
-__all__ = ["Planner"]
+__all__ = ["Planner", "is_rigid"]
 
 NAME: Final = "shape"
 """The name of a shape that is given by its vertices."""
@@ -122,7 +122,7 @@ class Planner:
 
     def _first_of_any(self, body: Body) -> Contact | None:
         """The first contact of a body with obstacles, or with itself, whatever the motions."""
-        if not _is_rigid(body):
+        if not is_rigid(body):
             return self._first_during(body, [self._whole_span()])
         return self._first_during(body, self._obstacles.stretches(body))
 
@@ -147,7 +147,7 @@ class Planner:
         return None
 
 
-def _is_rigid(body: Body) -> bool:
+def is_rigid(body: Body) -> bool:
     """Whether it certainly keeps its shape: it does not deform, and translates or turns."""
     motions = (motion for motion, _ in pieces_of(body.motion))
     at_rest = all(f.degree <= 0 for vertex in body.vertices for f in vertex)

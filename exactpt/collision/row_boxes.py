@@ -44,6 +44,7 @@ class RowBoxes:
 
     Args:
         rows: the rows.
+        margin: what the boxes are grown by, on each side.
 
     Attributes:
         body: the number of the body of each row.
@@ -52,12 +53,15 @@ class RowBoxes:
 
     __slots__ = (*_COLUMNS, "drift")
 
-    def __init__(self, rows: Sequence[Row]) -> None:
+    def __init__(self, rows: Sequence[Row], margin: float = 0.0) -> None:
         self.body: Indices = np.array([row.body for row in rows], dtype=np.int64)
         straights = [row.straight for row in rows]
         shapes = [straight.shape for straight in straights]
         self._low = np.array([(shape.low_x, shape.low_y) for shape in shapes]).reshape(-1, 2)
         self._high = np.array([(shape.high_x, shape.high_y) for shape in shapes]).reshape(-1, 2)
+        if margin:
+            self._low = np.nextafter(self._low - margin, -np.inf)
+            self._high = np.nextafter(self._high + margin, np.inf)
         self._c = np.array([(s.cx, s.cy) for s in straights]).reshape(-1, 2)
         self._v = np.array([(s.vx, s.vy) for s in straights]).reshape(-1, 2)
         errors = [(s.c_error + s.shape.error, s.v_error) for s in straights]
@@ -170,12 +174,15 @@ def pairs_at(boxes: RowBoxes, time: QQ) -> list[tuple[int, int]]:
     return [(i, j) for i, j in pairs.tolist()]
 
 
-def near_rows(rows: Sequence[Row], start: QQ, end: QQ) -> Iterator[tuple[float, int, int]]:
+def near_rows(
+    rows: Sequence[Row], start: QQ, end: QQ, margin: float = 0.0
+) -> Iterator[tuple[float, int, int]]:
     """The pairs of rows of different bodies that come near each other, once each.
 
-    Each comes with a time at or before which it does, in increasing order of these times.
+    Each comes with a time at or before which it does, in increasing order of these times. Their
+    boxes are grown by a margin.
     """
-    return near_boxes(RowBoxes(rows), start, end)
+    return near_boxes(RowBoxes(rows, margin), start, end)
 
 
 def near_boxes(boxes: RowBoxes, start: QQ, end: QQ) -> Iterator[tuple[float, int, int]]:
@@ -183,7 +190,7 @@ def near_boxes(boxes: RowBoxes, start: QQ, end: QQ) -> Iterator[tuple[float, int
     now, last = enclosing_floats(start)[0], enclosing_floats(end)[1]
     span = last - now
     least = SHORTEST * span
-    bodies = len(np.unique(boxes.body))
+    bodies = len(set(boxes.body.tolist()))
     step = min(span, PIECES * span * bodies / len(boxes))
     stride = boxes.stride(now)
     step = max(least, min(step, stride)) if stride > 0.0 else step

@@ -38,12 +38,14 @@ class PlanarMap:
         self.following: list[HalfEdge] = []
         self.previous: list[HalfEdge] = []
         self._free: list[HalfEdge] = []
+        self._changed: set[HalfEdge] | None = None
 
     def add_edge(self, u: VertexId, v: VertexId) -> HalfEdge:
         """Add an edge, not linked yet; returns its half-edge from u to v (an even handle)."""
         if self._free:
             h = self._free.pop()
-            self.origin[h], self.origin[h + 1] = u, v
+            self.place(h, u)
+            self.place(twin(h), v)
         else:
             h = HalfEdge(len(self.origin))
             self.origin += (u, v)
@@ -55,6 +57,23 @@ class PlanarMap:
         """Make g the half-edge after h around their face."""
         self.following[h] = g
         self.previous[g] = h
+        if self._changed is not None:
+            self._changed.add(h)
+
+    def place(self, h: HalfEdge, u: VertexId) -> None:
+        """Make u the origin of h."""
+        self.origin[h] = u
+        if self._changed is not None:
+            self._changed.add(h)
+
+    def take_changes(self) -> set[HalfEdge] | None:
+        """The half-edges that may have another origin or successor since the last call.
+
+        Returns:
+            The half-edges; None at the first call.
+        """
+        changed, self._changed = self._changed, set()
+        return changed
 
     @classmethod
     def of(
@@ -112,7 +131,8 @@ class PlanarMap:
         before_g, after_g = self.previous[g], self.following[g]
         self.link(before_h, after_g)
         self.link(before_g, after_h)
-        self.origin[h] = self.origin[g] = NO_VERTEX
+        self.place(h, NO_VERTEX)
+        self.place(g, NO_VERTEX)
         self._free.append(min(h, g))
 
     def slide_origin(self, h: HalfEdge) -> None:
@@ -133,7 +153,7 @@ class PlanarMap:
         self.link(b, h)
         self.link(t, a)
         self.link(a, c)
-        self.origin[h] = self.origin[a]
+        self.place(h, self.origin[a])
 
     def slide_target(self, a: HalfEdge) -> None:
         """Move the target of a forward along the half-edge h after it: `slide_origin` mirrored."""
@@ -143,7 +163,7 @@ class PlanarMap:
         self.link(a, b)
         self.link(h, t)
         self.link(c, h)
-        self.origin[t] = self.origin[h ^ 1]
+        self.place(t, self.origin[h ^ 1])
 
     def face(self, h: HalfEdge) -> list[HalfEdge]:
         """The half-edges of the face of h, in cyclic order from h."""

@@ -1,5 +1,5 @@
 """Proofs of answers, which a small independent program can verify (docs/proofs.md)."""
 
-from exactpt.proof.written import Proved, prove, write_proof
+from exactpt.proof.written import Proof, prove, write_proof
 
-__all__ = ["Proved", "prove", "write_proof"]
+__all__ = ["Proof", "prove", "write_proof"]

@@ -124,14 +124,14 @@ class Angles:
         return min(entry[3] for entry in entries)
 
     def vanishing(self, time: AlgebraicNumber) -> list[Angle]:
-        """Take out the living angles that vanish at a time; none may vanish before it."""
+        """Take out the living angles that vanish at a time, in order; none may do so before it."""
         found = []
         for entry in self._popped(time):
             if entry[3].compare(time) == 0:
                 found.append((self._life[entry[2]][0], *entry[2]))
             else:
                 heapq.heappush(self._failures, entry)
-        return found
+        return sorted(found)
 
     def _popped(self, time: AlgebraicNumber) -> list[Entry]:
         """Take the entries of living angles that may vanish up to a time off the heap."""

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from exactpt.motion.track import Track
     from exactpt.scene.scene import Scene
 
-__all__ = ["Nodes"]
+__all__ = ["Nodes", "rigid_until"]
 
 
 @final
@@ -43,7 +43,9 @@ class Nodes:
         self.scene = scene
         self.first = list(accumulate((body.size for body in scene.bodies), initial=0))
         self.body_of = [i for i, body in enumerate(scene.bodies) for _ in range(body.size)]
-        self.rigid = [_is_rigid(body, scene._start, scene._end) for body in scene.bodies]
+        self.rigid = [
+            _deforms_from(body, scene._start, scene._end) is None for body in scene.bodies
+        ]
 
     def solid_faces(self) -> list[list[int]]:
         """The rings of the rigid closed bodies, counter-clockwise."""
@@ -115,8 +117,14 @@ class Nodes:
         return None
 
 
-def _is_rigid(body: Body, start: QQ, end: QQ) -> bool:
-    """Whether a body keeps the lengths of its edges and the angles between them."""
+def rigid_until(scene: Scene) -> QQ:
+    """The first time at which a body that has been rigid since the start deforms, or the end."""
+    times = [_deforms_from(body, scene._start, scene._end) for body in scene.bodies]
+    return min((t for t in times if t is not None and t > scene._start), default=scene._end)
+
+
+def _deforms_from(body: Body, start: QQ, end: QQ) -> QQ | None:
+    """The start of the first piece in which lengths of edges or angles change; None if none."""
     times = [start, *(b for b in body._breakpoints if start < b < end)]
     for t in times:
         tracks = body._piece_after(t).tracks
@@ -131,8 +139,8 @@ def _is_rigid(body: Body, start: QQ, end: QQ) -> bool:
                 (body.closed or k + 2 < n)
                 and not (_is_constant(_product(a, v, b), t) and _is_constant(_area(a, v, b), t))
             ):
-                return False
-    return True
+                return t
+    return None
 
 
 def _product(a: Track, v: Track, b: Track) -> tuple[IntPoly, IntPoly]:

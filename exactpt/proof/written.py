@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, final
 
+from exactpt.errors import AuditError
 from exactpt.files import write_atomically, writing
 from exactpt.kernel.counters import Counts
-from exactpt.proof.emit import Proof, scene_bytes
+from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.simulation.report import report
 
 if TYPE_CHECKING:
@@ -15,38 +16,73 @@ if TYPE_CHECKING:
     from exactpt.kernel.numbers import QQ
     from exactpt.scene.scene import Scene
 
-__all__ = ["Proved", "ProvedSearch", "prove", "write_proof"]
+__all__ = ["Proof", "ProvedSearch", "prove", "write_proof"]
 
 
-class Proved(NamedTuple):
+class Proof(NamedTuple):
     """An answer with its proof, in memory.
 
     Attributes:
         contact: the first contact, or None.
         scene: the bytes of the scene's file.
-        proof: the bytes of the proof.
+        text: the bytes of the proof.
     """
 
     contact: Contact | None
     scene: bytes
-    proof: bytes
+    text: bytes
+
+    def check(self) -> str:
+        """Have `exactpt.proof_check` verify the proof; returns what it proves, in words.
+
+        Raises:
+            AuditError: if a line of it does not hold.
+        """
+        from exactpt import proof_check
+
+        try:
+            return proof_check.check(self.scene, self.text)
+        except proof_check.Rejected as rejected:
+            raise AuditError(str(rejected)) from None
+
+    def save(self, path: str | Path) -> None:
+        """Write the proof, and its scene beside it, with ``.scene.json`` appended to its name.
+
+        Raises:
+            InputError: if a file cannot be written.
+        """
+        write_atomically(_beside(Path(path)), self.scene)
+        write_atomically(Path(path), self.text)
 
 
 def prove(
     scene: Scene, *, tiling: str = "auto", scene_file: bytes | None = None, exact_only: bool = False
-) -> Proved:
-    """The first contact of a scene by a tiling, with its proof.
+) -> Proof:
+    """The first contact of a scene by a tiling, with its proof (docs/proofs.md).
+
+    >>> import exactpt
+    >>> p = exactpt.Body("p", [(0, 0)], exactpt.Translation([0, 1]))
+    >>> exactpt.prove(exactpt.Scene([p, exactpt.Body("q", [(3, 0)])], time=(0, 9))).check()
+    'accepted: no contact before T = 3; contact of p vertex 0 with q vertex 0 at T'
 
     Args:
         scene: the scene.
-        tiling: the name of the tiling.
+        tiling: the name of the tiling; "auto" is the one with the fewest events.
         scene_file: the bytes of the scene's file; by default those that `Scene.save` writes.
         exact_only: whether the float filters are switched off.
+
+    Raises:
+        InputError: if there is no such tiling, or it does not support these bodies.
     """
     file = scene_bytes(scene) if scene_file is None else scene_file
-    proof = Proof(scene, tiling=tiling, scene_file=file, exact_only=exact_only)
-    text = "".join(f"{line}\n" for line in proof.lines())
-    return Proved(proof.contact, file, text.encode())
+    run = ProofRun(scene, tiling=tiling, scene_file=file, exact_only=exact_only)
+    text = "".join(f"{line}\n" for line in run.lines())
+    return Proof(run.contact, file, text.encode())
+
+
+def _beside(path: Path) -> Path:
+    """The path of the scene of a proof."""
+    return path.with_name(f"{path.name}.scene.json")
 
 
 @final
@@ -75,7 +111,7 @@ class ProvedSearch:
     ) -> None:
         self._scene, self._path, self._beside = scene, path, scene_file is None
         self._file = scene_bytes(scene) if scene_file is None else scene_file
-        self._proof = Proof(
+        self._proof = ProofRun(
             scene,
             tiling=tiling,
             scene_file=self._file,
@@ -103,7 +139,7 @@ class ProvedSearch:
             InputError: if a file cannot be written.
         """
         if self._beside:
-            write_atomically(self._path.with_name(f"{self._path.name}.scene.json"), self._file)
+            write_atomically(_beside(self._path), self._file)
         with writing(self._path) as write:
             for line in self._proof.lines():
                 write(f"{line}\n")

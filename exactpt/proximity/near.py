@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Final
 
 import numpy as np
@@ -16,14 +16,20 @@ from exactpt.scene.scene import Scene
 
 __all__ = ["pairs_that_come_near"]
 
+FEW: Final = 4
+"""Maximum number of bodies of which all pairs are named at once."""
 SLABS: Final = 64
 """Number of slabs into which each piece of motion is cut: boxes are swept through one slab."""
 
 
-def pairs_that_come_near(scene: Scene) -> list[tuple[int, int]]:
-    """The pairs i < j of bodies whose swept boxes meet: a superset of those that ever meet."""
-    if len(scene.bodies) < 2:
-        return []
+def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
+    """The pairs i < j of bodies whose swept boxes, grown to this reach, meet.
+
+    A superset of those whose distance in the maximum norm is ever at most the reach. (The radii
+    of rounded bodies are added to it.)
+    """
+    if len(scene.bodies) <= FEW:
+        return list(combinations(range(len(scene.bodies)), 2))
     vertices = Vertices.of(scene.bodies, scene._start, scene._end, plain=True)
     cuts = {t for body in scene.bodies for t in body._breakpoints}
     inner = sorted(t for t in cuts if scene._start < t < scene._end)
@@ -32,11 +38,12 @@ def pairs_that_come_near(scene: Scene) -> list[tuple[int, int]]:
         for i, moving in enumerate(vertices.bodies):
             if moving.until == begin:
                 vertices.enter_piece(i, begin)
-        found |= _near_during(vertices, [body._radius for body in scene.bodies], begin, end)
+        halves = [reach / 2 + body._radius for body in scene.bodies]
+        found |= _near_during(vertices, halves, begin, end)
     return sorted(found)
 
 
-def _near_during(vertices: Vertices, radii: list[QQ], begin: QQ, end: QQ) -> set[tuple[int, int]]:
+def _near_during(vertices: Vertices, halves: list[QQ], begin: QQ, end: QQ) -> set[tuple[int, int]]:
     """The pairs whose boxes meet in one of the slabs between two changes of motion."""
     images = [vertices.all[v].image for moving in vertices.bodies for v in moving.ring]
     sizes = [len(moving.ring) for moving in vertices.bodies]
@@ -50,19 +57,19 @@ def _near_during(vertices: Vertices, radii: list[QQ], begin: QQ, end: QQ) -> set
         boxes = swept.during(low, high)
         boxes[:, ::2] = np.repeat(np.minimum.reduceat(boxes[:, ::2], firsts), sizes, axis=0)
         boxes[:, 1::2] = np.repeat(np.maximum.reduceat(boxes[:, 1::2], firsts), sizes, axis=0)
-        for first, second in overlapping_pairs(_widened(boxes[firsts], radii, vertices.frame)):
+        for first, second in overlapping_pairs(_widened(boxes[firsts], halves, vertices.frame)):
             found.update(zip(first.tolist(), second.tolist(), strict=True))
     return found
 
 
-def _widened(boxes: Boxes, radii: list[QQ], frame: Frame) -> Boxes:
-    """The boxes of bodies, normalised, widened by radii; the rounding is outward."""
-    if not any(radii):
+def _widened(boxes: Boxes, halves: list[QQ], frame: Frame) -> Boxes:
+    """The boxes of bodies, normalised, widened by lengths; the rounding is outward."""
+    if not any(halves):
         return boxes
     wide = boxes.copy()
     for axis in (0, 1):
         unit = power_of_two(-frame.scale[axis])
-        by = np.array([enclosing_floats(r * unit)[1] for r in radii])
+        by = np.array([enclosing_floats(r * unit)[1] for r in halves])
         low, high = 2 * axis, 2 * axis + 1
         wide[:, low] = np.nextafter(boxes[:, low] - by, -np.inf)
         wide[:, high] = np.nextafter(boxes[:, high] + by, np.inf)

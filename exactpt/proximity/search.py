@@ -29,7 +29,7 @@ from exactpt.proximity.features import Feature, FeaturePair
 from exactpt.proximity.stretches import segments_of
 from exactpt.scene.scene import Scene
 
-__all__ = ["Apart", "Approach", "ApproachSearch", "Limit", "near_at_start", "within_at_start"]
+__all__ = ["Apart", "ApproachSearch", "Limit", "Nearest", "near_at_start", "within_at_start"]
 
 Indices: TypeAlias = NDArray[np.int64]
 Limit: TypeAlias = Callable[[int, int], QQ]
@@ -45,7 +45,7 @@ DEPTH: Final = 12
 """Maximum number of bisections of a slab."""
 
 
-class Approach(NamedTuple):
+class Nearest(NamedTuple):
     """The first time at which bodies are within their distance.
 
     Attributes:
@@ -114,15 +114,15 @@ class ApproachSearch:
         self._body: Indices = np.array([self._vertices.all[v].body for v in ids])
         self._read_tracks()
 
-    def run(self) -> Approach | None:
+    def run(self) -> Nearest | None:
         """The first approach in the closed time span; None if there is none."""
         near = near_at_start(self._scene, self._reach, self._apart)
         pairs = tuple(ij for ij, _ in within_at_start(self._scene, self._squared, near))
         if pairs:
-            return Approach(AlgebraicNumber(self._scene._start), pairs)
+            return Nearest(AlgebraicNumber(self._scene._start), pairs)
         return self.run_after_start()
 
-    def run_after_start(self) -> Approach | None:
+    def run_after_start(self) -> Nearest | None:
         """The first approach, if no two bodies are within their distance at the start."""
         now, end = self._scene._start, self._scene._end
         step = (end - now) / SLABS
@@ -194,7 +194,7 @@ class ApproachSearch:
 
     def _search(
         self, now: QQ, later: QQ, near: tuple[Indices, Indices], depth: int
-    ) -> Approach | None:
+    ) -> Nearest | None:
         """The first approach in (now, later] of vertices to edges, given by their numbers."""
         v, e = near
         may = self._may_be_near(self._boxes(now, later), v, e)
@@ -235,7 +235,7 @@ class ApproachSearch:
         may: NDArray[np.bool_] = ~(bound > 64.0 * U * size)  # NaN: it may
         return may
 
-    def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> Approach | None:
+    def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> Nearest | None:
         """The first approach, exactly."""
         begin = AlgebraicNumber(now)
         found: list[tuple[AlgebraicNumber, tuple[int, int]]] = []
@@ -252,7 +252,7 @@ class ApproachSearch:
                     break
         if best is None:
             return None
-        return Approach(best, tuple(sorted({ij for t, ij in found if t.compare(best) == 0})))
+        return Nearest(best, tuple(sorted({ij for t, ij in found if t.compare(best) == 0})))
 
     def _feature_pairs(
         self, v: Indices, e: Indices

@@ -10,19 +10,17 @@ from typing import TYPE_CHECKING, Literal, final, overload
 
 from exactpt.errors import InputError
 from exactpt.extensions import extension
-from exactpt.geometry.polygon import first_self_touch, signed_area2
-from exactpt.geometry.simple import is_surely_simple
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, rationals, shorten, show
 from exactpt.motion.body import Body
-from exactpt.motion.outline import outline_at
 from exactpt.scene.body_arrays import BodyArrays
+from exactpt.scene.simple import check_simple
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["Scene", "check_simple", "scene_of"]
+__all__ = ["Scene", "scene_of"]
 
 
 @final
@@ -251,6 +249,22 @@ class Scene:
             )
         return scene_of(self.bodies, self._start, last)
 
+    def since(self, start: Rational) -> Scene:
+        """The scene from a later start on; an earlier start changes nothing.
+
+        Raises:
+            InputError: if the start is not before the end, or a polygon or chain is not simple
+                then.
+        """
+        first = max(rational(start), self._start)
+        if first >= self._end:
+            raise InputError(
+                f"the start t = {show(first)} is not before the end t = {show(self._end)}"
+            )
+        for body in self.bodies:
+            check_simple(body, first)
+        return scene_of(self.bodies, first, self._end)
+
     def going_on(self, bodies: Iterable[Body], start: QQ) -> Scene:
         """The scene from a later start on, with bodies already known to be valid then."""
         return scene_of(tuple(bodies), start, self._end)
@@ -309,34 +323,3 @@ def _span(time: Sequence[Rational]) -> tuple[QQ, QQ]:
     if start >= end:
         raise InputError(f"time: the span from {show(start)} to {show(end)} is empty")
     return start, end
-
-
-def check_simple(body: Body, start: QQ) -> None:
-    """Check that a body is a simple polygon or chain at the start of a scene.
-
-    Raises:
-        InputError: if it is not.
-    """
-    shape = outline_at(body, start)
-    if shape is not None and is_surely_simple(
-        shape.xs, shape.ys, closed=body.closed, error=shape.error
-    ):
-        return
-    points = body._at(start)
-    touch = first_self_touch(points, closed=body.closed)
-    if touch is not None:
-        i, j = touch
-        what = "polygon" if body.closed else "chain"
-        if i == j:
-            u = points[i]
-            raise InputError(
-                f"body {shorten(body.name)}: vertex {i} and the next one are both at "
-                f"{show(*u)} at the start, t = {show(start)}"
-            )
-        raise InputError(
-            f"body {shorten(body.name)}: not a simple {what} "
-            f"at the start, t = {show(start)}: "
-            f"edge {i} from {show(*points[i])} meets edge {j} from {show(*points[j])}"
-        )
-    if body.has_interior and signed_area2(points) == 0:
-        raise InputError(f"body {shorten(body.name)}: the polygon has no area at t = {show(start)}")

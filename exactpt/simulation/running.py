@@ -19,7 +19,8 @@ from exactpt.simulation.budget import Budget
 from exactpt.simulation.event import Event
 from exactpt.simulation.living import Choice, LivingScene
 from exactpt.simulation.met import Met, met
-from exactpt.tiling.events import ContactFound
+from exactpt.simulation.recording import Recorder
+from exactpt.tiling.events import ContactFound, TilingEvent
 
 __all__ = ["Response", "Run", "begin"]
 
@@ -38,6 +39,7 @@ class Run:
         contact: the contact that has ended the run, or None.
         contacts: number of contacts so far.
         met: the last contact with a response.
+        recorder: what records the run, or None.
     """
 
     def __init__(self, living: LivingScene, budget: Budget) -> None:
@@ -47,6 +49,7 @@ class Run:
         self.contact: Contact | None = None
         self.contacts = 0
         self.met: Met | None = None
+        self.recorder: Recorder | None = None
         self._budget = budget
         self._is_broken = False
         self._proved: QQ = living.scene._start
@@ -91,14 +94,14 @@ class Run:
         """The first contact, see `Simulation.run_to_contact`."""
         if self.contact is None:
             self.check_whole()
-            teller, end = self.living.teller, self.living.scene._end
+            end = self.living.scene._end
             with self._guarded():
                 try:
-                    while (events := teller.advance(end)) is not None:
+                    while (events := self._pass(end)) is not None:
                         self._count(len(events))
                         self._check_time()
                 except ContactFound as found:
-                    self.end_with(self._contact(found))
+                    self._end_with(found)
         return self.contact
 
     def _advance(self, end: QQ, respond: Response | None, grid: QQ) -> bool:
@@ -107,17 +110,26 @@ class Run:
         teller = self.living.teller
         with self._guarded():
             try:
-                events = teller.advance(end)
+                events = self._pass(end)
                 if events is not None:
                     self.pending.extend(teller.told(events))
                 return events is not None
-            except ContactFound as found:
-                contact = self._contact(found)
+            except ContactFound as contact:
+                found = contact
         if respond is None:
-            self.end_with(contact)
+            self._end_with(found)
         else:
-            self._answer(contact, respond, grid)
+            self._answer(found, respond, grid)
         return True
+
+    def _pass(self, end: QQ) -> list[TilingEvent] | None:
+        """Advance the tiling to its next event up to a time, see `Tiling.advance`."""
+        if self.recorder is None:
+            return self.living.teller.advance(end)
+        self.recorder.begin(self.living.scene, self.living.kinetic)
+        events = self.living.teller.advance(end)
+        self.recorder.advanced()
+        return events
 
     @contextmanager
     def _guarded(self) -> Iterator[None]:
@@ -154,11 +166,21 @@ class Run:
         self.contact = contact
         self._report(contact)
 
-    def _answer(self, contact: Contact, respond: Response, grid: QQ) -> None:
+    def _end_with(self, found: ContactFound) -> None:
+        """End with a contact of the tiling, which is there now."""
+        self._record(found)
+        self.end_with(self._contact(found))
+
+    def _record(self, found: ContactFound) -> None:
+        if self.recorder is not None:
+            self.recorder.met(found.touches)
+
+    def _answer(self, found: ContactFound, respond: Response, grid: QQ) -> None:
         """Respond just before a contact; unless something is changed, it takes place."""
-        living, kinetic = self.living, self.living.kinetic
+        living, kinetic, contact = self.living, self.living.kinetic, self._contact(found)
         ahead = met(contact, living)
         if self.met is not None and ahead.is_again(self.met):
+            self._record(found)
             self.contact = contact
             return
         with self._guarded():
@@ -171,6 +193,14 @@ class Run:
             self.contact = contact
             with self._guarded(), suppress(ContactFound):
                 kinetic.advance(living.scene._end)
+            self._record(found)
+
+    def end_record(self) -> None:
+        """Record nothing else, see `Simulation.end_proof`."""
+        recorder, self.recorder = self.recorder, None
+        if recorder is not None:
+            self.check_whole()
+            recorder.finish()
 
     def _report(self, contact: Contact) -> None:
         self.contacts += 1
@@ -193,6 +223,8 @@ class Run:
         with self._guarded():
             self.pending.extend(how(self.living))
         self._proved = self.living.now._low
+        if self.recorder is not None:
+            self.recorder.change(self._proved)
 
     def _scene(self) -> Scene:
         return self.living.scene
@@ -223,7 +255,14 @@ class Run:
             raise BudgetExceeded("the time is used up", self.reached())
 
 
-def begin(scene: Scene, tiling: str, budget: Budget, *, exact_only: bool) -> Run:
+def begin(
+    scene: Scene,
+    tiling: str,
+    budget: Budget,
+    *,
+    exact_only: bool,
+    recorder: Recorder | None = None,
+) -> Run:
     """The run of a scene from its start, see `exactpt.Simulation`."""
     with carrying(lambda: scene), budget.held():
         plan = plan_tiling(scene, tiling, scene._start)
@@ -232,13 +271,17 @@ def begin(scene: Scene, tiling: str, budget: Budget, *, exact_only: bool) -> Run
         if overlaps:
             run = Run(LivingScene(scene, None, choice), budget)
             run.end_with(contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps))
+            if recorder is not None:
+                recorder.touching(scene)
             return run
         try:
             kinetic = plan.start(scene._start, exact_only=exact_only)
         except BudgetExceeded as spent:
             spent.reached = scene.start
             raise
-        return Run(LivingScene(scene, kinetic, choice), budget)
+        run = Run(LivingScene(scene, kinetic, choice), budget)
+        run.recorder = recorder
+        return run
 
 
 def _margin_of(scene: Scene) -> QQ:

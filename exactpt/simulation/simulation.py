@@ -20,6 +20,7 @@ from exactpt.scene.format import to_json as scene_to_json
 from exactpt.scene.scene import Scene
 from exactpt.simulation.budget import Budget
 from exactpt.simulation.event import Event
+from exactpt.simulation.recording import Recorder
 from exactpt.simulation.report import report
 from exactpt.simulation.running import begin
 from exactpt.simulation.spaces import SpaceCache
@@ -63,11 +64,15 @@ class Simulation:
             in a `copy`; one that is interrupted within an event, a quarter of a second later,
             cannot.
         max_memory: maximum memory of the process, in bytes; None for no limit.
+        proof: a new folder for proofs (docs/proofs.md): one for each part of the run between two
+            changes of plans, ``1.proof`` with ``1.scene.json``, and so on. The last part ends
+            with a contact, at the end of the time span, or by `end_proof`. A copy, or a
+            restored simulation, writes none.
 
     Raises:
         BudgetExceeded: if the time or memory is used up before the run begins.
-        InputError: if there is no such tiling, it does not support these bodies, or a bound
-            is not a number >= 0.
+        InputError: if there is no such tiling, it does not support these bodies, a bound
+            is not a number >= 0, or the folder contains proofs or cannot be made.
     """
 
     def __init__(
@@ -79,9 +84,13 @@ class Simulation:
         max_events: int | None = None,
         max_seconds: float | None = None,
         max_memory: int | None = None,
+        proof: str | Path | None = None,
     ) -> None:
         budget = Budget(max_events, max_seconds, max_memory)
-        self._run = begin(scene, tiling, budget, exact_only=exact_only)
+        recorder: Recorder | None = None
+        if proof is not None:
+            recorder = extension("proofs of a simulation")(proof)
+        self._run = begin(scene, tiling, budget, exact_only=exact_only, recorder=recorder)
         self._spaces = SpaceCache()
 
     @property
@@ -182,6 +191,17 @@ class Simulation:
     def passed(self) -> Fraction:
         """As `reached`, but computed at once, even in the middle of an event."""
         return self._run.passed()
+
+    def end_proof(self) -> None:
+        """Write the proof of the part since the last change of plans, and none from now on.
+
+        The part ends now; or, if that time is irrational, between the event now and the one
+        before. There is nothing to do after a contact, and at the end of the time span.
+
+        Raises:
+            InputError: if a file cannot be written.
+        """
+        self._run.end_record()
 
     # Changes of motions and bodies
 

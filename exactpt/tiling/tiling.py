@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue, EventTime
 from exactpt.certificates.table import CertificateTable
-from exactpt.indices import CertificateId
+from exactpt.indices import CertificateId, HalfEdge
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
@@ -69,6 +69,14 @@ class Tiling(ABC):
     @abstractmethod
     def mesh_after(self) -> Mesh:
         """The tiling just after the current time."""
+
+    def changes(self) -> set[HalfEdge] | None:
+        """The half-edges that may have another origin or successor since the last call.
+
+        Returns:
+            Half-edges of `mesh_after`; None if it is another mesh, and at the first call.
+        """
+        return self.mesh_after().map.take_changes()
 
     @abstractmethod
     def mesh_now(self, time: QQ) -> Mesh:

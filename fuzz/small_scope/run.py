@@ -18,7 +18,7 @@ from exactpt.errors import InputError
 from exactpt.files import write_atomically
 from exactpt.scene.format import to_json
 from fuzz.cases import Failure, failure_of, shrunk
-from fuzz.small_scope.look import AUDITED, look
+from fuzz.small_scope.look import AUDITED, looks
 from fuzz.small_scope.scope import planned, sizes
 from fuzz.small_scope.tally import Fault, Tally
 
@@ -77,8 +77,8 @@ def count(numbers: range) -> Tally:
     """The tally of the scenes with these numbers."""
     began = clock.process_time()
     tally = Tally()
-    for number in numbers:
-        tally.note(look(planned(number)))
+    for seen in looks([planned(number) for number in numbers]):
+        tally.note(seen)
     tally.seconds = clock.process_time() - began
     return tally
 

@@ -3,6 +3,7 @@
 import json
 import pickle
 from fractions import Fraction
+from itertools import combinations
 from random import Random
 
 import pytest
@@ -19,6 +20,7 @@ from exactpt import (
     Simulation,
     Translation,
     first_contact,
+    first_within,
 )
 from exactpt.check import check_run
 from exactpt.collision import rounded_straight
@@ -357,3 +359,41 @@ def test_a_bounded_search_says_how_far_it_came():
     with pytest.raises(BudgetExceeded) as spent:
         met(*bodies, max_seconds=0)
     assert spent.value.reached in (None, 0)
+
+
+def test_new_contacts_after_a_touch_at_the_start():
+    """Discs that kiss, part, and meet again; and one that presses into another at once."""
+    hop = Pieces([(2, Translation([2], [0, 1])), (None, Translation([2], [4, -1]))])
+    post = disc("post", (0, 0), 1, Translation())
+    hopping = disc("hopping", (0, 0), 1, hop)
+
+    assert met(post, hopping).kind == "initial"
+    assert met(post, hopping, after_start=True).time == 4
+    pressing = disc("pressing", (2, 0), 1, Translation([0, -1]))
+    assert met(post, pressing, after_start=True).time == 0
+    rolling = disc("rolling", (2, 0), 1, Rigid([0, 1]))
+    assert met(post, rolling, after_start=True) is None
+    assert met(post, rolling, WALL, after_start=True, between=[("post", "wall")]) is None
+
+
+def test_some_pairs_and_a_later_start():
+    bodies = [disc(), disc("post", (5, 0), 1, Translation()), WALL]
+
+    assert met(*bodies, between=[("disc", "wall")]).time == 9
+    assert met(*bodies, since=4).overlaps == (("disc", "post"),)
+    assert met(*bodies, since=8).time == 9
+
+
+def test_any_two_rounded_bodies_within_a_distance():
+    bodies = [disc(), disc("post", (5, 0), 1, Translation()), WALL, Body("dot", [(7, 9)])]
+    scene = Scene(bodies, (0, 20))
+
+    for norm in ("euclidean", "x"):
+        found = first_within(scene, distance="1/2", norm=norm)
+        least = min(
+            first_within(scene, a.name, b.name, "1/2", norm=norm) or 99
+            for a, b in combinations(bodies, 2)
+        )
+        assert found.time == least
+    with pytest.raises(InputError, match='norm "max" is for bodies without radius'):
+        first_within(scene, distance=1, norm="max")

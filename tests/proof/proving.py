@@ -9,14 +9,14 @@ from exactpt import proof_check
 from exactpt.cgal import check_proof
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.errors import InputError
-from exactpt.proof.emit import Proof, scene_bytes
+from exactpt.proof.emit import ProofRun, scene_bytes
 
 __all__ = ["accepted", "agrees", "by_both_checkers", "proof_of", "verdict"]
 
 
 def proof_of(scene, tiling="auto"):
     """The lines of a proof, and the contact that it claims."""
-    proof = Proof(scene, tiling=tiling)
+    proof = ProofRun(scene, tiling=tiling)
     lines = list(proof.lines())
     return lines, proof.contact
 

@@ -1,6 +1,7 @@
 """Proofs as files, written by the command and from Python; the checker stands alone."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -175,3 +176,20 @@ def test_nothing_that_is_malformed_crashes_the_checker(scene):
         assert not accepted(scene, [*lines[:-1], last])
     assert not accepted(scene, lines[:-1])
     assert not accepted(scene, [*lines, lines[-1]])
+
+
+def test_a_proof_is_the_same_in_every_process():
+    code = (
+        "from exactpt.proof import prove; from exactpt.scene.generate import generate;"
+        "print(*(prove(generate(f, 1), tiling='lazy').text for f in ('pieces', 'flat')))"
+    )
+    proofs = {
+        subprocess.run(
+            [sys.executable, "-c", code],
+            capture_output=True,
+            check=True,
+            env={**os.environ, "PYTHONHASHSEED": seed},
+        ).stdout
+        for seed in ("1", "2", "3")
+    }
+    assert len(proofs) == 1

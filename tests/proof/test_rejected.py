@@ -11,7 +11,7 @@ from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.proof.changes import change, followers
-from exactpt.proof.emit import Proof, scene_bytes
+from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.scene.format import loads
 from exactpt.scene.generate import generate
 from exactpt.tiling import engine, touching
@@ -24,7 +24,7 @@ def points(*places):
 
 
 def header(scene):
-    return list(Proof(scene).lines())[:3]
+    return list(ProofRun(scene).lines())[:3]
 
 
 def test_wheel_that_winds_twice():
@@ -76,19 +76,20 @@ def test_spliced_at_a_contact():
 
 def spliced(scene, time, later, tiling):
     """A run up to a time, and one from a later time on, made into one proof with an event."""
-    first = Proof(scene.until(time), tiling=tiling, scene_file=scene_bytes(scene))
+    first = ProofRun(scene.until(time), tiling=tiling, scene_file=scene_bytes(scene))
     lines = list(first.lines())
     rest = Scene.going_on(scene, [*scene.bodies], QQ(later))
-    second = Proof(rest, tiling=tiling, scene_file=scene_bytes(scene))
+    second = ProofRun(rest, tiling=tiling, scene_file=scene_bytes(scene))
     others = list(second.lines())
     start = next(i for i, line in enumerate(others) if line.split()[0] in ("event", "none"))
-    again = Proof(rest, tiling=tiling, scene_file=scene_bytes(scene))
+    again = ProofRun(rest, tiling=tiling, scene_file=scene_bytes(scene))
     generator = again.lines()
     for _ in range(start):
         next(generator)
-    old, new, solid = first._after, again._after, followers(first._nodes.solid_faces())
+    old, new = first._lines._after, again._lines._after
+    solid = followers(first._nodes.solid_faces())
     words = [f"= {u} {v}" for u, v in old.keys() & new.keys() - solid.keys()]
-    words += change(dict(old), old, new, first._is_body_edge)
+    words += change(dict(old), old, new, first._lines._is_body_edge)
     lines[2] = f"span {scene.start} {scene.end}"
     return [*lines[:-1], f"event {time} {time} {' '.join(words)}", *others[start:]]
 
@@ -140,7 +141,7 @@ def test_contact_at_the_first_moment():
     # Bodies that touch at the start and part: the map after is valid.
     scene = Scene([Body("a", [(0, 0), (4, 0)]), Body("b", [(2, 0)], Translation([0], [0, 1]))])
     later = Scene.going_on(scene, scene.bodies, QQ(1, 2))
-    lines = list(Proof(later, scene_file=scene_bytes(scene)).lines())
+    lines = list(ProofRun(later, scene_file=scene_bytes(scene)).lines())
     lines[2] = "span 0 1"
     assert verdict(scene, lines).endswith("vertex 2 is on the edge 0 1 at t = 0")
     assert accepted(scene, proof_of(scene)[0])

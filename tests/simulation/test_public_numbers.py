@@ -42,6 +42,7 @@ ARGUMENTS = {
     "locate": ((50, 50),),
     "neighbours": ("box",),
     "path": ((-50, -50), (50, 50)),
+    "since": ("1/3",),
     "ray_cast": ((-50, "1/4"), (1, 0)),
     "refine_to": (Fraction(1, 100),),
     "relative_hull": ("box",),
@@ -182,6 +183,7 @@ def test_bug_numbers_of_a_contact_are_pythons_own(method):
     assert not contact.time.is_rational
     for norm in ("euclidean", "max"):
         assert no_leaks(near=exactpt.first_within(scene, "box", "mill", "1/3", norm=norm))
+        assert no_leaks(first=exactpt.first_within(scene, distance="1/3", norm=norm)) > 1
     assert no_leaks(there=exactpt.distance(scene, "box", "mill", at=1)) > 1
     assert no_leaks(gap=exactpt.clearance(scene, "box", "mill")) > 5
     assert no_leaks(meeting=exactpt.contacts(scene)) > 5
@@ -228,10 +230,11 @@ def test_every_public_name_is_walked_through():
         "Pair", "Path", "Pieces", "Place", "Planner", "Polynomial", "Rigid", "Scene", "Simulation",
         "Translation", "BudgetExceeded", "first_contact", "first_within", "onward", "Clearance",
         "ContactInterval", "Distance", "clearance", "contact_intervals", "contacts", "distance",
-        "Velocity", "in_local_time", "spline",
+        "Approach", "Velocity", "in_local_time", "spline",
     }  # fmt: skip
     without_numbers = {
-        "AuditError", "ExactPTError", "InputError", "read_shapes", "stop", "write_shapes",
+        "AuditError", "ExactPTError", "InputError", "Proof", "prove", "read_shapes", "stop",
+        "write_shapes",
     }  # fmt: skip
     assert reached | without_numbers == set(exactpt.__all__)
     assert Snapshot.__module__.startswith("exactpt")

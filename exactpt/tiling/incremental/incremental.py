@@ -30,7 +30,7 @@ from exactpt.tiling.events import ContactFound, Stats, TilingEvent
 from exactpt.tiling.incremental.certified_trees import CertifiedTrees
 from exactpt.tiling.incremental.chains import PATIENCE, ChainKind, Chains
 from exactpt.tiling.incremental.contacts import coinciding
-from exactpt.tiling.incremental.mesh import mesh_of
+from exactpt.tiling.incremental.mesh import mesh_of, update_mesh
 from exactpt.tiling.incremental.static import holds_at, sweep_at
 from exactpt.tiling.incremental.structure import IncrementalStructure
 from exactpt.tiling.incremental.tree_repairs import TreeRepairs
@@ -76,6 +76,7 @@ class IncrementalTiling(Tiling):
             self._certified, certifier, self.log, self.chains, counts_fan=fan
         )
         self._mesh: Mesh | None = None
+        self._is_current: bool = False
 
     def begin(self, start: QQ) -> None:
         """See `Tiling.begin`."""
@@ -123,9 +124,14 @@ class IncrementalTiling(Tiling):
         mesh.audit()
 
     def mesh_after(self) -> Mesh:
-        """The tiling just after the current time, derived from the trees."""
-        if self._mesh is None:
-            self._mesh = mesh_of(self.structure)
+        """The tiling just after the current time, derived from the trees: not a copy."""
+        if self._mesh is None or not self._is_current:
+            changed = self.structure.take_changes()
+            if self._mesh is None or changed is None:
+                self._mesh = mesh_of(self.structure)
+            else:
+                update_mesh(self._mesh, self.structure, changed)
+            self._is_current = True
         return self._mesh
 
     def mesh_now(self, time: QQ) -> Mesh:
@@ -154,7 +160,7 @@ class IncrementalTiling(Tiling):
     def change_plans(self, plans: Mapping[int, Body], t: QQ) -> list[TilingEvent]:
         """See `Tiling.change_plans`."""
         self.clock.move_to(t)
-        self._mesh = None
+        self._is_current = False
         for p in map(VertexId, sorted(plans)):
             self.vertices.set_plan(p, plans[p], t, self.certifier.end)
             self._schedule_piece(p)
@@ -170,7 +176,7 @@ class IncrementalTiling(Tiling):
     def _process(self, time: EventTime, entries: list[tuple[CertificateId, EventTime]]) -> None:
         """See `Tiling._process`."""
         self.clock.enter(time, entries)
-        self._mesh = None
+        self._is_current = False
         failed = [certificate for certificate, _ in entries]
         with_equal_x = [
             point_of(certificate)

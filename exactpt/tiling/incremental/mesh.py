@@ -7,41 +7,71 @@ point, and for more points if the first ones are collinear), only the former exi
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from itertools import pairwise
 
 from exactpt.indices import NO_VERTEX, HalfEdge, VertexId
 from exactpt.planar.halfedge import twin
-from exactpt.pseudotriangulation.mesh import OUTER, Mesh
+from exactpt.pseudotriangulation.mesh import FREE, OUTER, Mesh
 from exactpt.tiling.incremental.fan import path
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
 
-__all__ = ["mesh_of"]
+__all__ = ["mesh_of", "update_mesh"]
 
 
 def mesh_of(structure: IncrementalStructure) -> Mesh:
     """The tiles Delta(p), p from the third point on, and the outer face."""
-    upper, lower = structure.trees
     mesh = Mesh(len(structure.order))
-    for p in map(VertexId, range(len(structure.order))):
-        for tree in structure.trees:
-            z = tree.parent[p]
-            h = mesh.add_edge(p, z, boundary=False)
-            if z < 0 or (tree is lower and z == upper.parent[p]):
-                mesh.map.origin[h] = mesh.map.origin[h + 1] = NO_VERTEX
-    for p in structure.order[1:]:
-        if upper.parent[p] != lower.parent[p]:
-            down, up = _from(structure, UPPER, p), twin(_from(structure, LOWER, p))
-            face = [down, *_sides(structure, upper.before[p], lower.before[p]), up]
-            _close(mesh, face)
-            for h in (face[0], face[1], face[-1]):
-                mesh.corner[h] = True
-    first = structure.order[0] if structure.order else -1
-    if len(structure.order) > 1:
-        hull = _sides(structure, upper.last[first], lower.last[first])
-        _close(mesh, hull)
-        for h in hull:
-            mesh.region[h] = OUTER
+    points = [VertexId(p) for p in range(len(structure.order))]
+    for p in points:
+        for _ in structure.trees:
+            mesh.add_edge(p, p, boundary=False)
+    update_mesh(mesh, structure, points)
     return mesh
+
+
+def update_mesh(mesh: Mesh, structure: IncrementalStructure, changed: Collection[VertexId]) -> None:
+    """Update the mesh of a structure in which some points have other links than before."""
+    for p in changed:
+        _place_edges(mesh, structure, p)
+    # The point itself; and that of whose tile the chain through it is a side.
+    tiles = {*changed, *(_beside(structure, side, p) for side in (UPPER, LOWER) for p in changed)}
+    for p in tiles:
+        _close_tile(mesh, structure, p)
+
+
+def _place_edges(mesh: Mesh, structure: IncrementalStructure, p: VertexId) -> None:
+    """Give the half-edges of a point and its parents their origins."""
+    upper, lower = (tree.parent[p] for tree in structure.trees)
+    for h, z in ((HalfEdge(4 * p), upper), (HalfEdge(4 * p + 2), lower)):
+        exists = z >= 0 and (h % 4 == 0 or z != upper)
+        mesh.map.place(h, p if exists else NO_VERTEX)
+        mesh.map.place(twin(h), z if exists else NO_VERTEX)
+
+
+def _beside(structure: IncrementalStructure, side: int, v: VertexId) -> VertexId:
+    """The point of whose tile the chain through v is a side; the first one: the outer face."""
+    tree = structure.trees[side]
+    while (z := tree.parent[v]) >= 0 and tree.last[z] == v:
+        v = z
+    return v if z < 0 else tree.after[v]
+
+
+def _close_tile(mesh: Mesh, structure: IncrementalStructure, p: VertexId) -> None:
+    """Link the half-edges of the tile of a point, or of the outer face for the first point."""
+    upper, lower = structure.trees
+    is_outer = upper.parent[p] < 0
+    if is_outer:
+        face = _sides(structure, upper.last[p], lower.last[p])
+    elif upper.parent[p] != lower.parent[p]:
+        down, up = _from(structure, UPPER, p), twin(_from(structure, LOWER, p))
+        face = [down, *_sides(structure, upper.before[p], lower.before[p]), up]
+    else:
+        return
+    for h, g in pairwise([*face, *face[:1]]):
+        mesh.map.link(h, g)
+        mesh.region[h] = OUTER if is_outer else FREE
+        mesh.corner[h] = not is_outer and h in (face[0], face[1], face[-1])
 
 
 def _from(structure: IncrementalStructure, side: int, p: VertexId) -> HalfEdge:
@@ -66,8 +96,3 @@ def _sides(
     return [twin(_from(structure, UPPER, c)) for c in path(upper_top, upper)] + [
         _from(structure, LOWER, c) for c in reversed(list(path(lower_top, lower)))
     ]
-
-
-def _close(mesh: Mesh, face: list[HalfEdge]) -> None:
-    for h, g in pairwise([*face, face[0]]):
-        mesh.map.link(h, g)

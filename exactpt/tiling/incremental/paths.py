@@ -34,6 +34,7 @@ class SearchableTree(TangentTree):
         self = cls(0)
         self.parent, self.first, self.last = tree.parent, tree.first, tree.last
         self.before, self.after, self.steps = tree.before, tree.after, tree.steps
+        self.changed = tree.changed
         # Each splay tree begins as a list; any initial shape costs O(n log n) in all.
         self._left = [NONE] * len(tree.parent)
         self._right = tree.last[:]

@@ -134,6 +134,13 @@ class IncrementalStructure:
             tree.steps = steps
         return structure
 
+    def take_changes(self) -> set[VertexId] | None:
+        """The points with other links in either tree since the last call; None at the first."""
+        upper, lower = (tree.changed for tree in self.trees)
+        for tree in self.trees:
+            tree.changed = set()
+        return None if upper is None or lower is None else (upper | lower) - {NONE}
+
     def make_searchable(self) -> None:
         """Search chains in O(log n) from now on."""
         upper, lower = self.trees

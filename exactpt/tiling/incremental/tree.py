@@ -32,6 +32,7 @@ class TangentTree:
         first, last: for each point, its first and its last child.
         before, after: for each point, the siblings next to it.
         steps: number of vertices of chains that have been passed.
+        changed: the points with other links than before; None if they are not recorded.
     """
 
     def __init__(self, size: int) -> None:
@@ -41,6 +42,7 @@ class TangentTree:
         self.before: list[VertexId] = [NONE] * size
         self.after: list[VertexId] = [NONE] * size
         self.steps: int = 0
+        self.changed: set[VertexId] | None = None
 
     def append(self, z: VertexId, v: VertexId) -> None:
         """Make v, which has no parent, the last child of z."""
@@ -52,6 +54,8 @@ class TangentTree:
             self.after[old] = v
         else:
             self.first[z] = v
+        if self.changed is not None:
+            self.changed |= {v, z, old}
 
     def insert_before(self, w: VertexId, v: VertexId) -> None:
         """Make v, which has no parent, the sibling just before w."""
@@ -63,6 +67,8 @@ class TangentTree:
             self.after[old] = v
         else:
             self.first[z] = v
+        if self.changed is not None:
+            self.changed |= {v, w, old}
 
     def insert_after(self, w: VertexId, v: VertexId) -> None:
         """Make v, which has no parent, the sibling just after w."""
@@ -92,6 +98,8 @@ class TangentTree:
         else:
             self.last[z] = l
         self.parent[v] = self.before[v] = self.after[v] = NONE
+        if self.changed is not None:
+            self.changed |= {v, z, l, r}
 
     # Chains
 
