@@ -145,7 +145,8 @@ def _chord_count(curve: svgelements.Curve, tolerance: float) -> int:
     if isinstance(curve, svgelements.Arc):
         # Half the angle is acos(1 - tolerance / r), computed without cancellation.
         ratio = min(2.0, tolerance / (max(curve.rx, curve.ry) or tolerance))
-        count = abs(curve.sweep) / (4 * math.asin(math.sqrt(ratio / 2)))
+        angle = 4 * math.asin(math.sqrt(ratio / 2))
+        count = abs(curve.sweep) / angle if angle else math.inf  # 0: the radius overflows
     else:
         points = [complex(p.x, p.y) for p in curve]
         bends = [
