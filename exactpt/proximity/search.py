@@ -41,6 +41,8 @@ SLABS: Final = 32
 """Number of initial slabs in the time span."""
 FEW: Final = 4
 """Number of pairs of a vertex and an edge that exact arithmetic takes over."""
+IDLE: Final = 2
+"""Maximum number of bisections in a row that leave more than three quarters of the pairs."""
 DEPTH: Final = 12
 """Maximum number of bisections of a slab."""
 
@@ -125,16 +127,21 @@ class ApproachSearch:
     def run_after_start(self) -> Nearest | None:
         """The first approach, if no two bodies are within their distance at the start."""
         now, end = self._scene._start, self._scene._end
-        step = (end - now) / SLABS
+        # Of vertices without boxes all are compared, once: in a single slab.
+        step = (end - now) / (SLABS if np.isfinite(self._boxes(now, end)).all() else 1)
+        many, least = 2 * len(self._ids) + 64, (end - now) / 2**20
         while now < end:
             ask()
             until = min([end, *(m.until for m in self._vertices.bodies if m.until is not None)])
             later = min(now + step, until)
             near = self._near(now, later)
-            if len(near[0]) > 2 * len(self._ids) + 64 and step > (end - now) / 2**20:
-                step /= 2
-                continue
-            found = self._search(now, later, near, DEPTH)
+            while len(near[0]) > many and step > least:
+                shorter = min(now + step / 4, until)
+                fewer = self._near(now, shorter)
+                if 2 * len(fewer[0]) > len(near[0]):
+                    break  # these pairs stay near each other: a shorter slab is no help
+                step, later, near = step / 4, shorter, fewer
+            found = self._search(now, later, near)
             if found is not None:
                 return found
             if 4 * len(near[0]) < len(self._ids):
@@ -193,19 +200,23 @@ class ApproachSearch:
         return np.concatenate(vs), np.concatenate(es)
 
     def _search(
-        self, now: QQ, later: QQ, near: tuple[Indices, Indices], depth: int
+        self, now: QQ, later: QQ, near: tuple[Indices, Indices], depth: int = DEPTH, idle: int = 0
     ) -> Nearest | None:
-        """The first approach in (now, later] of vertices to edges, given by their numbers."""
+        """The first approach in (now, later] of vertices to edges, given by their numbers.
+
+        After so many bisections, or ``idle`` ones that have left most pairs, the rest is decided.
+        """
         v, e = near
         may = self._may_be_near(self._boxes(now, later), v, e)
         v, e = v[may], e[may]
         if not len(v):
             return None
-        if len(v) <= FEW or not depth:
+        idle = idle + 1 if 4 * len(v) > 3 * len(near[0]) else 0
+        if len(v) <= FEW or not depth or idle > IDLE:
             return self._decide(now, later, v, e)
         middle = (now + later) / 2
-        return self._search(now, middle, (v, e), depth - 1) or self._search(
-            middle, later, (v, e), depth - 1
+        return self._search(now, middle, (v, e), depth - 1, idle) or self._search(
+            middle, later, (v, e), depth - 1, idle
         )
 
     @np.errstate(all="ignore")

@@ -1,5 +1,6 @@
 """The first approach of any two bodies: the least of all pairs, and few exact decisions."""
 
+from fractions import Fraction
 from itertools import combinations
 from random import Random
 
@@ -189,3 +190,28 @@ def test_bodies_that_stay_apart():
         assert first_within(scene, distance=4, norm=norm) is None
         assert first_within(Scene([]), distance=4, norm=norm) is None
     assert first_within(scene, distance=4, norm="y").pairs == (("p", "q"),)
+
+
+@pytest.mark.plain
+def test_numbers_out_of_range_are_not_bisected(monkeypatch):
+    """Without boxes all pairs are decided once; pairs that stay near are, after a few halves."""
+    decided = []
+    decide = ApproachSearch._decide
+    monkeypatch.setattr(
+        ApproachSearch, "_decide", lambda self, *given: decided.append(1) or decide(self, *given)
+    )
+    tiny = Fraction(1, 10**400)
+    unknown = [
+        Body(str(i), [(3 * i, 0)], Translation([0, tiny], [0, tiny * i, 1])) for i in range(12)
+    ]
+    assert search(Scene(unknown, (0, 5)), QQ(2)) is None
+    assert len(decided) == 1
+    decided.clear()
+
+    near = []
+    for i in range(8):
+        near.append(Body(f"post {i}", [(10 * i, 0)]))
+        turn = Rigid([0, 1], pivot=(10 * i, 0))
+        near.append(Body(f"orbiter {i}", [(10 * i + 2 + tiny, 0)], turn))
+    assert search(Scene(near, (0, 2)), QQ(2)) is None
+    assert len(decided) <= 300
