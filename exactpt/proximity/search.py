@@ -127,7 +127,7 @@ class ApproachSearch:
     def run_after_start(self) -> Nearest | None:
         """The first approach, if no two bodies are within their distance at the start."""
         now, end = self._scene._start, self._scene._end
-        # Of vertices without boxes all are compared, once: in a single slab.
+        # Shorter slabs are no help to vertices without boxes.
         step = (end - now) / (SLABS if np.isfinite(self._boxes(now, end)).all() else 1)
         many, least = 2 * len(self._ids) + 64, (end - now) / 2**20
         while now < end:

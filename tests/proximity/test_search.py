@@ -194,7 +194,7 @@ def test_bodies_that_stay_apart():
 
 @pytest.mark.plain
 def test_numbers_out_of_range_are_not_bisected(monkeypatch):
-    """Without boxes all pairs are decided once; pairs that stay near are, after a few halves."""
+    """Without boxes all pairs are in one slab; pairs that stay near are, after a few halves."""
     decided = []
     decide = ApproachSearch._decide
     monkeypatch.setattr(
@@ -205,7 +205,7 @@ def test_numbers_out_of_range_are_not_bisected(monkeypatch):
         Body(str(i), [(3 * i, 0)], Translation([0, tiny], [0, tiny * i, 1])) for i in range(12)
     ]
     assert search(Scene(unknown, (0, 5)), QQ(2)) is None
-    assert len(decided) == 1
+    assert len(decided) <= 4
     decided.clear()
 
     near = []
