@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <iostream>
 #include <map>
 #include <string>
 
@@ -115,7 +116,8 @@ std::string reply(Reader& in) {
 int main(int count, char** arguments) {
   if (count > 1) {
     if (std::string(arguments[1]) == "proof") return proof::verify(count - 2, arguments + 2);
-    answer("error: usage: cgal_check [proof SCENE PROOF [--jobs N]]");
+    if (std::string(arguments[1]) == "proofs" && count == 2) return proof::verify_each(std::cin);
+    answer("error: usage: cgal_check [proof SCENE PROOF [--jobs N] | proofs]");
     return 2;
   }
   Reader in(STDIN_FILENO);

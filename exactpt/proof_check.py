@@ -2,16 +2,14 @@
 
     python -m exactpt.proof_check SCENE PROOF
 
-This file imports nothing of exactpt, nothing but the standard library, uses no floats to
-decide anything, and is made to be read. The statement, the file format and the complete
-argument are in docs/proofs.md; the comments here say which step of it is where.
+This file imports the standard library alone, uses no floats to decide anything, and is made
+to be read. The statement, the file format and the complete argument are in docs/proofs.md.
 
-What is checked, in a paragraph. The proof describes a planar map on the vertices of the
-scene, and its changes at certain times. In each open interval between two of these, every
-angle of a face stays convex, reflex or straight: orientations of three vertices do not
-vanish, and these are polynomials in time. By counting angles, the map is drawn without
-crossings then, and no two bodies touch. At the times themselves, a touch can only be among
-faces with an angle that vanishes just then.
+The proof describes a planar map on the vertices of the scene, and its changes at certain times.
+In each open interval between two of these, every angle of a face stays convex, reflex or
+straight: orientations of three vertices do not vanish, and these are polynomials in time. By
+counting angles, the map is drawn without crossings then, and no two bodies touch. At the times
+themselves, a touch can only be among faces with an angle that vanishes just then.
 
 Exit code: 0 accepted, 1 rejected (with the first line that fails), 2 no proof of this scene.
 """
@@ -28,18 +26,19 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from functools import cmp_to_key, lru_cache
-from itertools import pairwise, takewhile, zip_longest
+from itertools import pairwise, zip_longest
 from math import floor, gcd, inf, lcm
-from typing import Any
+from typing import Any, TextIO
 
 Point = tuple[Fraction, Fraction]
 Dart = tuple[int, int]
 Angle = tuple[int, int, int]
+Face = tuple[Dart, ...]
 Json = Any
 
 
 class NoProofError(Exception):
-    """The files are no scene, no proof, or a proof of another scene."""
+    """The files are no scene, not in the format of proofs, or the proof is of another scene."""
 
 
 class Rejected(Exception):  # noqa: N818 - a verdict
@@ -52,8 +51,7 @@ def require(condition: object, why: str) -> None:
         raise Rejected(why)
 
 
-# ---------------------------------------------------------------------------------------
-# Polynomials, and their real roots.
+# ---- Polynomials, and their real roots.
 
 
 class Poly(tuple[Any, ...]):
@@ -240,8 +238,7 @@ def zeros(f: Poly, start: Time, end: Time) -> tuple[bool, bool]:
     return -1 in after, 0 in after
 
 
-# ---------------------------------------------------------------------------------------
-# Tracks: a vertex is at (x / w, y / w), with polynomials x, y and w, the latter positive.
+# ---- Tracks: a vertex is at (x / w, y / w), with polynomials x, y and w, the latter positive.
 
 Track = tuple[Poly, Poly, Poly]
 
@@ -302,8 +299,7 @@ def comes_before(d: Point, e: Point) -> bool:
     return p < q or (p == q and d[0] * e[1] - d[1] * e[0] > 0)
 
 
-# ---------------------------------------------------------------------------------------
-# The scene (docs/format.md). What is not understood is refused.
+# ---- The scene (docs/format.md). What is not understood is refused.
 
 NUMBER = re.compile(r"[+-]?(\d+(/0*[1-9]\d*)?|(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,6})?)", re.ASCII)
 Until = Fraction | float  # the only float is infinity
@@ -462,6 +458,7 @@ class Scene:
         for i, entry in enumerate(entries(top.get("bodies"))):
             self.bodies.append(Body(entry, len(self.body_of)))
             self.body_of += [i] * self.bodies[-1].size
+        need(len({body.name for body in self.bodies}) == len(self.bodies), "a name is there twice")
         self.known: tuple[Fraction, dict[int, Point]] = self.start, {}
 
     def of(self, v: int) -> Body:
@@ -518,29 +515,25 @@ class Scene:
         return True
 
 
-# ---------------------------------------------------------------------------------------
-# Planar maps: half-edges (u, v), and which one follows which around the face on the left.
+# ---- Planar maps: half-edges (u, v), and which one follows which around the face on the left.
 
 
 class PlanarMap:
     """Half-edges with their order around faces, and so around vertices. No coordinates.
 
-    Attributes:
-        after: of each half-edge, the next one around its face.
-        out: of each vertex, the vertices to which it has an edge.
-        faces: the half-edges of each face, by a number; face_of: of each half-edge, its face.
+    ``after`` is the next one of each half-edge around its face; ``out`` has the vertices to which
+    each vertex has an edge.
     """
 
     def __init__(self, vertices: int) -> None:
         self.after: dict[Dart, Dart] = {}
         self.out: list[set[int]] = [set() for _ in range(vertices)]
-        self.faces: dict[int, list[Dart]] = {}
-        self.face_of: dict[Dart, int] = {}
-        self.made = 0
+        self.faces, self.face_of = set[Face](), dict[Dart, Face]()
 
-    def begin(self, cycles: Iterable[list[int]]) -> None:
+    def begin(self, cycles: list[list[int]]) -> None:
         """Make the map of these faces; all of step 2 but for bodies."""
         for cycle in cycles:
+            require(len(cycle) > 1 or (len(self.out) == 1 == len(cycles)), "a face of one vertex")
             face = list(pairwise([*cycle, cycle[0]])) if len(cycle) > 1 else []
             for d, e in pairwise([*face, *face[:1]]):
                 require(d not in self.after and d[0] != d[1], f"the half-edge {d} is there twice")
@@ -557,7 +550,7 @@ class PlanarMap:
             todo += new
         require(len(reached) == len(self.out), "the map is not connected")
         if len(self.out) == 1:
-            self.faces[0] = []  # the face around a single vertex
+            self.faces = {()}  # around a single vertex
         self.make_faces(set(self.after))
 
     def clockwise(self, v: int) -> list[int]:
@@ -613,29 +606,28 @@ class PlanarMap:
                 seen[i].update(fronts[i])
         return not seen[0].isdisjoint(seen[1])
 
-    def make_faces(self, touched: set[Dart]) -> set[int]:
+    def make_faces(self, touched: set[Dart]) -> set[Face]:
         """Make the faces around half-edges that have changed anew; the new ones."""
         old = {self.face_of[d] for d in touched if d in self.face_of}
-        pool = {d for f in old for d in self.faces.pop(f)} | touched
+        pool = touched.union(*old)
         for d in pool:
             self.face_of.pop(d, None)
         pool = {d for d in pool if d in self.after}
-        first = self.made
+        new = set[Face]()
         while pool:
             face = [min(pool)]
             while (d := self.after[face[-1]]) != face[0]:
                 face.append(d)
             pool.difference_update(face)
-            self.made += 1
-            self.faces[self.made] = face
-            self.face_of.update(dict.fromkeys(face, self.made))
+            new.add(tuple(face))
+            self.face_of.update(dict.fromkeys(face, tuple(face)))
+        self.faces = (self.faces - old) | new
         v, e, f = len(self.out), len(self.after) // 2, len(self.faces)
         require(v - e + f == 2, f"{v} vertices, {e} edges, {f} faces: V - E + F is not 2")
-        return set(range(first + 1, self.made + 1))
+        return new
 
 
-# ---------------------------------------------------------------------------------------
-# The checker. Steps are those of docs/proofs.md.
+# ---- The checker. Steps are those of docs/proofs.md.
 
 CONVEX, REFLEX, FLAT, FULL = "convex", "reflex", "flat", "full"
 
@@ -670,94 +662,71 @@ class Checker:
         self.rigid: list[bool] = []
         self.solid: set[Dart] = set()
         self.life: dict[Dart, Life] = {}
-        self.new_angles: set[Dart] = set()
-        self.new_faces: set[int] = set()
-        self.outer: set[int] = set()
+        self.new_angles, self.new_faces, self.outer = set[Dart](), set[Face](), set[Face]()
 
     # The lines, and step 7: times increase.
 
     def check_rows(self, rows: list[tuple[int, list[str]]]) -> str:
         """Check the lines of a proof from the third on; what is proved."""
-        self.line, words = rows[0]
-        require(len(words) == 3 and words[0] == "span", "the time span is missing")
-        start, self.end = rational(words[1]), rational(words[2])
+        self.line, (_, first, last) = rows[0]
+        start, self.end = Fraction(first), Fraction(last)
         within = start == self.scene.start < self.end <= self.scene.end
         require(within, "the time span is not one of the scene")
         for body in self.scene.bodies:
             self.read_body(body)
-        faces = list(takewhile(lambda row: row[1][0] in ("face", "inside", "outer"), rows[1:]))
-        cycles: list[list[int]] = []
+        faces = [row for row in rows if row[1][0] in ("face", "inside", "outer")]
+        cycles, time, k = list[list[int]](), self.now, 0
         for self.line, words in faces:
-            require(len(words) > 1, "a face without vertices")
             cycles.append(self.vertices(words[1:]))
-        if faces:
+        if cycles:
             self.begin(cycles)
         for number, words in rows[1 + len(faces) :]:
             made, self.line = self.line, number
-            final = words[0] != "event"
-            require(final == (words is rows[-1][1]), f"{words[0]} is not where it belongs")
-            time, rest = (Time(self.end), []) if words == ["none"] else self.read_time(words[1:])
+            k = next((i for i, w in enumerate(words) if w in STARTS), len(words))
+            time = self.read_time(words[1:k]) if k > 1 else Time(self.end)
             require(time.compare_rational(self.end) <= 0, "a time after the time span")
-            if faces:
+            if cycles:
                 require(self.now.compare(time) < 0, "times do not increase")
                 self.line = made
                 self.look_at(between(self.now, time))
                 self.line = number
-            else:
+            elif words != ["none"] or self.scene.bodies:
                 at_start = words[0] == "contact" and time.compare(self.now) == 0
-                require(at_start or not self.scene.bodies, "there is no map")
-            if not final:
-                self.event(time, self.read_items(rest))
-                continue
-            vanishing = self.end_lives(self.life, time)
-            if words == ["none"]:
-                self.check_clusters(vanishing, time)
-                return f"accepted: no contact from t = {start} to t = {self.end}"
-            require(words[0] == "contact", f"a line of an unknown kind: {words[0]}")
-            what = self.check_contact(rest, time)
-            return f"accepted: no contact before T = {time}; contact of {what} at T"
-        raise Rejected("the last line is missing")
+                require(at_start, "there is no map")
+            if words[0] == "event":
+                self.event(time, words[k:])
+        vanishing = self.end_lives(self.life, time)
+        if words == ["none"]:
+            self.check_clusters(vanishing, time)
+            return f"accepted: no contact from t = {start} to t = {self.end}"
+        what = self.check_contact(words[k:], time)
+        return f"accepted: no contact before T = {time}; contact of {what} at T"
 
-    def read_time(self, words: list[str]) -> tuple[Time, list[str]]:
-        """The time at the beginning of these words, and what is left of them."""
-        require(len(words) > 1, "a time is missing")
-        low, high = rational(words[0]), rational(words[1])
-        named = words[2:3] == ["@"]
-        numbers = [*takewhile(INTEGER.fullmatch, words[2 + named :])]
-        rest = words[2 + named + len(numbers) :]
-        if low == high:
-            return Time(low), rest
-        require(low < high, f"no interval: from {low} to {high}")
-        f = Poly(map(int, numbers))
-        if named:
-            v = self.vertices(numbers)
+    def read_time(self, words: list[str]) -> Time:
+        """The time that these words are."""
+        low, high = Fraction(words[0]), Fraction(words[1])
+        if words[2:3] == ["@"]:
+            v = self.vertices(words[3:])
             breaks = {q for u in v for q in self.scene.of(u).breaks if low < q < high}
             require(not breaks, f"a breakpoint is between {low} and {high}")
-            require(len(v) in (2, 3), "a time is named by two vertices, or three")
             p = [self.scene.track(u, low) for u in v]
             f = orientation_of(*p) if len(p) == 3 else vector_of(*p)[0]
+        else:
+            f = Poly(map(int, words[2:]))
+        if low == high and (len(words) == 2 or (f and f.sign_at(low) == 0)):
+            return Time(low)
         require(f, "no time is named by what is always 0")
-        roots = list(f.square_free().roots(low, high))
+        roots = list(f.square_free().roots(low, high)) if low < high else []
         require(len(roots) == 1, f"{len(roots)} roots between {low} and {high}, not one")
         while (roots[0].high - roots[0].low) * 2**20 > self.end - self.scene.start:
             roots[0].refine()  # for speed alone
-        return roots[0], rest
+        return roots[0]
 
     def vertices(self, words: Iterable[str]) -> list[int]:
         """The vertices that these words are."""
-        n = len(self.scene.body_of)
-        for w in words:
-            require(INTEGER.fullmatch(w) and 0 <= int(w) < n, f"not a vertex, 0 to {n - 1}: {w}")
-        return [int(w) for w in words]
-
-    def read_items(self, words: list[str]) -> dict[str, list[list[int]]]:
-        """What goes, comes, and is taken anew."""
-        found: dict[str, list[list[int]]] = {"-": [], "+": [], "=": []}
-        while words:
-            sort, size = words[0], 5 if words[0] == "+" else 3
-            require(sort in found and len(words) >= size, f"no item: {' '.join(words[:size])}")
-            found[sort].append(self.vertices(words[1:size]))
-            words = words[size:]
+        n, found = len(self.scene.body_of), [int(w) for w in words]
+        for v in found:
+            require(v < n, f"not a vertex, 0 to {n - 1}: {v}")
         return found
 
     # Step 1: the scene.
@@ -768,19 +737,21 @@ class Checker:
         for k, q in enumerate(body.breaks):
             for i in range(body.size if start.low < q <= self.end else 0):
                 jump = vector_of(body.track(i, k), body.track(i, k + 1))
-                need(not any(f.sign_at(q) for f in jump), f"vertex {i} jumps:", body.name)
+                require(
+                    not any(f.sign_at(q) for f in jump), f"{body.name}: vertex {i} jumps at {q}"
+                )
         self.rigid.append(self.scene.is_rigid(body, self.end))
         if not body.closed:
             return
         places = [self.scene.at(v, start.low) for v in vertices]
         area = sum(p[0] * q[1] - p[1] * q[0] for p, q in pairwise([*places, places[0]]))
-        need(area, "no area at the start:", body.name)
+        require(area, f"{body.name} has no area at the start")
         ring = vertices if area > 0 else vertices[::-1]
         edges = [*pairwise([*ring, ring[0]])]
         self.ahead.update(edges)
         if self.rigid[-1]:
             tracks = [self.scene.track(v, start.low) for v in vertices]
-            need(is_simple(start, tracks), "not simple at the start:", body.name)
+            require(is_simple(start, tracks), f"{body.name} is not simple at the start")
             self.rings.append(ring)
             self.solid.update(edges)
 
@@ -792,7 +763,7 @@ class Checker:
         for u, v in self.body_darts:
             require((u, v) in self.map.after, f"the body edge {u} {v} is missing")
         self.check_insides(self.ahead)
-        self.new_faces = set(self.map.faces)
+        self.new_faces = self.map.faces.copy()
         self.begin_lives((u, v, w) for (u, v), (_, w) in self.map.after.items())
 
     def check_insides(self, vertices: Iterable[int]) -> None:
@@ -813,8 +784,16 @@ class Checker:
                 self.life[v, w] = Life(u, self.now, self.line)
                 self.new_angles.add((v, w))
 
-    def event(self, time: Time, items: dict[str, list[list[int]]]) -> None:
+    def event(self, time: Time, words: list[str]) -> None:
         """Let all that happens at one time happen."""
+        items: dict[str, list[list[int]]] = {"-": [], "+": [], "=": []}
+        item: list[int] = []
+        for word in words:
+            if word in items:
+                item = []
+                items[word].append(item)
+            else:
+                item += self.vertices([word])
         removed, renewed = ([(u, v) for u, v in items[sort]] for sort in "-=")
         for u, v, *_ in [*items["-"], *items["+"]]:
             require((u, v) not in self.body_darts, f"the body edge {u} {v} cannot go or come")
@@ -831,7 +810,7 @@ class Checker:
         self.now = time
         self.new_faces = self.map.make_faces(gone | new | {(u, v) for u, v, _ in come})
         self.new_faces |= {self.map.face_of[v, w] for _, v, w in again}
-        self.outer = {f for f in self.outer if f in self.map.faces}
+        self.outer &= self.map.faces
         self.check_insides({v for _, v, _ in come if v in self.ahead})
         self.begin_lives([*come, *again])
 
@@ -871,17 +850,16 @@ class Checker:
                     vanishing.add(self.map.face_of[v, w])
             self.check_clusters(vanishing, self.now)
 
-    def check_face(self, f: int, sample: Fraction) -> None:
+    def check_face(self, face: Face, sample: Fraction) -> None:
         """Step 4."""
-        self.outer.discard(f)
-        face = self.map.faces[f]
+        self.outer.discard(face)
         if face and face[0] in self.solid:
             return
         kinds = [self.life[d].kind for d in face]
         convex = kinds.count(CONVEX)
         shown = " ".join(str(u) for u, _ in face)
         if convex == 0:
-            self.outer.add(f)
+            self.outer.add(face)
             return
         require(convex >= 3, f"the face {shown} has {convex} convex angles")
         require(FULL not in kinds, f"the face {shown} has a dead end")
@@ -897,7 +875,7 @@ class Checker:
         p, q = self.scene.at(u, t), self.scene.at(v, t)
         return q[0] - p[0], q[1] - p[1]
 
-    def end_lives(self, darts: Iterable[Dart], time: Time) -> set[int]:
+    def end_lives(self, darts: Iterable[Dart], time: Time) -> set[Face]:
         """Step 3 for lives that end at a time; the faces with an angle that vanishes then."""
         return {self.map.face_of[d] for d in sorted(darts) if self.end_life(d, time)}
 
@@ -925,13 +903,12 @@ class Checker:
     # what it comes to touch crosses diagonals, and shrinks to a point. So each face that it
     # crosses is not simple then, and has an angle that vanishes. The segment stays in a cluster.
 
-    def check_clusters(self, faces: set[int], time: Time) -> None:
+    def check_clusters(self, faces: set[Face], time: Time) -> None:
         """See that there is no contact in the clusters of these faces."""
         while faces:
-            todo = [faces.pop()]
-            cluster = set[Dart]()
+            todo, cluster = [faces.pop()], set[Dart]()
             while todo:
-                face = set(self.map.faces[todo.pop()])
+                face = set(todo.pop())
                 cluster |= face
                 across = {self.map.face_of[v, u] for u, v in face - self.body_darts} & faces
                 todo += across
@@ -965,18 +942,16 @@ class Checker:
 
     def check_contact(self, words: list[str], time: Time) -> str:
         """See that the contact is there at a time; what it is, in words."""
-        scene, start = self.scene, self.scene.start
-        kind = " ".join(w for w in words if not INTEGER.fullmatch(w))
-        numbers = [w for w in words if INTEGER.fullmatch(w)]
-        require(KINDS.get(kind) == len(numbers), f"a contact of an unknown kind: {' '.join(words)}")
+        scene, kind = self.scene, " ".join(w for w in words if w.isalpha())
+        numbers = [w for w in words if not w.isalpha()]
         if kind == "vertex inside":
-            require(numbers[1] in map(str, range(len(scene.bodies))), f"no body {numbers[1]}")
+            require(int(numbers[1]) < len(scene.bodies), f"there is no body {numbers[1]}")
             numbers[1:] = map(str, scene.bodies[int(numbers[1])].vertices)
         v = self.vertices(numbers)
         tracks, body, other = scene.tracks_at(v, time), scene.of(v[0]), scene.of(v[-1])
         p = [tracks[u] for u in v]
         edges = {(v[-2], v[-1]), (v[0], v[1])} if kind == "edge edge" else {(v[-2], v[-1])}
-        at_start = time.compare_rational(start) == 0 and body is not other
+        at_start = time.compare_rational(scene.start) == 0 and body is not other
         if kind == "vertex vertex":
             there = v[0] != v[1] and is_on(time, p[0], p[1], p[1])
         elif kind == "vertex edge":
@@ -984,7 +959,7 @@ class Checker:
         elif kind == "edge edge":
             there = at_start and edges <= self.body_darts and meet(time, *p)
         else:  # a ray to the right leaves the polygon an odd number of times
-            (x, y), *ring = (scene.at(u, start) for u in v)
+            (x, y), *ring = (scene.at(u, scene.start) for u in v)
             there = False
             for a, b in pairwise([*ring, ring[0]]):
                 if (a[1] > y) != (b[1] > y):
@@ -997,31 +972,46 @@ class Checker:
         return f"{one} with {f'the inside of {other.name}' if kind == 'vertex inside' else two}"
 
 
-# ---------------------------------------------------------------------------------------
-# The file.
+# ---- The file.
 
-KINDS = {"vertex vertex": 2, "vertex edge": 3, "vertex inside": 2, "edge edge": 4}
-INTEGER = re.compile(r"-?\d+", re.ASCII)
+R, V = r"-?[0-9]+(/[0-9]*[1-9][0-9]*)?", "[0-9]{1,9}"  # a rational, and a vertex or body
+TIME = f"{R} {R}( @( {V}){{2,3}}|( -?[0-9]+)*)"
+ITEM = f" -( {V}){{2}}| =( {V}){{2}}| [+]( {V}){{4}}"
+WHAT = f"vertex {V} (vertex|inside|edge {V}) {V}|edge {V} {V} edge {V} {V}"
+FORMS = {  # of lines, by their first words
+    "exactpt-proof": "exactpt-proof 1",
+    "scene": "scene sha256 [^ ]+",
+    "span": f"span {R} {R}",
+    **{kind: f"{kind}( {V})+" for kind in ("face", "inside", "outer")},
+    "event": f"event {TIME}({ITEM})*",
+    "contact": f"contact {TIME} ({WHAT})",
+    "none": "none",
+}
+STARTS = ("-", "+", "=", "vertex", "edge")  # of what follows the time in a line
+ORDER = "exactpt-proof scene span( face| inside| outer)*( event)* (contact|none)"
 
 
-def rational(word: str) -> Fraction:
-    """The rational that a word is."""
-    require(re.fullmatch(r"-?\d+(/0*[1-9]\d*)?", word, re.ASCII), f"not a rational: {word}")
-    return Fraction(word)
+def read(proof: bytes) -> list[tuple[int, list[str]]]:
+    """The numbers and words of the lines of a proof, all of which are in the format."""
+    rows = []
+    for i, line in enumerate(proof.decode().split("\n"), 1):
+        words = re.findall(r"[^ \t\r]+", line)
+        if words and not line.startswith("#"):
+            if not re.fullmatch(FORMS.get(words[0], "none"), " ".join(words)):
+                raise NoProofError(f"line {i} is not in the format")
+            rows.append((i, words))
+    if not re.fullmatch(ORDER, " ".join(words[0] for _, words in rows)):
+        raise NoProofError("the file is no proof, or the order of its lines is another one")
+    return rows
 
 
 def check(scene_file: bytes, proof_file: bytes) -> str:
     """Check a proof; what it proves. Raises `Rejected`, or `NoProofError`."""
     try:
-        text, lines = scene_file.decode("utf-8-sig"), proof_file.decode().splitlines()
+        rows, text = read(proof_file), scene_file.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise NoProofError("a file is not UTF-8") from None
-    rows = [(i, line.split()) for i, line in enumerate(lines, 1)]
-    rows = [(i, words) for i, words in rows if words and not words[0].startswith("#")]
-    digest = hashlib.sha256(scene_file).hexdigest()
-    if [words for _, words in rows[:1]] != [["exactpt-proof", "1"]]:
-        raise NoProofError("the first line is not: exactpt-proof 1")
-    if len(rows) < 4 or rows[1][1] != ["scene", "sha256", digest]:
+    if rows[1][1][2] != hashlib.sha256(scene_file).hexdigest():
         raise NoProofError("the proof is of another scene: the hash of its file is another one")
     checker = Checker(Scene(text))
     try:
@@ -1037,19 +1027,18 @@ def main(arguments: list[str]) -> int:
         if len(arguments) != 2:
             raise NoProofError("usage: python -m exactpt.proof_check SCENE PROOF")
         with open(arguments[0], "rb") as scene, open(arguments[1], "rb") as proof:
-            sys.stdout.write(printable(check(scene.read(), proof.read())) + "\n")
+            return say(check(scene.read(), proof.read()), 0, sys.stdout)
     except Rejected as verdict:
-        sys.stdout.write(f"{printable(str(verdict))}\n")
-        return 1
+        return say(str(verdict), 1, sys.stdout)
     except (NoProofError, OSError) as error:
-        sys.stderr.write(f"{printable(str(error))}\n")
-        return 2
-    return 0
+        return say(str(error), 2, sys.stderr)
 
 
-def printable(text: str) -> str:
-    """The text in ASCII, with escapes: names may hold controls for a terminal."""
-    return "".join(c if c.isascii() and c.isprintable() else ascii(c)[1:-1] for c in text)
+def say(text: str, code: int, file: TextIO) -> int:
+    """Print a line in ASCII, with escapes: names may hold controls for a terminal."""
+    shown = (c if c.isascii() and c.isprintable() else ascii(c)[1:-1] for c in text)
+    file.write("".join(shown) + "\n")
+    return code
 
 
 if __name__ == "__main__":

@@ -145,9 +145,14 @@ bool is_utf8(const std::string& bytes) {
     const int more = c < 0x80 ? 0 : c >= 0xc2 && c < 0xe0 ? 1 : c >= 0xe0 && c < 0xf0 ? 2
                      : c >= 0xf0 && c < 0xf5 ? 3 : -1;
     if (more < 0) return false;
-    for (int k = 0; k < more; ++k)
-      if (++i == bytes.size() || (static_cast<unsigned char>(bytes[i]) & 0xc0) != 0x80)
-        return false;
+    // Shorter forms of what follows, surrogates, and what is above U+10FFFF.
+    const unsigned char least = c == 0xe0 ? 0xa0 : c == 0xf0 ? 0x90 : 0x80;
+    const unsigned char most = c == 0xed ? 0x9f : c == 0xf4 ? 0x8f : 0xbf;
+    for (int k = 0; k < more; ++k) {
+      if (++i == bytes.size()) return false;
+      const auto next = static_cast<unsigned char>(bytes[i]);
+      if (next < (k == 0 ? least : 0x80) || next > (k == 0 ? most : 0xbf)) return false;
+    }
     ++i;
   }
   return true;
@@ -200,7 +205,7 @@ ProofText parse_proof(const std::string& bytes) {
       proof.events.push_back(read_event(words));
     } else if (words.accept("face") || words.accept("inside") || words.accept("outer")) {
       if (!proof.events.empty()) words.fault("faces come before events");
-      proof.faces.push_back({words.number(), {}});
+      proof.faces.push_back({words.number(), {words.index()}});
       while (!words.at_end()) proof.faces.back().vertices.push_back(words.index());
     } else {
       words.fault("not a line of a proof: " + shown(words.look()));

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <functional>
+#include <istream>
 #include <iterator>
 #include <optional>
 #include <sstream>
@@ -167,11 +169,9 @@ int verify(const Call& call) {
   return 0;
 }
 
-}  // namespace
-
-int verify(int count, const char* const* arguments) {
+int guarded(const std::function<int()>& verification) {
   try {
-    return verify(read_call({arguments, arguments + count}));
+    return verification();
   } catch (const NoProof& fault) {
     answer(std::string("no proof: ") + fault.what());
     return 2;
@@ -179,6 +179,19 @@ int verify(int count, const char* const* arguments) {
     answer(std::string("error internal: ") + fault.what());
     return 3;
   }
+}
+
+}  // namespace
+
+int verify(int count, const char* const* arguments) {
+  return guarded([&] { return verify(read_call({arguments, arguments + count})); });
+}
+
+int verify_each(std::istream& calls) {
+  Call call;
+  while (std::getline(calls, call.scene) && std::getline(calls, call.proof))
+    guarded([&] { return verify(call); });
+  return 0;
 }
 
 }  // namespace proof

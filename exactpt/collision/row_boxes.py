@@ -157,7 +157,7 @@ class RowBoxes:
 
         Infinite if none moves relative to the drift; perhaps NaN.
         """
-        there = self._c + self._v * now
+        there = 0.5 * (self._low + self._high) + self._c + self._v * now
         gap = np.hypot(*np.ptp(there, axis=0)) / np.sqrt(len(there))
         return float(gap / np.hypot(*(self._v - self.drift).T).mean())
 
@@ -193,13 +193,14 @@ def near_boxes(boxes: RowBoxes, start: QQ, end: QQ) -> Iterator[tuple[float, int
     bodies = len(set(boxes.body.tolist()))
     step = min(span, PIECES * span * bodies / len(boxes))
     stride = boxes.stride(now)
-    step = max(least, min(step, stride)) if stride > 0.0 else step
+    step = max(least, min(step, 4.0 * stride)) if stride > 0.0 else step
     seen: set[tuple[int, int]] = set()
     while now < last:
         ask()
         later = min(now + step, last)
         active, first, second = _meeting(boxes, now, later)
-        while len(first) > 2 * active + 64 and step > least and later > now:
+        many = 8 * active + 64  # comparing boxes in one slab costs little: numpy does it
+        while len(first) > many and step > least and later > now:
             shorter = min(now + step / 4, last)
             fewer = _meeting(boxes, now, shorter)
             if 2 * len(fewer[1]) > len(first):
@@ -212,8 +213,8 @@ def near_boxes(boxes: RowBoxes, start: QQ, end: QQ) -> Iterator[tuple[float, int
             if (i, j) not in seen:
                 seen.add((i, j))
                 yield time, i, j
-        if 4 * len(first) < 2 * active + 64:
-            step *= 2
+        if len(first) < many:
+            step *= 4
         if not later > now:
             later = float(np.nextafter(now, np.inf))
         now = later

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from fractions import Fraction
-from itertools import pairwise
-from typing import TYPE_CHECKING, Final, Literal, NamedTuple, final, overload
+from typing import TYPE_CHECKING, Final, Literal, final, overload
 
 from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.geometry.polygon import edges
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import (
     QQ,
     Rational,
@@ -26,23 +23,21 @@ from exactpt.kernel.numbers import (
     show,
 )
 from exactpt.kernel.quotients import decimal_quotient
+from exactpt.motion.course import Course, Piece
 from exactpt.motion.local_time import Velocity
 from exactpt.motion.motions import (
     REST,
     Motion,
     Pieces,
     Position,
-    SimpleMotion,
-    Translation,
     made,
 )
 from exactpt.motion.shape import Keyframe, Keyframes, Shape, VertexLike
-from exactpt.motion.track import Track
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["Body", "BodyPiece", "is_text", "refuse_rounded"]
+__all__ = ["Body", "is_text", "refuse_rounded"]
 
 _PLAIN: Final = (int, float)
 _SHARP: Final = QQ(0)
@@ -68,18 +63,6 @@ def refuse_rounded(bodies: Iterable[Body]) -> None:
                 f"body {shorten(body.name)} has a radius: no tiling holds rounded bodies; "
                 "their contacts are found by pairs (first_contact, collide)"
             )
-
-
-class BodyPiece(NamedTuple):
-    """The motion of a body up to a time.
-
-    Attributes:
-        until: the last time of the piece; None if it has no end.
-        tracks: the trajectory of each vertex, in the order of the scene.
-    """
-
-    until: QQ | None
-    tracks: tuple[Track, ...]
 
 
 @final
@@ -109,16 +92,7 @@ class Body:
         InputError: if the arguments do not describe a body, or the motion jumps.
     """
 
-    __slots__ = (
-        "_breakpoints",
-        "_last",
-        "_pieces",
-        "_radius",
-        "_shape",
-        "closed",
-        "motion",
-        "name",
-    )
+    __slots__ = ("_course", "_radius", "_shape", "closed", "name")
 
     def __init__(
         self,
@@ -140,9 +114,9 @@ class Body:
         self._radius = _read_radius(name, radius)
         try:
             self._shape = Shape(vertices, keyframes, ring=closed)
+            self._course = Course(self._shape, motion)
         except InputError as error:
             raise InputError(f"body {shorten(name)}: {error}") from None
-        self._set_motion(motion)
 
     @classmethod
     def from_shapely(
@@ -210,19 +184,16 @@ class Body:
         other = Body.__new__(Body)
         other.name, other.closed = self.name, self.closed
         other._shape, other._radius = self._shape, self._radius
-        other._set_motion(motion)  # noqa: SLF001
+        try:
+            other._course = Course(self._shape, motion)  # noqa: SLF001
+        except InputError as error:
+            raise InputError(f"body {shorten(self.name)}: {error}") from None
         return other
 
-    def _set_motion(self, motion: Motion) -> None:
-        self.motion = motion
-        ends = {frame.t for frame in self._shape.keyframes}
-        if isinstance(motion, Pieces):
-            ends.update(motion._until)
-        self._breakpoints: tuple[QQ, ...] = tuple(sorted(ends))
-        self._pieces: dict[QQ | None, BodyPiece] = {}
-        self._last: tuple[QQ, list[tuple[QQ, QQ]]] | None = None
-        if isinstance(motion, Pieces):
-            self._check_continuity(motion)
+    @property
+    def motion(self) -> Motion:
+        """The motion of the shape."""
+        return self._course.motion
 
     @property
     def size(self) -> int:
@@ -262,14 +233,15 @@ class Body:
         """The rational times at which the formulas of the trajectories change, in order."""
         return fractions(self._breakpoints)
 
-    def _piece_after(self, t: QQ) -> BodyPiece:
-        """The piece of motion just after a rational time."""
-        ended = bisect_right(self._breakpoints, t)
-        end = self._breakpoints[ended] if ended < len(self._breakpoints) else None
-        if end not in self._pieces:
-            tracks = self._tracks(self._shape.after(t), self._motion_after(t))
-            self._pieces[end] = BodyPiece(end, tracks)
-        return self._pieces[end]
+    @property
+    def _breakpoints(self) -> tuple[QQ, ...]:
+        return self._course.breakpoints
+
+    def _piece_after(self, t: QQ) -> Piece:
+        return self._course.after(t)
+
+    def _at(self, t: QQ) -> list[tuple[QQ, QQ]]:
+        return self._course.at(t)
 
     @overload
     def at(self, t: Rational) -> list[tuple[Fraction, Fraction]]: ...
@@ -299,43 +271,6 @@ class Body:
             )
             for p in tracks
         ]
-
-    def _at(self, t: QQ) -> list[tuple[QQ, QQ]]:
-        """The positions at a time; those at the last time asked for are cached."""
-        last = self._last  # one read: other threads may share the body
-        if last is None or last[0] != t:
-            self._last = last = t, [track._at(t) for track in self._piece_after(t).tracks]
-        return last[1][:]
-
-    def _tracks(self, shape: Sequence[Position], motion: SimpleMotion) -> tuple[Track, ...]:
-        tracks = []
-        for position in shape:
-            ask()
-            tracks.append(motion.track(position))
-        return tuple(tracks)
-
-    def _motion_after(self, t: QQ) -> SimpleMotion:
-        if not isinstance(self.motion, Pieces):
-            return self.motion
-        return self.motion.motions[bisect_right(self.motion._until, t)]
-
-    def _check_continuity(self, motion: Pieces) -> None:
-        for t, (before, after) in zip(motion._until, pairwise(motion.motions), strict=True):
-            if (
-                isinstance(before, Translation)
-                and isinstance(after, Translation)
-                and before._at(t) == after._at(t)
-            ):
-                continue
-            shape = self._shape.after(t)
-            for i, (a, b) in enumerate(
-                zip(self._tracks(shape, before), self._tracks(shape, after), strict=True)
-            ):
-                if a._at(t) != b._at(t):
-                    raise InputError(
-                        f"body {shorten(self.name)}: vertex {i} jumps at t = {show(t)} "
-                        f"from {show(*a._at(t))} to {show(*b._at(t))}"
-                    )
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Body):

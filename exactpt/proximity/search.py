@@ -29,7 +29,7 @@ from exactpt.proximity.features import Feature, FeaturePair
 from exactpt.proximity.stretches import segments_of
 from exactpt.scene.scene import Scene
 
-__all__ = ["Apart", "ApproachSearch", "Limit", "Nearest", "near_at_start", "within_at_start"]
+__all__ = ["Apart", "Approach", "ApproachSearch", "Limit", "near_at_start", "within_at_start"]
 
 Indices: TypeAlias = NDArray[np.int64]
 Limit: TypeAlias = Callable[[int, int], QQ]
@@ -41,13 +41,13 @@ SLABS: Final = 32
 """Number of initial slabs in the time span."""
 FEW: Final = 4
 """Number of pairs of a vertex and an edge that exact arithmetic takes over."""
-IDLE: Final = 2
-"""Maximum number of bisections in a row that leave more than three quarters of the pairs."""
 DEPTH: Final = 12
 """Maximum number of bisections of a slab."""
+LASTING: Final = 2
+"""Number of bisections, one after the other, that exclude too little to go on."""
 
 
-class Nearest(NamedTuple):
+class Approach(NamedTuple):
     """The first time at which bodies are within their distance.
 
     Attributes:
@@ -116,15 +116,15 @@ class ApproachSearch:
         self._body: Indices = np.array([self._vertices.all[v].body for v in ids])
         self._read_tracks()
 
-    def run(self) -> Nearest | None:
+    def run(self) -> Approach | None:
         """The first approach in the closed time span; None if there is none."""
         near = near_at_start(self._scene, self._reach, self._apart)
         pairs = tuple(ij for ij, _ in within_at_start(self._scene, self._squared, near))
         if pairs:
-            return Nearest(AlgebraicNumber(self._scene._start), pairs)
+            return Approach(AlgebraicNumber(self._scene._start), pairs)
         return self.run_after_start()
 
-    def run_after_start(self) -> Nearest | None:
+    def run_after_start(self) -> Approach | None:
         """The first approach, if no two bodies are within their distance at the start."""
         now, end = self._scene._start, self._scene._end
         # Shorter slabs are no help to vertices without boxes.
@@ -141,7 +141,7 @@ class ApproachSearch:
                 if 2 * len(fewer[0]) > len(near[0]):
                     break  # these pairs stay near each other: a shorter slab is no help
                 step, later, near = step / 4, shorter, fewer
-            found = self._search(now, later, near)
+            found = self._search(now, later, self._left(now, later, near), DEPTH)
             if found is not None:
                 return found
             if 4 * len(near[0]) < len(self._ids):
@@ -200,24 +200,32 @@ class ApproachSearch:
         return np.concatenate(vs), np.concatenate(es)
 
     def _search(
-        self, now: QQ, later: QQ, near: tuple[Indices, Indices], depth: int = DEPTH, idle: int = 0
-    ) -> Nearest | None:
+        self, now: QQ, later: QQ, near: tuple[Indices, Indices], depth: int, lasting: int = 0
+    ) -> Approach | None:
         """The first approach in (now, later] of vertices to edges, given by their numbers.
 
-        After so many bisections, or ``idle`` ones that have left most pairs, the rest is decided.
+        Pairs that hover at about their distance are near in both halves of every interval: exact
+        arithmetic decides these, too.
         """
-        v, e = near
-        may = self._may_be_near(self._boxes(now, later), v, e)
-        v, e = v[may], e[may]
-        if not len(v):
+        count = len(near[0])
+        if not count:
             return None
-        idle = idle + 1 if 4 * len(v) > 3 * len(near[0]) else 0
-        if len(v) <= FEW or not depth or idle > IDLE:
-            return self._decide(now, later, v, e)
+        if count <= FEW or not depth or lasting == LASTING:
+            return self._decide(now, later, *near)
         middle = (now + later) / 2
-        return self._search(now, middle, (v, e), depth - 1, idle) or self._search(
-            middle, later, (v, e), depth - 1, idle
-        )
+        halves = [(a, b, self._left(a, b, near)) for a, b in ((now, middle), (middle, later))]
+        excluded = 2 * count - sum(len(left[0]) for _, _, left in halves)
+        lasting = 0 if 2 * excluded >= count else lasting + 1
+        for begin, end, left in halves:
+            found = self._search(begin, end, left, depth - 1, lasting)
+            if found is not None:
+                return found
+        return None
+
+    def _left(self, now: QQ, later: QQ, near: tuple[Indices, Indices]) -> tuple[Indices, Indices]:
+        """Those pairs that may be near in [now, later]."""
+        may = self._may_be_near(self._boxes(now, later), *near)
+        return near[0][may], near[1][may]
 
     @np.errstate(all="ignore")
     def _may_be_near(self, boxes: Boxes, v: Indices, e: Indices) -> NDArray[np.bool_]:
@@ -246,7 +254,7 @@ class ApproachSearch:
         may: NDArray[np.bool_] = ~(bound > 64.0 * U * size)  # NaN: it may
         return may
 
-    def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> Nearest | None:
+    def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> Approach | None:
         """The first approach, exactly."""
         begin = AlgebraicNumber(now)
         found: list[tuple[AlgebraicNumber, tuple[int, int]]] = []
@@ -263,7 +271,7 @@ class ApproachSearch:
                     break
         if best is None:
             return None
-        return Nearest(best, tuple(sorted({ij for t, ij in found if t.compare(best) == 0})))
+        return Approach(best, tuple(sorted({ij for t, ij in found if t.compare(best) == 0})))
 
     def _feature_pairs(
         self, v: Indices, e: Indices

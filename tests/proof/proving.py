@@ -26,6 +26,8 @@ def in_python(scene, proof):
         return proof_check.check(scene, proof)
     except proof_check.Rejected as rejected:
         return str(rejected)
+    except proof_check.NoProofError as refused:
+        return f"rejected: {refused}"
 
 
 def in_cpp(scene, proof):

@@ -184,6 +184,28 @@ def test_distances_beyond_the_range_of_doubles(norm, d):
         assert found == (None if least is None else Approach(least, pairs))
 
 
+def test_bodies_that_hover_are_decided_exactly_in_few_intervals(monkeypatch):
+    """Without a limit, all intervals would be halved to the end: 130,000 of them."""
+    asked = []
+    may_be_near = ApproachSearch._may_be_near
+
+    def counted(self, *arguments):
+        asked.append(len(arguments[-1]))
+        return may_be_near(self, *arguments)
+
+    monkeypatch.setattr(ApproachSearch, "_may_be_near", counted)
+    hub = Body("hub", [(0, 0), (1, 0), (1, 1), (0, 1)])
+    arms = [Body(f"a{i}", [(2 + i, 0), (2 + i, 2)], Rigid([0, 1], pivot=(0, 0))) for i in range(4)]
+    scene = Scene([hub, *arms], (-2, 2))
+
+    assert search(scene, QQ(1, 2)) is None
+    # Distances keep to themselves; one that another pair keeps is larger than those of some.
+    half = [QQ(1, 2)] * len(scene.bodies)
+    found = ApproachSearch(scene, lambda _, j: QQ(1, 9) if j > 1 else QQ(0), half).run()
+    assert found is None
+    assert len(asked) < 2000
+
+
 def test_bodies_that_stay_apart():
     scene = Scene([Body("p", [(0, 0)]), Body("q", [(5, 0)])])
     for norm in ("euclidean", "max", "x"):
