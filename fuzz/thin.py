@@ -30,5 +30,8 @@ def _part(body: Body, rng: Random) -> Body:
     chosen = [(first + i) % body.size for i in range(size)]
     if body.keyframes:
         frames = [(f.t, [f.vertices[i] for i in chosen]) for f in body.keyframes]
-        return Body(body.name, None, body.motion, closed=False, keyframes=frames)
-    return Body(body.name, [body.vertices[i] for i in chosen], body.motion, closed=False)
+        return Body(
+            body.name, None, body.motion, closed=False, keyframes=frames, radius=body.radius
+        )
+    vertices = [body.vertices[i] for i in chosen]
+    return Body(body.name, vertices, body.motion, closed=False, radius=body.radius)

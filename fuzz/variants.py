@@ -15,6 +15,7 @@ from exactpt.collision.contact import Contact, Pair
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, ZZ, power_of_two
 from exactpt.kernel.polynomial import Polynomial
+from exactpt.kernel.square_root import exact_square_root
 from exactpt.motion.body import Body
 from exactpt.motion.motions import (
     Affine,
@@ -105,9 +106,20 @@ class Variant:
                 for f in body.keyframes
             ]
             frames.sort(key=lambda frame: frame[0])
-            return Body(self.name(body.name), None, motion, closed=body.closed, keyframes=frames)
+            return Body(
+                self.name(body.name), None, motion, closed=body.closed, keyframes=frames,
+                radius=self._length(body.radius),
+            )  # fmt: skip
         vertices = [self._position(body.vertices[i]) for i in order]
-        return Body(self.name(body.name), vertices, motion, closed=body.closed)
+        radius = self._length(body.radius)
+        return Body(self.name(body.name), vertices, motion, closed=body.closed, radius=radius)
+
+    def _length(self, length: QQ) -> QQ:
+        (a, _), (c, _) = self.matrix
+        factor = exact_square_root(a * a + c * c)
+        if factor is None:
+            raise ValueError(f"an irrational similarity: {self.matrix}")
+        return factor * length
 
     def _pieces(self, pieces: Pieces) -> Pieces:
         ends = [self.rate * t + self.delay for t in pieces.until]

@@ -45,7 +45,8 @@ class Difference(Exception):  # noqa: N818 - what was found, the purpose of it a
 def reference(scene: Scene, turn: int | None) -> None:  # noqa: ARG001 - always all
     """The first contact is the same however it is asked for, and by the all-pairs reference."""
     expected = first_contact_allpairs(scene)
-    for name in ("auto", "pairs", *tilings_of(scene)):
+    others = ["exact"] if scene.is_rounded else tilings_of(scene)
+    for name in ("auto", "pairs", *others):
         found = contact_by(scene, name)
         if kind := contrast(expected, found):
             said = f"{in_words(found)}, but the reference {in_words(expected)}"
@@ -53,11 +54,11 @@ def reference(scene: Scene, turn: int | None) -> None:  # noqa: ARG001 - always 
 
 
 def contact_by(scene: Scene, name: str) -> Contact | None:
-    """The first contact by default, by pairs of features, or by the tiling with this name."""
+    """The first contact by default, by pairs, exactly by pairs, or by the tiling of a name."""
     if name == "auto":
         return first_contact(scene)
-    if name == "pairs":
-        return PairsSearch(scene).run_to_contact()
+    if name in ("pairs", "exact"):
+        return PairsSearch(scene, exact_only=name == "exact").run_to_contact()
     return first_contact(scene, tiling=name)
 
 
@@ -95,11 +96,10 @@ def symmetry(scene: Scene, turn: int | None) -> None:
     for i, (name, variant) in enumerate(VARIANTS.items()):
         if turn is not None and i % stride != turn % stride:
             continue
-        if name == "backwards" and contact is not None:
-            continue
-        found = first_contact(
-            variant.scene(scene), tiling=tilings[(i + (turn or 0)) % len(tilings)]
-        )
+        if name == "backwards" and (contact is not None or scene.is_rounded):
+            continue  # a rounded body may have closed on itself at the end
+        tiling = tilings[(i + (turn or 0)) % len(tilings)] if tilings else "auto"
+        found = first_contact(variant.scene(scene), tiling=tiling)
         if kind := difference(variant, scene, contact, found):
             said = f"{in_words(found)}, but the original {in_words(contact)}"
             raise Difference(f"{name}: {kind}", said)
@@ -154,12 +154,12 @@ WITNESSES: Final[dict[str, Witness]] = {
 
 
 def tilings_of(scene: Scene) -> list[str]:
-    """The tilings that must support a scene."""
-    return tilings_for(scene)
+    """The tilings that must support a scene; none holds rounded bodies."""
+    return [] if scene.is_rounded else tilings_for(scene)
 
 
 def _with_tilings(scene: Scene, check: Callable[[str], None], turn: int | None) -> None:
     """Check with each tiling, or with the one selected by ``turn``."""
     names = tilings_of(scene)
-    for name in names if turn is None else [names[turn % len(names)]]:
+    for name in names if turn is None or not names else [names[turn % len(names)]]:
         check(name)

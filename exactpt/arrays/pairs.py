@@ -13,6 +13,7 @@ from exactpt.arrays.exact import exact
 from exactpt.arrays.motions import relative_motions
 from exactpt.arrays.outlines import outlines_of
 from exactpt.arrays.spans import read_spans
+from exactpt.arrays.undecided import search
 from exactpt.errors import InputError
 from exactpt.kernel.doubles import Indices, first_true, indices
 from exactpt.kernel.numbers import QQ
@@ -34,6 +35,7 @@ def first_contacts(
     velocities: ArrayLike | None = None,
     coefficients: ArrayLike | None = None,
     closed: ArrayLike = True,
+    radii: ArrayLike = 0.0,
     time: ArrayLike = (0.0, 1.0),
 ) -> Contacts:
     """The first contacts of pairs of bodies, of each pair for itself.
@@ -59,6 +61,8 @@ def first_contacts(
             in t with these coefficients, constant first. Filters decide where the relative
             motion has degree 1 or 2, or boxes are apart.
         closed: for each body or for all, False for an open chain.
+        radii: for each body or for all, its radius. If one is not 0, each pair is searched by
+            itself: a few thousand a second.
         time: the start and the end of the closed time span, or of shape (m, 2) one for each pair.
 
     Raises:
@@ -66,7 +70,12 @@ def first_contacts(
             or a body of a pair is not simple.
     """
     bodies = BodyArrays(
-        vertices, offsets, velocities=velocities, coefficients=coefficients, closed=closed
+        vertices,
+        offsets,
+        velocities=velocities,
+        coefficients=coefficients,
+        closed=closed,
+        radii=radii,
     )
     ij = _pairs(pairs, len(bodies))
     spans = read_spans(time, len(ij))
@@ -81,6 +90,10 @@ def first_contacts(
         return scene_of((bodies.make(i), bodies.make(j)), start, end)
 
     contacts = Contacts(len(ij), scene)
+    if bodies.radii.any():
+        for k in range(len(ij)):
+            search(contacts, k)
+        return contacts
     outlines = outlines_of(bodies)
     for first in range(0, len(ij), BLOCK):
         last = min(first + BLOCK, len(ij))

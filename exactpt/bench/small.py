@@ -61,6 +61,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     for title, ask in (
         ("two triangles", _triangles),
         ("a crowd", _crowd),
+        ("discs", _discs),
         ("plans", _plans),
         ("pieces", _pieces),
     ):
@@ -191,6 +192,32 @@ def _crowd(output: Output, sizes: Sizes, rng: Random) -> list[Row]:  # noqa: ARG
         least = min(least, seconds)
         _audit(question, [_time(contact)], expected)
     return [*rows, _row(question, "exactpt, auto", least, 1, expected, 0.0)]
+
+
+def _asked(scene: Scene) -> Times:
+    return [_time(first_contact(scene))]
+
+
+def _discs(output: Output, sizes: Sizes, rng: Random) -> list[Row]:  # noqa: ARG001
+    """A crowd of discs, and of the octagons in them: their first contacts."""
+    width = math.isqrt(sizes.bodies - 1) + 1
+    given = [
+        (4.0 * (i % width) + rng.random(), 4.0 * (i // width) + rng.random(), _velocity(rng))
+        for i in range(sizes.bodies)
+    ]
+    corners = [(math.cos(k * math.pi / 4), math.sin(k * math.pi / 4)) for k in range(8)]
+    rows: list[Row] = []
+    for what, shape, radius in (("octagons", corners, 0), ("discs", [(0.0, 0.0)], 1)):
+        bodies = [
+            Body(f"b{i}", [(x + u, y + v) for u, v in shape], motion, radius=radius)
+            for i, (x, y, motion) in enumerate(given)
+        ]
+        scene = Scene(bodies, (0, 10))
+        expected = [_time(first_contact(scene, exact_only=True))]
+        least, found = _least(partial(_asked, scene), sizes.runs)
+        _audit(what, found, expected)
+        rows.append(_row(f"{sizes.bodies} {what}", "exactpt, auto", least, 1, found, 0.0))
+    return rows
 
 
 def _plans(output: Output, sizes: Sizes, rng: Random) -> list[Row]:  # noqa: ARG001

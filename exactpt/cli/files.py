@@ -43,9 +43,8 @@ _FEW = 3
 @click.option(
     "--tolerance",
     type=float,
-    default=0.1,
-    show_default=True,
-    help="SVG: maximum distance of a chord from its curve, in units of the drawing.",
+    help="Maximum distance of a chord from its curve: by default 0.1 in an SVG that is read, a "
+    "hundredth of the radius of a rounded body that is written.",
 )
 @click.option(
     "--holes",
@@ -62,7 +61,7 @@ def convert(
     target: Path,
     at: QQ | None,
     time: tuple[QQ, QQ],
-    tolerance: float,
+    tolerance: float | None,
     holes: Literal["refuse", "fill"],
     skip_invalid: bool,
     quiet: bool,
@@ -90,7 +89,7 @@ def convert(
 
     if time[0] >= time[1]:
         raise InputError(f"--time: the span from {show(time[0])} to {show(time[1])} is empty")
-    idle = _typed("time", "tolerance", "holes", "skip_invalid")
+    idle = _typed("time", "holes", "skip_invalid")
 
     left_out: list[str] = []
     with time_limit(max_seconds, max_memory()):
@@ -99,7 +98,7 @@ def convert(
         scene = read_shapes(
             source,
             time=time,
-            tolerance=tolerance,
+            tolerance=0.1 if tolerance is None else tolerance,
             holes=holes,
             skipped=left_out.append if skip_invalid else None,
             max_bytes=max_bytes(),
@@ -108,7 +107,9 @@ def convert(
         is_scene = target.suffix.lower() == ".json"
         if is_scene and not quiet:
             remarks += _what_touches(scene)
-        write_shapes(scene, target, at)
+        if _typed("tolerance") and not scene.is_rounded and holds_scene(source, max_bytes()):
+            raise InputError(f"--tolerance: {source} is a scene, which is read as it is")
+        write_shapes(scene, target, at, tolerance=tolerance)
     if not quiet:
         for line in remarks:
             tell(line)
@@ -148,9 +149,14 @@ class _WithFamilies(click.Command):
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the families, grouped by the kind of bodies."""
         super().format_epilog(ctx, formatter)
-        from exactpt.scene.generate import CONVEX, POINTS, SIMPLE
+        from exactpt.scene.generate import CONVEX, POINTS, ROUNDED, SIMPLE
 
-        rooms = {"Convex bodies": CONVEX, "Simple polygons": SIMPLE, "Points": POINTS}
+        rooms = {
+            "Convex bodies": CONVEX,
+            "Simple polygons": SIMPLE,
+            "Points": POINTS,
+            "Rounded bodies": ROUNDED,
+        }
         for room, families in rooms.items():
             with formatter.section(room):
                 formatter.write_dl(
@@ -174,10 +180,10 @@ def generate(family: str, seed: int, output: Path | None) -> int:
       exactpt generate grids_passing --seed 7 -o grids.json
     """
     from exactpt.scene.format import save, to_json
-    from exactpt.scene.generate import FAMILIES, POINTS
+    from exactpt.scene.generate import FAMILIES, POINTS, ROUNDED
     from exactpt.scene.generate import generate as generated
 
-    names = FAMILIES | POINTS
+    names = FAMILIES | POINTS | ROUNDED
     if family not in names:
         near = get_close_matches(family, names, n=3) or ["convex"]
         raise InputError(f"no family {family!r}: perhaps {' or '.join(near)} (all: --help)")

@@ -1,18 +1,26 @@
 """Reference search for the first contact: every vertex against every edge, in exact arithmetic.
 
 It follows the definition of a contact and uses neither a tiling nor a float filter; it shares
-only the kernel and the trajectories with the tilings.
+only the kernel and the trajectories with the tilings. Where a body has a radius,
+`exactpt.collision.rounded_reference` has the definition; such a body does not touch itself.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import combinations
 
 from exactpt.collision.contact import Contact, contact_of, tracks_before
+from exactpt.collision.rounded_reference import (
+    core_distance,
+    first_at_distance,
+    touches_at_distance,
+)
 from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
+from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, coincide, difference, lies_on, orientation
 from exactpt.motion.track import Track
 from exactpt.scene.scene import Scene
@@ -25,10 +33,8 @@ def first_contact_allpairs(scene: Scene) -> Contact | None:
     start = AlgebraicNumber(scene._start)
     overlaps = _overlapping_at_start(scene)
     if overlaps:
-        touches = touches_at(
-            scene, [b._piece_after(scene._start).tracks for b in scene.bodies], start
-        )
-        return contact_of(scene, start, touches, overlaps)
+        tracks = [b._piece_after(scene._start).tracks for b in scene.bodies]
+        return contact_of(scene, start, touches_at(scene, tracks, start), overlaps)
     best: AlgebraicNumber | None = None
     for i in range(len(scene.bodies)):
         for j in range(i + 1):
@@ -41,6 +47,10 @@ def first_contact_allpairs(scene: Scene) -> Contact | None:
     return contact_of(scene, best, touches_at(scene, tracks_before(scene, best), best))
 
 
+def _reach(a: Body, b: Body) -> QQ:
+    return a._radius + b._radius
+
+
 def _first_between(scene: Scene, i: int, j: int, until: QQ) -> AlgebraicNumber | None:
     """The first time in (start, until] at which bodies i and j touch (i == j: a self-contact)."""
     a, b = scene.bodies[i], scene.bodies[j]
@@ -48,6 +58,12 @@ def _first_between(scene: Scene, i: int, j: int, until: QQ) -> AlgebraicNumber |
     begin = scene._start
     for end in (*ends, until):
         p, q = a._piece_after(begin).tracks, b._piece_after(begin).tracks
+        if _reach(a, b):
+            met = None if i == j else first_at_distance(a, b, p, q, (begin, end))
+            if met is not None:
+                return met
+            begin = end
+            continue
         pairs = _vertex_edge_pairs(p, q, b.edges, same=i == j)
         if i != j:
             pairs += _vertex_edge_pairs(q, p, a.edges, same=False)
@@ -107,10 +123,22 @@ def _meetings(
 def touches_at(
     scene: Scene, tracks: list[tuple[Track, ...]], time: AlgebraicNumber
 ) -> Iterator[Touch]:
-    """Every incidence of a vertex with a vertex or an edge at a time."""
+    """Every incidence of a vertex with a vertex or an edge at a time.
+
+    Of rounded bodies: of features at the sum of the radii, unless the bodies overlap at the start.
+    """
     bodies = scene.bodies
+    for i, j in combinations(range(len(bodies)), 2):
+        reach = _reach(bodies[i], bodies[j])
+        overlap = time.compare_rational(scene._start) == 0 and (
+            core_distance(bodies[i], bodies[j], scene._start) < reach**2
+        )
+        if reach and not overlap:
+            yield from touches_at_distance(bodies, tracks, (i, j), time)
     for i, p in enumerate(tracks):
         for j, q in enumerate(tracks):
+            if _reach(bodies[i], bodies[j]):
+                continue
             for v, track in enumerate(p):
                 on_vertex = [
                     w
@@ -133,6 +161,10 @@ def _overlapping_at_start(scene: Scene) -> list[tuple[int, int]]:
     found = []
     for j, b in enumerate(scene.bodies):
         for i, a in enumerate(scene.bodies[:j]):
+            if _reach(a, b):
+                if core_distance(a, b, scene._start) <= _reach(a, b) ** 2:
+                    found.append((i, j))
+                continue
             crossing = any(
                 segments_meet(points[i][u], points[i][v], points[j][x], points[j][y])
                 for u, v in a.edges or [(0, 0)]

@@ -18,7 +18,7 @@ from exactpt.proximity.near import pairs_that_come_near
 from exactpt.proximity.search import Approach as Found
 from exactpt.proximity.search import ApproachSearch
 from exactpt.proximity.stretches import two_bodies
-from exactpt.proximity.within import Norm, asked_distance, time_within
+from exactpt.proximity.within import Norm, asked_distance, of_cores, time_within
 from exactpt.scene.scene import Scene, scene_of
 
 __all__ = ["Approach", "first_within"]
@@ -96,13 +96,15 @@ def first_within(
             between the projections of the bodies on that axis. To leave it out for two bodies
             means "max", and is deprecated.
         distance_squared: the square of the distance, instead of it, so that the square root of
-            a rational number can be asked for; for the Euclidean norm.
+            a rational number can be asked for; for the Euclidean norm. (Of rounded bodies it must
+            be the square of a rational number.)
 
     Returns:
         The exact time, of any two bodies with the pairs; None if the bodies stay farther apart.
 
     Raises:
-        InputError: if there is no such body or norm, or the distance is negative.
+        InputError: if there is no such body or norm, the distance is negative, or a body is
+            rounded and the norm is "max".
     """
     if a is not None and b is not None and norm is None:
         warnings.warn(
@@ -146,7 +148,7 @@ def _on_axis(scene: Scene, d: QQ, norm: Literal["x", "y"]) -> Found | None:
     spans: list[tuple[QQ, QQ, int]] = []
     for i, body in enumerate(scene.bodies):
         places = [point[axis] for point in body._at(scene._start)]
-        spans.append((min(places), max(places), i))
+        spans.append((min(places) - body._radius, max(places) + body._radius, i))
     spans.sort()
     near: list[tuple[int, int]] = []
     for k, (_, high, i) in enumerate(spans):
@@ -184,10 +186,22 @@ def _by_pairs(
 
 def _euclidean(scene: Scene, squared: QQ) -> Found | None:
     most = _root_above(squared)
+    if scene.is_rounded:
+        return _of_rounded(scene, squared, most)
     rows = rows_of(scene) if len(scene.bodies) > MANY else None
     if rows is not None:
         return _of_rows(scene, rows, squared, most)
-    return ApproachSearch(scene, lambda _, __: squared, most).run()
+    return ApproachSearch(scene, lambda _, __: squared, [most / 2] * len(scene.bodies)).run()
+
+
+def _of_rounded(scene: Scene, squared: QQ, most: QQ) -> Found | None:
+    """The first approach, some of the bodies being rounded."""
+    radii = [body._radius for body in scene.bodies]
+
+    def limit(i: int, j: int) -> QQ:
+        return of_cores(squared, radii[i] + radii[j], "euclidean")
+
+    return ApproachSearch(scene, limit, [most / 2 + r for r in radii]).run()
 
 
 def _root_above(squared: QQ) -> QQ:
@@ -226,7 +240,8 @@ def _of_some(
     """The first approach of some bodies, by number, in [begin, end]."""
     numbers = sorted(among)
     part = scene_of([scene.bodies[i] for i in numbers], begin, end)
-    found = ApproachSearch(part, lambda _, __: squared, most).run() if numbers else None
+    half = [most / 2] * len(numbers)
+    found = ApproachSearch(part, lambda _, __: squared, half).run() if numbers else None
     if found is None:
         return None
     return Found(found.time, tuple((numbers[i], numbers[j]) for i, j in found.pairs))

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple, final
 
+from exactpt.collision.rounded_touch import place_of
 from exactpt.extensions import extension
 from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -16,15 +17,16 @@ from exactpt.kernel.quotients import exponent, nearest_quotient
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, difference, orientation
 from exactpt.motion.track import Track
+from exactpt.proximity.features import excess
 from exactpt.scene.scene import Scene
 
-__all__ = ["Contact", "Pair", "contact_of", "tracks_before"]
+__all__ = ["Contact", "Pair", "contact_of", "tracks_before", "tracks_just_before"]
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """An incidence: a vertex that lies on an edge or on another vertex.
+    """An incidence: a vertex that lies on, or as a rounded one touches, an edge or a vertex.
 
     Attributes:
         kind: "vertex-edge" or "vertex-vertex".
@@ -35,6 +37,10 @@ class Pair:
         point: the common point, each coordinate the nearest finite double.
         normal: the unit normal of the edge that points out of ``other`` (if ``other`` has no
             interior: to the side from which the vertex came); None for vertex-vertex.
+
+    Where a body is rounded, vertices and edges are those of the cores. Then the point is on both
+    boundaries, and the normal, from the edge or the vertex of ``other`` to the vertex, is always
+    given, each coordinate the nearest double.
     """
 
     kind: str
@@ -157,10 +163,11 @@ def tracks_before(scene: Scene, time: AlgebraicNumber) -> list[tuple[Track, ...]
 
     The time is later than the start of the scene.
     """
-    return [_tracks_of(body, time, scene._start) for body in scene.bodies]
+    return [tracks_just_before(body, time, scene._start) for body in scene.bodies]
 
 
-def _tracks_of(body: Body, time: AlgebraicNumber, start: QQ) -> tuple[Track, ...]:
+def tracks_just_before(body: Body, time: AlgebraicNumber, start: QQ) -> tuple[Track, ...]:
+    """Those of one body; at the start, in the piece just after it."""
     since = max((b for b in body._breakpoints if time.compare_rational(b) > 0), default=start)
     return body._piece_after(since).tracks
 
@@ -190,25 +197,38 @@ def _details(
     """The time in the form that does not depend on the search, and the incidences."""
     outward = {i: _outward(scene, i) for i in {touch.other for touch in touches}}
     involved = sorted({i for touch in touches for i in (touch.body, touch.other)})
-    tracks = {i: _tracks_of(scene.bodies[i], time, scene._start) for i in involved}
-    number = _as_root(time, tracks, touches)
+    tracks = {i: tracks_just_before(scene.bodies[i], time, scene._start) for i in involved}
+    number = _as_root(scene, time, tracks, touches)
     pairs = tuple(_pair(scene, tracks, touch, number, outward[touch.other]) for touch in touches)
     return number, pairs
 
 
 def _as_root(
-    time: AlgebraicNumber, tracks: Mapping[int, tuple[Track, ...]], touches: Sequence[Touch]
+    scene: Scene,
+    time: AlgebraicNumber,
+    tracks: Mapping[int, tuple[Track, ...]],
+    touches: Sequence[Touch],
 ) -> AlgebraicNumber:
     """The time as a root of the first incidence's polynomial, whichever search has found it."""
     if time.simplified().is_rational or not touches:
         return time
     touch = touches[0]
     v, other = tracks[touch.body][touch.vertex], tracks[touch.other]
-    if touch.edge >= 0:
+    reach = scene.bodies[touch.body]._radius + scene.bodies[touch.other]._radius
+    if reach:
+        f = excess(v, _ends(touch, other), reach * reach)
+    elif touch.edge >= 0:
         f = orientation(other[touch.edge], other[(touch.edge + 1) % len(other)], v)
     else:
         f = _coincidence(v, other[touch.other_vertex])
     return time._as_root_of(f) if f else time
+
+
+def _ends(touch: Touch, other: tuple[Track, ...]) -> tuple[Track, ...]:
+    """The vertex that is touched, or the ends of the edge."""
+    if touch.edge < 0:
+        return (other[touch.other_vertex],)
+    return other[touch.edge], other[(touch.edge + 1) % len(other)]
 
 
 def _coincidence(v: Track, w: Track) -> IntPoly:
@@ -233,12 +253,15 @@ def _pair(
     time: AlgebraicNumber,
     outward: int,
 ) -> Pair:
-    v = tracks[touch.body][touch.vertex]
+    v, ends = tracks[touch.body][touch.vertex], _ends(touch, tracks[touch.other])
     normal = None
-    if touch.edge >= 0:
-        other = tracks[touch.other]
-        a, b = other[touch.edge], other[(touch.edge + 1) % len(other)]
-        normal = _normal(outward, v, a, b, time)
+    x, y, w = v.x, v.y, v.w
+    radii = scene.bodies[touch.body]._radius, scene.bodies[touch.other]._radius
+    if any(radii):
+        x, y, w, n_x, n_y, n_w = place_of(v, ends, *radii)
+        normal = nearest_quotient(n_x, n_w, time), nearest_quotient(n_y, n_w, time)
+    elif len(ends) == 2:
+        normal = _normal(outward, v, *ends, time)
     return Pair(
         kind="vertex-edge" if touch.edge >= 0 else "vertex-vertex",
         body=scene.bodies[touch.body].name,
@@ -246,7 +269,7 @@ def _pair(
         other=scene.bodies[touch.other].name,
         edge=touch.edge if touch.edge >= 0 else None,
         other_vertex=touch.other_vertex if touch.edge < 0 else None,
-        point=(finite(nearest_quotient(v.x, v.w, time)), finite(nearest_quotient(v.y, v.w, time))),
+        point=(finite(nearest_quotient(x, w, time)), finite(nearest_quotient(y, w, time))),
         normal=normal,
     )
 

@@ -17,6 +17,7 @@ from exactpt.extensions import extension
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import within
 from exactpt.kernel.numbers import Rational, fraction
+from exactpt.motion.body import refuse_rounded
 from exactpt.scene.scene import Scene
 from exactpt.tiling import catalogue
 
@@ -121,6 +122,8 @@ def _contact(
     proof: str | Path | None,
 ) -> Contact | None:
     """As `first_contact`, with checked names."""
+    if scene.is_rounded:
+        return _of_rounded(scene, method, tiling, groups, proof, exact_only=exact_only)
     if groups and method == "kinetic":
         raise InputError("a tiling watches all bodies: to ignore some, use method='pairs'")
     if proof is not None:
@@ -131,6 +134,30 @@ def _contact(
     if searches_pairs(method, tiling, groups):
         return _by_pairs(scene, groups, tiling if method == "auto" else None, exact_only=exact_only)
     return _by_tiling(scene, tiling, exact_only=exact_only)
+
+
+def _of_rounded(
+    scene: Scene,
+    method: str,
+    tiling: str,
+    groups: list[Collection[str]],
+    proof: str | Path | None,
+    *,
+    exact_only: bool,
+) -> Contact | None:
+    """The first contact of a scene with rounded bodies, by pairs.
+
+    Raises:
+        InputError: if a tiling or a proof is asked for.
+    """
+    if proof is not None or not searches_pairs(method, tiling, groups):
+        refuse_rounded(scene.bodies)
+    from exactpt.collision.rounded import first_contact_of_rounded
+
+    def plain(part: Scene, some: list[Collection[str]]) -> Contact | None:
+        return _by_pairs(part, some, None, exact_only=exact_only)
+
+    return first_contact_of_rounded(scene, groups, plain, exact_only=exact_only)
 
 
 def _by_pairs(

@@ -9,6 +9,7 @@ from exactpt.errors import InputError
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.geometry.predicates import Point, between, side
+from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.motion.incidence import Touch
 from exactpt.scene.scene import Scene
@@ -25,7 +26,8 @@ def initial_touches(
     """All incidences at the start, and the pairs of bodies (as indices) that share a point then.
 
     The list of pairs is empty if and only if there is no contact at the start. There are no
-    self-contacts: a scene with a polygon that is not simple at the start is refused.
+    self-contacts: a scene with a polygon that is not simple at the start is refused. Rounded
+    bodies have incidences if they touch and do not overlap.
 
     Args:
         scene: the scene.
@@ -35,6 +37,8 @@ def initial_touches(
     Raises:
         InputError: if too many pairs share a point.
     """
+    if scene.is_rounded:
+        return _of_rounded(scene, near)
     some = range(len(scene.bodies)) if near is None else sorted({i for ij in near for i in ij})
     points = {i: scene.bodies[i]._at(scene._start) for i in some}
     compared = None if near is None else set(near)
@@ -56,6 +60,29 @@ def initial_touches(
                 pairs.add((i, j))
                 _check_count(pairs)
     return sorted(touches), sorted(pairs)
+
+
+def _of_rounded(
+    scene: Scene, near: Sequence[tuple[int, int]] | None
+) -> tuple[list[Touch], list[tuple[int, int]]]:
+    """As `initial_touches`, where some of the bodies are rounded."""
+    from exactpt.collision.rounded_search import RoundedSearch
+
+    search, asked = RoundedSearch(scene, ()), None if near is None else set(near)
+    met = {ij: deep for ij, deep in search.at_start() if asked is None or ij in asked}
+    _check_count(set(met))
+    plain = [i for i, body in enumerate(scene.bodies) if not body._radius]
+    number = {i: k for k, i in enumerate(plain)}
+    part = scene.going_on([scene.bodies[i] for i in plain], scene._start)
+    some = None
+    if near is not None:
+        some = [(number[i], number[j]) for i, j in near if i in number and j in number]
+    touches, overlaps = initial_touches(part, some)
+    of_plain = [t._replace(body=plain[t.body], other=plain[t.other]) for t in touches]
+    touching = [ij for ij, deep in met.items() if not deep]
+    of_rounded = search.touches(touching, AlgebraicNumber(scene._start))
+    pairs = [(plain[i], plain[j]) for i, j in overlaps]
+    return sorted([*of_plain, *of_rounded]), sorted([*pairs, *met])
 
 
 def _chunks(

@@ -29,6 +29,7 @@ from exactpt.certificates.queue import EventTime
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.ignoring import groups_of
 from exactpt.collision.initial import initial_touches
+from exactpt.collision.rounded import first_contact_of_rounded
 from exactpt.errors import BudgetExceeded
 from exactpt.indices import Triple
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -82,7 +83,8 @@ class PairsSearch:
         self._exact_only = exact_only
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
         self._counters = Counters()
-        self._group: Indices = np.array(groups_of(scene, ignoring), dtype=np.int64)
+        self._ignoring = list(ignoring), ignoring_self
+        self._group: Indices = np.array(groups_of(scene, self._ignoring[0]), dtype=np.int64)
         alone = [body.name in ignoring_self for body in scene.bodies]
         self._ignores_self: NDArray[np.bool_] = np.array(alone, dtype=np.bool_)
         self.certificates = 0
@@ -111,7 +113,7 @@ class PairsSearch:
         Such a vertex is compared with all edges, and its edges with all vertices. The tiling
         has about three certificates for each vertex.
         """
-        if not self._scene.bodies:
+        if not self._scene.bodies or self._scene.is_rounded:
             return False
         all_vertices, ids = self._swept.vertices.all, self._swept.ids
         count = len(ids)
@@ -135,6 +137,9 @@ class PairsSearch:
 
     def _first_contact(self) -> Contact | None:
         scene = self._scene
+        if scene.is_rounded:
+            groups, exact_only = self._ignoring[0], self._exact_only
+            return first_contact_of_rounded(scene, groups, self._of_plain, exact_only=exact_only)
         initial, overlaps = initial_touches(scene)
         overlaps = [(i, j) for i, j in overlaps if not self._ignores(i, j)]
         if overlaps:
@@ -143,6 +148,19 @@ class PairsSearch:
         if not scene.bodies:
             return None
         return self._run()
+
+    def _of_plain(self, part: Scene, groups: list[Collection[str]]) -> Contact | None:
+        """The first contact of the bodies without radius."""
+        names = {body.name for body in part.bodies}
+        search = PairsSearch(
+            part,
+            exact_only=self._exact_only,
+            ignoring=groups,
+            ignoring_self=names.intersection(self._ignoring[1]),
+        )
+        contact = search.run_to_contact()
+        self.certificates, self._counters = search.certificates, search._counters
+        return contact
 
     @cached_property
     def _swept(self) -> SweptEdges:

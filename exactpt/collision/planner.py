@@ -86,6 +86,8 @@ class Planner:
     def _first(self, body: Body, outline: Outline | None) -> Contact | None:
         scene, rows = self._scene, self._obstacles.rows
         Scene([body], (scene.start, scene.end))
+        if self._is_rounded(body):
+            return self._first_during(body, [self._whole_span()])
         if rows is not None and outline is not None and body.size <= MOST_VERTICES:
             pieces = straight_pieces(body, outline)
             if pieces is not None:
@@ -120,11 +122,21 @@ class Planner:
 
     def _first_of_any(self, body: Body) -> Contact | None:
         """The first contact of a body with obstacles, or with itself, whatever the motions."""
-        scene = self._scene
-        stretches: Iterable[Stretch] = self._obstacles.stretches(body)
         if not is_rigid(body):
-            everything = list(range(len(scene.bodies)))
-            stretches = [Stretch(scene._start, scene._end, everything)]
+            return self._first_during(body, [self._whole_span()])
+        return self._first_during(body, self._obstacles.stretches(body))
+
+    def _is_rounded(self, body: Body) -> bool:
+        """Whether the body or an obstacle has a radius: boxes of obstacles are of their cores."""
+        return self._scene.is_rounded or bool(body._radius)
+
+    def _whole_span(self) -> Stretch:
+        scene = self._scene
+        return Stretch(scene._start, scene._end, list(range(len(scene.bodies))))
+
+    def _first_during(self, body: Body, stretches: Iterable[Stretch]) -> Contact | None:
+        """The first contact of a body with obstacles that are near it in some stretches of time."""
+        scene = self._scene
         for stretch in stretches:
             obstacles = [scene.bodies[i] for i in stretch.obstacles]
             names = [obstacle.name for obstacle in obstacles]

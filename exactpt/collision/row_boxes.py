@@ -19,7 +19,7 @@ from exactpt.kernel.rounding import SLACK, TINY, U
 if TYPE_CHECKING:
     from exactpt.collision.straight_search import Row
 
-__all__ = ["RowBoxes", "near_at_once", "near_rows"]
+__all__ = ["RowBoxes", "near_at_once", "near_boxes", "near_rows", "pairs_at"]
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
@@ -69,6 +69,25 @@ class RowBoxes:
         self._start = np.array([enclosing_floats(row.start)[0] for row in rows])
         self._end = np.array([enclosing_floats(row.end)[1] for row in rows])
         self.drift: Floats = np.median(self._v, axis=0) if len(rows) else np.zeros(2)
+
+    @classmethod
+    def of_doubles(cls, numbers: Floats, start: QQ, end: QQ) -> RowBoxes:
+        """Boxes of one row for each body, all during one span, known without error.
+
+        Args:
+            numbers: shape (n, 8): the box (low x, low y, high x, high y), c and v.
+            start: the start of the span.
+            end: its end.
+        """
+        self = cls.__new__(cls)
+        n = len(numbers)
+        self.body = np.arange(n)
+        self._low, self._high, self._c, self._v = np.hsplit(numbers, 4)
+        self._c_error = self._v_error = np.zeros(n)
+        self._start = np.full(n, enclosing_floats(start)[0])
+        self._end = np.full(n, enclosing_floats(end)[1])
+        self.drift = np.median(self._v, axis=0)
+        return self
 
     def __len__(self) -> int:
         return len(self.body)
@@ -145,7 +164,11 @@ class RowBoxes:
 
 def near_at_once(rows: Sequence[Row], time: QQ) -> list[tuple[int, int]]:
     """The pairs i < j of bodies whose boxes meet at a time at which each has one row."""
-    boxes = RowBoxes(rows)
+    return pairs_at(RowBoxes(rows), time)
+
+
+def pairs_at(boxes: RowBoxes, time: QQ) -> list[tuple[int, int]]:
+    """The pairs i < j of bodies, each with one row, whose boxes meet at a time."""
     _, first, second = _meeting(boxes, *enclosing_floats(time))
     pairs = np.sort(np.stack((boxes.body[first], boxes.body[second]), axis=1), axis=1)
     return [(i, j) for i, j in pairs.tolist()]
@@ -159,12 +182,16 @@ def near_rows(
     Each comes with a time at or before which it does, in increasing order of these times. Their
     boxes are grown by a margin.
     """
-    boxes = RowBoxes(rows, margin)
+    return near_boxes(RowBoxes(rows, margin), start, end)
+
+
+def near_boxes(boxes: RowBoxes, start: QQ, end: QQ) -> Iterator[tuple[float, int, int]]:
+    """As `near_rows`, of rows by number."""
     now, last = enclosing_floats(start)[0], enclosing_floats(end)[1]
     span = last - now
     least = SHORTEST * span
     bodies = len(set(boxes.body.tolist()))
-    step = min(span, PIECES * span * bodies / len(rows))
+    step = min(span, PIECES * span * bodies / len(boxes))
     stride = boxes.stride(now)
     step = max(least, min(step, 4.0 * stride)) if stride > 0.0 else step
     seen: set[tuple[int, int]] = set()

@@ -155,10 +155,12 @@ class SelectedSearch:
         """The bodies that may touch themselves."""
         if self._between is not None:
             return []
-        return [i for i, body in enumerate(self._scene.bodies) if not is_rigid(body)]
+        bodies = enumerate(self._scene.bodies)
+        return [i for i, body in bodies if not body._radius and not is_rigid(body)]
 
     def _read_rows(self) -> None:
-        rows = None if self._exact_only else rows_of(self._scene)
+        straight = not self._exact_only and not self._scene.is_rounded
+        rows = rows_of(self._scene) if straight else None
         if rows is not None:
             self._rows = {i: [] for i in range(len(self._scene.bodies))}
             for row in rows:

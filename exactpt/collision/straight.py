@@ -23,7 +23,7 @@ from exactpt.collision.meeting import Candidate, Meeting, Span, earliest
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 from exactpt.motion.outline import Outline, Straight
 
-__all__ = ["first_meeting", "window"]
+__all__ = ["Path", "first_meeting", "relative", "window"]
 
 U2: Final = 2.0 * U
 U4: Final = 4.0 * U
@@ -33,7 +33,7 @@ FEW: Final = 24
 """Maximum number of pairs of a vertex and an edge that are all tested."""
 
 
-class _Path(NamedTuple):
+class Path(NamedTuple):
     """The relative motion c + w t of the vertices of one body, off by at most the errors."""
 
     cx: float
@@ -61,11 +61,11 @@ def first_meeting(a: Straight, b: Straight, span: Span, before: float = math.inf
         span: the start and the end.
         before: contacts certainly later than this do not count.
     """
-    path = _relative(a, b)
+    path = relative(a, b)
     low, high = _window(a.shape, b.shape, path, span.low, min(span.high, before))
     if low > high:
         return None
-    back = _Path(-path.cx, -path.cy, -path.wx, -path.wy, path.c_error, path.w_error)
+    back = Path(-path.cx, -path.cy, -path.wx, -path.wy, path.c_error, path.w_error)
     candidates: list[Candidate] = []
     limits = _Limits(low, high, span.after)
     high = _collect(a, b, path, limits, candidates, of_first=True)
@@ -80,13 +80,13 @@ def first_meeting(a: Straight, b: Straight, span: Span, before: float = math.inf
 
 def window(a: Straight, b: Straight, low: float, high: float) -> tuple[float, float]:
     """Bounds of the times in [low, high] at which the boxes of two bodies meet; or low > high."""
-    return _window(a.shape, b.shape, _relative(a, b), low, high)
+    return _window(a.shape, b.shape, relative(a, b), low, high)
 
 
-def _relative(a: Straight, b: Straight) -> _Path:
+def relative(a: Straight, b: Straight) -> Path:
     """The motion of a relative to b."""
     cx, cy, wx, wy = a.cx - b.cx, a.cy - b.cy, a.vx - b.vx, a.vy - b.vy
-    return _Path(
+    return Path(
         cx,
         cy,
         wx,
@@ -96,7 +96,7 @@ def _relative(a: Straight, b: Straight) -> _Path:
     )
 
 
-def _window(a: Outline, b: Outline, path: _Path, low: float, high: float) -> tuple[float, float]:
+def _window(a: Outline, b: Outline, path: Path, low: float, high: float) -> tuple[float, float]:
     """The bounds of `window`.
 
     Along x this means b.low_x - a.high_x <= c + w t <= b.high_x - a.low_x. Both ends are moved
@@ -124,7 +124,7 @@ def _window(a: Outline, b: Outline, path: _Path, low: float, high: float) -> tup
 def _collect(
     a: Straight,
     b: Straight,
-    path: _Path,
+    path: Path,
     limits: _Limits,
     candidates: list[Candidate],
     *,
@@ -196,7 +196,7 @@ def _collect(
 
 
 def _near(
-    a: Straight, b: Straight, path: _Path, limits: _Limits
+    a: Straight, b: Straight, path: Path, limits: _Limits
 ) -> tuple[list[tuple[int, float, float]], list[tuple[int, int, int]]]:
     """The vertices of a, with their coordinates c + p, and the edges of b that may touch.
 

@@ -106,16 +106,24 @@ def _shapes_of(kind: Format, text: str, tolerance: float) -> Iterator[Shape]:
     return wkt.shapes_of(text) if kind == "wkt" else geojson.shapes_of(text)
 
 
-def write_shapes(scene: Scene, path: str | Path, at: Rational | None = None) -> None:
+def write_shapes(
+    scene: Scene,
+    path: str | Path,
+    at: Rational | None = None,
+    *,
+    tolerance: float | None = None,
+) -> None:
     """Write the bodies at a time, as points, lines and polygons; or the scene as a scene file.
 
     Exact positions are rounded to the nearest doubles. Shapes are written wherever their
-    motions put them, even if they touch or overlap at that time.
+    motions put them, even if they touch or overlap at that time. Of rounded bodies, outlines of
+    chords are written, by shapely's buffer (see `Scene.to_shapely`); a scene file has the radii.
 
     Args:
         scene: the bodies.
         path: a file with a suffix in `ENDINGS`; it is complete or not there.
         at: the time; by default the start.
+        tolerance: maximum distance of a chord from its arc; by default a hundredth of the radius.
 
     Raises:
         InputError: if the time is outside the time span, or the file cannot be written.
@@ -128,5 +136,9 @@ def write_shapes(scene: Scene, path: str | Path, at: Rational | None = None) -> 
         save(scene, file)
         return
     shapes = shapes_at(scene, scene._start if at is None else rational(at))
+    if scene.is_rounded:
+        from exactpt.exchange.shapely_adapter import outlined
+
+        shapes = [outlined(shape, tolerance) for shape in shapes]
     writers = {"geojson": geojson.geojson_of, "wkt": wkt.wkt_of, "svg": svg.svg_of}
     write_atomically(file, writers[kind](shapes))

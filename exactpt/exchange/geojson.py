@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Final
 
 from exactpt.errors import InputError
-from exactpt.exchange.shapes import DEEPEST, Kind, Shape, rounded
+from exactpt.exchange.shapes import DEEPEST, Kind, Shape, rounded, rounded_rings
 from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.numbers import shorten
 from exactpt.scene.json_values import Json, Number, a_list, exact_number, parse_json, shown
@@ -133,7 +133,7 @@ def _point(data: Json, where: str) -> Point:
 def geojson_of(shapes: Iterable[Shape]) -> str:
     """Shapes as a feature collection; coordinates are the nearest doubles.
 
-    Polygons run counter-clockwise, as GeoJSON requires.
+    Polygons run counter-clockwise, and their holes clockwise, as GeoJSON requires.
     """
     features = [
         {
@@ -151,5 +151,8 @@ def _coordinates(shape: Shape) -> object:
         return rounded(shape)[0]
     if shape.kind == "line":
         return rounded(shape)
-    ring = rounded(shape) if signed_area2(shape.points) >= 0 else rounded(shape)[::-1]
-    return [[*ring, ring[0]]]
+    outer, *holes = rounded_rings(shape)
+    rings = [outer if signed_area2(shape.points) >= 0 else outer[::-1]]
+    for ring, points in zip(holes, shape.holes, strict=True):
+        rings.append(ring if signed_area2(points) <= 0 else ring[::-1])
+    return [[*ring, ring[0]] for ring in rings]

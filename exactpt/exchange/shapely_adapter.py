@@ -5,6 +5,7 @@ A coordinate of shapely is a double and is taken at its exact value.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from typing import TYPE_CHECKING, Final
@@ -13,7 +14,7 @@ from numpy import errstate
 
 from exactpt.errors import InputError
 from exactpt.exchange.shapes import Holes, Kind, Shape, body_of, rounded, scene_of, shapes_at
-from exactpt.kernel.numbers import rational, shorten
+from exactpt.kernel.numbers import nearest_float, rational, shorten
 
 try:
     import shapely
@@ -32,10 +33,14 @@ __all__ = [
     "BaseGeometry",
     "body_from",
     "geometries_of",
+    "outlined",
     "read_wkt",
     "scene_from",
     "shapes_of_geometry",
 ]
+
+_MOST_CHORDS: Final = 10_000
+"""Maximum number of chords of a quarter of a circle."""
 
 _KINDS: Final[dict[str, Kind]] = {
     "Point": "point",
@@ -104,18 +109,21 @@ def _parts(geometry: BaseGeometry) -> Iterator[BaseGeometry]:
             yield from _parts(part)
 
 
-def body_from(geometry: object, name: str, motion: Motion, holes: Holes) -> Body:
+def body_from(geometry: object, name: str, motion: Motion, holes: Holes, radius: Rational) -> Body:
     """The body of a geometry with one part, see `Body.from_shapely`."""
     shapes = list(shapes_of_geometry(geometry, "geometry", name))
     if len(shapes) != 1:
         raise InputError(
             f"geometry {name!r} has {len(shapes)} parts, and a body has one: see Scene.from_shapely"
         )
-    return body_of(shapes[0], name, motion, holes=holes)
+    return body_of(shapes[0], name, motion, holes=holes, radius=radius)
 
 
 def scene_from(
-    geometries: Iterable[object] | Mapping[str, object], time: Sequence[Rational], holes: Holes
+    geometries: Iterable[object] | Mapping[str, object],
+    time: Sequence[Rational],
+    holes: Holes,
+    radius: Rational,
 ) -> Scene:
     """The scene at rest of geometries, see `Scene.from_shapely`."""
     if isinstance(geometries, Mapping):
@@ -127,16 +135,49 @@ def scene_from(
         for i, (name, geometry) in enumerate(named)
         for shape in shapes_of_geometry(geometry, f"geometry {i}", name)
     )
-    return scene_of(shapes, time=time, holes=holes)
+    return scene_of(shapes, time=time, holes=holes, radius=radius)
 
 
-def geometries_of(scene: Scene, at: QQ) -> dict[str, BaseGeometry]:
+def geometries_of(scene: Scene, at: QQ, tolerance: float | None) -> dict[str, BaseGeometry]:
     """The bodies at a time, by name, see `Scene.to_shapely`."""
-    return {shape.name: _geometry(shape) for shape in shapes_at(scene, at)}
+    return {shape.name: _geometry(shape, tolerance) for shape in shapes_at(scene, at)}
 
 
-def _geometry(shape: Shape) -> BaseGeometry:
+def outlined(shape: Shape, tolerance: float | None) -> Shape:
+    """A shape with a radius as a polygon, with chords within a tolerance of its arcs.
+
+    Raises:
+        InputError: if the tolerance is not positive, or a chord for each arc is too many.
+    """
+    if not shape.radius:
+        return shape
+    geometry = _geometry(shape, tolerance)
+    rings = [
+        [(rational(float(x)), rational(float(y))) for x, y in shapely.get_coordinates(ring)[:-1]]
+        for ring in (geometry.exterior, *geometry.interiors)
+    ]
+    return shape._replace(kind="polygon", points=rings[0], holes=rings[1:], radius=0)
+
+
+def _geometry(shape: Shape, tolerance: float | None) -> BaseGeometry:
     points = rounded(shape)
     if shape.kind == "point":
-        return shapely.Point(points[0])
-    return shapely.LineString(points) if shape.kind == "line" else shapely.Polygon(points)
+        core = shapely.Point(points[0])
+    else:
+        core = shapely.LineString(points) if shape.kind == "line" else shapely.Polygon(points)
+    if not shape.radius:
+        return core
+    radius = nearest_float(rational(shape.radius))
+    return core.buffer(radius, quad_segs=_quarter(radius, tolerance))
+
+
+def _quarter(radius: float, tolerance: float | None) -> int:
+    """The number of chords of a quarter of a circle: n with r (1 - cos(pi / 4 n)) <= tolerance."""
+    ratio = 0.01 if tolerance is None else tolerance / radius
+    if not (math.isfinite(ratio) and ratio > 0):
+        raise InputError(f"the tolerance is a positive number: {tolerance}")
+    # 1 - cos(a) = 2 sin(a / 2)^2.
+    count = math.pi / (8.0 * math.asin(math.sqrt(min(ratio, 1.0) / 2.0)))
+    if count > _MOST_CHORDS:
+        raise InputError(f"an arc needs more than {_MOST_CHORDS} chords: raise the tolerance")
+    return math.ceil(count)

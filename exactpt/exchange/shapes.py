@@ -33,6 +33,7 @@ __all__ = [
     "body_of",
     "nested",
     "rounded",
+    "rounded_rings",
     "scene_of",
     "shapes_at",
 ]
@@ -59,6 +60,7 @@ class Shape(NamedTuple):
         kind: a line is open (a segment or a chain), a polygon has an interior.
         points: its points in order; the first may be repeated at the end.
         holes: rings inside a polygon that bound its holes.
+        radius: all points within it belong to the shape: only of shapes to be written.
     """
 
     where: str
@@ -66,6 +68,7 @@ class Shape(NamedTuple):
     kind: Kind
     points: Sequence[Point]
     holes: Sequence[Sequence[Point]] = ()
+    radius: QQ | int = 0
 
 
 def scene_of(
@@ -73,6 +76,7 @@ def scene_of(
     *,
     time: Sequence[Rational] = (0, 1),
     holes: Holes = "refuse",
+    radius: Rational = 0,
     skipped: Callable[[str], None] | None = None,
 ) -> Scene:
     """The scene at rest of some shapes, in their order.
@@ -81,6 +85,7 @@ def scene_of(
         shapes: the shapes, one for each body; a name that is taken gets a number.
         time: the start and the end of the time span.
         holes: "refuse" polygons with holes, or "fill" them.
+        radius: the radius of each body.
         skipped: called with a message for each shape that cannot be a body and is left out;
             if None, such a shape is an error.
 
@@ -92,7 +97,8 @@ def scene_of(
     last: dict[str, int] = {}
     for shape in shapes:
         try:
-            body = body_of(shape, _free_name(shape.name, bodies, last), holes=holes)
+            name = _free_name(shape.name, bodies, last)
+            body = body_of(shape, name, holes=holes, radius=radius)
             _check_simple(shape, body, time)
         except InputError as error:
             if skipped is None:
@@ -103,7 +109,9 @@ def scene_of(
     return empty.going_on(bodies.values(), empty._start)
 
 
-def body_of(shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "refuse") -> Body:
+def body_of(
+    shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "refuse", radius: Rational = 0
+) -> Body:
     """The body that a shape becomes.
 
     Repeated consecutive points count once. A line that ends where it began becomes the polygon
@@ -131,7 +139,7 @@ def body_of(shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "r
             f"{shape.where}: {kind} {shorten(shape.name)} has no {lacks}: "
             "remove it, or leave such shapes out (--skip-invalid)"
         )
-    return Body(name, points, motion, closed=is_polygon or len(points) < 3)
+    return Body(name, points, motion, closed=is_polygon or len(points) < 3, radius=radius)
 
 
 def shapes_at(scene: Scene, at: QQ) -> list[Shape]:
@@ -144,7 +152,13 @@ def shapes_at(scene: Scene, at: QQ) -> list[Shape]:
         span = f"from {show(scene._start)} to {show(scene._end)}"
         raise InputError(f"t = {show(at)} is outside the time span {span}")
     return [
-        Shape(f"body {shorten(body.name)}", body.name, _kind(body), body._at(at))
+        Shape(
+            f"body {shorten(body.name)}",
+            body.name,
+            _kind(body),
+            body._at(at),
+            radius=body._radius,
+        )
         for body in scene.bodies
     ]
 
@@ -161,7 +175,16 @@ def rounded(shape: Shape) -> list[tuple[float, float]]:
     Raises:
         InputError: if a coordinate is larger than the largest double.
     """
-    points = [(nearest_float(x), nearest_float(y)) for x, y in shape.points]
+    return _rounded(shape, shape.points)
+
+
+def rounded_rings(shape: Shape) -> list[list[tuple[float, float]]]:
+    """The boundary of a polygon and those of its holes, likewise."""
+    return [_rounded(shape, ring) for ring in (shape.points, *shape.holes)]
+
+
+def _rounded(shape: Shape, ring: Sequence[Point]) -> list[tuple[float, float]]:
+    points = [(nearest_float(x), nearest_float(y)) for x, y in ring]
     if not all(map(math.isfinite, chain.from_iterable(points))):
         raise InputError(f"{shape.where}: a coordinate is too large for a double")
     return points

@@ -15,7 +15,7 @@ from xml.etree import ElementTree as Xml
 
 from exactpt.errors import ExactPTError, InputError
 from exactpt.exchange.drawing import NAMESPACE, read_drawing, valid_text
-from exactpt.exchange.shapes import Shape, nested, rounded
+from exactpt.exchange.shapes import Shape, nested, rounded_rings
 from exactpt.kernel.numbers import rational, shorten
 
 if TYPE_CHECKING:
@@ -163,20 +163,27 @@ def _chord_count(curve: svgelements.Curve, tolerance: float) -> int:
 
 def svg_of(shapes: Iterable[Shape]) -> str:
     """Shapes as a drawing of paths with ids; coordinates are the nearest doubles."""
-    drawn = [(shape, [(x, 0.0 - y) for x, y in rounded(shape)]) for shape in shapes]
-    xs, ys = ([p[axis] for _, points in drawn for p in points] or [0.0] for axis in (0, 1))
+    drawn = [
+        (shape, [[(x, 0.0 - y) for x, y in ring] for ring in rounded_rings(shape)])
+        for shape in shapes
+    ]
+    everything = [p for _, rings in drawn for ring in rings for p in ring]
+    xs, ys = ([p[axis] for p in everything] or [0.0] for axis in (0, 1))
     box = (min(xs), min(ys), (max(xs) - min(xs)) or 1.0, (max(ys) - min(ys)) or 1.0)
     root = Xml.Element("svg", xmlns=NAMESPACE)
     if all(map(math.isfinite, box)):
         root.set("viewBox", " ".join(map(repr, box)))
-    for shape, points in drawn:
+    for shape, rings in drawn:
         end = "" if shape.kind == "line" else " Z"
         Xml.SubElement(
             root,
             "path",
             {
                 "id": valid_text(shape.name),
-                "d": f"M {' L '.join(f'{x!r} {y!r}' for x, y in points)}{end}",
+                "d": " ".join(
+                    f"M {' L '.join(f'{x!r} {y!r}' for x, y in ring)}{end}" for ring in rings
+                ),
+                **({"fill-rule": "evenodd"} if len(rings) > 1 else {}),
                 "fill": "silver" if shape.kind == "polygon" else "none",
                 "stroke": "black",
                 "stroke-linecap": "round",

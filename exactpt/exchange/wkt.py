@@ -12,7 +12,7 @@ from itertools import accumulate
 from typing import Final
 
 from exactpt.errors import InputError
-from exactpt.exchange.shapes import DEEPEST, Shape, rounded
+from exactpt.exchange.shapes import DEEPEST, Shape, rounded_rings
 from exactpt.scene.json_values import exact_number
 
 __all__ = ["shapes_of", "wkt_of"]
@@ -56,9 +56,10 @@ def wkt_of(shapes: Iterable[Shape]) -> str:
 
 
 def _text(shape: Shape) -> str:
-    points = ", ".join(f"{x!r} {y!r}" for x, y in rounded(shape))
+    rings = [", ".join(f"{x!r} {y!r}" for x, y in ring) for ring in rounded_rings(shape)]
     if shape.kind == "point":
-        return f"POINT ({points})"
+        return f"POINT ({rings[0]})"
     if shape.kind == "line":
-        return f"LINESTRING ({points})"
-    return f"POLYGON (({points}, {points.split(',')[0]}))"
+        return f"LINESTRING ({rings[0]})"
+    closed = (f"({points}, {points.split(',')[0]})" for points in rings)
+    return f"POLYGON ({', '.join(closed)})"

@@ -38,7 +38,7 @@ def doubles(values: ArrayLike, what: str) -> Floats:
     with np.errstate(over="ignore"):
         result = given.astype(np.float64, copy=False)
     if given.dtype.kind != "f":
-        large = np.abs(result) > INTEGERS
+        large = np.asarray(np.abs(result) > INTEGERS)
         exact = given[large].astype(object) == result[large].astype(object)
         large[large] = ~exact.astype(bool)
         _refuse(large, given, what, "not a double")

@@ -1,12 +1,12 @@
-"""The double nearest to the square root of a rational number."""
+"""The square root of a rational number: exactly, or the nearest double, also of it less another."""
 
 from __future__ import annotations
 
 from typing import Final
 
-from exactpt.kernel.numbers import QQ, isqrt_rem, nearest_float, power_of_two
+from exactpt.kernel.numbers import QQ, isqrt, isqrt_rem, nearest_float, power_of_two
 
-__all__ = ["nearest_square_root"]
+__all__ = ["exact_square_root", "nearest_root_less", "nearest_square_root"]
 
 BITS: Final = 64
 """Bits of the integer square root, at least: more than a double and its rounding bit have."""
@@ -29,3 +29,31 @@ def nearest_square_root(value: QQ) -> float:
     is_exact = rest == 0 and scaled.denominator == 1
     root = QQ(r) if is_exact else QQ(2 * r + 1, 2)
     return nearest_float(root * power_of_two(-shift // 2))
+
+
+def exact_square_root(value: QQ) -> QQ | None:
+    """The square root of a number >= 0 if it is rational, else None."""
+    root = QQ(isqrt(value.numerator), isqrt(value.denominator))
+    return root if root * root == value else None
+
+
+def nearest_root_less(value: QQ, less: QQ) -> float:
+    """The double nearest to sqrt(value) - less, for numbers >= 0.
+
+    An irrational root less a rational is neither a double nor a midpoint of two: with enough bits,
+    both bounds of it have the same nearest double.
+    """
+    if less == 0:
+        return nearest_square_root(value)
+    exact = exact_square_root(value)
+    if exact is not None:
+        return nearest_float(exact - less)
+    shift = 2 * BITS + value.denominator.bit_length()
+    while True:
+        unit = power_of_two(-shift)
+        scaled = value / (unit * unit)
+        low = QQ(isqrt(scaled.numerator // scaled.denominator)) * unit - less
+        near = nearest_float(low)
+        if near == nearest_float(low + unit):
+            return near
+        shift *= 2

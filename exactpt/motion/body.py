@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from fractions import Fraction
-from typing import TYPE_CHECKING, Literal, final, overload
+from typing import TYPE_CHECKING, Final, Literal, final, overload
 
 from exactpt.errors import InputError
 from exactpt.extensions import extension
@@ -20,6 +20,7 @@ from exactpt.kernel.numbers import (
     rational,
     rationals,
     shorten,
+    show,
 )
 from exactpt.kernel.quotients import decimal_quotient
 from exactpt.motion.course import Course, Piece
@@ -36,7 +37,10 @@ from exactpt.motion.shape import Keyframe, Keyframes, Shape, VertexLike
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["Body", "is_text"]
+__all__ = ["Body", "is_text", "refuse_rounded"]
+
+_PLAIN: Final = (int, float)
+_SHARP: Final = QQ(0)
 
 
 def is_text(name: object) -> bool:
@@ -47,9 +51,26 @@ def is_text(name: object) -> bool:
         return False
 
 
+def refuse_rounded(bodies: Iterable[Body]) -> None:
+    """Refuse rounded bodies where a tiling is kept, which would keep only their cores apart.
+
+    Raises:
+        InputError: if one of them is rounded.
+    """
+    for body in bodies:
+        if body._radius:
+            raise InputError(
+                f"body {shorten(body.name)} has a radius: no tiling holds rounded bodies; "
+                "their contacts are found by pairs (first_contact, collide)"
+            )
+
+
 @final
 class Body:
     """A closed set that moves: a point, a segment, an open chain, or a simple polygon.
+
+    With a radius it is rounded: all points within the radius of that set, its core. So a point
+    becomes a disc, a segment a capsule.
 
     Vertices given as doubles are kept, and become rationals when these are needed.
 
@@ -65,12 +86,13 @@ class Body:
         keyframes: instead of vertices, pairs (t, vertices) with increasing t; the shape is
             interpolated linearly between them, and rests before the first and after the
             last.
+        radius: a number >= 0.
 
     Raises:
         InputError: if the arguments do not describe a body, or the motion jumps.
     """
 
-    __slots__ = ("_course", "_shape", "closed", "name")
+    __slots__ = ("_course", "_radius", "_shape", "closed", "name")
 
     def __init__(
         self,
@@ -80,6 +102,7 @@ class Body:
         *,
         closed: bool = True,
         keyframes: Keyframes | None = None,
+        radius: Rational = 0,
     ) -> None:
         if not is_text(name):
             raise InputError(f"a body's name is a text that is not empty: {shorten(name)}")
@@ -88,6 +111,7 @@ class Body:
             raise InputError(f"body {shorten(name)}: give either vertices or keyframes")
         self.name = name
         self.closed = closed
+        self._radius = _read_radius(name, radius)
         try:
             self._shape = Shape(vertices, keyframes, ring=closed)
             self._course = Course(self._shape, motion)
@@ -102,6 +126,7 @@ class Body:
         motion: Motion = REST,
         *,
         holes: Literal["refuse", "fill"] = "refuse",
+        radius: Rational = 0,
     ) -> Body:
         """The body of a shapely point, line or polygon, with the exact values of its doubles.
 
@@ -110,11 +135,12 @@ class Body:
             name: the name of the body.
             motion: the motion of the shape; at rest if not given.
             holes: "refuse" a polygon with holes, or "fill" them.
+            radius: the radius of the body.
 
         Raises:
             InputError: if the geometry is not one part, or cannot be a body.
         """
-        body: Body = extension("body from shapely")(geometry, name, motion, holes)
+        body: Body = extension("body from shapely")(geometry, name, motion, holes, radius)
         return body
 
     @classmethod
@@ -126,6 +152,7 @@ class Body:
         at: Rational,
         velocity: Sequence[Rational],
         closed: bool = True,
+        radius: Rational = 0,
     ) -> Body:
         """The body that has a shape at a time, and moves with a constant velocity.
 
@@ -139,12 +166,13 @@ class Body:
             at: the time.
             velocity: the velocity (x, y).
             closed: False for an open chain.
+            radius: the radius of the body.
 
         Raises:
             InputError: see `Body`.
         """
         vx, vy = rationals(velocity, 2, "a velocity has two coordinates")
-        return cls(name, shape, Velocity(vx, vy, since=at), closed=closed)
+        return cls(name, shape, Velocity(vx, vy, since=at), closed=closed, radius=radius)
 
     def with_motion(self, motion: Motion) -> Body:
         """A body of the same name and shape with another motion.
@@ -155,7 +183,7 @@ class Body:
         _check_motion(self.name, motion)
         other = Body.__new__(Body)
         other.name, other.closed = self.name, self.closed
-        other._shape = self._shape
+        other._shape, other._radius = self._shape, self._radius
         try:
             other._course = Course(self._shape, motion)  # noqa: SLF001
         except InputError as error:
@@ -171,6 +199,11 @@ class Body:
     def size(self) -> int:
         """The number of vertices."""
         return self._shape.size
+
+    @property
+    def radius(self) -> Fraction:
+        """The body is all points within this distance of its core; 0 unless it is rounded."""
+        return fraction(self._radius)
 
     @property
     def vertices(self) -> tuple[Position, ...]:
@@ -244,6 +277,7 @@ class Body:
             return NotImplemented
         return (
             (self.name, self.closed, self.size) == (other.name, other.closed, other.size)
+            and self._radius == other._radius
             and self.vertices == other.vertices
             and self._shape.keyframes == other._shape.keyframes
             and self.motion == other.motion
@@ -253,12 +287,27 @@ class Body:
         return hash((self.name, self.closed, self.size))
 
     def __reduce__(self) -> tuple[object, ...]:
-        options = {"motion": self.motion, "closed": self.closed}
+        options: dict[str, object] = {"motion": self.motion, "closed": self.closed}
+        if self._radius:
+            options["radius"] = str(self._radius)
         return made, (Body, (self.name,), self._shape.given() | options)
 
     def __repr__(self) -> str:
         what = {1: "point", 2: "segment"}.get(self.size, "polygon" if self.closed else "chain")
-        return f"<Body {self.name!r}: {what} of {self.size} vertices>"
+        rounded = f", radius {show(self._radius)}" if self._radius else ""
+        return f"<Body {self.name!r}: {what} of {self.size} vertices{rounded}>"
+
+
+def _read_radius(name: str, radius: Rational) -> QQ:
+    if type(radius) in _PLAIN and radius == 0:
+        return _SHARP
+    try:
+        exact = rational(radius)
+    except InputError as error:
+        raise InputError(f"body {shorten(name)}: radius: {error}") from None
+    if exact < 0:
+        raise InputError(f"body {shorten(name)}: radius: it is negative: {show(exact)}")
+    return exact
 
 
 def _check_motion(name: str, motion: object) -> None:

@@ -6,6 +6,9 @@ time, and g another pair. g becomes nearer only at a time at which the numerator
 vanishes: where the foot of g's perpendicular comes onto its edge, g is as far as a pair of
 vertices, so not nearer than f. f itself ends where its foot leaves its edge. At each such time
 the pairs are compared anew, just after it, by signs of polynomials.
+
+The distance of rounded bodies is that of their cores less the sum of the radii, so it has the
+same pieces, up to the times at which they meet.
 """
 
 from __future__ import annotations
@@ -23,8 +26,9 @@ from exactpt.kernel.budget import ask
 from exactpt.kernel.integer_polynomial import IntPoly, derivative, evaluate, multiply, subtract
 from exactpt.kernel.numbers import QQ, ZZ, Rational, fraction, rational, show
 from exactpt.kernel.roots import roots_after
-from exactpt.kernel.square_root import nearest_square_root
+from exactpt.kernel.square_root import nearest_root_less
 from exactpt.motion.body import Body
+from exactpt.proximity.distance import squared_gap
 from exactpt.proximity.features import Feature, FeaturePair, feature_pairs
 from exactpt.proximity.intervals import intervals
 from exactpt.proximity.stretches import stretches, two_bodies
@@ -42,8 +46,8 @@ class ClearancePiece(NamedTuple):
         start, end: the closed interval.
         features: of the first body and of the second one; None where the bodies meet.
         numerator, denominator: polynomials with integer coefficients, the constant first, whose
-            quotient is the squared distance. Where both vanish, which they do at single times,
-            it is the limit.
+            quotient is the square of the distance plus `Clearance.radius`. Where both vanish,
+            which they do at single times, it is the limit.
     """
 
     start: AlgebraicNumber
@@ -81,14 +85,25 @@ class Clearance:
     Attributes:
         a, b: the names of the bodies.
         pieces: from the start of the span to its end, each beginning where the last one ends.
+        radius: the sum of the radii.
     """
 
     a: str
     b: str
     pieces: tuple[ClearancePiece, ...]
+    radius: Fraction = Fraction(0)
 
     def squared(self, at: Rational) -> Fraction:
         """The squared distance at a rational time.
+
+        Raises:
+            InputError: if the time is outside of the time span, or the square is irrational, which
+                only that of rounded bodies can be.
+        """
+        return squared_gap(self.core_squared(at), self.radius)
+
+    def core_squared(self, at: Rational) -> Fraction:
+        """The square of the distance plus the radius, at a rational time.
 
         Raises:
             InputError: if the time is outside of the time span.
@@ -103,19 +118,19 @@ class Clearance:
 
     def __call__(self, at: Rational) -> float:
         """The double nearest to the distance at a rational time."""
-        return nearest_square_root(QQ(self.squared(at)))
+        return nearest_root_less(QQ(self.core_squared(at)), QQ(self.radius))
 
     @cached_property
     def minimum(self) -> Minimum:
         """The least distance in the time span, and the first time at which it occurs."""
-        best: Minimum | None = None
+        best: tuple[AlgebraicNumber, AlgebraicNumber] | None = None
         for piece in self.pieces:
             for time in _candidates(piece):
                 value = quotient_at(_poly(piece.numerator), _poly(piece.denominator), time)
-                if best is None or value.compare(best.squared) < 0:
-                    best = Minimum(time, value)
+                if best is None or value.compare(best[1]) < 0:
+                    best = time, value
         assert best is not None  # noqa: S101 - there is a piece
-        return best
+        return Minimum(best[0], _squared_gap(best[1], self.radius))
 
 
 def clearance(scene: Scene, a: str, b: str) -> Clearance:
@@ -138,14 +153,26 @@ def clearance(scene: Scene, a: str, b: str) -> Clearance:
     """
     first, second = two_bodies(scene, a, b)
     now = AlgebraicNumber(scene._start)
+    radius = first.radius + second.radius
+    meeting = (int(radius.numerator**2),) if radius else (), (int(radius.denominator**2),)
     pieces: list[ClearancePiece] = []
     for start, end in [*intervals(first, second, scene._start, scene._end), (None, None)]:
         stop = AlgebraicNumber(scene._end) if start is None else start
         pieces += _apart(first, second, now, stop)
         if start is not None and end is not None:
-            pieces.append(ClearancePiece(start, end, None, (), (1,)))
+            pieces.append(ClearancePiece(start, end, None, *meeting))
             now = end
-    return Clearance(a, b, tuple(pieces))
+    return Clearance(a, b, tuple(pieces), radius)
+
+
+def _squared_gap(core_squared: AlgebraicNumber, radius: Fraction) -> AlgebraicNumber:
+    """(sqrt(core_squared) - radius)^2."""
+    if not radius:
+        return core_squared
+    n, d = ZZ(radius.numerator), ZZ(radius.denominator)
+    root = square_root(core_squared)
+    # (d y - n)^2 / d^2 at the root y.
+    return quotient_at((n * n, -2 * n * d, d * d), (d * d,), root)
 
 
 def _apart(a: Body, b: Body, begin: AlgebraicNumber, end: AlgebraicNumber) -> list[ClearancePiece]:

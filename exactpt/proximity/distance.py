@@ -12,13 +12,13 @@ from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
-from exactpt.kernel.square_root import nearest_square_root
+from exactpt.kernel.square_root import exact_square_root, nearest_root_less
 from exactpt.motion.body import Body
 from exactpt.proximity.features import Feature
 from exactpt.proximity.stretches import meet, two_bodies
 from exactpt.scene.scene import Scene
 
-__all__ = ["Distance", "distance", "squared_distance"]
+__all__ = ["Distance", "distance", "squared_distance", "squared_gap"]
 
 
 @final
@@ -26,18 +26,31 @@ __all__ = ["Distance", "distance", "squared_distance"]
 class Distance:
     """The distance of two bodies at one time; ``float`` gives the nearest double.
 
+    That of rounded bodies is the distance of their cores less the radii; 0 where they overlap.
+
     Attributes:
-        squared: the square of the distance, exactly.
-        features: the pairs of nearest features, of the first body and of the second one: a
-            vertex and a vertex, or a vertex and the interior of an edge. At distance 0 these
-            are incidences; there may be none, if edges cross or one body contains the other.
+        core_squared: the square of the distance of the cores, exactly.
+        features: the pairs of nearest features of the cores, of the first body and of the second
+            one: a vertex and a vertex, or a vertex and the interior of an edge. At distance 0
+            these are incidences; there may be none, if edges cross or one core contains the other.
+        radius: the sum of the radii.
     """
 
-    squared: Fraction
+    core_squared: Fraction
     features: tuple[tuple[Feature, Feature], ...]
+    radius: Fraction = Fraction(0)
+
+    @property
+    def squared(self) -> Fraction:
+        """The square of the distance, exactly.
+
+        Raises:
+            InputError: if it is irrational, which only that of rounded bodies can be.
+        """
+        return squared_gap(self.core_squared, self.radius)
 
     def __float__(self) -> float:
-        return nearest_square_root(QQ(self.squared))
+        return max(0.0, nearest_root_less(QQ(self.core_squared), QQ(self.radius)))
 
 
 def distance(scene: Scene, a: str, b: str, at: Rational | AlgebraicNumber) -> Distance:
@@ -63,16 +76,34 @@ def distance(scene: Scene, a: str, b: str, at: Rational | AlgebraicNumber) -> Di
     first, second = two_bodies(scene, a, b)
     t = _rational_time(scene, at)
     found = list(_near_features(first, second, t))
-    least = min(squared for squared, _ in found)
+    least, radius = min(squared for squared, _ in found), first.radius + second.radius
     if least and meet(first, second, t):
-        return Distance(Fraction(0), ())
-    return Distance(
-        fraction(least), tuple(sorted({pair for s, pair in found if s == least}, key=_in_order))
-    )
+        return Distance(Fraction(0), (), radius)
+    nearest = tuple(sorted({pair for s, pair in found if s == least}, key=_in_order))
+    return Distance(fraction(least), nearest, radius)
+
+
+def squared_gap(core_squared: Fraction, radius: Fraction) -> Fraction:
+    """The square of the distance of two rounded bodies, exactly.
+
+    Raises:
+        InputError: if it is irrational.
+    """
+    if radius == 0:
+        return core_squared
+    if core_squared <= radius**2:
+        return Fraction(0)
+    root = exact_square_root(QQ(core_squared))
+    if root is None:
+        raise InputError(
+            "the squared distance of rounded bodies is irrational here: the root of core_squared, "
+            "less radius, is their distance; float() rounds it"
+        )
+    return fraction((root - QQ(radius)) ** 2)
 
 
 def squared_distance(a: Body, b: Body, t: QQ) -> QQ:
-    """The squared distance of two bodies at a rational time."""
+    """The squared distance of the cores of two bodies at a rational time."""
     return QQ(0) if meet(a, b, t) else min(squared for squared, _ in _near_features(a, b, t))
 
 

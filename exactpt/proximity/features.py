@@ -23,7 +23,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference, orientation
 from exactpt.motion.track import Track
 
-__all__ = ["Feature", "FeaturePair", "feature_pairs"]
+__all__ = ["Feature", "FeaturePair", "excess", "feature_pairs"]
 
 
 class Feature(NamedTuple):
@@ -62,14 +62,7 @@ class FeaturePair:
     @cached_property
     def squared(self) -> tuple[IntPoly, IntPoly]:
         """Numerator and denominator, neither ever negative, of the squared distance."""
-        v = self.v
-        if not self.is_of_edge:
-            (u,) = self.ends
-            w = multiply(u.w, v.w)
-            return _norm(u, v), multiply(w, w)
-        a, b = self.ends
-        d = orientation(a, b, v)
-        return multiply(d, d), multiply(multiply(v.w, v.w), _norm(a, b))
+        return _squared(self.v, self.ends)
 
     @cached_property
     def limits(self) -> tuple[IntPoly, ...]:
@@ -81,8 +74,7 @@ class FeaturePair:
 
     def at_distance(self, squared: QQ) -> IntPoly:
         """A polynomial that is positive where the squared distance is larger, 0 where equal."""
-        n, d = self.squared
-        return subtract(scale(n, ZZ(squared.denominator)), scale(d, ZZ(squared.numerator)))
+        return _excess(self.squared, squared)
 
     def holds(self, t: AlgebraicNumber) -> bool:
         """Whether the foot of the perpendicular is on the edge, which has a length."""
@@ -90,11 +82,41 @@ class FeaturePair:
             not self.is_of_edge or t.sign_of(_norm(*self.ends)) > 0
         )
 
+    def is_inside(self, t: AlgebraicNumber) -> bool:
+        """Whether the foot of the perpendicular is no end of the edge; true of two vertices."""
+        return all(t.sign_of(f) > 0 for f in self.limits)
+
     def holds_after(self, t: AlgebraicNumber) -> bool:
         """Whether it is so just after a time."""
         return all(t.sign_after(f) >= 0 for f in self.limits) and (
             not self.is_of_edge or t.sign_after(_norm(*self.ends)) > 0
         )
+
+
+def excess(v: Track, ends: tuple[Track, ...], squared: QQ) -> IntPoly:
+    """A polynomial that is positive where a vertex is farther away than a distance.
+
+    Args:
+        v: the trajectory of the vertex.
+        ends: that of another vertex, or those of the ends of an edge, of whose line it is.
+        squared: the square of the distance.
+    """
+    return _excess(_squared(v, ends), squared)
+
+
+def _excess(ratio: tuple[IntPoly, IntPoly], squared: QQ) -> IntPoly:
+    n, d = ratio
+    return subtract(scale(n, ZZ(squared.denominator)), scale(d, ZZ(squared.numerator)))
+
+
+def _squared(v: Track, ends: tuple[Track, ...]) -> tuple[IntPoly, IntPoly]:
+    """Numerator and denominator of the squared distance."""
+    if len(ends) == 1:
+        w = multiply(ends[0].w, v.w)
+        return _norm(ends[0], v), multiply(w, w)
+    a, b = ends
+    d = orientation(a, b, v)
+    return multiply(d, d), multiply(multiply(v.w, v.w), _norm(a, b))
 
 
 def feature_pairs(

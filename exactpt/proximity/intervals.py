@@ -1,8 +1,9 @@
 """The maximal intervals of time in which two bodies meet; they may pass through each other.
 
 Whether two bodies have a common point changes only at a time at which their boundaries touch
-without crossing: then a vertex of one lies on an edge of the other. The times of all
-incidences, together with one rational time between any two consecutive ones, decide.
+without crossing: then a vertex of one lies on an edge of the other, or if one is rounded, is at
+the sum of the radii from it. The times of all incidences, together with one rational time between
+any two consecutive ones, decide.
 """
 
 from __future__ import annotations
@@ -20,8 +21,10 @@ from exactpt.kernel.roots import common_roots, roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference, lies_on, orientation
 from exactpt.motion.track import Track
+from exactpt.proximity.features import feature_pairs
 from exactpt.proximity.near import pairs_that_come_near
-from exactpt.proximity.stretches import Stretch, meet, segments_of, stretches, two_bodies
+from exactpt.proximity.overlap import bodies_meet
+from exactpt.proximity.stretches import Stretch, segments_of, stretches, two_bodies
 from exactpt.scene.scene import Scene
 
 __all__ = ["ContactInterval", "contact_intervals", "contacts", "incidence_times", "intervals"]
@@ -94,17 +97,17 @@ def intervals(
 ) -> Iterator[tuple[AlgebraicNumber, AlgebraicNumber]]:
     """The maximal closed intervals in [start, end] in which two bodies meet."""
     times = incidence_times(a, b, start, end)
-    begin = AlgebraicNumber(start) if meet(a, b, start) else None
+    begin = AlgebraicNumber(start) if bodies_meet(a, b, start) else None
     last = AlgebraicNumber(start)
     for time in times:
-        if not meet(a, b, rational_between(last, time)):
+        if not bodies_meet(a, b, rational_between(last, time)):
             if begin is not None:
                 yield begin, last
             begin = time
         last = time
     if last.compare_rational(end) < 0:
         stop = AlgebraicNumber(end)
-        if begin is not None and not meet(a, b, rational_between(last, stop)):
+        if begin is not None and not bodies_meet(a, b, rational_between(last, stop)):
             yield begin, last
             begin = None
         last = stop
@@ -117,9 +120,11 @@ def incidence_times(a: Body, b: Body, start: QQ, end: QQ) -> list[AlgebraicNumbe
 
     In increasing order, each once. Where a vertex stays on the line of an edge, the times at
     which it passes an end of the edge, and that at which the motion ends, if it is on the edge.
+    Of rounded bodies, likewise the times at which features come to the sum of the radii.
     """
+    of_stretch = _approaches if a._radius or b._radius else _incidences
     found = chain.from_iterable(
-        _incidences(a, b, stretch) for stretch in stretches(a, b, start, end)
+        of_stretch(a, b, stretch) for stretch in stretches(a, b, start, end)
     )
     return _distinct(found)
 
@@ -151,6 +156,21 @@ def _incidences(a: Body, b: Body, stretch: Stretch) -> Iterator[AlgebraicNumber]
             end = AlgebraicNumber(stretch.end)
             if lies_on(v, u, w, end):
                 yield end  # it may leave the line there
+
+
+def _approaches(a: Body, b: Body, stretch: Stretch) -> Iterator[AlgebraicNumber]:
+    """The times at which features of two rounded bodies are at the sum of the radii.
+
+    Where they stay at it, that at which the motion ends. (A foot that leaves its edge does so at
+    a vertex, which is then at that distance.)
+    """
+    squared = (a._radius + b._radius) ** 2
+    begin, end = AlgebraicNumber(stretch.begin), AlgebraicNumber(stretch.end)
+    for pair in feature_pairs(a, b, stretch.first, stretch.second):
+        ask()
+        f = pair.at_distance(squared)
+        times = (root.time for root in roots_after(f, begin, stretch.end)) if f else (end,)
+        yield from (time for time in times if pair.holds(time))
 
 
 def _coincidences(v: Track, u: Track, begin: AlgebraicNumber, end: QQ) -> Iterator[AlgebraicNumber]:

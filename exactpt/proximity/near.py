@@ -7,8 +7,9 @@ from typing import Final
 
 import numpy as np
 
-from exactpt.geometry.boxes import overlapping_pairs
+from exactpt.geometry.boxes import Boxes, overlapping_pairs
 from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
+from exactpt.motion.frame import Frame
 from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.vertices import Vertices
 from exactpt.scene.scene import Scene
@@ -24,7 +25,8 @@ SLABS: Final = 64
 def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
     """The pairs i < j of bodies whose swept boxes, grown to this reach, meet.
 
-    A superset of those whose distance in the maximum norm is ever at most the reach.
+    A superset of those whose distance in the maximum norm is ever at most the reach. (The radii
+    of rounded bodies are added to it.)
     """
     if len(scene.bodies) <= FEW:
         return list(combinations(range(len(scene.bodies)), 2))
@@ -36,17 +38,17 @@ def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
         for i, moving in enumerate(vertices.bodies):
             if moving.until == begin:
                 vertices.enter_piece(i, begin)
-        found |= _near_during(vertices, begin, end, reach)
+        halves = [reach / 2 + body._radius for body in scene.bodies]
+        found |= _near_during(vertices, halves, begin, end)
     return sorted(found)
 
 
-def _near_during(vertices: Vertices, begin: QQ, end: QQ, reach: QQ) -> set[tuple[int, int]]:
+def _near_during(vertices: Vertices, halves: list[QQ], begin: QQ, end: QQ) -> set[tuple[int, int]]:
     """The pairs whose boxes meet in one of the slabs between two changes of motion."""
     images = [vertices.all[v].image for moving in vertices.bodies for v in moving.ring]
     sizes = [len(moving.ring) for moving in vertices.bodies]
     firsts = np.cumsum([0, *sizes[:-1]])
     swept = SweptBoxes(images, vertices.enclosures.errors)
-    half = [enclosing_floats(reach * power_of_two(-s - 1))[1] for s in vertices.frame.scale]
     found: set[tuple[int, int]] = set()
     width = (end - begin) / SLABS
     for k in range(SLABS):
@@ -55,9 +57,20 @@ def _near_during(vertices: Vertices, begin: QQ, end: QQ, reach: QQ) -> set[tuple
         boxes = swept.during(low, high)
         boxes[:, ::2] = np.repeat(np.minimum.reduceat(boxes[:, ::2], firsts), sizes, axis=0)
         boxes[:, 1::2] = np.repeat(np.maximum.reduceat(boxes[:, 1::2], firsts), sizes, axis=0)
-        of_bodies = boxes[firsts]
-        of_bodies[:, ::2] = np.nextafter(of_bodies[:, ::2] - half, -np.inf)
-        of_bodies[:, 1::2] = np.nextafter(of_bodies[:, 1::2] + half, np.inf)
-        for first, second in overlapping_pairs(of_bodies):
+        for first, second in overlapping_pairs(_widened(boxes[firsts], halves, vertices.frame)):
             found.update(zip(first.tolist(), second.tolist(), strict=True))
     return found
+
+
+def _widened(boxes: Boxes, halves: list[QQ], frame: Frame) -> Boxes:
+    """The boxes of bodies, normalised, widened by lengths; the rounding is outward."""
+    if not any(halves):
+        return boxes
+    wide = boxes.copy()
+    for axis in (0, 1):
+        unit = power_of_two(-frame.scale[axis])
+        by = np.array([enclosing_floats(r * unit)[1] for r in halves])
+        low, high = 2 * axis, 2 * axis + 1
+        wide[:, low] = np.nextafter(boxes[:, low] - by, -np.inf)
+        wide[:, high] = np.nextafter(boxes[:, high] + by, np.inf)
+    return wide

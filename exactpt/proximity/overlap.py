@@ -1,4 +1,4 @@
-"""Whether two bodies overlap at a rational time: more than a touch of their boundaries."""
+"""Whether two bodies meet, or overlap, at a rational time: more than a touch of boundaries."""
 
 from __future__ import annotations
 
@@ -10,15 +10,24 @@ from exactpt.geometry.polygon import contains
 from exactpt.geometry.predicates import Point, between, side
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
-from exactpt.proximity.stretches import segments_of
+from exactpt.proximity.distance import squared_distance
+from exactpt.proximity.stretches import meet, segments_of
 
-__all__ = ["overlap"]
+__all__ = ["bodies_meet", "overlap"]
 
 Segment: TypeAlias = "tuple[Point, Point]"
 
 
+def bodies_meet(a: Body, b: Body, t: QQ) -> bool:
+    """Whether two bodies, rounded or not, have a point in common."""
+    reach = a._radius + b._radius
+    return squared_distance(a, b, t) <= reach * reach if reach else meet(a, b, t)
+
+
 def overlap(a: Body, b: Body, t: QQ) -> bool:
     """Whether a point of one body is in the interior of the other, or edges cross each other.
+
+    Rounded bodies overlap if their cores are nearer than the sum of the radii.
 
     Edges cross if each has its ends strictly on both sides of the other. Let no edges cross, and
     cut each edge of one polygon at the vertices of the other; then each part is inside of the
@@ -26,6 +35,9 @@ def overlap(a: Body, b: Body, t: QQ) -> bool:
     each polygon is inside or outside of the other as a whole, and one interior point of each
     tells.
     """
+    reach = a._radius + b._radius
+    if reach:
+        return squared_distance(a, b, t) < reach * reach
     p, q = a._at(t), b._at(t)
     p_edges = [(p[i], p[j]) for i, j in segments_of(a)]
     q_edges = [(q[i], q[j]) for i, j in segments_of(b)]

@@ -14,8 +14,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.proximity.intervals import incidence_times
-from exactpt.proximity.overlap import overlap
-from exactpt.proximity.stretches import meet
+from exactpt.proximity.overlap import bodies_meet, overlap
 
 __all__ = ["new_contact_time"]
 
@@ -33,8 +32,8 @@ def new_contact_time(a: Body, b: Body, start: QQ, end: QQ) -> AlgebraicNumber | 
         if time.compare(last) <= 0:
             return None  # the end, once more
         between = rational_between(last, time)
-        if not meet(a, b, between):
-            if time.compare(stop) < 0 or meet(a, b, end):
+        if not bodies_meet(a, b, between):
+            if time.compare(stop) < 0 or bodies_meet(a, b, end):
                 return time
             return None
         if overlap(a, b, between) and not overlaps:

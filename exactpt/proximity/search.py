@@ -9,7 +9,7 @@ that remain are decided by exact arithmetic, in the order of time.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Final, NamedTuple, TypeAlias, final
 
 import numpy as np
@@ -29,10 +29,13 @@ from exactpt.proximity.features import Feature, FeaturePair
 from exactpt.proximity.stretches import segments_of
 from exactpt.scene.scene import Scene
 
-__all__ = ["Approach", "ApproachSearch"]
+__all__ = ["Apart", "Approach", "ApproachSearch", "Limit", "near_at_start", "within_at_start"]
 
 Indices: TypeAlias = NDArray[np.int64]
 Limit: TypeAlias = Callable[[int, int], QQ]
+"""The square of the distance that two bodies keep, by their indices."""
+Apart: TypeAlias = Callable[[Indices, Indices], NDArray[np.bool_]]
+"""Which pairs of bodies, by two arrays of indices, keep a distance."""
 
 SLABS: Final = 32
 """Number of initial slabs in the time span."""
@@ -56,20 +59,48 @@ class Approach(NamedTuple):
     pairs: tuple[tuple[int, int], ...]
 
 
+def near_at_start(scene: Scene, reach: Sequence[QQ], apart: Apart) -> Iterator[tuple[int, int]]:
+    """The pairs i < j of bodies whose grown boxes meet at the start; see `ApproachSearch`."""
+    points = [body._at(scene._start) for body in scene.bodies]
+    grown = [
+        [(x + s * d, y + s * d) for x, y in ring for s in (-1, 1)]
+        for ring, d in zip(points, reach, strict=True)
+    ]
+    for first, second in overlapping_pairs(boxes_of_points(grown)):
+        watched = apart(first, second)
+        yield from sorted(zip(first[watched].tolist(), second[watched].tolist(), strict=True))
+
+
+def within_at_start(
+    scene: Scene, squared: Limit, near: Iterable[tuple[int, int]]
+) -> Iterator[tuple[tuple[int, int], bool]]:
+    """Those of some pairs of bodies that are within their distance, and whether they are nearer."""
+    for i, j in near:
+        ask()
+        limit = squared(i, j)
+        d = squared_distance(scene.bodies[i], scene.bodies[j], scene._start)
+        if d <= limit:
+            yield (i, j), d < limit
+
+
 @final
 class ApproachSearch:
     """A search for the first approach.
 
     Args:
         scene: the bodies, their motions and the time span.
-        squared: the square of the distance that two bodies keep, by their indices.
-        most: no distance is larger.
+        squared: the squares of the distances.
+        reach: a number for each body; no two bodies keep a distance larger than their sum.
+        apart: which pairs keep a distance; by default all of different bodies.
     """
 
-    def __init__(self, scene: Scene, squared: Limit, most: QQ) -> None:
+    def __init__(
+        self, scene: Scene, squared: Limit, reach: Sequence[QQ], apart: Apart = np.not_equal
+    ) -> None:
         self._scene = scene
         self._squared = squared
-        self._most = most
+        self._reach = reach
+        self._apart = apart
         self._vertices = Vertices.of(scene.bodies, scene._start, scene._end, plain=True)
         ids: list[int] = []
         edges: list[tuple[int, int]] = []
@@ -87,19 +118,29 @@ class ApproachSearch:
 
     def run(self) -> Approach | None:
         """The first approach in the closed time span; None if there is none."""
-        pairs = tuple(self._within_at_start())
+        near = near_at_start(self._scene, self._reach, self._apart)
+        pairs = tuple(ij for ij, _ in within_at_start(self._scene, self._squared, near))
         if pairs:
             return Approach(AlgebraicNumber(self._scene._start), pairs)
+        return self.run_after_start()
+
+    def run_after_start(self) -> Approach | None:
+        """The first approach, if no two bodies are within their distance at the start."""
         now, end = self._scene._start, self._scene._end
-        step = (end - now) / SLABS
+        # Shorter slabs are no help to vertices without boxes.
+        step = (end - now) / (SLABS if np.isfinite(self._boxes(now, end)).all() else 1)
+        many, least = 2 * len(self._ids) + 64, (end - now) / 2**20
         while now < end:
             ask()
             until = min([end, *(m.until for m in self._vertices.bodies if m.until is not None)])
             later = min(now + step, until)
             near = self._near(now, later)
-            if len(near[0]) > 2 * len(self._ids) + 64 and step > (end - now) / 2**20:
-                step /= 2
-                continue
+            while len(near[0]) > many and step > least:
+                shorter = min(now + step / 4, until)
+                fewer = self._near(now, shorter)
+                if 2 * len(fewer[0]) > len(near[0]):
+                    break  # these pairs stay near each other: a shorter slab is no help
+                step, later, near = step / 4, shorter, fewer
             found = self._search(now, later, self._left(now, later, near), DEPTH)
             if found is not None:
                 return found
@@ -109,18 +150,6 @@ class ApproachSearch:
             self._enter_pieces(now)
         return None
 
-    def _within_at_start(self) -> Iterator[tuple[int, int]]:
-        """The pairs of bodies that are within their distance at the start."""
-        scene = self._scene
-        points = [body._at(scene._start) for body in scene.bodies]
-        d = self._most
-        grown = [[(x + s * d, y + s * d) for x, y in ring for s in (-1, 1)] for ring in points]
-        for first, second in overlapping_pairs(boxes_of_points(grown)):
-            for i, j in sorted(zip(first.tolist(), second.tolist(), strict=True)):
-                a, b = scene.bodies[i], scene.bodies[j]
-                if squared_distance(a, b, scene._start) <= self._squared(i, j):
-                    yield i, j
-
     def _read_tracks(self) -> None:
         """Read the trajectories of the current pieces of motion."""
         images = [self._vertices.all[v].image for v in self._ids]
@@ -129,7 +158,8 @@ class ApproachSearch:
         # Units of both axes, relative to the smaller one: powers of two.
         unit = min(frame.scale)
         self._units = np.array([math.ldexp(1.0, s - unit) for s in frame.scale])
-        self._reach = nearest_float(self._most * power_of_two(-unit)) * (1.0 + 4.0 * U)
+        reach = [nearest_float(d * power_of_two(-unit)) for d in self._reach]
+        self._grown = np.array(reach)[self._body] * (1.0 + 4.0 * U)
 
     def _enter_pieces(self, now: QQ) -> None:
         ended = [i for i, m in enumerate(self._vertices.bodies) if m.until == now]
@@ -145,20 +175,26 @@ class ApproachSearch:
         boxes *= np.repeat(self._units, 2)
         return boxes
 
+    @staticmethod
+    def _widened(boxes: Boxes, by: NDArray[np.float64]) -> Boxes:
+        wide = np.empty_like(boxes)
+        wide[:, ::2] = np.nextafter(boxes[:, ::2] - by[:, None], -np.inf)
+        wide[:, 1::2] = np.nextafter(boxes[:, 1::2] + by[:, None], np.inf)
+        return wide
+
     def _near(self, now: QQ, later: QQ) -> tuple[Indices, Indices]:
         """The numbers of vertices and of edges of other bodies that may be near in a slab."""
         boxes = self._boxes(now, later)
         a, b = self._edges[:, 0], self._edges[:, 1]
         low, high = np.minimum(boxes[a], boxes[b]), np.maximum(boxes[a], boxes[b])
         of_edges = np.stack((low[:, 0], high[:, 1], low[:, 2], high[:, 3]), axis=1)
-        of_edges[:, ::2] = np.nextafter(of_edges[:, ::2] - self._reach, -np.inf)
-        of_edges[:, 1::2] = np.nextafter(of_edges[:, 1::2] + self._reach, np.inf)
         n = len(self._ids)
         vs, es = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
-        for first, second in overlapping_pairs(np.concatenate((boxes, of_edges))):
+        grown = self._widened(boxes, self._grown), self._widened(of_edges, self._grown[a])
+        for first, second in overlapping_pairs(np.concatenate(grown)):
             crossed = (first < n) & (second >= n)
             v, e = first[crossed], second[crossed] - n
-            apart = self._body[v] != self._body[self._edges[e, 0]]
+            apart = self._apart(self._body[v], self._body[self._edges[e, 0]])
             vs.append(v[apart])
             es.append(e[apart])
         return np.concatenate(vs), np.concatenate(es)
@@ -213,7 +249,8 @@ class ApproachSearch:
         size = np.abs(to_a).sum(axis=1) + np.abs(to_b).sum(axis=1)
         size += np.abs(middle[v]).sum(axis=1) + np.abs(middle[a]).sum(axis=1)
         spread = half[v] + np.maximum(half[a], half[b])
-        bound = np.hypot(foot[:, 0], foot[:, 1]) - (spread + self._reach) * (1.0 + 64.0 * U)
+        spread += self._grown[v] + self._grown[a]
+        bound = np.hypot(foot[:, 0], foot[:, 1]) - spread * (1.0 + 64.0 * U)
         may: NDArray[np.bool_] = ~(bound > 64.0 * U * size)  # NaN: it may
         return may
 

@@ -59,7 +59,7 @@ def segments_of(body: Body) -> list[tuple[int, int]]:
 
 
 def meet(a: Body, b: Body, t: QQ) -> bool:
-    """Whether two bodies have a point in common at a rational time."""
+    """Whether the cores of two bodies have a point in common at a rational time."""
     p, q = a._at(t), b._at(t)
     return (
         _boundaries_meet(p, segments_of(a), q, segments_of(b))

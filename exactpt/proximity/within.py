@@ -9,6 +9,9 @@ of one body lies on an edge of the other translated by a corner of the square, o
 differ by exactly d in one coordinate and by at most d in the other. Both are roots of
 polynomials in time, as contacts are.
 
+Rounded bodies are within a distance if their cores are within it and the radii: in the Euclidean
+norm and along an axis, not in the maximum norm.
+
 All pairs of features are tested: the question concerns two bodies, not a whole scene.
 """
 
@@ -24,6 +27,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale, subtract
 from exactpt.kernel.numbers import QQ, ZZ, Rational, rational, shorten, show
 from exactpt.kernel.roots import roots_after
+from exactpt.kernel.square_root import exact_square_root
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference, lies_on, orientation
 from exactpt.motion.track import Track
@@ -31,7 +35,7 @@ from exactpt.proximity.distance import squared_distance
 from exactpt.proximity.features import feature_pairs
 from exactpt.proximity.stretches import Stretch, meet, segments_of, stretches
 
-__all__ = ["NORMS", "Norm", "asked_distance", "time_within"]
+__all__ = ["NORMS", "Norm", "asked_distance", "of_cores", "time_within"]
 
 Norm: TypeAlias = Literal["euclidean", "max", "x", "y"]
 NORMS: Final = ("euclidean", "max", "x", "y")
@@ -45,6 +49,7 @@ def time_within(
     first: Body, second: Body, start: QQ, end: QQ, d: QQ, norm: Norm
 ) -> AlgebraicNumber | None:
     """The first time in [start, end] at which two bodies are within d; Euclidean: its root."""
+    d = of_cores(d, first._radius + second._radius, norm)
     if _is_within(first, second, start, d, norm):
         return AlgebraicNumber(start)
     for stretch in stretches(first, second, start, end):
@@ -76,6 +81,28 @@ def asked_distance(
     if norm != "euclidean" and distance is None:
         raise InputError(f"a squared distance is for the Euclidean norm, not for {norm!r}")
     return norm, given * given if norm == "euclidean" and squared is None else given
+
+
+def of_cores(d: QQ, radii: QQ, norm: Norm) -> QQ:
+    """The distance of the cores at which bodies with radii of this sum are within d.
+
+    Both as of `asked_distance`.
+
+    Raises:
+        InputError: if the norm is "max", or the distance of the cores has no rational square.
+    """
+    if not radii:
+        return d
+    if norm == "max":
+        raise InputError('norm "max" is for bodies without radius; there are: euclidean, x, y')
+    if norm != "euclidean":
+        return d + radii
+    root = exact_square_root(d)
+    if root is None:
+        raise InputError(
+            f"distance_squared={show(d)}: of rounded bodies it must be the square of a rational"
+        )
+    return (root + radii) ** 2
 
 
 def _candidates(a: Body, b: Body, stretch: Stretch, d: QQ, norm: Norm) -> Iterator[Candidate]:

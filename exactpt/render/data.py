@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
 from exactpt.render.fixed import BITS, exponent_above, fixed
 from exactpt.render.palette import body_colour
 from exactpt.render.words import contact_in_words, pair_in_words, short
@@ -46,7 +46,7 @@ def data_of(film: Film, *, at: AlgebraicNumber | QQ | None = None) -> dict[str, 
         "endText": str(scene._end),
         "origin": [_integer(fixed(c, BITS - length_unit)) for c in origin],
         "bodies": [
-            _body(body, body_colour(i), scene, end, time_bits)
+            _body(body, body_colour(i), scene, end, time_bits, length_unit)
             for i, body in enumerate(scene.bodies)
         ],
         "steps": [_step(step, time_bits) for step in film.steps],
@@ -55,7 +55,7 @@ def data_of(film: Film, *, at: AlgebraicNumber | QQ | None = None) -> dict[str, 
             [list(t.nodes), list(t.corners), t.tint, t.inside, *t.place, t.first, t.last]
             for t in sorted(film.tiles, key=lambda t: (t.first, t.nodes))
         ],
-        "contact": None if film.contact is None else _contact(film.contact, scene),
+        "contact": None if film.contact is None else _contact(film.contact, scene, length_unit),
     }
 
 
@@ -72,7 +72,15 @@ def _extent(film: Film) -> tuple[int, tuple[QQ, QQ]]:
     boxes = [
         (min(values), max(values))
         for t in times
-        for values in zip(*(p for body in scene.bodies for p in body._at(t)), strict=True)
+        for values in zip(
+            *(
+                (x + s, y + s)
+                for body in scene.bodies
+                for x, y in body._at(t)
+                for s in ((body._radius, -body._radius) if body._radius else (0,))
+            ),
+            strict=True,
+        )
     ]
     if not boxes:
         return 0, (QQ(0), QQ(0))
@@ -82,7 +90,7 @@ def _extent(film: Film) -> tuple[int, tuple[QQ, QQ]]:
 
 
 def _body(
-    body: Body, colour: str, scene: Scene, end: AlgebraicNumber, time_bits: int
+    body: Body, colour: str, scene: Scene, end: AlgebraicNumber, time_bits: int, length_unit: int
 ) -> list[object]:
     pieces: list[object] = []
     time: QQ | None = scene._start
@@ -91,7 +99,12 @@ def _body(
         tracks = [[[_integer(c) for c in f] for f in (t.x, t.y, t.w)] for t in piece.tracks]
         time = piece.until
         pieces.append([None if time is None else _integer(fixed(time, time_bits)), tracks])
-    return [body.name, colour, body.closed, pieces]
+    radius = [_in_units(body._radius, length_unit)] if body._radius else []
+    return [body.name, colour, body.closed, pieces, *radius]
+
+
+def _in_units(length: QQ, unit: int) -> float:
+    return nearest_float(length * power_of_two(-unit))
 
 
 def _step(step: Step, time_bits: int) -> dict[str, object]:
@@ -112,7 +125,7 @@ def _step(step: Step, time_bits: int) -> dict[str, object]:
     return data
 
 
-def _contact(contact: Contact, scene: Scene) -> dict[str, object]:
+def _contact(contact: Contact, scene: Scene, length_unit: int) -> dict[str, object]:
     first: dict[str, int] = {}
     count = 0
     for body in scene.bodies:
@@ -127,6 +140,11 @@ def _contact(contact: Contact, scene: Scene) -> dict[str, object]:
             edge = [start + pair.edge, start + (pair.edge + 1) % sizes[pair.other]]
         if pair.other_vertex is not None:
             other = start + pair.other_vertex
+        radius = scene.body(pair.body)._radius
+        shift = None
+        if pair.normal is not None and (radius or scene.body(pair.other)._radius):
+            # From the vertex of the core to the common point.
+            shift = [-_in_units(radius, length_unit) * c for c in pair.normal]
         pairs.append(
             {
                 "node": first[pair.body] + pair.vertex,
@@ -134,6 +152,7 @@ def _contact(contact: Contact, scene: Scene) -> dict[str, object]:
                 "other": other,
                 "normal": None if pair.normal in (None, (0.0, 0.0)) else list(pair.normal or ()),
                 "words": pair_in_words(pair),
+                **({} if shift is None else {"shift": shift}),
             }
         )
     return {

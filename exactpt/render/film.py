@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, final
 
+from exactpt.collision.detector import first_contact
 from exactpt.indices import VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.render.tracker import EdgeSpan, TileSpan, Tracker
@@ -53,7 +54,7 @@ class Film:
 
     Attributes:
         scene: the scene.
-        tiling: the name of the tiling.
+        tiling: the name of the tiling; "no" of rounded bodies, which none holds.
         steps: the times with events; step i is ``steps[i - 1]``, step 0 is the start.
         edges: the edges of the tiling, each with its first and last step.
         tiles: the tiles, likewise.
@@ -95,11 +96,14 @@ def film_of(
     Raises:
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
+    if scene.is_rounded:
+        return _without_tiling(
+            scene, "no", first_contact(scene, tiling=tiling, max_seconds=max_seconds)
+        )
     simulation = Simulation(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
     kinetic = simulation.kinetic
     if kinetic is None:
-        steps = (Step(simulation.now, [Change("contact", (), ())], ()),)
-        return Film(scene, simulation.name, steps, (), (), simulation.contact)
+        return _without_tiling(scene, simulation.name, simulation.contact)
     node = kinetic.vertices.nodes()
     node_of = {kinetic.vertices.name(VertexId(v)): n for v, n in enumerate(node)}
     tracker = Tracker(kinetic, node)
@@ -126,6 +130,14 @@ def film_of(
         tuple(tracker.tiles),
         simulation.contact,
     )
+
+
+def _without_tiling(scene: Scene, name: str, contact: Contact | None) -> Film:
+    """A film of bodies alone, up to the contact."""
+    steps: tuple[Step, ...] = ()
+    if contact is not None:
+        steps = (Step(contact.time, [Change("contact", (), ())], ()),)
+    return Film(scene, name, steps, (), (), contact)
 
 
 def _change(event: Event, node_of: dict[str, int]) -> Change:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, TypeAlias, final
 
+from exactpt.kernel.numbers import nearest_float, rational
 from exactpt.render.palette import TINTS, body_colour
 from exactpt.render.window import Window, window_of
 from exactpt.render.words import contact_in_words, time_in_words
@@ -31,6 +32,7 @@ class Shape:
     """A body: one point, two, a polygon (``closed``) or an open chain, in pixels.
 
     Its name is centred at the pixel ``label``; None if there are too many bodies for labels.
+    With a ``radius``, all pixels within it belong to the body.
     """
 
     name: str
@@ -38,6 +40,7 @@ class Shape:
     pixels: tuple[Pixel, ...]
     closed: bool
     label: Pixel | None
+    radius: float = 0.0
 
 
 @final
@@ -105,7 +108,14 @@ def frame_of(still: Still) -> Frame:
     """The drawing primitives of a still."""
     scene = still.scene
     places = {body.name: body._at(still.at) for body in scene.bodies}
-    window = window_of([place for body in places.values() for place in body])
+    window = window_of(
+        [
+            (x + side * body._radius, y + side * body._radius)
+            for body in scene.bodies
+            for x, y in places[body.name]
+            for side in ((1, -1) if body._radius else (0,))
+        ]
+    )
     pixels = {name: tuple(window.pixel(x, y) for x, y in body) for name, body in places.items()}
     named = len(scene.bodies) <= NAMED
     shapes = tuple(
@@ -114,7 +124,8 @@ def frame_of(still: Still) -> Frame:
             body_colour(i),
             pixels[body.name],
             body.closed,
-            _label(pixels[body.name], closed=body.closed) if named else None,
+            _label(pixels[body.name], closed=body.closed, thin=not body._radius) if named else None,
+            nearest_float(body._radius * window.scale),
         )
         for i, body in enumerate(scene.bodies)
     )
@@ -131,15 +142,19 @@ def frame_of(still: Still) -> Frame:
         caption = f"first contact at {time_in_words(still.contact.time)}"
         both, one = (contact_in_words(still.contact, limit=n) for n in (2, 1))
         news = both if len(both) * _LETTER < window.width else one
-        marks = tuple(_mark(pair, pixels) for pair in still.contact.pairs)
+        rounded = {body.name for body in scene.bodies if body._radius}
+        marks = tuple(
+            _mark(pair, pixels, window, touches=rounded.isdisjoint((pair.body, pair.other)))
+            for pair in still.contact.pairs
+        )
     return Frame(window, caption, news, note, tiles, shapes, lines, marks)
 
 
-def _label(pixels: Sequence[Pixel], *, closed: bool) -> Pixel:
+def _label(pixels: Sequence[Pixel], *, closed: bool, thin: bool) -> Pixel:
     """The position of a name: in the middle of a body; of a non-convex one, where it is widest."""
     x, y = (sum(c) / len(pixels) for c in zip(*pixels, strict=True))
     if len(pixels) < 3 or not closed:
-        return x, y - 13.0
+        return x, y - 13.0 * thin
     if any(left < x < right for left, right in _inside_at(pixels, y)):
         return x, y
     low, high = min(q for _, q in pixels), max(q for _, q in pixels)
@@ -195,10 +210,16 @@ def tints(faces: Sequence[Face]) -> list[int]:
     return chosen
 
 
-def _mark(pair: Pair, pixels: dict[str, tuple[Pixel, ...]]) -> Mark:
+def _mark(
+    pair: Pair, pixels: dict[str, tuple[Pixel, ...]], window: Window, *, touches: bool
+) -> Mark:
+    """The mark of an incidence; ``touches`` unless a body is rounded, and so not the cores do."""
     other = pixels[pair.other]
     edge = None
     if pair.edge is not None:
         edge = (other[pair.edge], other[(pair.edge + 1) % len(other)])
     normal = None if pair.normal in (None, (0.0, 0.0)) else (pair.normal[0], -pair.normal[1])
-    return Mark(pixels[pair.body][pair.vertex], normal, edge)
+    if touches:
+        return Mark(pixels[pair.body][pair.vertex], normal, edge)
+    x, y = (rational(c) for c in pair.point)
+    return Mark(window.pixel(x, y), normal, None)

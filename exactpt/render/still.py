@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, final
 
+from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError, TimeRangeError
 from exactpt.kernel.numbers import show
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
@@ -28,7 +29,7 @@ class Still:
         scene: the scene.
         at: the time; a rational just before it if the time is irrational.
         tiling: the tiling at that time (at a contact: the one just before); None if the bodies
-            touch at the start and there is no tiling.
+            touch at the start, or one is rounded, and there is no tiling.
         contact: the contact, if this is its time.
     """
 
@@ -58,10 +59,18 @@ def still(
             f"t = {show(at)} is outside the time span "
             f"from {show(scene._start)} to {show(scene._end)}"
         )
-    simulation = Simulation(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
-    for _ in simulation.run(at):
-        pass
-    contact = simulation.contact
+    simulation: Simulation | None = None
+    if scene.is_rounded:
+        contact = first_contact(scene, tiling=tiling, max_seconds=max_seconds)
+    else:
+        simulation = Simulation(
+            scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds
+        )
+        for _ in simulation.run(at):
+            pass
+        contact = simulation.contact
+    if contact is not None and at is not None and contact.time.compare_rational(at) > 0:
+        contact = None
     if at is None and contact is None:
         raise InputError(
             f"no contact to draw from t = {show(scene._start)} to t = {show(scene._end)}"
@@ -71,7 +80,10 @@ def still(
             f"nothing to draw at t = {show(at)}: "
             f"the first contact is at t = {float(contact.time)!r}"
         )
-    return still_of(simulation)
+    if simulation is not None:
+        return still_of(simulation)
+    now = at if contact is None else near(contact.time.simplified(), scene._end - scene._start)
+    return Still(scene, scene._start if now is None else now, None, contact)
 
 
 def still_of(simulation: Simulation) -> Still:

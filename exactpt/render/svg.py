@@ -104,6 +104,8 @@ def _tile(tile: Tile) -> str:
 def _shape(shape: Shape) -> str:
     title = f"<title>{_text(shape.name)}</title>"
     x, y = shape.pixels[0]
+    if shape.radius:
+        return f'<g class="rounded">{title}{"".join(_rounded(shape))}</g>'
     if len(shape.pixels) == 1:
         return (
             f'<circle cx="{_number(x)}" cy="{_number(y)}" r="4.5" fill="{shape.colour}">'
@@ -115,6 +117,17 @@ def _shape(shape: Shape) -> str:
             f'points="{_points(shape.pixels)}">{title}</polyline>'
         )
     return f'<polygon fill="{shape.colour}" points="{_points(shape.pixels)}">{title}</polygon>'
+
+
+def _rounded(shape: Shape) -> Iterator[str]:
+    """The core, drawn twice with a pen as wide as the body: a little wider for the outline."""
+    core = "polygon" if shape.closed and len(shape.pixels) > 2 else "polyline"
+    points = _points(shape.pixels if len(shape.pixels) > 1 else shape.pixels * 2)
+    pen = "stroke-linejoin:round;stroke-linecap:round;vector-effect:none"
+    for paint, more in (("", 2.4), (f";stroke:{shape.colour}", 0.0)):
+        fill = shape.colour if paint and core == "polygon" else "none"
+        style = f"fill:{fill};stroke-width:{_number(2.0 * shape.radius + more)}px;{pen}{paint}"
+        yield f'<{core} style="{style}" points="{points}"/>'
 
 
 def _line(line: Line) -> str:

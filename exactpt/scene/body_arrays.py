@@ -36,11 +36,12 @@ class BodyArrays(Sequence[Body]):
         closed: for each body or for all, whether it is a polygon if it has three or more
             vertices; else it is an open chain.
         names: of the bodies; their numbers if not given.
+        radii: for each body or for all, its radius.
 
     Attributes:
         vertices, offsets: as given.
         coefficients: of shape (n, 2, d + 1), also where velocities were given.
-        closed: shape (n,).
+        closed, radii: shape (n,).
 
     Raises:
         InputError: if the shapes of the arrays do not match, or a value is not a finite double,
@@ -56,12 +57,14 @@ class BodyArrays(Sequence[Body]):
         coefficients: ArrayLike | None = None,
         closed: ArrayLike = True,
         names: Sequence[str] | None = None,
+        radii: ArrayLike = 0.0,
     ) -> None:
         self.vertices: Floats = _kept(_shaped(doubles(vertices, "vertices"), "vertices", 2))
         self.offsets: Indices = _kept(_offsets(offsets, len(self.vertices)))
         n = len(self.offsets) - 1
         self.coefficients: Floats = _kept(_motions(velocities, coefficients, n))
         self.closed: Flags = _kept(_flags(closed, n))
+        self.radii: Floats = _radii(radii, n)
         self._names = None if names is None else _names(names, n)
         self._made: dict[int, Body] = {}
 
@@ -85,7 +88,8 @@ class BodyArrays(Sequence[Body]):
         rows = self.vertices[self.offsets[k] : self.offsets[k + 1]].tolist()
         x, y = self.coefficients[k].tolist()
         motion: Motion = Translation(x, y) if any((*x, *y)) else REST
-        return Body(self.name(k), rows, motion, closed=bool(self.closed[k]))
+        radius = float(self.radii[k])
+        return Body(self.name(k), rows, motion, closed=bool(self.closed[k]), radius=radius)
 
     def name(self, k: int) -> str:
         """The name of a body."""
@@ -126,7 +130,7 @@ class BodyArrays(Sequence[Body]):
 
     def __reduce__(self) -> tuple[object, ...]:
         return _restored, (
-            self.vertices, self.offsets, self.coefficients, self.closed, self._names
+            self.vertices, self.offsets, self.coefficients, self.closed, self._names, self.radii
         )  # fmt: skip
 
     def __repr__(self) -> str:
@@ -135,9 +139,11 @@ class BodyArrays(Sequence[Body]):
 
 def _restored(
     vertices: Floats, offsets: Indices, coefficients: Floats, closed: Flags,
-    names: list[str] | None,
+    names: list[str] | None, radii: Floats,
 ) -> BodyArrays:  # fmt: skip
-    return BodyArrays(vertices, offsets, coefficients=coefficients, closed=closed, names=names)
+    return BodyArrays(
+        vertices, offsets, coefficients=coefficients, closed=closed, names=names, radii=radii
+    )
 
 
 def _kept(array: Array) -> Array:
@@ -189,6 +195,16 @@ def _flags(closed: ArrayLike, n: int) -> Flags:
     if flags.dtype != np.bool_ or flags.shape not in {(), (n,)}:
         raise InputError(f"closed: a boolean or {n} of them are needed: {shorten(closed)}")
     return np.broadcast_to(flags, (n,)).copy()
+
+
+def _radii(values: ArrayLike, n: int) -> Floats:
+    radii = doubles(values, "radii")
+    if radii.shape not in {(), (n,)}:
+        raise InputError(f"radii: a number or {n} of them are needed, not {radii.shape}")
+    at = first_true(radii < 0)
+    if at is not None:
+        raise InputError(f"radii{list(at)}: it is negative: {radii[at]}")
+    return np.broadcast_to(radii.copy(), (n,))
 
 
 def _names(names: Sequence[str], n: int) -> list[str]:

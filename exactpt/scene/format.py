@@ -95,7 +95,7 @@ def _body(data: Json, index: int) -> Body:
     where = f"body {index}"
     if isinstance(data, dict) and isinstance(data.get("name"), str):
         where = f"body {shorten(str(data['name']))}"
-    allowed = {"vertices", "motion", "closed", "keyframes"}
+    allowed = {"vertices", "motion", "closed", "keyframes", "radius"}
     body = an_object(data, where, required=["name"], optional=allowed)
     name = body["name"]
     if not isinstance(name, str) or isinstance(name, Number) or not is_text(name):
@@ -106,16 +106,24 @@ def _body(data: Json, index: int) -> Body:
     if not isinstance(closed, bool):
         raise InputError(f'{where}: "closed": not true or false: {shown(closed)}')
     motion = _motion(body["motion"], f'{where}: "motion"') if "motion" in body else REST
+    radius = _radius(body["radius"], f'{where}: "radius"') if "radius" in body else QQ(0)
     if "keyframes" in body:
         frames = _keyframes(body["keyframes"], f'{where}: "keyframes"')
-        return Body(name, motion=motion, closed=closed, keyframes=frames)
+        return Body(name, motion=motion, closed=closed, keyframes=frames, radius=radius)
     rows = a_list(body["vertices"], f'{where}: "vertices"')
     if not rows:
         raise InputError(f'{where}: "vertices": at least one is needed')
     if closed and len(rows) > 3 and rows[0] == rows[-1]:
         raise InputError(f'{where}: "vertices": the last repeats the first: {shown(rows[-1])}')
     vertices = [_vertex(row, f"{where}: vertex {i}") for i, row in enumerate(rows)]
-    return Body(name, vertices, motion, closed=closed)
+    return Body(name, vertices, motion, closed=closed, radius=radius)
+
+
+def _radius(data: Json, where: str) -> QQ:
+    radius = exact_number(data, where)
+    if radius < 0:
+        raise InputError(f"{where}: it is negative: {show(radius)}")
+    return radius
 
 
 def _vertex(data: Json, where: str) -> Position:
@@ -237,6 +245,8 @@ def _body_to_json(body: Body) -> dict[str, object]:
     data: dict[str, object] = {"name": body.name}
     if not body.closed:
         data["closed"] = False
+    if body._radius:
+        data["radius"] = _text(body._radius)
     if body._shape.keyframes:
         data["keyframes"] = [
             {"t": _text(f.t), "vertices": [[_text(x), _text(y)] for x, y in f.vertices]}

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from random import Random
 from typing import Final, TypeAlias
 
-from exactpt.scene.families import convex, degenerate, grid, points, simple
+from exactpt.scene.families import convex, degenerate, grid, points, rounded, simple
 from exactpt.scene.scene import Scene
 
-__all__ = ["CONVEX", "FAMILIES", "POINTS", "SIMPLE", "Family", "generate"]
+__all__ = ["CONVEX", "FAMILIES", "POINTS", "ROUNDED", "SIMPLE", "Family", "generate"]
 
 Family: TypeAlias = Callable[[Random], Scene]
 
@@ -69,6 +69,18 @@ POINTS: Final[dict[str, Family]] = {
 """Families of points alone."""
 
 
+ROUNDED: Final[dict[str, Family]] = {
+    "discs": rounded.discs,
+    "kissing_discs": rounded.kissing_discs,
+    "sliding_capsules": rounded.sliding_capsules,
+    "rolling_discs": rounded.rolling_discs,
+    "discs_in_corners": rounded.discs_in_corners,
+    "rounded_grid": rounded.rounded_grid,
+    "rounded_motions": rounded.rounded_motions,
+}
+"""Families with rounded bodies, which no tiling holds."""
+
+
 def generate(family: str, seed: int) -> Scene:
     """The scene of a family with this seed."""
-    return {**FAMILIES, **POINTS}[family](Random(f"{family}:{seed}"))
+    return {**FAMILIES, **POINTS, **ROUNDED}[family](Random(f"{family}:{seed}"))

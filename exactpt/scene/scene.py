@@ -61,6 +61,7 @@ class Scene:
         coefficients: ArrayLike | None = None,
         closed: ArrayLike = True,
         names: Sequence[str] | None = None,
+        radii: ArrayLike = 0.0,
         time: Sequence[Rational] = (0, 1),
     ) -> Scene:
         """The scene of bodies in numpy arrays, with the exact values of their doubles.
@@ -83,6 +84,7 @@ class Scene:
                 polynomial in t with these coefficients, constant first.
             closed: for each body or for all, False for an open chain.
             names: the names of the bodies; "0", "1", ... if not given.
+            radii: for each body or for all, its radius.
             time: the start and the end of the scene.
 
         Raises:
@@ -90,7 +92,7 @@ class Scene:
         """
         bodies = BodyArrays(
             vertices, offsets, velocities=velocities, coefficients=coefficients, closed=closed,
-            names=names,
+            names=names, radii=radii,
         )  # fmt: skip
         start, end = _span(time)
         for k in bodies.doubtful():
@@ -200,6 +202,7 @@ class Scene:
         time: Sequence[Rational] = (0, 1),
         *,
         holes: Literal["refuse", "fill"] = "refuse",
+        radius: Rational = 0,
     ) -> Scene:
         """The scene of shapely geometries, at rest: one body for each part of each.
 
@@ -207,22 +210,30 @@ class Scene:
             geometries: by name, or in order; the exact values of their doubles are taken.
             time: the start and the end of the scene.
             holes: "refuse" polygons with holes, or "fill" them.
+            radius: the radius of each body.
 
         Raises:
             InputError: if a geometry cannot be a body (see `exactpt.read_shapes`).
         """
-        scene: Scene = extension("scene from shapely")(geometries, time, holes)
+        scene: Scene = extension("scene from shapely")(geometries, time, holes, radius)
         return scene
 
-    def to_shapely(self, t: Rational) -> dict[str, BaseGeometry]:
+    def to_shapely(self, t: Rational, *, tolerance: float | None = None) -> dict[str, BaseGeometry]:
         """The bodies at a rational time as shapely geometries, by name.
 
-        Coordinates are the nearest doubles.
+        Coordinates are the nearest doubles. A rounded body becomes a polygon of chords, by
+        shapely's buffer, which also fills dents shallower than a hundredth of the radius.
+
+        Args:
+            t: the time.
+            tolerance: maximum distance of a chord from its arc; by default a hundredth of the
+                radius.
 
         Raises:
-            InputError: if the time is outside the time span.
+            InputError: if the time is outside the time span, or the tolerance is not positive.
         """
-        geometries: dict[str, BaseGeometry] = extension("scene to shapely")(self, rational(t))
+        convert = extension("scene to shapely")
+        geometries: dict[str, BaseGeometry] = convert(self, rational(t), tolerance)
         return geometries
 
     def until(self, end: Rational) -> Scene:
@@ -264,6 +275,13 @@ class Scene:
         if isinstance(self.bodies, BodyArrays):
             return self.bodies.vertex_count
         return sum(body.size for body in self.bodies)
+
+    @property
+    def is_rounded(self) -> bool:
+        """Whether a body has a radius."""
+        if isinstance(self.bodies, BodyArrays):
+            return bool(self.bodies.radii.any())
+        return any(body._radius for body in self.bodies)
 
     def __eq__(self, other: object) -> bool:
         """Whether the bodies, in order, and the time spans are equal."""

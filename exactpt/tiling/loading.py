@@ -12,6 +12,7 @@ from exactpt.certificates.convex_bodies import all_stay_convex
 from exactpt.errors import AuditError, InputError
 from exactpt.indices import VertexId
 from exactpt.kernel.counters import Counters
+from exactpt.motion.body import refuse_rounded
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling import catalogue
 from exactpt.tiling.catalogue import Bodies, Entry
@@ -33,8 +34,10 @@ def plan(name: str, bodies: Sequence[Body], start: QQ, end: QQ) -> tuple[Entry, 
     """The tiling with a name that is for the bodies, and their moving vertices for it.
 
     Raises:
-        InputError: if there is no such tiling, or it is for points and a body is not one.
+        InputError: if there is no such tiling, it is for points and a body is not one, or a body
+            is rounded.
     """
+    refuse_rounded(bodies)
     made: list[Vertices] = []
 
     def vertices() -> Vertices:

@@ -20,6 +20,7 @@ from exactpt.scene.scene import Scene
 from fuzz.questions import by_cgal, reference
 from fuzz.questions.norms import Norm, first_within_norm
 from fuzz.questions.renewal import first_new_contact
+from fuzz.questions.rounded import rounded_pair, wrong_answer
 from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
 from fuzz.questions.tiny import touching_scene
 
@@ -217,12 +218,22 @@ def _cgal(random: Random) -> Checked:
     return Checked(scene, "never" if time is None else "within", fault, signs)
 
 
+def _rounded(random: Random) -> Checked:
+    """Intervals, first_within, distance and clearance of two bodies with radii."""
+    scene = rounded_pair(random)
+    met = contact_intervals(scene, *(body.name for body in scene.bodies))
+    touches = sum(i.start == i.end for i in met)
+    kind = f"{len(met)} intervals, {touches} of them touches"
+    return Checked(scene, kind, wrong_answer(random, scene))
+
+
 QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "distance": _distance,
     "approach": _approach,
     "norms": _norms,
     "intervals": _intervals,
     "after-start": _after_start,
+    "rounded": _rounded,
     "cgal": _cgal,
 }
 """A function from random choices to a case, by question."""

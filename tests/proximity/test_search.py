@@ -1,5 +1,6 @@
 """The first approach of any two bodies: the least of all pairs, and few exact decisions."""
 
+from fractions import Fraction
 from itertools import combinations
 from random import Random
 
@@ -17,7 +18,7 @@ from fuzz.questions.tiny import touching_scene
 
 
 def search(scene, d):
-    return ApproachSearch(scene, lambda i, j: d * d, d).run()  # noqa: ARG005
+    return ApproachSearch(scene, lambda i, j: d * d, [d / 2] * len(scene.bodies)).run()  # noqa: ARG005
 
 
 def by_pairs(scene, d):
@@ -52,7 +53,7 @@ def test_pairs_with_limits_of_their_own():
     radius = [1, 2, 3]
 
     found = ApproachSearch(
-        Scene(bodies, (0, 20)), lambda i, j: QQ(radius[i] + radius[j]) ** 2, QQ(6)
+        Scene(bodies, (0, 20)), lambda i, j: QQ(radius[i] + radius[j]) ** 2, list(map(QQ, radius))
     ).run()
 
     assert found == (QQ(5), ((1, 2),)) if found.time == 5 else found.time == 7
@@ -199,7 +200,8 @@ def test_bodies_that_hover_are_decided_exactly_in_few_intervals(monkeypatch):
 
     assert search(scene, QQ(1, 2)) is None
     # Distances keep to themselves; one that another pair keeps is larger than those of some.
-    found = ApproachSearch(scene, lambda _, j: QQ(1, 9) if j > 1 else QQ(0), QQ(1)).run()
+    half = [QQ(1, 2)] * len(scene.bodies)
+    found = ApproachSearch(scene, lambda _, j: QQ(1, 9) if j > 1 else QQ(0), half).run()
     assert found is None
     assert len(asked) < 2000
 
@@ -210,3 +212,28 @@ def test_bodies_that_stay_apart():
         assert first_within(scene, distance=4, norm=norm) is None
         assert first_within(Scene([]), distance=4, norm=norm) is None
     assert first_within(scene, distance=4, norm="y").pairs == (("p", "q"),)
+
+
+@pytest.mark.plain
+def test_numbers_out_of_range_are_not_bisected(monkeypatch):
+    """Without boxes all pairs are in one slab; pairs that stay near are, after a few halves."""
+    decided = []
+    decide = ApproachSearch._decide
+    monkeypatch.setattr(
+        ApproachSearch, "_decide", lambda self, *given: decided.append(1) or decide(self, *given)
+    )
+    tiny = Fraction(1, 10**400)
+    unknown = [
+        Body(str(i), [(3 * i, 0)], Translation([0, tiny], [0, tiny * i, 1])) for i in range(12)
+    ]
+    assert search(Scene(unknown, (0, 5)), QQ(2)) is None
+    assert len(decided) <= 4
+    decided.clear()
+
+    near = []
+    for i in range(8):
+        near.append(Body(f"post {i}", [(10 * i, 0)]))
+        turn = Rigid([0, 1], pivot=(10 * i, 0))
+        near.append(Body(f"orbiter {i}", [(10 * i + 2 + tiny, 0)], turn))
+    assert search(Scene(near, (0, 2)), QQ(2)) is None
+    assert len(decided) <= 300

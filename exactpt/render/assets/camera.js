@@ -59,10 +59,11 @@ function boxOf(chart) {
   const box = [Infinity, Infinity, -Infinity, -Infinity];
   chart.x.forEach((x, v) => {
     const y = chart.y[v];
-    box[0] = Math.min(box[0], x);
-    box[1] = Math.min(box[1], y);
-    box[2] = Math.max(box[2], x);
-    box[3] = Math.max(box[3], y);
+    const { radius } = chart.film.bodies[chart.film.nodes[v].body];
+    box[0] = Math.min(box[0], x - radius);
+    box[1] = Math.min(box[1], y - radius);
+    box[2] = Math.max(box[2], x + radius);
+    box[3] = Math.max(box[3], y + radius);
   });
   return chart.x.length ? box : [0, 0, 1, 1];
 }

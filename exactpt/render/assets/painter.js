@@ -88,9 +88,26 @@ class Painter {
   bodies() {
     const { context, pen } = this;
     for (const body of this.film.bodies) {
-      if (!body.closed || body.size < 3) continue;
+      if (body.radius) this.rounded(body);
+      if (body.radius || !body.closed || body.size < 3) continue;
       context.beginPath();
       pen.polygon(ring(body));
+      context.fillStyle = body.colour;
+      context.fill();
+    }
+  }
+
+  /** The core, drawn twice with a pen as wide as the body: a little wider for the outline. */
+  rounded(body) {
+    const { colours, context, pen } = this;
+    const width = 2 * body.radius * pen.camera.scale;
+    context.beginPath();
+    if (body.closed && body.size > 2) pen.polygon(ring(body));
+    else if (body.size > 1) this.around(body);
+    else pen.segment(body.first, body.first);
+    this.stroke(colours.outline, width + 2.4);
+    this.stroke(body.colour, width);
+    if (body.closed && body.size > 2) {
       context.fillStyle = body.colour;
       context.fill();
     }
@@ -100,11 +117,11 @@ class Painter {
     const { context, colours, pen } = this;
     context.beginPath();
     for (const body of this.film.bodies) {
-      if (body.closed && body.size > 2) this.around(body);
+      if (!body.radius && body.closed && body.size > 2) this.around(body);
     }
     this.stroke(colours.outline, 1.2);
     for (const body of this.film.bodies) {
-      if (body.closed && body.size > 2) continue;
+      if (body.radius || (body.closed && body.size > 2)) continue;
       context.beginPath();
       if (body.size > 1) this.around(body);
       this.stroke(colours.outline, 5.5);
@@ -205,10 +222,13 @@ class Painter {
   }
 
   dot(node, radius, colour) {
-    const { context, pen } = this;
-    if (!pen.isNear(node)) return;
+    if (this.pen.isNear(node)) this.dotAt(...this.pen.pixel(node), radius, colour);
+  }
+
+  dotAt(x, y, radius, colour) {
+    const { context } = this;
     context.beginPath();
-    context.arc(...pen.pixel(node), radius, 0, 2 * Math.PI);
+    context.arc(x, y, radius, 0, 2 * Math.PI);
     context.fillStyle = colour;
     context.fill();
     this.stroke(this.colours.paper, 1.2);
@@ -223,7 +243,7 @@ class Painter {
     context.fillStyle = colours.ink;
     for (const body of this.film.bodies) {
       const pixels = ring(body).map((v) => this.pen.pixel(v));
-      const [x, y] = label(pixels, body.closed);
+      const [x, y] = label(pixels, body.closed, body.radius ? 0 : 13);
       if (Math.abs(x) > NEAR || Math.abs(y) > NEAR) continue;
       context.strokeText(body.name, x, y + 4);
       context.fillText(body.name, x, y + 4);
@@ -232,11 +252,12 @@ class Painter {
 
   contact(pulse) {
     const { context, colours, film, pen } = this;
-    film.contact.pairs.forEach(({ node, edge, normal }) => {
+    film.contact.pairs.forEach(({ node, edge, normal, shift }) => {
       if (!pen.isNear(node)) return;
-      const [x, y] = pen.pixel(node);
+      const [dx, dy] = (shift ?? [0, 0]).map((c) => c * pen.camera.scale);
+      const [x, y] = pen.pixel(node).map((c, i) => c + (i ? -dy : dx));
       context.beginPath();
-      if (edge) pen.segment(...edge);
+      if (edge && !shift) pen.segment(...edge);
       context.globalAlpha = 0.6;
       this.stroke(colours.contact, 4);
       context.globalAlpha = 1 - pulse;
@@ -247,7 +268,7 @@ class Painter {
       context.beginPath();
       context.arc(x, y, 11, 0, 2 * Math.PI);
       this.stroke(colours.contact, 2.4);
-      this.dot(node, 3.6, colours.contact);
+      this.dotAt(x, y, 3.6, colours.contact);
       if (normal) this.arrow(x, y, normal[0], -normal[1]);
     });
   }
@@ -272,9 +293,9 @@ function ring(body) {
 }
 
 /** The position of a name: in the middle of a body; of a non-convex one, where it is widest. */
-function label(pixels, isClosed) {
+function label(pixels, isClosed, above) {
   const [x, y] = [0, 1].map((i) => pixels.reduce((sum, p) => sum + p[i], 0) / pixels.length);
-  if (pixels.length < 3 || !isClosed) return [x, y - 13];
+  if (pixels.length < 3 || !isClosed) return [x, y - above];
   if (insideAt(pixels, y).some(([left, right]) => left < x && x < right)) return [x, y];
   const heights = pixels.map((p) => p[1]);
   const [low, high] = [Math.min(...heights), Math.max(...heights)];

@@ -1,0 +1,64 @@
+"""Where two rounded bodies touch, and the normal there, as quotients of polynomials in time.
+
+Let v be the nearest vertex of one core, f the nearest point of the other one, and r, s the radii.
+At the time of a touch |v - f| = r + s =: R is rational, so the unit normal (v - f) / R and the
+common point f + s (v - f) / R are rational functions of the coordinates of v and f.
+
+On an edge ab, f = a + e (e . g) / (e . e) with e = b - a and g = v - a. With trajectories
+(x / w, y / w), E = w_a w_b e and G = w_a w_v g, its coordinates are
+(x_a (E . E) w_v + E_x (E . G)) / (w_a (E . E) w_v), and likewise in y.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale
+from exactpt.kernel.numbers import QQ, ZZ
+from exactpt.motion.incidence import difference
+from exactpt.motion.track import Track
+
+__all__ = ["Place", "place_of"]
+
+
+class Place(NamedTuple):
+    """The point and the unit normal of a touch; both have a denominator that is positive then.
+
+    Attributes:
+        x, y, w: the point (x / w, y / w).
+        normal_x, normal_y, normal_w: the normal, out of the body of the other feature.
+    """
+
+    x: IntPoly
+    y: IntPoly
+    w: IntPoly
+    normal_x: IntPoly
+    normal_y: IntPoly
+    normal_w: IntPoly
+
+
+def place_of(v: Track, ends: tuple[Track, ...], radius: QQ, other_radius: QQ) -> Place:
+    """The place where a vertex touches a vertex, or the edge between two, by the radii."""
+    foot = ends[0] if len(ends) == 1 else _foot(v, *ends)
+    reach = radius + other_radius
+    dx, dy = difference(foot.x, foot.w, v.x, v.w), difference(foot.y, foot.w, v.y, v.w)
+    w = multiply(foot.w, v.w)
+    share = other_radius / reach
+    of_foot, of_v = ZZ(share.denominator), ZZ(share.numerator)
+    x, y = (
+        add(scale(multiply(at, v.w), of_foot), scale(gap, of_v))
+        for at, gap in ((foot.x, dx), (foot.y, dy))
+    )
+    normal_w = scale(w, ZZ(reach.numerator))
+    n_x, n_y = (scale(gap, ZZ(reach.denominator)) for gap in (dx, dy))
+    return Place(x, y, scale(w, of_foot), n_x, n_y, normal_w)
+
+
+def _foot(v: Track, a: Track, b: Track) -> Track:
+    """The foot of the perpendicular from v on the line ab; its w is 0 where ab has no length."""
+    ex, ey = difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
+    gx, gy = difference(a.x, a.w, v.x, v.w), difference(a.y, a.w, v.y, v.w)
+    along = add(multiply(ex, gx), multiply(ey, gy))
+    length = multiply(add(multiply(ex, ex), multiply(ey, ey)), v.w)
+    x, y = (add(multiply(at, length), multiply(e, along)) for at, e in ((a.x, ex), (a.y, ey)))
+    return Track(x, y, multiply(a.w, length), None)
