@@ -15,6 +15,7 @@ from exactpt.extensions import register
 
 if TYPE_CHECKING:
     from exactpt import arrays as arrays
+    from exactpt.collision.approach import Approach, first_within
     from exactpt.collision.contact import Contact, Pair
     from exactpt.collision.detector import first_contact
     from exactpt.collision.planner import Planner
@@ -23,12 +24,12 @@ if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.polynomial import Polynomial
     from exactpt.motion.body import Body
+    from exactpt.motion.local_time import Velocity, in_local_time, spline
     from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
     from exactpt.proof.written import Proof, prove
     from exactpt.proximity.clearance import Clearance, clearance
     from exactpt.proximity.distance import Distance, distance
     from exactpt.proximity.intervals import ContactInterval, contact_intervals, contacts
-    from exactpt.proximity.within import first_within
     from exactpt.query.answers import Hit, Path, Place
     from exactpt.query.space import FreeSpace
     from exactpt.scene.scene import Scene
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Affine",
     "AlgebraicNumber",
+    "Approach",
     "AuditError",
     "Body",
     "Bounce",
@@ -64,20 +66,27 @@ __all__ = [
     "Scene",
     "Simulation",
     "Translation",
+    "Velocity",
     "clearance",
     "contact_intervals",
     "contacts",
     "distance",
     "first_contact",
     "first_within",
+    "in_local_time",
     "onward",
     "prove",
     "read_shapes",
+    "spline",
     "stop",
     "write_shapes",
 ]
 
 _ROOMS: Final = {
+    "exactpt.collision.approach": (
+        "Approach",
+        "first_within",
+    ),
     "exactpt.collision.contact": (
         "Contact",
         "Pair",
@@ -97,6 +106,11 @@ _ROOMS: Final = {
     "exactpt.kernel.algebraic": ("AlgebraicNumber",),
     "exactpt.kernel.polynomial": ("Polynomial",),
     "exactpt.motion.body": ("Body",),
+    "exactpt.motion.local_time": (
+        "Velocity",
+        "in_local_time",
+        "spline",
+    ),
     "exactpt.motion.motions": (
         "Affine",
         "Pieces",
@@ -120,7 +134,6 @@ _ROOMS: Final = {
         "contact_intervals",
         "contacts",
     ),
-    "exactpt.proximity.within": ("first_within",),
     "exactpt.query.answers": (
         "Hit",
         "Path",

@@ -1,6 +1,8 @@
 """Indices of vertices, half-edges and certificates, which the type checker tells apart.
 
-At run time, and for mypyc, they are plain integers.
+At run time, and for mypyc, they are plain integers. The index of a body has no type of its own: it
+is counted, computed (arc 2 i is the left extreme of body i) and read from arrays and files, and
+each of these would be a conversion, while hardly a function takes it beside another index.
 """
 
 from __future__ import annotations

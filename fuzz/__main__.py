@@ -24,6 +24,7 @@ from fuzz.cases import Outcome
 from fuzz.hostile import run as hostile_run
 from fuzz.hostile.files import FORMATS
 from fuzz.proofs.command import proof_mutants
+from fuzz.questions.command import questions
 from fuzz.record import differences, record
 from fuzz.small_scope.command import small_scope
 from fuzz.thin import SUFFIX
@@ -66,7 +67,7 @@ def fuzz(
     scheduler: str | None,
     shrink: float,
 ) -> None:
-    r"""Look for scenes on which the witnesses disagree, by default 200 of all families.
+    """Look for scenes on which the witnesses disagree, by default 200 of all families.
 
     \b
     Examples:
@@ -76,6 +77,7 @@ def fuzz(
       python -m fuzz planted
       python -m fuzz small-scope
       python -m fuzz proof-mutants
+      python -m fuzz questions
       python -m fuzz --hostile --cases 100000
       python -m fuzz --soak 60
     """
@@ -234,6 +236,7 @@ COMMANDS = {
     "planted": find_planted,
     "proof-mutants": proof_mutants,
     "small-scope": small_scope,
+    "questions": questions,
 }
 
 

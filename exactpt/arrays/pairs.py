@@ -17,7 +17,8 @@ from exactpt.errors import InputError
 from exactpt.kernel.doubles import Indices, first_true, indices
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.body_arrays import BodyArrays
-from exactpt.scene.scene import Scene, check_simple, scene_of
+from exactpt.scene.scene import Scene, scene_of
+from exactpt.scene.simple import check_simple
 
 __all__ = ["first_contacts"]
 

@@ -7,11 +7,12 @@ questions is asked one by one; its answers must be those of the arrays.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, Final, NamedTuple, TypeAlias
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 
 from exactpt.arrays import KINDS, Contacts, first_contacts, point_segment_contacts
+from exactpt.bench.methods.with_box2d import time_of_impact
 from exactpt.bench.output import Output, Row
 from exactpt.bench.timing import timed
 from exactpt.collision.contact import Contact
@@ -162,20 +163,6 @@ def _triangles(rng: np.random.Generator, count: int, size: float, name: str) -> 
 
 def _box2d(corners: Floats, velocities: Floats, some: list[int]) -> Asked:
     """What asks for the times of impact of triangles 2 i and 2 i + 1."""
-    import Box2D
-
-    def shape(k: int) -> Any:  # noqa: ANN401 - the package has no types
-        return Box2D.b2PolygonShape(vertices=corners[k].tolist())
-
-    def sweep(k: int) -> Any:  # noqa: ANN401
-        x, y = velocities[k].tolist()
-        return Box2D.b2Sweep(
-            localCenter=(0.0, 0.0), c0=(0.0, 0.0), c=(x, y), a0=0.0, a=0.0, alpha0=0.0
-        )
-
-    given = [
-        {"shapeA": shape(2 * i), "shapeB": shape(2 * i + 1), "sweepA": sweep(2 * i),
-         "sweepB": sweep(2 * i + 1), "tMax": 1.0}
-        for i in some
-    ]  # fmt: skip
-    return lambda: [Box2D.b2TimeOfImpact(**each) for each in given]
+    rows, steps = corners.tolist(), velocities.tolist()
+    asks = [time_of_impact(rows[2 * i : 2 * i + 2], steps[2 * i : 2 * i + 2]) for i in some]
+    return lambda: [ask() for ask in asks]

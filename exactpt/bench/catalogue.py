@@ -13,6 +13,9 @@ __all__ = ["BENCHMARKS", "run"]
 BENCHMARKS: Final[dict[str, str]] = {
     "first-contact": "run time against error in the time of the first contact",
     "small": "small questions, building scenes, plans among obstacles, many pieces of motion",
+    "auto": "the default method beside all others, on ten families of everyday scenes",
+    "cliffs": "convoys, long spans, turning bodies, lanes: beside the best method",
+    "within": "first_within beside first_contact, of the same crowds",
     "wrong-answers": "contacts missed, invented and late, close to degeneracy",
     "arithmetic": "wrong signs, orders and structures by kind of number",
     "stability": "the same answer, and its cost, for extreme input",

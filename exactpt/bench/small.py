@@ -14,6 +14,7 @@ from typing import Final, NamedTuple, TypeAlias
 
 from exactpt.bench.methods.closed_form import CLOSED_FORM
 from exactpt.bench.methods.method import Method, UnsuitableScene, error_of
+from exactpt.bench.methods.with_box2d import BOX2D
 from exactpt.bench.methods.with_ipctk import with_tight_inclusion
 from exactpt.bench.methods.with_pymunk import with_pymunk
 from exactpt.bench.methods.with_shapely import with_shapely
@@ -139,7 +140,7 @@ def _triangles(output: Output, sizes: Sizes, rng: Random) -> list[Row]:
         _audit(question, found, expected)
         rows.append(_row(question, f"exactpt, scene and {method}", seconds, count, found, 0.0))
     others = [CLOSED_FORM, with_shapely(1000, bisect=True), with_pymunk(1000)]
-    for other in (*others, with_tight_inclusion(1e-6, 32)):
+    for other in (*others, with_tight_inclusion(1e-6, 32), BOX2D):
         if other.package is None or output.has(other.package):
             rows += _other(question, other, build(), expected, sizes.runs)
     return rows

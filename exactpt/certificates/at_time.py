@@ -164,22 +164,6 @@ class PredicatesAt(Predicates):
         )
         return sign((bx - ax) * (qy - py) - (by - ay) * (qx - px))
 
-    def all_stay_convex(self) -> bool:
-        """Whether all bodies are convex and stay so; angles of pi are allowed.
-
-        False if there is an open chain of more than two vertices, even a straight one: it
-        may bend later.
-        """
-        v, bodies = self.vertices.all, self.vertices.bodies
-        if any(b.is_tiled or (b.body.size > 2 and not b.body.closed) for b in bodies):
-            return False
-        return all(
-            s <= 0
-            for s in self.signs(
-                [(v[p].ahead, p, v[p].behind) for body in bodies for p in body.ring]
-            )
-        )
-
     def first_sign(self, terms: Iterable[IntPoly]) -> int:
         """The sign of the first term that is not zero: just after the time, or at it."""
         for f in terms:

@@ -14,7 +14,7 @@ from exactpt.certificates.batches import linear_orientations
 from exactpt.certificates.moment import Moment, exact_time
 from exactpt.certificates.perturbation import orientation, x_order
 from exactpt.certificates.positions import Positions
-from exactpt.certificates.queue import EventTime
+from exactpt.certificates.queue import EventTime, earlier
 from exactpt.certificates.reasons import reason
 from exactpt.certificates.rigidity import keeps_x_order, rigid
 from exactpt.indices import Triple, VertexId
@@ -214,7 +214,7 @@ class Certifier:
         if not f:
             return 0, meeting
         root = self._first_root(f, until, a.id, b.id, c.id)
-        return now.sign_after(f), _earlier(meeting, root)
+        return now.sign_after(f), earlier(meeting, root)
 
     def _first_root(
         self, f: IntPoly, until: QQ, a: VertexId, b: VertexId, c: VertexId
@@ -298,10 +298,3 @@ class Certifier:
             else self._event_time(root.time, (a.id, b.id, X_ORDER), crossing=root.crossing)
         )
         return s or now.sign_after(f), time
-
-
-def _earlier(s: EventTime | None, t: EventTime | None) -> EventTime | None:
-    """The earlier of two exact times; None counts as infinity."""
-    if s is None or t is None or s.exact is None or t.exact is None:
-        return s or t
-    return t if t.exact.compare(s.exact) < 0 else s

@@ -14,7 +14,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.integer_polynomial import IntPoly
 
-__all__ = ["EventQueue", "EventTime", "ExactQueue", "Resolver"]
+__all__ = ["EventQueue", "EventTime", "ExactQueue", "Resolver", "earlier"]
 
 
 @final
@@ -47,6 +47,13 @@ class EventTime:
         self.c: int = c
         self.exact: AlgebraicNumber | None = exact
         self.crossing: bool = crossing
+
+
+def earlier(s: EventTime | None, t: EventTime | None) -> EventTime | None:
+    """The earlier of two exact times, the first if they are equal; None counts as infinity."""
+    if s is None or t is None or s.exact is None or t.exact is None:
+        return s or t
+    return t if t.exact.compare(s.exact) < 0 else s
 
 
 class Resolver(Protocol):

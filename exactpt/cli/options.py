@@ -158,18 +158,20 @@ def output(
     return click.option(*names, type=kind, help=words, default=default, show_default=True)
 
 
-def load(path: Path, until: QQ | None = None) -> Scene:
-    """The scene of a file; ``until`` brings the end of its time span forward."""
+def load(path: Path, until: QQ | None = None, since: QQ | None = None) -> Scene:
+    """The scene of a file; ``until`` and ``since`` shorten its time span."""
     from exactpt.scene.scene import Scene
 
     click.get_current_context().meta[SCENE_FILE] = path
     scene = Scene.load(path, max_bytes=max_bytes())
-    if until is None:
-        return scene
+    option = "--until"
     try:
-        return scene.until(until)
+        if until is not None:
+            scene = scene.until(until)
+        option = "--since"
+        return scene if since is None else scene.since(since)
     except InputError as error:
-        raise InputError(f"--until: {error}") from None
+        raise InputError(f"{option}: {error}") from None
 
 
 @contextmanager

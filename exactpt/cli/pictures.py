@@ -10,8 +10,10 @@ import click
 from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import MOMENT, SCENE, TILING, budget, load, max_memory, naming_at, output
 from exactpt.cli.progress import QUIET, progress
+from exactpt.cli.searches import two_names
 from exactpt.cli.terminal import say
 from exactpt.cli.words import answer_in_words
+from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 
 __all__ = ["demo", "draw"]
@@ -32,6 +34,12 @@ __all__ = ["demo", "draw"]
     show_default=True,
     help="Light or dark; auto: the preference of the reader (PNG: light).",
 )
+@click.option(
+    "--clearance",
+    metavar="NAME,NAME",
+    help="Two bodies whose distance over time is plotted beside the animation, with its minimum; "
+    "a picture is of the plot alone.",
+)
 @QUIET
 @TILING
 @budget
@@ -40,6 +48,7 @@ def draw(
     output: Path,
     at: QQ | Literal["contact"] | None,
     theme: str,
+    clearance: str | None,
     quiet: bool,
     tiling: str,
     max_events: int | None,
@@ -56,9 +65,13 @@ def draw(
       exactpt draw scene.json --at 5/2 -o then.png --theme dark
       exactpt draw scene.json --at contact -o contact.svg
       exactpt draw scene.json -o film.html
+      exactpt draw scene.json -o film.html --clearance ball,wheel
     """
     from exactpt.render.draw import draw as draw_scene
 
+    gap = None if clearance is None else two_names(clearance, "--clearance")
+    if gap is not None and at is not None and output.suffix.lower() != ".html":
+        raise InputError("--at: a plot of the clearance is of all times")
     with time_limit(max_seconds, max_memory()), naming_at():
         given = load(scene)
         with progress(given, "drawing", quiet=quiet) as reached:
@@ -68,6 +81,7 @@ def draw(
                 at=at,
                 tiling=tiling,
                 theme=theme,
+                gap=gap,
                 max_events=max_events,
                 max_seconds=max_seconds,
                 reached=reached,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from collections.abc import Callable
 from contextlib import nullcontext
@@ -15,14 +14,14 @@ from exactpt.cli.alarm import time_limit
 from exactpt.cli.intervals import collide_all
 from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, max_memory
 from exactpt.cli.progress import QUIET, progress
+from exactpt.cli.searches import names_in, search_for, two_names
 from exactpt.cli.terminal import drop_standard_output, say
 from exactpt.cli.words import answer_in_words, event_in_words, stats_in_words
 from exactpt.errors import BudgetExceeded, InputError
-from exactpt.kernel.numbers import QQ, rational, shorten
+from exactpt.kernel.numbers import QQ, rational
 
 if TYPE_CHECKING:
-    from exactpt.collision.pairs import PairsSearch
-    from exactpt.proof.written import ProvedSearch
+    from exactpt.cli.searches import Search
     from exactpt.scene.scene import Scene
     from exactpt.simulation.event import Event
     from exactpt.simulation.simulation import Simulation
@@ -52,6 +51,20 @@ __all__ = ["collide", "simulate"]
     'A name with a comma stands in double quotes: "a,b",c.',
 )
 @click.option(
+    "--after-start",
+    is_flag=True,
+    help="Find the first new contact: bodies that touch at the start count when they have parted "
+    "and touch again, or begin to overlap; for --method pairs or auto.",
+)
+@click.option(
+    "--between",
+    multiple=True,
+    metavar="NAME,NAME",
+    help="Two bodies whose contacts with each other count, and no others (repeatable); for "
+    "--method pairs or auto.",
+)
+@click.option("--since", type=RATIONAL, help="Search from this time on.")
+@click.option(
     "--proof",
     type=click.Path(path_type=Path),
     help="Write a proof of the answer; python -m exactpt.proof_check SCENE PROOF checks it.",
@@ -68,6 +81,9 @@ def collide(
     tiling: str,
     method: str,
     ignore: tuple[str, ...],
+    after_start: bool,
+    between: tuple[str, ...],
+    since: QQ | None,
     proof: Path | None,
     stats: bool,
     exit_code: bool,
@@ -86,23 +102,28 @@ def collide(
       exactpt collide scene.json --until 7/2 --exit-code && echo "no contact"
       exactpt collide scene.json --proof answer.proof
       exactpt collide scene.json --method pairs --ignore boat,buoy --ignore ball,wheel
+      exactpt collide scene.json --after-start --between ball,wheel --since 1/2
     """
     if every:
         return collide_all(
             scene, until, as_json=as_json, exit_code=exit_code, max_seconds=max_seconds
         )
     given: Scene | None = None
-    search: Simulation | PairsSearch | ProvedSearch | None = None
+    search: Search | None = None
     answer: dict[str, object] = {"contact": None}
     try:
         with time_limit(max_seconds, max_memory()):
-            given = load(scene, until)
+            given = load(scene, until, since)
+            if proof is not None and since is not None:
+                raise InputError("--since: a proof is about the scene file, from its start on")
             answer |= {"until": str(given._end), "tiling": tiling}
-            search = _search(
+            search = search_for(
                 given,
                 method,
                 tiling,
-                ignoring=[_names(text) for text in ignore],
+                ignoring=[names_in(text, "--ignore") for text in ignore],
+                after_start=after_start,
+                between=[two_names(text, "--between") for text in between] or None,
                 exact_only=exact_only,
                 max_events=max_events,
                 max_seconds=max_seconds,
@@ -112,7 +133,7 @@ def collide(
             answer["tiling"] = search.name
             contact = search.run_to_contact()
             stated = contact and contact.to_json()
-            told = answer_in_words(given, contact)
+            told = answer_in_words(given, contact, "new " if after_start else "")
     except BudgetExceeded as spent:
         _tell_how_far(spent, search)
         reached = None if spent.reached is None else str(rational(spent.reached))
@@ -130,15 +151,6 @@ def collide(
         if stats:
             say(*stats_in_words(search.stats))
     return 1 if exit_code and contact is not None else 0
-
-
-def _names(text: str) -> list[str]:
-    """The names in a text, separated by commas; a name may stand in double quotes, as in CSV."""
-    try:
-        (names,) = csv.reader([text], strict=True)
-    except (csv.Error, ValueError):
-        raise InputError(f"--ignore: quotes that do not match: {shorten(text)}") from None
-    return names
 
 
 @click.command()
@@ -246,61 +258,7 @@ def _run(
         raise
 
 
-def _tell_how_far(
-    spent: BudgetExceeded, search: Simulation | PairsSearch | ProvedSearch | None
-) -> None:
+def _tell_how_far(spent: BudgetExceeded, search: Search | None) -> None:
     """Complete an interruption by the time up to which there is provably no contact."""
     if spent.reached is None and search is not None:
         spent.reached = search.passed()
-
-
-def _search(
-    scene: Scene,
-    method: str,
-    tiling: str,
-    *,
-    ignoring: list[list[str]],
-    exact_only: bool,
-    max_events: int | None,
-    max_seconds: float | None,
-    proof: Path | None,
-    path: Path,
-) -> Simulation | PairsSearch | ProvedSearch:
-    """The search that finds the first contact."""
-    from exactpt.collision.detector import check_provable, searches_pairs
-
-    if proof is not None:
-        check_provable(method, ignoring)
-        from exactpt.proof.written import ProvedSearch
-
-        return ProvedSearch(
-            scene,
-            proof,
-            tiling=tiling,
-            scene_file=path.read_bytes(),
-            exact_only=exact_only,
-            max_events=max_events,
-        )
-
-    if ignoring and method == "kinetic":
-        raise InputError("--ignore: a tiling watches all bodies; --method pairs need not")
-    if method == "auto" and max_events is not None and not ignoring:
-        method = "kinetic"
-    if searches_pairs(method, tiling, ignoring):
-        from exactpt.collision.pairs import PairsSearch
-
-        search = PairsSearch(
-            scene, exact_only=exact_only, max_seconds=max_seconds, ignoring=ignoring
-        )
-        if method == "pairs" or ignoring or not search.is_blind():
-            return search
-    from exactpt.collision.tilings import tiling_for_contact
-    from exactpt.simulation.simulation import Simulation
-
-    return Simulation(
-        scene,
-        tiling=tiling_for_contact(scene, tiling),
-        exact_only=exact_only,
-        max_events=max_events,
-        max_seconds=max_seconds,
-    )

@@ -23,11 +23,14 @@ __all__ = [
 ]
 
 
-def answer_in_words(scene: Scene, contact: Contact | None) -> list[str]:
-    """The first contact in words: time, kind, and all incidences with their points."""
+def answer_in_words(scene: Scene, contact: Contact | None, new: str = "") -> list[str]:
+    """The first contact in words: time, kind, and all incidences with their points.
+
+    ``new`` is "new " for a contact after the start.
+    """
     if contact is None:
-        return [f"no contact from t = {scene._start} to t = {scene._end}"]
-    lines = [f"first contact at t = {_when(contact.time)}, kind {contact.kind}"]
+        return [f"no {new}contact from t = {scene._start} to t = {scene._end}"]
+    lines = [f"first {new}contact at t = {_when(contact.time)}, kind {contact.kind}"]
     for pair in contact.pairs:
         feature = f"vertex {pair.other_vertex}" if pair.edge is None else f"edge {pair.edge}"
         x, y = pair.point

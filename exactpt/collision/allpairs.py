@@ -17,7 +17,7 @@ from exactpt.motion.incidence import Touch, coincide, difference, lies_on, orien
 from exactpt.motion.track import Track
 from exactpt.scene.scene import Scene
 
-__all__ = ["first_contact_allpairs"]
+__all__ = ["first_contact_allpairs", "touches_at"]
 
 
 def first_contact_allpairs(scene: Scene) -> Contact | None:
@@ -25,7 +25,7 @@ def first_contact_allpairs(scene: Scene) -> Contact | None:
     start = AlgebraicNumber(scene._start)
     overlaps = _overlapping_at_start(scene)
     if overlaps:
-        touches = _touches(
+        touches = touches_at(
             scene, [b._piece_after(scene._start).tracks for b in scene.bodies], start
         )
         return contact_of(scene, start, touches, overlaps)
@@ -38,7 +38,7 @@ def first_contact_allpairs(scene: Scene) -> Contact | None:
                 best = time
     if best is None:
         return None
-    return contact_of(scene, best, _touches(scene, tracks_before(scene, best), best))
+    return contact_of(scene, best, touches_at(scene, tracks_before(scene, best), best))
 
 
 def _first_between(scene: Scene, i: int, j: int, until: QQ) -> AlgebraicNumber | None:
@@ -104,7 +104,7 @@ def _meetings(
         yield min(times)
 
 
-def _touches(
+def touches_at(
     scene: Scene, tracks: list[tuple[Track, ...]], time: AlgebraicNumber
 ) -> Iterator[Touch]:
     """Every incidence of a vertex with a vertex or an edge at a time."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple, final
@@ -11,21 +10,15 @@ from typing import ClassVar, NamedTuple, final
 from exactpt.extensions import extension
 from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.integer_polynomial import (
-    IntPoly,
-    greatest_common_divisor,
-    multiply,
-    range_on,
-    scale,
-    subtract,
-)
-from exactpt.kernel.numbers import QQ, ZZ, finite, nearest_float
+from exactpt.kernel.integer_polynomial import IntPoly, greatest_common_divisor, multiply, scale
+from exactpt.kernel.numbers import QQ, ZZ, finite
+from exactpt.kernel.quotients import exponent, nearest_quotient
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, difference, orientation
 from exactpt.motion.track import Track
 from exactpt.scene.scene import Scene
 
-__all__ = ["Contact", "Pair", "contact_of", "nearest_value", "tracks_before"]
+__all__ = ["Contact", "Pair", "contact_of", "tracks_before"]
 
 
 @final
@@ -253,7 +246,7 @@ def _pair(
         other=scene.bodies[touch.other].name,
         edge=touch.edge if touch.edge >= 0 else None,
         other_vertex=touch.other_vertex if touch.edge < 0 else None,
-        point=(finite(nearest_value(v.x, v.w, time)), finite(nearest_value(v.y, v.w, time))),
+        point=(finite(nearest_quotient(v.x, v.w, time)), finite(nearest_quotient(v.y, v.w, time))),
         normal=normal,
     )
 
@@ -272,49 +265,12 @@ def _normal(
     w = multiply(a.w, b.w)
     dx, dy = difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
     # The unit vector does not depend on the scale; at this scale no double under- or overflows.
-    size = max(_exponent(f, w, time) for f in (dx, dy))
+    size = max(exponent(f, w, time) for f in (dx, dy))
     grown, shrunk = ZZ(1) << max(0, -size), ZZ(1) << max(0, size)
     w = scale(w, shrunk)
-    x, y = (nearest_value(scale(f, grown), w, time) for f in (dx, dy))
+    x, y = (nearest_quotient(scale(f, grown), w, time) for f in (dx, dy))
     # A body without interior: towards the side from which the vertex came; to the right if it
     # came along the line.
     out = outward or -time.sign_before(orientation(a, b, v)) or 1
     length = math.hypot(x, y)
     return (out * y / length + 0.0, -out * x / length + 0.0)
-
-
-def _exponent(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> int:
-    """About the binary exponent of p / w at a time; the least integer if p vanishes there."""
-    if time.sign_of(p) == 0:
-        return -sys.maxsize
-    while True:
-        low, high = _range(p, w, time._low, time._high)
-        least = low if low > 0 else -high
-        if least > 0:
-            return least.numerator.bit_length() - least.denominator.bit_length()
-        time.refine()
-
-
-def nearest_value(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> float:
-    """The double nearest to p / w at a time, at which w is positive."""
-    if time.sign_of(p) == 0:
-        return 0.0
-    while True:
-        low, high = _range(p, w, time._low, time._high)
-        a, b = nearest_float(low), nearest_float(high)
-        if a == b:
-            return a
-        if b == math.nextafter(a, math.inf) and math.isfinite(a + b):
-            middle = (QQ(*a.as_integer_ratio()) + QQ(*b.as_integer_ratio())) / 2
-            f = subtract(scale(p, ZZ(middle.denominator)), scale(w, ZZ(middle.numerator)))
-            s = time.sign_of(f)
-            return nearest_float(middle) if s == 0 else b if s > 0 else a
-        time.refine()
-
-
-def _range(p: IntPoly, w: IntPoly, low: QQ, high: QQ) -> tuple[QQ, QQ]:
-    a, b = range_on(p, low, high)
-    c, d = range_on(w, low, high)
-    if c <= 0:
-        c = QQ(1, 1 << 4096)  # w is positive: any positive bound will do until refinement
-    return (a / d if a > 0 else a / c), (b / c if b > 0 else b / d)

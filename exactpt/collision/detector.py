@@ -16,7 +16,7 @@ from exactpt.errors import BudgetExceeded, InputError, carrying
 from exactpt.extensions import extension
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import within
-from exactpt.kernel.numbers import fraction
+from exactpt.kernel.numbers import Rational, fraction
 from exactpt.scene.scene import Scene
 from exactpt.tiling import catalogue
 
@@ -37,6 +37,9 @@ def first_contact(
     tiling: str = "auto",
     exact_only: bool = False,
     ignoring: Iterable[Collection[str]] = (),
+    after_start: bool = False,
+    between: Iterable[Sequence[str]] | None = None,
+    since: Rational | None = None,
     proof: str | Path | None = None,
     max_seconds: float | None = None,
     max_memory: int | None = None,
@@ -53,6 +56,12 @@ def first_contact(
         exact_only: whether exact arithmetic decides everything, without the float filters.
         ignoring: groups of body names. Contacts between two bodies of one group are ignored.
             A tiling cannot hold bodies that overlap, so this needs "pairs" or "auto".
+        after_start: whether to find the first contact that is new: bodies that touch at the
+            start count only when they have parted and touch again, or when they begin to
+            overlap. This needs "pairs" or "auto", as does ``between``.
+        between: pairs of names; contacts of other pairs do not count, nor do those of a body
+            with itself. All if not given.
+        since: a later start of the time span. Bodies that touch then are in contact then.
         proof: file to write, with what an independent program needs to check the answer
             (docs/proofs.md). The scene is written beside it, with ``.scene.json`` after the
             name. This needs a tiling: "kinetic" or "auto".
@@ -68,9 +77,21 @@ def first_contact(
         raise InputError(f"no method {method!r}; there are: {', '.join(METHODS)}")
     catalogue.choose(tiling, points=True, convex=lambda: True)  # refuses unknown names
     with _budget(max_seconds, max_memory), carrying(lambda: scene):
-        return _contact(
-            scene, method, tiling, exact_only=exact_only, groups=list(ignoring), proof=proof
-        )
+        groups = list(ignoring)
+        if since is not None:
+            scene = scene.since(since)
+        if after_start or between is not None:
+            from exactpt.collision.selected import SelectedSearch, check_selectable
+
+            check_selectable(method, tiling, proof)
+            return SelectedSearch(
+                scene,
+                after_start=after_start,
+                between=between,
+                ignoring=groups,
+                exact_only=exact_only,
+            ).run_to_contact()
+        return _contact(scene, method, tiling, exact_only=exact_only, groups=groups, proof=proof)
 
 
 def _budget(

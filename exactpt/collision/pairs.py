@@ -16,7 +16,8 @@ import math
 import time as clock
 from collections.abc import Collection, Iterable
 from fractions import Fraction
-from typing import Final, TypeAlias, final
+from functools import cached_property
+from typing import Final, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,19 +30,16 @@ from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.ignoring import groups_of
 from exactpt.collision.initial import initial_touches
 from exactpt.errors import BudgetExceeded
-from exactpt.geometry.boxes import overlapping_pairs
 from exactpt.indices import Triple
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import GRACE, ask, within
 from exactpt.kernel.counters import Counters
+from exactpt.kernel.doubles import Indices
 from exactpt.kernel.numbers import QQ, fraction, power_of_two
-from exactpt.motion.swept import SweptBoxes
-from exactpt.motion.vertices import Vertices
+from exactpt.motion.swept_edges import SweptEdges
 from exactpt.scene.scene import Scene
 
 __all__ = ["PairsSearch"]
-
-Indices: TypeAlias = NDArray[np.int64]
 
 SLABS: Final = 32
 """Number of initial slabs in the time span, if the speeds of the bodies are not known."""
@@ -88,7 +86,6 @@ class PairsSearch:
         alone = [body.name in ignoring_self for body in scene.bodies]
         self._ignores_self: NDArray[np.bool_] = np.array(alone, dtype=np.bool_)
         self.certificates = 0
-        self._prepared = False
         self._passed: QQ | None = None
 
     @property
@@ -116,9 +113,9 @@ class PairsSearch:
         """
         if not self._scene.bodies:
             return False
-        self._prepare()
-        count = len(self._ids)
-        unknown = sum(math.isnan(self._vertices.all[v].image.xs[0]) for v in self._ids)
+        all_vertices, ids = self._swept.vertices.all, self._swept.ids
+        count = len(ids)
+        unknown = sum(math.isnan(all_vertices[v].image.xs[0]) for v in ids)
         return 2 * unknown * count > 3 * count + FEW
 
     def run_to_contact(self) -> Contact | None:
@@ -145,107 +142,76 @@ class PairsSearch:
             return contact_of(scene, AlgebraicNumber(scene._start), seen, overlaps)
         if not scene.bodies:
             return None
-        self._prepare()
         return self._run()
 
-    def _prepare(self) -> None:
-        """Number the vertices and edges, and read the trajectories of the first pieces: once."""
-        if self._prepared:
-            return
-        self._prepared = True
+    @cached_property
+    def _swept(self) -> SweptEdges:
+        """The vertices and edges with their boxes, in the first pieces of motion at first."""
         scene = self._scene
-        self._vertices = Vertices.of(scene.bodies, scene._start, scene._end, plain=True)
-        self._counters = self._vertices.counters
-        ids: list[int] = []
-        first_edge: list[tuple[int, int]] = []
-        for moving, body in zip(self._vertices.bodies, scene.bodies, strict=True):
-            base = len(ids)
-            ids += moving.ring
-            pairs = body.edges or [(0, 0)]
-            first_edge += [(base + a, base + b) for a, b in pairs]
-        self._ids = ids
-        self._edges: Indices = np.array(first_edge)
-        self._body: Indices = np.array([self._vertices.all[v].body for v in ids])
-        self._read_tracks()
-
-    def _read_tracks(self) -> None:
-        """Read the trajectories of the current pieces of motion."""
-        all_vertices, bodies = self._vertices.all, self._vertices.bodies
-        images = [all_vertices[v].image for v in self._ids]
-        self._swept = SweptBoxes(images, self._vertices.frame.errors)
-        self._motion: Indices = np.array([image.motion for image in images])
-        self._deforms = np.array([moving.deforms for moving in bodies])
+        swept = SweptEdges(scene.bodies, scene._start, scene._end)
+        self._counters = swept.vertices.counters
+        return swept
 
     def _run(self) -> Contact | None:
         """Search slab by slab."""
         now, end = self._scene._start, self._scene._end
         step = self._first_step()
-        least = (end - now) / SMALLEST_SLAB
         while now < end:
             self._passed = now
             if self._deadline is not None and clock.monotonic() > self._deadline:
                 raise BudgetExceeded("the time is used up", fraction(now))
-            until = min([end, *(m.until for m in self._vertices.bodies if m.until is not None)])
-            later = min(now + step, until)
-            near = self._near(now, later)
-            many = 2 * len(self._ids) + 64
-            while len(near[0]) > many and step > least:
-                shorter = min(now + step / 4, until)
-                fewer = self._near(now, shorter)
-                if 2 * len(fewer[0]) > len(near[0]):
-                    break  # these pairs stay near each other: a shorter slab is no help
-                step, later, near = step / 4, shorter, fewer
+            step, later, near = self._slab(now, step, self._swept.until(end))
             contact = self._search(now, later, near)
             if contact is not None:
                 return contact
-            if later == now + step and 4 * len(near[0]) < many:
+            if later == now + step and 4 * len(near[0]) < self._many():
                 step *= 2
             now = later
-            self._enter_pieces(now)
+            self._swept.enter_pieces(now)
         return None
 
-    def _first_step(self) -> QQ:
-        """Length of the first slab: the average vertex moves as far as vertices are apart.
+    def _slab(self, now: QQ, step: QQ, until: QQ) -> tuple[QQ, QQ, tuple[Indices, Indices]]:
+        """A slab from now on: its length, its end, not after ``until``, and the candidates in it.
 
-        It depends on how fast bodies pass each other, not on how long they are watched.
+        With many candidates it is shortened, by 4 or by 16, as long as these get fewer by the
+        square root of that at least; else they stay near each other, and shorter slabs are no
+        help.
+        """
+        later = min(now + step, until)
+        near = self._near(now, later)
+        least = (self._scene._end - self._scene._start) / SMALLEST_SLAB
+        tried = step
+        while len(near[0]) > self._many() and tried > least and 8 * tried >= step:
+            tried /= 4
+            fewer = self._near(now, min(now + tried, until))
+            if len(fewer[0]) ** 2 * step <= len(near[0]) ** 2 * tried:
+                step, later, near = tried, min(now + tried, until), fewer
+        return step, later, near
+
+    def _many(self) -> int:
+        """Number of candidates above which a slab is shortened."""
+        return 2 * len(self._swept.ids) + 64
+
+    def _first_step(self) -> QQ:
+        """Length of the first slab: the average vertex moves an eighth as far as others are.
+
+        It depends on how fast bodies pass each other, not on how long they are watched. Slabs
+        with few candidates grow longer.
         """
         start, span = self._scene._start, self._scene._end - self._scene._start
-        frame = self._vertices.frame
-        stride = self._swept.stride(frame.time(start)[0])
+        frame = self._swept.vertices.frame
+        stride = self._swept.boxes.stride(frame.time(start)[0])
         if math.isnan(stride):
             return span / SLABS
         if math.isinf(stride):
             return span
-        return min(span, power_of_two(math.frexp(stride)[1] + frame.time_scale))
-
-    def _enter_pieces(self, now: QQ) -> None:
-        ended = [i for i, m in enumerate(self._vertices.bodies) if m.until == now]
-        for i in ended:
-            self._vertices.enter_piece(i, now)
-        if not all(self._replace_tracks(i) for i in ended):
-            self._read_tracks()
-
-    def _replace_tracks(self, i: int) -> bool:
-        """Read the trajectories of a body that has entered a piece; false if there is no room."""
-        moving = self._vertices.bodies[i]
-        images = [self._vertices.all[v].image for v in moving.ring]
-        first = moving.ring[0]  # ids are numbered in order
-        self._motion[first : first + len(images)] = [image.motion for image in images]
-        self._deforms[i] = moving.deforms
-        return self._swept.replace(first, images, self._vertices.frame.errors)
+        return min(span, power_of_two(math.frexp(stride / 8.0)[1] + frame.time_scale))
 
     def _near(self, now: QQ, later: QQ) -> tuple[Indices, Indices]:
         """Candidate pairs in a slab: numbers of vertices and of edges whose swept boxes meet."""
-        frame = self._vertices.frame
-        boxes = self._swept.during(frame.time(now)[0], frame.time(later)[1])
-        a, b = self._edges[:, 0], self._edges[:, 1]
-        low, high = np.minimum(boxes[a], boxes[b]), np.maximum(boxes[a], boxes[b])
-        of_edges = np.stack((low[:, 0], high[:, 1], low[:, 2], high[:, 3]), axis=1)
-        n = len(self._ids)
+        boxes = self._swept.during(now, later)
         vs, es = [], []
-        for first, second in overlapping_pairs(np.concatenate((boxes, of_edges))):
-            crossed = (first < n) & (second >= n)
-            v, e = first[crossed], second[crossed] - n
+        for v, e in self._swept.meeting(boxes, self._swept.around(boxes)):
             may = self._may_touch(v, e, boxes)
             vs.append(v[may])
             es.append(e[may])
@@ -258,14 +224,15 @@ class PairsSearch:
         is not paired with its own edges, except with the edge that starts at it if the boxes of
         that edge's ends meet: the edge may shrink to a point.
         """
-        a, b = self._edges[e, 0], self._edges[e, 1]
-        motion = self._motion[v]
-        together = (motion >= 0) & (motion == self._motion[a]) & (motion == self._motion[b])
-        rigid = (self._body[v] == self._body[a]) & ~self._deforms[self._body[v]]
+        swept = self._swept
+        a, b = swept.ends[e, 0], swept.ends[e, 1]
+        i, j = swept.body[v], swept.body[a]
+        motion = swept.motion[v]
+        together = (motion >= 0) & (motion == swept.motion[a]) & (motion == swept.motion[b])
+        rigid = (i == j) & ~swept.deforms[i]
         p, q = boxes[a], boxes[b]
         meet = (np.maximum(p, q)[:, ::2] <= np.minimum(p, q)[:, 1::2]).all(axis=1)
         lasts = (v == b) | ((v == a) & ~meet)
-        i, j = self._body[v], self._body[a]
         ignored = (self._group[i] == self._group[j]) & ((i != j) | self._ignores_self[i])
         may: NDArray[np.bool_] = ~(together | rigid | ignored | lasts)
         return may
@@ -275,12 +242,12 @@ class PairsSearch:
 
     def _search(self, now: QQ, later: QQ, near: tuple[Indices, Indices]) -> Contact | None:
         """The first contact in (now, later]."""
-        certifier = Certifier(self._vertices, now, later, exact_only=self._exact_only)
-        ids = self._ids
+        vertices, ids, ends = self._swept.vertices, self._swept.ids, self._swept.ends
+        certifier = Certifier(vertices, now, later, exact_only=self._exact_only)
         pending: list[tuple[float, int, EventTime, Triple]] = []
         for k, (v, e) in enumerate(zip(near[0].tolist(), near[1].tolist(), strict=True)):
             ask()
-            a, b = self._edges[e].tolist()
+            a, b = ends[e].tolist()
             triple = (ids[b], ids[v], ids[b]) if v == a else (ids[a], ids[v], ids[b])
             _, time = certifier.orientation(*triple)
             self.certificates += 1
@@ -293,7 +260,7 @@ class PairsSearch:
             ask()
             _, k, time, triple = heapq.heappop(pending)
             certifier.move_to(time, [triple])
-            a, v, b = (self._vertices.all[i] for i in triple)
+            a, v, b = (vertices.all[i] for i in triple)
             if not lies_on(certifier, v, a, b):
                 _, following = certifier.orientation(*triple)
                 if following is not None:
@@ -304,11 +271,11 @@ class PairsSearch:
                 best, best_high = number, time.high
         if best is None:
             return None
-        certifier.move_to(EventTime(*self._vertices.frame.enclosure(best), -1, -1, -1, best), [])
+        certifier.move_to(EventTime(*vertices.frame.enclosure(best), -1, -1, -1, best), [])
         # All incidences at that time are among the candidates of this slab: pairs excluded by
         # `_may_touch` cannot start to touch.
-        features = np.unique(np.concatenate((near[0], self._edges[near[1]].ravel())))
-        found = touches(certifier, self._vertices, [ids[i] for i in features.tolist()])
+        features = sorted({*near[0].tolist(), *ends[near[1]].ravel().tolist()})
+        found = touches(certifier, vertices, [ids[i] for i in features])
         return contact_of(
             self._scene, best, [t for t in found if not self._ignores(t.body, t.other)]
         )

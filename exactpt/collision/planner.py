@@ -15,12 +15,13 @@ from exactpt.collision.straight_search import MOST_VERTICES, Row, first_of_pairs
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import Rational, enclosing_floats, shorten
-from exactpt.motion.body import Body, VertexLike
+from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion, Rigid, Translation
 from exactpt.motion.outline import Outline, pieces_of, rest_outline, straight_pieces
+from exactpt.motion.shape import VertexLike
 from exactpt.scene.scene import Scene
 
-__all__ = ["Planner"]
+__all__ = ["Planner", "is_rigid"]
 
 NAME: Final = "shape"
 """The name of a shape that is given by its vertices."""
@@ -121,7 +122,7 @@ class Planner:
         """The first contact of a body with obstacles, or with itself, whatever the motions."""
         scene = self._scene
         stretches: Iterable[Stretch] = self._obstacles.stretches(body)
-        if not _is_rigid(body):
+        if not is_rigid(body):
             everything = list(range(len(scene.bodies)))
             stretches = [Stretch(scene._start, scene._end, everything)]
         for stretch in stretches:
@@ -134,7 +135,7 @@ class Planner:
         return None
 
 
-def _is_rigid(body: Body) -> bool:
+def is_rigid(body: Body) -> bool:
     """Whether it certainly keeps its shape: it does not deform, and translates or turns."""
     motions = (motion for motion, _ in pieces_of(body.motion))
     at_rest = all(f.degree <= 0 for vertex in body.vertices for f in vertex)

@@ -44,6 +44,7 @@ class RowBoxes:
 
     Args:
         rows: the rows.
+        margin: what the boxes are grown by, on each side.
 
     Attributes:
         body: the number of the body of each row.
@@ -52,12 +53,15 @@ class RowBoxes:
 
     __slots__ = (*_COLUMNS, "drift")
 
-    def __init__(self, rows: Sequence[Row]) -> None:
+    def __init__(self, rows: Sequence[Row], margin: float = 0.0) -> None:
         self.body: Indices = np.array([row.body for row in rows], dtype=np.int64)
         straights = [row.straight for row in rows]
         shapes = [straight.shape for straight in straights]
         self._low = np.array([(shape.low_x, shape.low_y) for shape in shapes]).reshape(-1, 2)
         self._high = np.array([(shape.high_x, shape.high_y) for shape in shapes]).reshape(-1, 2)
+        if margin:
+            self._low = np.nextafter(self._low - margin, -np.inf)
+            self._high = np.nextafter(self._high + margin, np.inf)
         self._c = np.array([(s.cx, s.cy) for s in straights]).reshape(-1, 2)
         self._v = np.array([(s.vx, s.vy) for s in straights]).reshape(-1, 2)
         errors = [(s.c_error + s.shape.error, s.v_error) for s in straights]
@@ -134,7 +138,7 @@ class RowBoxes:
 
         Infinite if none moves relative to the drift; perhaps NaN.
         """
-        there = self._c + self._v * now
+        there = 0.5 * (self._low + self._high) + self._c + self._v * now
         gap = np.hypot(*np.ptp(there, axis=0)) / np.sqrt(len(there))
         return float(gap / np.hypot(*(self._v - self.drift).T).mean())
 
@@ -147,25 +151,29 @@ def near_at_once(rows: Sequence[Row], time: QQ) -> list[tuple[int, int]]:
     return [(i, j) for i, j in pairs.tolist()]
 
 
-def near_rows(rows: Sequence[Row], start: QQ, end: QQ) -> Iterator[tuple[float, int, int]]:
+def near_rows(
+    rows: Sequence[Row], start: QQ, end: QQ, margin: float = 0.0
+) -> Iterator[tuple[float, int, int]]:
     """The pairs of rows of different bodies that come near each other, once each.
 
-    Each comes with a time at or before which it does, in increasing order of these times.
+    Each comes with a time at or before which it does, in increasing order of these times. Their
+    boxes are grown by a margin.
     """
-    boxes = RowBoxes(rows)
+    boxes = RowBoxes(rows, margin)
     now, last = enclosing_floats(start)[0], enclosing_floats(end)[1]
     span = last - now
     least = SHORTEST * span
-    bodies = len(np.unique(boxes.body))
+    bodies = len(set(boxes.body.tolist()))
     step = min(span, PIECES * span * bodies / len(rows))
     stride = boxes.stride(now)
-    step = max(least, min(step, stride)) if stride > 0.0 else step
+    step = max(least, min(step, 4.0 * stride)) if stride > 0.0 else step
     seen: set[tuple[int, int]] = set()
     while now < last:
         ask()
         later = min(now + step, last)
         active, first, second = _meeting(boxes, now, later)
-        while len(first) > 2 * active + 64 and step > least and later > now:
+        many = 8 * active + 64  # comparing boxes in one slab costs little: numpy does it
+        while len(first) > many and step > least and later > now:
             shorter = min(now + step / 4, last)
             fewer = _meeting(boxes, now, shorter)
             if 2 * len(fewer[1]) > len(first):
@@ -178,8 +186,8 @@ def near_rows(rows: Sequence[Row], start: QQ, end: QQ) -> Iterator[tuple[float, 
             if (i, j) not in seen:
                 seen.add((i, j))
                 yield time, i, j
-        if 4 * len(first) < 2 * active + 64:
-            step *= 2
+        if len(first) < many:
+            step *= 4
         if not later > now:
             later = float(np.nextafter(now, np.inf))
         now = later

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["shapes_of", "svg_of"]
 
-_MOST_CHORDS: Final = 100_000
+_MOST_CHORDS: Final = 20_000
 """Maximum number of chords of one curve; more indicate a mistaken tolerance."""
 _MOST_POINTS: Final = 2_000_000
 """Maximum number of points of a drawing."""
@@ -121,6 +121,8 @@ def _points(subpath: svgelements.Subpath, tolerance: float, most: int) -> list[P
 
     first = subpath[0]
     found = [] if isinstance(first, svgelements.Move) else [first.start]
+    if None in found:
+        raise InputError("a path that does not begin with a move (M)")
     for segment in subpath:
         if isinstance(segment, svgelements.Curve):
             count = _chord_count(segment, tolerance)
@@ -145,7 +147,8 @@ def _chord_count(curve: svgelements.Curve, tolerance: float) -> int:
     if isinstance(curve, svgelements.Arc):
         # Half the angle is acos(1 - tolerance / r), computed without cancellation.
         ratio = min(2.0, tolerance / (max(curve.rx, curve.ry) or tolerance))
-        count = abs(curve.sweep) / (4 * math.asin(math.sqrt(ratio / 2)))
+        angle = 4 * math.asin(math.sqrt(ratio / 2))
+        count = abs(curve.sweep) / angle if angle else math.inf  # 0: the radius overflows
     else:
         points = [complex(p.x, p.y) for p in curve]
         bends = [

@@ -24,6 +24,9 @@ without NaN."""
 FAR: Final = 2.0**20
 """Ratio of distance from the origin to extent above which boxes are relative to a point."""
 
+_FEW: Final = 64
+"""Maximum number of boxes of which all pairs are compared."""
+
 _CHUNK: Final = 1 << 21
 """Maximum number of candidate pairs in a chunk, unless a single box has more."""
 
@@ -59,7 +62,20 @@ def widen_unknown(boxes: Boxes) -> None:
 
 
 def overlapping_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
-    """All pairs i < j of closed boxes that intersect, in chunks of index arrays (i, j).
+    """All pairs i < j of closed boxes that intersect, in chunks of index arrays (i, j)."""
+    n = len(boxes)
+    if n <= _FEW:
+        low_x, high_x, low_y, high_y = boxes.T
+        meets = (low_x[:, None] <= high_x) & (low_y[:, None] <= high_y)
+        first, second = np.nonzero(meets & meets.T)
+        above = first < second
+        yield first[above], second[above]
+        return
+    yield from _swept_pairs(boxes)
+
+
+def _swept_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
+    """As `overlapping_pairs`.
 
     The plane is cut into horizontal strips, each swept from left to right. Two boxes that
     intersect have a strip in common; the pair is reported in the lowest one.

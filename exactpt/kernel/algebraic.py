@@ -32,7 +32,16 @@ from exactpt.kernel.integer_polynomial import (
     square_free,
 )
 from exactpt.kernel.isolated_root import IsolatedRoot
-from exactpt.kernel.numbers import QQ, Rational, finite, place, power_of_two, rational, sign
+from exactpt.kernel.numbers import (
+    QQ,
+    Rational,
+    finite,
+    place,
+    power_of_two,
+    rational,
+    shorten,
+    sign,
+)
 
 if TYPE_CHECKING:
     from exactpt.kernel.sympy_door import Expression
@@ -202,6 +211,18 @@ class AlgebraicNumber(IsolatedRoot):
         from exactpt.kernel.sympy_door import algebraic_to_sympy
 
         return algebraic_to_sympy(self)
+
+    def as_integer_ratio(self) -> tuple[int, int]:
+        """Numerator and positive denominator, without a common factor, of a rational number.
+
+        With this method a rational number is accepted wherever exactpt takes a number.
+
+        Raises:
+            InputError: if the number is irrational.
+        """
+        if not self.simplified().is_rational:
+            raise InputError(f"an irrational number, {shorten(self)}: use .low, .high or float()")
+        return int(self._low.numerator), int(self._low.denominator)
 
     def __hash__(self) -> int:
         """The hash of the rational, or of the double nearest to an irrational number."""

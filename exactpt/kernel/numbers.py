@@ -13,9 +13,9 @@ import operator
 import re
 import sys
 from collections.abc import Iterable
+from decimal import Decimal
 from fractions import Fraction
-from numbers import Real
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
 
 import gmpy2
 
@@ -53,6 +53,7 @@ __all__ = [
     "QQ",
     "ZZ",
     "Rational",
+    "SupportsRatio",
     "as_doubles",
     "ceil",
     "digits",
@@ -75,7 +76,16 @@ __all__ = [
     "sign",
 ]
 
-Rational: TypeAlias = "int | Fraction | QQ | float | str"
+
+class SupportsRatio(Protocol):
+    """A number that is a ratio of integers: numpy's floats, a rational `AlgebraicNumber`."""
+
+    def as_integer_ratio(self) -> tuple[int, int]:
+        """The numerator and the positive denominator, without a common factor."""
+        ...
+
+
+Rational: TypeAlias = "int | Fraction | QQ | float | str | Decimal | SupportsRatio"
 """What a caller may pass as a number; see `rational`."""
 
 _NUMBER: Final = re.compile(
@@ -174,11 +184,13 @@ def show(*numbers: QQ) -> str:
 def rational(value: Rational) -> QQ:
     """The exact rational that ``value`` denotes.
 
-    Accepts ints, Fractions, gmpy2 ``mpz`` and ``mpq``, numpy integers, finite floats
-    including numpy's (their exact binary value), and the strings of `parse_rational`.
+    Accepts ints, Fractions, Decimals, gmpy2 ``mpz`` and ``mpq``, numpy integers, finite
+    floats including numpy's (their exact binary value), the strings of `parse_rational`, and
+    an `AlgebraicNumber` that is rational.
 
     Raises:
-        InputError: for anything else (booleans, NaN, infinities, inexact ``mpfr``).
+        InputError: for anything else (booleans, NaN, infinities, inexact ``mpfr``, irrational
+            numbers).
     """
     if isinstance(value, _EXACT):
         return value
@@ -188,15 +200,19 @@ def rational(value: Rational) -> QQ:
         if not math.isfinite(value):
             raise InputError(f"not a finite number: {value!r}")
         return QQ(*value.as_integer_ratio())
+    if isinstance(value, Decimal):  # as text, which bounds the exponent
+        return parse_rational(str(value))
     if type(value).__name__ in _INEXACT:
         raise InputError(f"not an exact number: {value!r}")
     try:
         if hasattr(value, "numerator") and hasattr(value, "denominator"):
             return QQ(ZZ(int(value.numerator)), ZZ(int(value.denominator)))
-        if isinstance(value, Real) and hasattr(value, "as_integer_ratio"):  # numpy.float32
+        if hasattr(value, "as_integer_ratio"):
             return QQ(*map(int, value.as_integer_ratio()))
         # numpy integers have no denominator
         return QQ(ZZ(operator.index(value)))  # type: ignore[arg-type]
+    except InputError:
+        raise
     except (OverflowError, ValueError):
         raise InputError(f"not a finite number: {value!r}") from None
     except TypeError:  # an array's __index__ and a class's numerator do not give a number

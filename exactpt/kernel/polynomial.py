@@ -4,14 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
-from numbers import Real
-from typing import TYPE_CHECKING, ClassVar, Final, final
+from math import lcm
+from typing import TYPE_CHECKING, ClassVar, Final, final, overload
 
 from exactpt.errors import InputError
 from exactpt.kernel.budget import LONG, ask
-from exactpt.kernel.numbers import QQ, Rational, as_doubles, fraction, fractions, rational, shorten
+from exactpt.kernel.numbers import (
+    QQ,
+    ZZ,
+    Rational,
+    as_doubles,
+    fraction,
+    fractions,
+    rational,
+    shorten,
+)
 
 if TYPE_CHECKING:
+    from exactpt.kernel.algebraic import AlgebraicNumber
+    from exactpt.kernel.integer_polynomial import IntPoly
     from exactpt.kernel.sympy_door import Expression, Variable
 
 __all__ = ["ONE", "ZERO", "Polynomial", "polynomial"]
@@ -21,13 +32,18 @@ __all__ = ["ONE", "ZERO", "Polynomial", "polynomial"]
 class Polynomial:
     """A polynomial in t over the rationals: dense, immutable, hashable.
 
-    Coefficients given as doubles are kept, and become rationals when these are asked for.
+    Sums, differences, products and powers are polynomials, and so are quotients by numbers; a
+    number stands for the constant polynomial. Coefficients given as doubles are kept, and become
+    rationals when these are asked for.
 
-    >>> f = Polynomial([0, "1/2", -1])
-    >>> f(3)
-    Fraction(-15, 2)
+    >>> t = Polynomial([0, 1])
+    >>> f = t / 2 - t**2
+    >>> f, f(3), f(t + 1)
+    (Polynomial(['0', '1/2', '-1']), Fraction(-15, 2), Polynomial(['-1/2', '-3/2', '-1']))
     >>> f.derivative()
     Polynomial(['1/2', '-2'])
+    >>> (t**2 - 2).roots(after=0)
+    [<root of (-2, 0, 1) near 1.4142135623730951>]
     """
 
     __slots__ = ("_doubles", "_exact")
@@ -100,9 +116,18 @@ class Polynomial:
         """The degree; -1 for the zero polynomial."""
         return len(self._coefficients if self._doubles is None else self._doubles) - 1
 
-    def __call__(self, t: Rational) -> Fraction:
-        """The value at a rational t."""
-        return fraction(self._at(rational(t)))
+    @overload
+    def __call__(self, t: Rational) -> Fraction: ...
+    @overload
+    def __call__(self, t: Polynomial) -> Polynomial: ...
+    def __call__(self, t: Rational | Polynomial) -> Fraction | Polynomial:
+        """The value at a rational number, or the polynomial with t replaced by another one."""
+        if not isinstance(t, Polynomial):
+            return fraction(self._at(rational(t)))
+        result = ZERO
+        for c in reversed(self._coefficients):
+            result = result * t + c
+        return result
 
     def _at(self, t: QQ) -> QQ:
         value = QQ(0)
@@ -110,20 +135,68 @@ class Polynomial:
             value = value * t + c
         return value
 
-    def __add__(self, other: Polynomial) -> Polynomial:
-        f, g = self._coefficients, other._coefficients
+    def sign(self, t: AlgebraicNumber | Rational) -> int:
+        """The sign at a time, -1, 0 or 1, exactly."""
+        return _number(t).sign_of(self._integer())
+
+    def sign_after(self, t: AlgebraicNumber | Rational) -> int:
+        """The sign just after a time, exactly: 0 for the zero polynomial alone."""
+        return _number(t).sign_after(self._integer())
+
+    def roots(
+        self,
+        after: AlgebraicNumber | Rational | None = None,
+        until: Rational | None = None,
+    ) -> list[AlgebraicNumber]:
+        """The distinct real roots t with after < t <= until, in increasing order.
+
+        Args:
+            after: a lower bound; None for none.
+            until: an upper bound; None for none.
+
+        Raises:
+            InputError: if the polynomial is zero.
+        """
+        from exactpt.kernel.roots import roots_after
+
+        if self.degree < 0:
+            raise InputError("every number is a root of the zero polynomial")
+        # Cauchy's bound: every root is smaller in absolute value.
+        bound = 1 + max(abs(c / self._coefficients[-1]) for c in self._coefficients)
+        start = _number(-bound if after is None else after)
+        end = bound if until is None else rational(until)
+        return [root.time for root in roots_after(self._integer(), start, end)]
+
+    def _integer(self) -> IntPoly:
+        """A positive multiple with integer coefficients."""
+        common = ZZ(lcm(*(int(c.denominator) for c in self._coefficients)))
+        return tuple(ZZ(c * common) for c in self._coefficients)
+
+    def __add__(self, other: Polynomial | Rational) -> Polynomial:
+        f = self._coefficients
+        g = other._coefficients if isinstance(other, Polynomial) else (rational(other),)
         if len(f) < len(g):
             f, g = g, f
         return Polynomial._of([*(a + b for a, b in zip(f, g, strict=False)), *f[len(g) :]])
 
+    def __radd__(self, other: Rational) -> Polynomial:
+        return self + other
+
     def __neg__(self) -> Polynomial:
         return Polynomial._of([-c for c in self._coefficients])
 
-    def __sub__(self, other: Polynomial) -> Polynomial:
-        return self + -other
+    def __sub__(self, other: Polynomial | Rational) -> Polynomial:
+        return self + (-other if isinstance(other, Polynomial) else -rational(other))
 
-    def __mul__(self, other: Polynomial) -> Polynomial:
-        f, g = self._coefficients, other._coefficients
+    def __rsub__(self, other: Rational) -> Polynomial:
+        return -self + other
+
+    def __mul__(self, other: Polynomial | Rational) -> Polynomial:
+        f = self._coefficients
+        if not isinstance(other, Polynomial):
+            factor = rational(other)
+            return Polynomial._of([c * factor for c in f])
+        g = other._coefficients
         if not f or not g:
             return ZERO
         product = [QQ(0)] * (len(f) + len(g) - 1)
@@ -133,6 +206,27 @@ class Polynomial:
             for j, b in enumerate(g):
                 product[i + j] += a * b
         return Polynomial._of(product)
+
+    def __rmul__(self, other: Rational) -> Polynomial:
+        return self * other
+
+    def __truediv__(self, other: Rational) -> Polynomial:
+        divisor = rational(other)
+        if divisor == 0:
+            raise ZeroDivisionError("a polynomial divided by zero")
+        return Polynomial._of([c / divisor for c in self._coefficients])
+
+    def __pow__(self, exponent: int) -> Polynomial:
+        if exponent < 0:
+            raise InputError(f"an exponent is an integer >= 0: {exponent}")
+        power, square = ONE, self
+        while exponent:
+            if exponent & 1:
+                power = power * square
+            exponent >>= 1
+            if exponent:
+                square = square * square
+        return power
 
     def derivative(self) -> Polynomial:
         """The derivative."""
@@ -172,6 +266,12 @@ def polynomial(value: Polynomial | Rational | Iterable[Rational]) -> Polynomial:
         return value
     if isinstance(value, Iterable) and not isinstance(value, str):
         return Polynomial(value)
-    if isinstance(value, (str, Real)) or hasattr(value, "numerator"):
+    if isinstance(value, str) or hasattr(value, "as_integer_ratio") or hasattr(value, "numerator"):
         return Polynomial([value])
     raise InputError(f"not a polynomial: {value!r}")
+
+
+def _number(t: AlgebraicNumber | Rational) -> AlgebraicNumber:
+    from exactpt.kernel.algebraic import AlgebraicNumber
+
+    return t if isinstance(t, AlgebraicNumber) else AlgebraicNumber(t)

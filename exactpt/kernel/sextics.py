@@ -55,25 +55,11 @@ TWENTIETH: Final = 1.0 / 20.0
 
 
 def sextic(
-    c0: float,
-    c1: float,
-    c2: float,
-    c3: float,
-    c4: float,
-    c5: float,
-    c6: float,
-    e0: float,
-    e1: float,
-    e2: float,
-    e3: float,
-    e4: float,
-    e5: float,
-    e6: float,
-    now_low: float,
-    now_high: float,
-    horizon: float,
+    c0: float, c1: float, c2: float, c3: float, c4: float, c5: float, c6: float,
+    e0: float, e1: float, e2: float, e3: float, e4: float, e5: float, e6: float,
+    now_low: float, now_high: float, horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
-) -> Answer:
+) -> Answer:  # fmt: skip
     """The answer for c0 + c1 t + ... + c6 t^6.
 
     The window starts now, as wide as the horizon allows; it is doubled after a success
@@ -163,16 +149,9 @@ def sextic(
 
 
 def _scaled(
-    c0: float,
-    c1: float,
-    c2: float,
-    c3: float,
-    c4: float,
-    c5: float,
-    c6: float,
-    a: float,
-    h: float,
-) -> Seven:
+    c0: float, c1: float, c2: float, c3: float, c4: float, c5: float, c6: float,
+    a: float, h: float,
+) -> Seven:  # fmt: skip
     """The Taylor coefficients at a, by repeated Horner, times h^k / binomial(6, k)."""
     c5 += a * c6
     c4 += a * c5
@@ -242,25 +221,10 @@ def _bound(
 
 
 def _tighten(
-    c0: float,
-    c1: float,
-    c2: float,
-    c3: float,
-    c4: float,
-    c5: float,
-    c6: float,
-    g0: float,
-    g1: float,
-    g2: float,
-    g3: float,
-    g4: float,
-    g5: float,
-    g6: float,
-    low: float,
-    high: float,
-    x: float,
-    s: float,
-) -> tuple[float, float]:
+    c0: float, c1: float, c2: float, c3: float, c4: float, c5: float, c6: float,
+    g0: float, g1: float, g2: float, g3: float, g4: float, g5: float, g6: float,
+    low: float, high: float, x: float, s: float,
+) -> tuple[float, float]:  # fmt: skip
     """A narrower enclosure of the one root in (low, high), where the sign falls from s to -s.
 
     Newton's method from x, safeguarded by bisection, proposes a root x; the certain signs

@@ -2,53 +2,41 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
+from decimal import Decimal
 from fractions import Fraction
-from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple, TypeAlias, final
+from typing import TYPE_CHECKING, Literal, final, overload
 
 from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.geometry.polygon import edges
-from exactpt.kernel.budget import ask
+from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import (
     QQ,
     Rational,
-    as_doubles,
     fraction,
     fractions,
     place,
     rational,
+    rationals,
     shorten,
-    show,
 )
-from exactpt.kernel.polynomial import Polynomial, polynomial
+from exactpt.kernel.quotients import decimal_quotient
+from exactpt.motion.course import Course, Piece
+from exactpt.motion.local_time import Velocity
 from exactpt.motion.motions import (
     REST,
-    Coefficients,
     Motion,
     Pieces,
     Position,
-    SimpleMotion,
-    Translation,
     made,
 )
-from exactpt.motion.track import Track
+from exactpt.motion.shape import Keyframe, Keyframes, Shape, VertexLike
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["Body", "BodyPiece", "Keyframe", "VertexLike", "is_text"]
-
-VertexLike: TypeAlias = (
-    "Sequence[Rational] | Mapping[str, Coefficients] | tuple[Polynomial, Polynomial]"
-)
-"""A vertex as a caller may write it: (x, y), or {"x": polynomial, "y": polynomial}."""
-
-
-_PAIRS: Final = (tuple, list)
-_SHAPE: Final = ("_doubles", "_keyframes", "_positions", "_shapes", "_size", "closed", "name")
+__all__ = ["Body", "is_text"]
 
 
 def is_text(name: object) -> bool:
@@ -57,25 +45,6 @@ def is_text(name: object) -> bool:
         return isinstance(name, str) and bool(name.encode())
     except UnicodeEncodeError:
         return False
-
-
-class Keyframe(NamedTuple):
-    """The shape of a deforming body at one time."""
-
-    t: Fraction
-    vertices: tuple[tuple[Fraction, Fraction], ...]
-
-
-class BodyPiece(NamedTuple):
-    """The motion of a body up to a time.
-
-    Attributes:
-        until: the last time of the piece; None if it has no end.
-        tracks: the trajectory of each vertex, in the order of the scene.
-    """
-
-    until: QQ | None
-    tracks: tuple[Track, ...]
 
 
 @final
@@ -89,7 +58,8 @@ class Body:
         vertices: one (a point), two (a segment) or more; each a pair of numbers, or a
             mapping with polynomials "x" and "y" (missing: 0) for a vertex that moves in
             the body's rest frame. A numpy array of shape (n, 2) is accepted. The vertices
-            may be in either orientation.
+            may be in either orientation. A last one that repeats the first is dropped, if
+            the body is closed.
         motion: the motion of the shape; at rest if not given.
         closed: False for an open chain.
         keyframes: instead of vertices, pairs (t, vertices) with increasing t; the shape is
@@ -100,19 +70,7 @@ class Body:
         InputError: if the arguments do not describe a body, or the motion jumps.
     """
 
-    __slots__ = (
-        "_breakpoints",
-        "_doubles",
-        "_keyframes",
-        "_last",
-        "_pieces",
-        "_positions",
-        "_shapes",
-        "_size",
-        "closed",
-        "motion",
-        "name",
-    )
+    __slots__ = ("_course", "_shape", "closed", "name")
 
     def __init__(
         self,
@@ -121,7 +79,7 @@ class Body:
         motion: Motion = REST,
         *,
         closed: bool = True,
-        keyframes: Sequence[tuple[Rational, Sequence[Sequence[Rational]]]] | None = None,
+        keyframes: Keyframes | None = None,
     ) -> None:
         if not is_text(name):
             raise InputError(f"a body's name is a text that is not empty: {shorten(name)}")
@@ -130,23 +88,11 @@ class Body:
             raise InputError(f"body {shorten(name)}: give either vertices or keyframes")
         self.name = name
         self.closed = closed
-        self._keyframes: tuple[Keyframe, ...] = ()
-        self._doubles: tuple[list[float], list[float]] | None = None
-        self._positions: tuple[Position, ...] | None = None
-        if keyframes is not None:
-            self._keyframes = _read_keyframes(name, keyframes)
-            self._positions = ()
-            self._size = len(self._keyframes[0].vertices)
-        else:
-            given = _listed(name, "vertices", vertices)
-            self._doubles = _read_doubles(given)
-            if self._doubles is None:
-                self._positions = tuple(_read_vertex(name, i, v) for i, v in enumerate(given))
-            self._size = len(given)
-        self._shapes = self._shape_pieces() if self._keyframes else []
-        if not self._size:
-            raise InputError(f"body {shorten(name)}: at least one vertex is needed")
-        self._set_motion(motion)
+        try:
+            self._shape = Shape(vertices, keyframes, ring=closed)
+            self._course = Course(self._shape, motion)
+        except InputError as error:
+            raise InputError(f"body {shorten(name)}: {error}") from None
 
     @classmethod
     def from_shapely(
@@ -171,6 +117,35 @@ class Body:
         body: Body = extension("body from shapely")(geometry, name, motion, holes)
         return body
 
+    @classmethod
+    def launched(
+        cls,
+        name: str,
+        shape: Iterable[VertexLike],
+        *,
+        at: Rational,
+        velocity: Sequence[Rational],
+        closed: bool = True,
+    ) -> Body:
+        """The body that has a shape at a time, and moves with a constant velocity.
+
+        >>> ball = Body.launched("ball", [(0, 0), (1, 0), (0, 1)], at=3, velocity=(2, 0))
+        >>> ball.at(3)[0], ball.at(4)[0]
+        ((Fraction(0, 1), Fraction(0, 1)), (Fraction(2, 1), Fraction(0, 1)))
+
+        Args:
+            name: the name of the body.
+            shape: its vertices at that time.
+            at: the time.
+            velocity: the velocity (x, y).
+            closed: False for an open chain.
+
+        Raises:
+            InputError: see `Body`.
+        """
+        vx, vy = rationals(velocity, 2, "a velocity has two coordinates")
+        return cls(name, shape, Velocity(vx, vy, since=at), closed=closed)
+
     def with_motion(self, motion: Motion) -> Body:
         """A body of the same name and shape with another motion.
 
@@ -179,36 +154,28 @@ class Body:
         """
         _check_motion(self.name, motion)
         other = Body.__new__(Body)
-        for name in _SHAPE:
-            setattr(other, name, getattr(self, name))
-        other._set_motion(motion)  # noqa: SLF001
+        other.name, other.closed = self.name, self.closed
+        other._shape = self._shape
+        try:
+            other._course = Course(self._shape, motion)  # noqa: SLF001
+        except InputError as error:
+            raise InputError(f"body {shorten(self.name)}: {error}") from None
         return other
 
-    def _set_motion(self, motion: Motion) -> None:
-        self.motion = motion
-        ends = {frame.t for frame in self._keyframes}
-        if isinstance(motion, Pieces):
-            ends.update(motion._until)
-        self._breakpoints: tuple[QQ, ...] = tuple(sorted(ends))
-        self._pieces: dict[QQ | None, BodyPiece] = {}
-        self._last: tuple[QQ, list[tuple[QQ, QQ]]] | None = None
-        if isinstance(motion, Pieces):
-            self._check_continuity(motion)
+    @property
+    def motion(self) -> Motion:
+        """The motion of the shape."""
+        return self._course.motion
 
     @property
     def size(self) -> int:
         """The number of vertices."""
-        return self._size
+        return self._shape.size
 
     @property
     def vertices(self) -> tuple[Position, ...]:
         """The positions in the body's rest frame; none if the body was given by keyframes."""
-        if self._positions is None:
-            xs, ys = self._doubles or ([], [])
-            self._positions = tuple(
-                (Polynomial([x]), Polynomial([y])) for x, y in zip(xs, ys, strict=True)
-            )
-        return self._positions
+        return self._shape.positions
 
     @property
     def edges(self) -> list[tuple[int, int]]:
@@ -225,7 +192,7 @@ class Body:
         """The keyframes, if the body was given by them."""
         return tuple(
             Keyframe(fraction(frame.t), tuple(map(place, frame.vertices)))
-            for frame in self._keyframes
+            for frame in self._shape.keyframes
         )
 
     @property
@@ -233,66 +200,44 @@ class Body:
         """The rational times at which the formulas of the trajectories change, in order."""
         return fractions(self._breakpoints)
 
-    def _piece_after(self, t: QQ) -> BodyPiece:
-        """The piece of motion just after a rational time."""
-        ended = bisect_right(self._breakpoints, t)
-        end = self._breakpoints[ended] if ended < len(self._breakpoints) else None
-        if end not in self._pieces:
-            tracks = self._tracks(self._shape_after(t), self._motion_after(t))
-            self._pieces[end] = BodyPiece(end, tracks)
-        return self._pieces[end]
+    @property
+    def _breakpoints(self) -> tuple[QQ, ...]:
+        return self._course.breakpoints
 
-    def at(self, t: Rational) -> list[tuple[Fraction, Fraction]]:
-        """The exact positions of the vertices at a rational time."""
-        return list(map(place, self._at(rational(t))))
+    def _piece_after(self, t: QQ) -> Piece:
+        return self._course.after(t)
 
     def _at(self, t: QQ) -> list[tuple[QQ, QQ]]:
-        """The positions at a time; those at the last time asked for are cached."""
-        last = self._last  # one read: other threads may share the body
-        if last is None or last[0] != t:
-            self._last = last = t, [track._at(t) for track in self._piece_after(t).tracks]
-        return last[1][:]
+        return self._course.at(t)
 
-    def _tracks(self, shape: Sequence[Position], motion: SimpleMotion) -> tuple[Track, ...]:
-        tracks = []
-        for position in shape:
-            ask()
-            tracks.append(motion.track(position))
-        return tuple(tracks)
+    @overload
+    def at(self, t: Rational) -> list[tuple[Fraction, Fraction]]: ...
+    @overload
+    def at(self, t: Rational | AlgebraicNumber, digits: int) -> list[tuple[Decimal, Decimal]]: ...
+    def at(
+        self, t: Rational | AlgebraicNumber, digits: int | None = None
+    ) -> list[tuple[Fraction, Fraction]] | list[tuple[Decimal, Decimal]]:
+        """The positions of the vertices at a time: exact, or correctly rounded decimals.
 
-    def _shape_pieces(self) -> list[tuple[Position, ...]]:
-        """The shape before the first keyframe, between each two, and after the last."""
-        frames = self._keyframes
-        between = [_between(*pair) for pair in pairwise(frames)]
-        return [_at_rest(frames[0]), *between, _at_rest(frames[-1])]
+        Args:
+            t: the time; without ``digits``, a rational one.
+            digits: the number of significant digits of each coordinate.
 
-    def _shape_after(self, t: QQ) -> tuple[Position, ...]:
-        if not self._keyframes:
-            return self.vertices
-        return self._shapes[bisect_right(self._keyframes, t, key=lambda frame: frame.t)]
-
-    def _motion_after(self, t: QQ) -> SimpleMotion:
-        if not isinstance(self.motion, Pieces):
-            return self.motion
-        return self.motion.motions[bisect_right(self.motion._until, t)]
-
-    def _check_continuity(self, motion: Pieces) -> None:
-        for t, (before, after) in zip(motion._until, pairwise(motion.motions), strict=True):
-            if (
-                isinstance(before, Translation)
-                and isinstance(after, Translation)
-                and before._at(t) == after._at(t)
-            ):
-                continue
-            shape = self._shape_after(t)
-            for i, (a, b) in enumerate(
-                zip(self._tracks(shape, before), self._tracks(shape, after), strict=True)
-            ):
-                if a._at(t) != b._at(t):
-                    raise InputError(
-                        f"body {shorten(self.name)}: vertex {i} jumps at t = {show(t)} "
-                        f"from {show(*a._at(t))} to {show(*b._at(t))}"
-                    )
+        Raises:
+            InputError: if the time is irrational and no digits are given.
+        """
+        if digits is None:
+            return list(map(place, self._at(rational(t))))
+        time = t if isinstance(t, AlgebraicNumber) else AlgebraicNumber(t)
+        passed = [b for b in self._breakpoints if time.compare_rational(b) >= 0]
+        tracks = self._piece_after(passed[-1] if passed else time._low).tracks
+        return [
+            (
+                decimal_quotient(p.x, p.w, time, digits),
+                decimal_quotient(p.y, p.w, time, digits),
+            )
+            for p in tracks
+        ]
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Body):
@@ -300,24 +245,16 @@ class Body:
         return (
             (self.name, self.closed, self.size) == (other.name, other.closed, other.size)
             and self.vertices == other.vertices
-            and (self._keyframes, self.motion) == (other._keyframes, other.motion)
+            and self._shape.keyframes == other._shape.keyframes
+            and self.motion == other.motion
         )
 
     def __hash__(self) -> int:
         return hash((self.name, self.closed, self.size))
 
     def __reduce__(self) -> tuple[object, ...]:
-        shape: dict[str, object]
-        if self._doubles is not None:
-            shape = {"vertices": tuple(zip(*self._doubles, strict=True))}
-        else:
-            shape = {"vertices": tuple(map(_given, self.vertices))}
-        if self._keyframes:
-            shape = {"keyframes": tuple(
-                (str(frame.t), tuple((str(x), str(y)) for x, y in frame.vertices))
-                for frame in self._keyframes
-            )}  # fmt: skip
-        return made, (Body, (self.name,), shape | {"motion": self.motion, "closed": self.closed})
+        options = {"motion": self.motion, "closed": self.closed}
+        return made, (Body, (self.name,), self._shape.given() | options)
 
     def __repr__(self) -> str:
         what = {1: "point", 2: "segment"}.get(self.size, "polygon" if self.closed else "chain")
@@ -327,98 +264,3 @@ class Body:
 def _check_motion(name: str, motion: object) -> None:
     if not (isinstance(motion, Pieces) or hasattr(motion, "track")):
         raise InputError(f"body {shorten(name)}: not a motion: {shorten(motion)}")
-
-
-def _listed(name: str, what: str, values: object) -> list[Any]:
-    if isinstance(values, Iterable) and not isinstance(values, (str, Mapping)):
-        return list(values)
-    raise InputError(f"body {shorten(name)}: {what}: not a list: {shorten(values)}")
-
-
-def _pair(point: object) -> tuple[Any, Any]:
-    coordinates = list(point) if isinstance(point, Iterable) else []
-    if isinstance(point, str) or len(coordinates) != 2:
-        raise InputError(f"a vertex has two coordinates: {shorten(point)}")
-    return coordinates[0], coordinates[1]
-
-
-def _read_doubles(vertices: Sequence[object]) -> tuple[list[float], list[float]] | None:
-    """The coordinates x and y of vertices; None unless all are pairs of doubles."""
-    flat: list[object] = []
-    for vertex in vertices:
-        if type(vertex) not in _PAIRS or len(vertex) != 2:  # type: ignore[arg-type]
-            return None
-        flat += vertex  # type: ignore[arg-type]
-    near = as_doubles(flat)
-    return None if near is None else (near[::2], near[1::2])
-
-
-def _read_vertex(name: str, index: int, vertex: VertexLike) -> Position:
-    try:
-        if isinstance(vertex, Mapping):
-            unknown = set(vertex) - {"x", "y"}
-            if unknown:
-                raise InputError(f"unknown key {min(unknown)!r}")
-            return polynomial(vertex.get("x", ())), polynomial(vertex.get("y", ()))
-        x, y = _pair(vertex)
-        return polynomial(x), polynomial(y)
-    except InputError as error:
-        raise InputError(f"body {shorten(name)}: vertex {index}: {error}") from None
-
-
-def _given(vertex: Position) -> tuple[object, object]:
-    """A vertex as an argument of the constructor; constants if it does not deform."""
-    if vertex[0].degree > 0 or vertex[1].degree > 0:
-        return vertex
-    x, y = (f._at(QQ(0)) for f in vertex)
-    return str(x), str(y)
-
-
-def _read_keyframes(
-    name: str, keyframes: Sequence[tuple[Rational, Sequence[Sequence[Rational]]]]
-) -> tuple[Keyframe, ...]:
-    frames: list[Keyframe] = []
-    for i, keyframe in enumerate(_listed(name, "keyframes", keyframes)):
-        if not isinstance(keyframe, Sequence) or len(keyframe) != 2:
-            raise InputError(
-                f"body {shorten(name)}: keyframe {i}: not (t, vertices): {shorten(keyframe)}"
-            )
-        t, vertices = keyframe
-        pairs = map(_pair, _listed(name, f"keyframe {i}", vertices))
-        try:
-            points = tuple((rational(x), rational(y)) for x, y in pairs)
-            frame = Keyframe(rational(t), points)
-        except InputError as error:
-            raise InputError(f"body {shorten(name)}: keyframe {i}: {error}") from None
-        if frames and frame.t <= frames[-1].t:
-            raise InputError(
-                f"body {shorten(name)}: keyframe {i}: "
-                f"t = {show(frame.t)} is not after {show(frames[-1].t)}"
-            )
-        if frames and len(points) != len(frames[0].vertices):
-            raise InputError(
-                f"body {shorten(name)}: keyframe {i}: {len(points)} vertices, "
-                f"but keyframe 0 has {len(frames[0].vertices)}"
-            )
-        frames.append(frame)
-    if not frames:
-        raise InputError(f"body {shorten(name)}: at least one keyframe is needed")
-    return tuple(frames)
-
-
-def _at_rest(frame: Keyframe) -> tuple[Position, ...]:
-    return tuple((Polynomial([x]), Polynomial([y])) for x, y in frame.vertices)
-
-
-def _between(before: Keyframe, after: Keyframe) -> tuple[Position, ...]:
-    """The linear interpolation a + (b - a) (t - t0) / (t1 - t0) of each vertex."""
-    span = after.t - before.t
-
-    def line(a: QQ, b: QQ) -> Polynomial:
-        slope = (b - a) / span
-        return Polynomial([a - slope * before.t, slope])
-
-    return tuple(
-        (line(x0, x1), line(y0, y1))
-        for (x0, y0), (x1, y1) in zip(before.vertices, after.vertices, strict=True)
-    )

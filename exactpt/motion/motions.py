@@ -85,11 +85,27 @@ class SimpleMotion(Protocol):
 
 @final
 class Translation(_Given):
-    """A translation by (x(t), y(t)), added to every vertex."""
+    """A translation by (x(t), y(t)), added to every vertex.
+
+    Args:
+        x: a number (a constant), or a list of coefficients, constant first.
+        y: likewise.
+
+    Raises:
+        InputError: if they are neither; for a single pair ``(x, y)`` too, which might be meant as
+            a translation by x and y but would be the polynomial x + y t.
+    """
 
     __slots__ = ("x", "y")
 
-    def __init__(self, x: Coefficients = ZERO, y: Coefficients = ZERO) -> None:
+    def __init__(self, x: Coefficients = ZERO, y: Coefficients | None = None) -> None:
+        if y is None:
+            if isinstance(x, tuple) and len(x) == 2:
+                raise InputError(
+                    f"Translation({shorten(x)}): to shift by a pair write Translation(*pair); "
+                    f"for the coefficients of x alone, a list"
+                )
+            y = ZERO
         self.x = polynomial(x)
         self.y = polynomial(y)
 

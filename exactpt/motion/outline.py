@@ -42,8 +42,8 @@ def pieces_of(motion: Motion) -> list[tuple[SimpleMotion, QQ | None]]:
 
 def rest_outline(body: Body) -> Outline | None:
     """The vertices in the rest frame; None if the body deforms there, or is out of range."""
-    if body._doubles is not None:
-        return _outline(*body._doubles, exact=True)
+    if body._shape.doubles is not None:
+        return _outline(*body._shape.doubles, exact=True)
     points: list[tuple[QQ, QQ]] = []
     for x, y in body.vertices:
         if x.degree > 0 or y.degree > 0:

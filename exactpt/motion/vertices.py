@@ -48,19 +48,9 @@ class Vertex:
     """
 
     __slots__ = (
-        "ahead",
-        "behind",
-        "body",
-        "error",
-        "id",
-        "image",
-        "index",
-        "offset",
-        "seen",
-        "track",
-        "x",
-        "y",
-    )
+        "ahead", "behind", "body", "error", "id", "image", "index", "offset", "seen", "track",
+        "x", "y",
+    )  # fmt: skip
 
     def __init__(
         self, vertex_id: VertexId, body: int, index: int, track: Track, image: Image

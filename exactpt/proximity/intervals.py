@@ -78,7 +78,7 @@ def contacts(scene: Scene) -> list[ContactInterval]:
     """
     found = [
         ContactInterval(scene.bodies[i].name, scene.bodies[j].name, start, end)
-        for i, j in pairs_that_come_near(scene)
+        for i, j in pairs_that_come_near(scene, QQ(0))
         for start, end in intervals(scene.bodies[i], scene.bodies[j], scene._start, scene._end)
     ]
     found.sort(key=lambda interval: (interval.a, interval.b))

@@ -1,6 +1,7 @@
 """When two bodies that touch at the start come into a new contact.
 
-They do when they touch after they have parted, or when they begin to overlap. Whether two
+They do when they touch after they have parted, or when they begin to overlap: just after a time
+they do, just before it they did not (at the start of the time span: then they did not). Whether two
 bodies meet or overlap changes only at times of incidences (`exactpt.proximity.intervals`): a
 rational time between any two consecutive ones decides for all times between.
 """
@@ -23,7 +24,7 @@ def new_contact_time(a: Body, b: Body, start: QQ, end: QQ) -> AlgebraicNumber | 
     """The first time of a new contact of two bodies that meet at the start; None if there is none.
 
     It is the start itself if the bodies only touch there and overlap just after it. Bodies that
-    overlap at the start count again only when they have parted.
+    overlap at the start count again only when they have parted, or have only touched.
     """
     last = AlgebraicNumber(start)
     overlaps = overlap(a, b, start)

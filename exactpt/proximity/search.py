@@ -40,6 +40,8 @@ FEW: Final = 4
 """Number of pairs of a vertex and an edge that exact arithmetic takes over."""
 DEPTH: Final = 12
 """Maximum number of bisections of a slab."""
+LASTING: Final = 2
+"""Number of bisections, one after the other, that exclude too little to go on."""
 
 
 class Approach(NamedTuple):
@@ -98,7 +100,7 @@ class ApproachSearch:
             if len(near[0]) > 2 * len(self._ids) + 64 and step > (end - now) / 2**20:
                 step /= 2
                 continue
-            found = self._search(now, later, near, DEPTH)
+            found = self._search(now, later, self._left(now, later, near), DEPTH)
             if found is not None:
                 return found
             if 4 * len(near[0]) < len(self._ids):
@@ -162,20 +164,32 @@ class ApproachSearch:
         return np.concatenate(vs), np.concatenate(es)
 
     def _search(
-        self, now: QQ, later: QQ, near: tuple[Indices, Indices], depth: int
+        self, now: QQ, later: QQ, near: tuple[Indices, Indices], depth: int, lasting: int = 0
     ) -> Approach | None:
-        """The first approach in (now, later] of vertices to edges, given by their numbers."""
-        v, e = near
-        may = self._may_be_near(self._boxes(now, later), v, e)
-        v, e = v[may], e[may]
-        if not len(v):
+        """The first approach in (now, later] of vertices to edges, given by their numbers.
+
+        Pairs that hover at about their distance are near in both halves of every interval: exact
+        arithmetic decides these, too.
+        """
+        count = len(near[0])
+        if not count:
             return None
-        if len(v) <= FEW or not depth:
-            return self._decide(now, later, v, e)
+        if count <= FEW or not depth or lasting == LASTING:
+            return self._decide(now, later, *near)
         middle = (now + later) / 2
-        return self._search(now, middle, (v, e), depth - 1) or self._search(
-            middle, later, (v, e), depth - 1
-        )
+        halves = [(a, b, self._left(a, b, near)) for a, b in ((now, middle), (middle, later))]
+        excluded = 2 * count - sum(len(left[0]) for _, _, left in halves)
+        lasting = 0 if 2 * excluded >= count else lasting + 1
+        for begin, end, left in halves:
+            found = self._search(begin, end, left, depth - 1, lasting)
+            if found is not None:
+                return found
+        return None
+
+    def _left(self, now: QQ, later: QQ, near: tuple[Indices, Indices]) -> tuple[Indices, Indices]:
+        """Those pairs that may be near in [now, later]."""
+        may = self._may_be_near(self._boxes(now, later), *near)
+        return near[0][may], near[1][may]
 
     @np.errstate(all="ignore")
     def _may_be_near(self, boxes: Boxes, v: Indices, e: Indices) -> NDArray[np.bool_]:

@@ -14,7 +14,6 @@ All pairs of features are tested: the question concerns two bodies, not a whole 
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterator
 from itertools import chain, product
 from typing import Final, Literal, TypeAlias
@@ -30,10 +29,9 @@ from exactpt.motion.incidence import difference, lies_on, orientation
 from exactpt.motion.track import Track
 from exactpt.proximity.distance import squared_distance
 from exactpt.proximity.features import feature_pairs
-from exactpt.proximity.stretches import Stretch, meet, segments_of, stretches, two_bodies
-from exactpt.scene.scene import Scene
+from exactpt.proximity.stretches import Stretch, meet, segments_of, stretches
 
-__all__ = ["NORMS", "Norm", "first_within"]
+__all__ = ["NORMS", "Norm", "asked_distance", "time_within"]
 
 Norm: TypeAlias = Literal["euclidean", "max", "x", "y"]
 NORMS: Final = ("euclidean", "max", "x", "y")
@@ -43,46 +41,13 @@ Candidate: TypeAlias = "tuple[IntPoly, Callable[[AlgebraicNumber], bool]]"
 """A polynomial, and the predicate that tells which of its roots count."""
 
 
-def first_within(
-    scene: Scene,
-    a: str,
-    b: str,
-    distance: Rational | None = None,
-    *,
-    norm: Norm | None = None,
-    distance_squared: Rational | None = None,
+def time_within(
+    first: Body, second: Body, start: QQ, end: QQ, d: QQ, norm: Norm
 ) -> AlgebraicNumber | None:
-    """The first time in the scene's span at which two bodies are at most a distance apart.
-
-    >>> from exactpt import Body, Scene, Translation
-    >>> ball = Body("ball", [(0, 0), (1, 0), (0, 1)], Translation([0, 2]))
-    >>> scene = Scene([ball, Body("wall", [(9, -5), (9, 5)])], time=(0, 10))
-    >>> first_within(scene, "ball", "wall", 1, norm="euclidean")
-    AlgebraicNumber('7/2')
-
-    Args:
-        scene: the bodies and the time span; bodies other than a and b are irrelevant.
-        a: the name of a body.
-        b: the name of another body.
-        distance: a number >= 0; 0 asks for the first contact.
-        norm: "euclidean"; "max": the larger of the distances in x and in y; "x" or "y": the gap
-            between the projections of the bodies on that axis. To leave it out means "max", and
-            is deprecated.
-        distance_squared: the square of the distance, instead of it, so that the square root of
-            a rational number can be asked for; for the Euclidean norm.
-
-    Returns:
-        The exact time; None if the bodies stay farther apart.
-
-    Raises:
-        InputError: if there is no such body or norm, or the distance is negative.
-    """
-    norm = _named(norm)
-    d = _asked(distance, distance_squared, norm)
-    first, second = two_bodies(scene, a, b)
-    if _is_within(first, second, scene._start, d, norm):
-        return AlgebraicNumber(scene._start)
-    for stretch in stretches(first, second, scene._start, scene._end):
+    """The first time in [start, end] at which two bodies are within d; Euclidean: its root."""
+    if _is_within(first, second, start, d, norm):
+        return AlgebraicNumber(start)
+    for stretch in stretches(first, second, start, end):
         candidates = _candidates(first, second, stretch, d, norm)
         time = _earliest(candidates, AlgebraicNumber(stretch.begin), stretch.end)
         if time is not None:
@@ -90,21 +55,18 @@ def first_within(
     return None
 
 
-def _named(norm: Norm | None) -> Norm:
+def asked_distance(
+    distance: Rational | None, squared: Rational | None, norm: Norm | None
+) -> tuple[Norm, QQ]:
+    """The norm, and the distance in it; the square of a Euclidean one.
+
+    Raises:
+        InputError: if there is no such norm, or not one distance that is not negative.
+    """
     if norm is None:
-        warnings.warn(
-            'first_within without a norm means norm="max"; name the norm',
-            DeprecationWarning,
-            stacklevel=3,
-        )
-        return "max"
+        raise InputError(f"a norm has to be named: {', '.join(NORMS)}")
     if norm not in NORMS:
         raise InputError(f"no norm {shorten(norm)}; there are: {', '.join(NORMS)}")
-    return norm
-
-
-def _asked(distance: Rational | None, squared: Rational | None, norm: Norm) -> QQ:
-    """The distance in the maximum norm or along an axis; the square of a Euclidean one."""
     asked = squared if distance is None else distance
     if asked is None or (distance is not None and squared is not None):
         raise InputError("either a distance or its square is asked for")
@@ -113,7 +75,7 @@ def _asked(distance: Rational | None, squared: Rational | None, norm: Norm) -> Q
         raise InputError(f"a distance is not negative: {show(given)}")
     if norm != "euclidean" and distance is None:
         raise InputError(f"a squared distance is for the Euclidean norm, not for {norm!r}")
-    return given * given if norm == "euclidean" and squared is None else given
+    return norm, given * given if norm == "euclidean" and squared is None else given
 
 
 def _candidates(a: Body, b: Body, stretch: Stretch, d: QQ, norm: Norm) -> Iterator[Candidate]:

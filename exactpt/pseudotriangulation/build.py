@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import cmp_to_key
+from typing import TypeAlias
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.predicates import Predicates
@@ -14,6 +15,8 @@ from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import INSIDE, OUTER, SOLID, Diagonal, Mesh
 
 __all__ = ["build_mesh", "star_order"]
+
+Stars: TypeAlias = dict[VertexId, list[HalfEdge]]
 
 
 def build_mesh(
@@ -33,21 +36,8 @@ def build_mesh(
     vertices = instant.vertices.all
     if mesh is None:
         mesh = Mesh(len(vertices))
-    around: list[list[HalfEdge]] = [[] for _ in vertices]
-    inside: dict[VertexId, list[HalfEdge]] = {}
-    for body in instant.vertices.bodies:
-        for v in body.ring:
-            mesh.ring_edge[v] = mesh.add_edge(v, vertices[v].ahead, boundary=True)
-            mesh.region[mesh.ring_edge[v]] = INSIDE if body.is_tiled else SOLID
-    for u, v, region in diagonals:
-        h = mesh.add_edge(u, v, boundary=False)
-        mesh.region[h] = mesh.region[h ^ 1] = region
-        if region == INSIDE:
-            inside.setdefault(u, []).append(h)
-            inside.setdefault(v, []).append(twin(h))
-        else:
-            around[u].append(h)
-            around[v].append(twin(h))
+    _add_rings(instant, mesh)
+    outside, inside = _add_diagonals(mesh, diagonals)
     link = mesh.map.link
     for v in instant.vertices.ids():
         # Counter-clockwise: the edge to the next vertex of the ring, the diagonals inside the
@@ -55,7 +45,8 @@ def build_mesh(
         ahead, behind = mesh.ring_edge[v], twin(mesh.ring_edge[vertices[v].behind])
         star = _sorted_star(instant, mesh, v, ahead, inside[v]) if v in inside else []
         star.append(behind)
-        star += _sorted_star(instant, mesh, v, behind, around[v])
+        if v in outside:
+            star += _sorted_star(instant, mesh, v, behind, outside[v])
         before = ahead
         for h in star:
             link(twin(h), before)
@@ -63,6 +54,27 @@ def build_mesh(
         link(twin(ahead), before)
     _mark_angles(instant, mesh)
     return mesh
+
+
+def _add_rings(instant: PredicatesAt, mesh: Mesh) -> None:
+    vertices = instant.vertices.all
+    for body in instant.vertices.bodies:
+        for v in body.ring:
+            mesh.ring_edge[v] = mesh.add_edge(v, vertices[v].ahead, boundary=True)
+            mesh.region[mesh.ring_edge[v]] = INSIDE if body.is_tiled else SOLID
+
+
+def _add_diagonals(mesh: Mesh, diagonals: Iterable[Diagonal]) -> tuple[Stars, Stars]:
+    """Add the diagonals; the half-edges out of each vertex, outside and inside the bodies."""
+    outside: Stars = {}
+    inside: Stars = {}
+    for u, v, region in diagonals:
+        h = mesh.add_edge(u, v, boundary=False)
+        mesh.region[h] = mesh.region[twin(h)] = region
+        stars = inside if region == INSIDE else outside
+        stars.setdefault(u, []).append(h)
+        stars.setdefault(v, []).append(twin(h))
+    return outside, inside
 
 
 def _sorted_star(
@@ -125,6 +137,10 @@ def _mark_face(instant: PredicatesAt, mesh: Mesh, first: HalfEdge, seen: list[bo
         seen[h] = True
         corners += mesh.corner[h]
         h = m.following[h]
+    if h != first:  # of inconsistent signs, such as those of a forged file
+        raise AuditError(
+            f"the half-edges after {instant.vertices.name(m.origin[first])} return elsewhere"
+        )
     if corners == 0:
         for h in m.face(first):
             mesh.region[h] = OUTER

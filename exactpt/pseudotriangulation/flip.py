@@ -9,7 +9,7 @@ this module works with visits, that is half-edges.
 
 from __future__ import annotations
 
-from collections import deque
+from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
@@ -218,12 +218,10 @@ def flip_until_greedy(
     Raises:
         AuditError: if a diagonal has no shadow: the mesh is not a pseudo-triangulation.
     """
-    todo = deque(dict.fromkeys(min(h, twin(h)) for h in candidates))
-    waiting = set(todo)
+    todo = OrderedDict.fromkeys(min(h, twin(h)) for h in candidates)
     flips = []
     while todo:
-        h = todo.popleft()
-        waiting.discard(h)
+        h, _ = todo.popitem(last=False)
         if mesh.is_fixed(h) or mesh.map.origin[h] < 0 or mesh.is_hull(h):
             continue
         if is_known is not None and is_known(h):
@@ -239,9 +237,7 @@ def flip_until_greedy(
             flips.append(Flip(old, new, changed))
             e = changed[0]
             for g in (*mesh.map.face(e), *mesh.map.face(twin(e))):
-                if (even := min(g, twin(g))) not in waiting:
-                    waiting.add(even)
-                    todo.append(even)
+                todo.setdefault(min(g, twin(g)))
         elif shadows is not None:
             shadows[h] = visits
     return flips

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Final, Literal
 from exactpt.errors import InputError, TimeRangeError
 from exactpt.files import write_atomically
 from exactpt.kernel.numbers import show
+from exactpt.proximity.clearance import clearance
 from exactpt.render.film import film_of
 from exactpt.render.frame import frame_of
 from exactpt.render.page import page_of
+from exactpt.render.plot import plot_of, svg_of_plot
 from exactpt.render.png import png_of
 from exactpt.render.still import still
 from exactpt.render.svg import svg_of
@@ -35,6 +37,7 @@ def draw(
     at: QQ | Literal["contact"] | None = None,
     tiling: str = "auto",
     theme: str = "auto",
+    gap: tuple[str, str] | None = None,
     max_events: int | None = None,
     max_seconds: float | None = None,
     reached: Callable[[AlgebraicNumber], None] | None = None,
@@ -47,12 +50,15 @@ def draw(
         at: the time, by default the start; an animation shows that time first.
         tiling: the name of the tiling, or "auto".
         theme: "light", "dark" or "auto" (the reader's preference; PNG: light).
+        gap: names of two bodies, whose distance over time is plotted beside the animation; a
+            picture is of this plot alone.
         max_events: see `Simulation`.
         max_seconds: see `Simulation`.
         reached: called with the times that the run of an animation reaches.
 
     Raises:
-        InputError: if the suffix is not in `ENDINGS`, or there is no contact to draw.
+        InputError: if the suffix is not in `ENDINGS`, there is no contact to draw, or there are
+            no such bodies.
         TimeRangeError: if there is nothing to draw at that time.
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
@@ -68,15 +74,27 @@ def draw(
             reached=reached,
         )
         first = _shown_first(film, at)
-        write_atomically(path, page_of(film, title=path.stem, at=first, theme=theme))
+        distance = None if gap is None else clearance(_shown(film), *gap)
+        page = page_of(film, title=path.stem, at=first, theme=theme, gap=distance)
+        write_atomically(path, page)
+        return
+    light = "light" if theme == "auto" and ending == ".png" else theme
+    if gap is not None:
+        _write_picture(path, svg_of_plot(plot_of(clearance(scene, *gap)), theme=light))
         return
     then = None if at == "contact" else scene._start if at is None else at
     picture = still(scene, then, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
-    if ending == ".svg":
-        write_atomically(path, svg_of(frame_of(picture), theme=theme))
-    else:
-        light = "light" if theme == "auto" else theme
-        write_atomically(path, png_of(svg_of(frame_of(picture), theme=light)))
+    _write_picture(path, svg_of(frame_of(picture), theme=light))
+
+
+def _write_picture(path: Path, svg: str) -> None:
+    write_atomically(path, png_of(svg) if path.suffix.lower() == ".png" else svg)
+
+
+def _shown(film: Film) -> Scene:
+    """The scene up to the end of its animation; all of it if that ends at the start."""
+    last = film.end.simplified()._canonical_interval()[1]
+    return film.scene.until(last) if last > film.scene._start else film.scene
 
 
 def _shown_first(film: Film, at: QQ | Literal["contact"] | None) -> AlgebraicNumber | QQ | None:

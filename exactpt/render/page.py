@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING, Final
 
 from exactpt.render.data import data_of
 from exactpt.render.palette import DARK, LIGHT
+from exactpt.render.plot import plot_of, strip_of
 from exactpt.render.words import clean
 
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.numbers import QQ
+    from exactpt.proximity.clearance import Clearance
     from exactpt.render.film import Film
 
 __all__ = ["page_of"]
@@ -43,6 +45,7 @@ def page_of(
     title: str = "exactpt",
     at: AlgebraicNumber | QQ | None = None,
     theme: str = "auto",
+    gap: Clearance | None = None,
 ) -> str:
     """The animation of a film as an HTML document.
 
@@ -51,12 +54,15 @@ def page_of(
         title: the title of the page.
         at: the time shown first; by default the start.
         theme: "light", "dark" or "auto" (the reader's preference).
+        gap: a distance that is plotted above the scrubber.
     """
     data = json.dumps(data_of(film, at=at), separators=(",", ":"))
     parts = {
         "title": escape(clean(title)),
         "summary": escape(_summary(film)),
         "theme": "" if theme == "auto" else f' data-theme="{theme}"',
+        "plotted": "" if gap is None else " plotted",
+        "plot": "" if gap is None else strip_of(plot_of(gap)),
         "style": _variables() + _asset("page.css"),
         # Inside a script element only its closing tag has to be escaped.
         "data": data.replace("<", "\\u003c"),

@@ -112,6 +112,8 @@ def _body(data: Json, index: int) -> Body:
     rows = a_list(body["vertices"], f'{where}: "vertices"')
     if not rows:
         raise InputError(f'{where}: "vertices": at least one is needed')
+    if closed and len(rows) > 3 and rows[0] == rows[-1]:
+        raise InputError(f'{where}: "vertices": the last repeats the first: {shown(rows[-1])}')
     vertices = [_vertex(row, f"{where}: vertex {i}") for i, row in enumerate(rows)]
     return Body(name, vertices, motion, closed=closed)
 
@@ -235,10 +237,10 @@ def _body_to_json(body: Body) -> dict[str, object]:
     data: dict[str, object] = {"name": body.name}
     if not body.closed:
         data["closed"] = False
-    if body._keyframes:
+    if body._shape.keyframes:
         data["keyframes"] = [
             {"t": _text(f.t), "vertices": [[_text(x), _text(y)] for x, y in f.vertices]}
-            for f in body._keyframes
+            for f in body._shape.keyframes
         ]
     else:
         data["vertices"] = [

@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, final
+from typing import TYPE_CHECKING, Literal, final, overload
 
 from exactpt.errors import InputError
 from exactpt.extensions import extension
-from exactpt.geometry.polygon import first_self_touch, signed_area2
-from exactpt.geometry.simple import is_surely_simple
+from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, rationals, shorten, show
 from exactpt.motion.body import Body
-from exactpt.motion.outline import outline_at
 from exactpt.scene.body_arrays import BodyArrays
+from exactpt.scene.simple import check_simple
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["Scene", "check_simple", "scene_of"]
+__all__ = ["Scene", "scene_of"]
 
 
 @final
@@ -171,9 +171,27 @@ class Scene:
             return found
         raise InputError(f"there is no body {shorten(name)}")
 
-    def at(self, t: Rational) -> dict[str, list[tuple[Fraction, Fraction]]]:
-        """The exact vertex positions of every body at a rational time, by name."""
-        return {body.name: body.at(t) for body in self.bodies}
+    @overload
+    def at(self, t: Rational) -> dict[str, list[tuple[Fraction, Fraction]]]: ...
+    @overload
+    def at(
+        self, t: Rational | AlgebraicNumber, digits: int
+    ) -> dict[str, list[tuple[Decimal, Decimal]]]: ...
+    def at(
+        self, t: Rational | AlgebraicNumber, digits: int | None = None
+    ) -> dict[str, list[tuple[Fraction, Fraction]]] | dict[str, list[tuple[Decimal, Decimal]]]:
+        """The positions of the vertices of every body at a time, by name; see `Body.at`.
+
+        Args:
+            t: the time; without ``digits``, a rational one.
+            digits: the number of significant digits of each coordinate.
+
+        Raises:
+            InputError: if the time is irrational and no digits are given.
+        """
+        if digits is None:
+            return {body.name: body.at(rational(t)) for body in self.bodies}
+        return {body.name: body.at(t, digits) for body in self.bodies}
 
     @classmethod
     def from_shapely(
@@ -219,6 +237,22 @@ class Scene:
                 f"the end t = {show(last)} is not after the start t = {show(self._start)}"
             )
         return scene_of(self.bodies, self._start, last)
+
+    def since(self, start: Rational) -> Scene:
+        """The scene from a later start on; an earlier start changes nothing.
+
+        Raises:
+            InputError: if the start is not before the end, or a polygon or chain is not simple
+                then.
+        """
+        first = max(rational(start), self._start)
+        if first >= self._end:
+            raise InputError(
+                f"the start t = {show(first)} is not before the end t = {show(self._end)}"
+            )
+        for body in self.bodies:
+            check_simple(body, first)
+        return scene_of(self.bodies, first, self._end)
 
     def going_on(self, bodies: Iterable[Body], start: QQ) -> Scene:
         """The scene from a later start on, with bodies already known to be valid then."""
@@ -271,34 +305,3 @@ def _span(time: Sequence[Rational]) -> tuple[QQ, QQ]:
     if start >= end:
         raise InputError(f"time: the span from {show(start)} to {show(end)} is empty")
     return start, end
-
-
-def check_simple(body: Body, start: QQ) -> None:
-    """Check that a body is a simple polygon or chain at the start of a scene.
-
-    Raises:
-        InputError: if it is not.
-    """
-    shape = outline_at(body, start)
-    if shape is not None and is_surely_simple(
-        shape.xs, shape.ys, closed=body.closed, error=shape.error
-    ):
-        return
-    points = body._at(start)
-    touch = first_self_touch(points, closed=body.closed)
-    if touch is not None:
-        i, j = touch
-        what = "polygon" if body.closed else "chain"
-        if i == j:
-            u = points[i]
-            raise InputError(
-                f"body {shorten(body.name)}: vertex {i} and the next one are both at "
-                f"{show(*u)} at the start, t = {show(start)}"
-            )
-        raise InputError(
-            f"body {shorten(body.name)}: not a simple {what} "
-            f"at the start, t = {show(start)}: "
-            f"edge {i} from {show(*points[i])} meets edge {j} from {show(*points[j])}"
-        )
-    if body.has_interior and signed_area2(points) == 0:
-        raise InputError(f"body {shorten(body.name)}: the polygon has no area at t = {show(start)}")

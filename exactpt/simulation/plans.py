@@ -22,7 +22,7 @@ from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, SimpleMotion, Translation
 
-__all__ = ["GRID", "moved", "onward", "planned", "rounded", "translation_at"]
+__all__ = ["GRID", "onward", "planned", "rounded", "translation_at"]
 
 GRID = power_of_two(-20)
 """Default grid of velocities."""
@@ -45,7 +45,7 @@ def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
         if (new.name, new.size, new.closed) != (body.name, body.size, body.closed):
             raise InputError(f"body {body.name!r}: {new!r} is no plan for {body!r}")
     else:
-        new = moved(body, plan)
+        new = body.with_motion(plan)
     for i, (p, q) in enumerate(zip(body._at(t), new._at(t), strict=True)):
         if p != q:
             raise InputError(
@@ -53,13 +53,6 @@ def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
                 f"from {show(*p)} to {show(*q)}"
             )
     return new
-
-
-def moved(body: Body, motion: Motion) -> Body:
-    """A body of the same shape with another motion; its position may differ."""
-    if body._keyframes:
-        return Body(body.name, motion=motion, closed=body.closed, keyframes=body._keyframes)
-    return Body(body.name, body.vertices, motion, closed=body.closed)
 
 
 def rounded(value: Rational, grid: Rational = GRID) -> QQ:

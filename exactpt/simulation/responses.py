@@ -9,15 +9,15 @@ exactly by the simulation.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING, Final, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.integer_polynomial import derivative, evaluate
-from exactpt.kernel.numbers import QQ, Rational, nearest_float, rational
+from exactpt.kernel.numbers import QQ, Rational, nearest_float, rational, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.motions import made
-from exactpt.simulation.plans import GRID, moved, onward, translation_at
+from exactpt.simulation.plans import GRID, onward, translation_at
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact, Pair
@@ -43,37 +43,50 @@ def stop(simulation: Simulation, contact: Contact) -> None:
 
 @final
 class Bounce:
-    """Elastic collisions between bodies of equal mass, and with bodies that never move.
+    """Collisions of bodies that are pushed along the normal, and with bodies that never move.
 
     Rotations and deformations continue unchanged; translations become linear.
 
     Args:
         fixed: names of bodies that never change their motion; all of them are bodies at the
             first contact.
+        restitution: the speed of separation over that of approach, along the normal, in [0, 1];
+            1 for elastic collisions.
+        masses: positive masses by name; 1 for bodies that are not named.
         slowest: minimum normal speed, positive, at which touching features separate.
         fastest: maximum absolute value of each velocity coordinate; None for no limit.
         grid: positive step to whose multiples velocities are rounded.
 
     Raises:
-        InputError: if ``fixed`` is a string, or a number is not positive; at the first contact,
-            if a name in ``fixed`` is no body.
+        InputError: if ``fixed`` is a string, or a number is out of range; at the first contact,
+            if a name in ``fixed`` or ``masses`` is no body.
     """
 
     def __init__(
         self,
         fixed: Collection[str] = (),
         *,
+        restitution: Rational = 1,
+        masses: Mapping[str, Rational] | None = None,
         slowest: Rational = "1/16",
         fastest: Rational | None = None,
         grid: Rational = GRID,
     ) -> None:
         if isinstance(fixed, str):
             raise InputError(f"fixed: a collection of names, not the text {fixed!r}")
-        for what, number in (("slowest", slowest), ("fastest", fastest), ("grid", grid)):
+        masses = dict(masses or {})
+        positive = {"slowest": slowest, "fastest": fastest, "grid": grid}
+        positive |= {f"the mass of {shorten(name)}": mass for name, mass in masses.items()}
+        for what, number in positive.items():
             if number is not None and rational(number) <= 0:
                 raise InputError(f"{what}: not positive: {number!r}")
+        if not 0 <= rational(restitution) <= 1:
+            raise InputError(f"restitution: not between 0 and 1: {restitution!r}")
         self._fixed = frozenset(fixed)
-        self._unseen = set(fixed)  # a misspelt name would be a body that is pushed away
+        # A misspelt name would be a body that is pushed away, or of another mass.
+        self._unseen = dict.fromkeys(fixed, "fixed") | dict.fromkeys(masses, "masses")
+        self._restitution = nearest_float(rational(restitution))
+        self._masses = {name: nearest_float(rational(mass)) for name, mass in masses.items()}
         self._slowest = nearest_float(rational(slowest))
         self._fastest = math.inf if fastest is None else nearest_float(rational(fastest))
         self._grid = rational(grid)
@@ -97,23 +110,28 @@ class Bounce:
         simulation.set_motions(plans)
 
     def _check_names(self, simulation: Simulation) -> None:
-        """Check that every fixed name is that of a body, now or at a contact before."""
-        for name in sorted(self._unseen):
+        """Check that every name that was given is that of a body, now or at a contact before."""
+        for name, option in sorted(self._unseen.items()):
             try:
                 simulation.body(name)
             except InputError as error:
-                raise InputError(f"Bounce: fixed: {error}") from None
-            self._unseen.discard(name)
+                raise InputError(f"Bounce: {option}: {error}") from None
+            del self._unseen[name]
 
     def __reduce__(self) -> tuple[object, ...]:
         fastest = None if math.isinf(self._fastest) else self._fastest
-        options = {"slowest": self._slowest, "fastest": fastest, "grid": str(self._grid)}
+        options = {
+            "restitution": self._restitution, "masses": self._masses, "slowest": self._slowest,
+            "fastest": fastest, "grid": str(self._grid),
+        }  # fmt: skip
         return made, (Bounce, (tuple(sorted(self._fixed)),), options)
 
     def _push(
         self, pair: Pair, bodies: dict[str, Body], change: dict[str, list[float]], t: QQ
     ) -> bool:
-        """Push one pair apart, by equal and opposite impulses along the normal, if needed.
+        """Push one pair apart, by opposite impulses along the normal, if needed.
+
+        An impulse changes a velocity in inverse proportion to the mass; a fixed body's is infinite.
 
         Returns:
             Whether an impulse was applied: not to a pair that separates, nor to fixed bodies.
@@ -131,14 +149,15 @@ class Bounce:
         a, b = change[pair.body], change[pair.other]
         approach = nx * (vx - ux) + ny * (vy - uy)
         parting = nx * (a[0] - b[0]) + ny * (a[1] - b[1]) - approach
-        goal = max(abs(approach), self._slowest)
+        goal = max(self._restitution * abs(approach), self._slowest)
         if parting >= self._slowest / 2:
             return False
-        push = (goal - parting) / len(free)
+        inverse = {name: 1.0 / self._masses.get(name, 1.0) for name in free}
+        impulse = (goal - parting) / sum(inverse.values())
         for name, way in ((pair.body, 1.0), (pair.other, -1.0)):
             if name in free:
-                change[name][0] += way * push * nx
-                change[name][1] += way * push * ny
+                change[name][0] += way * impulse * inverse[name] * nx
+                change[name][1] += way * impulse * inverse[name] * ny
         return True
 
     def _plan(self, body: Body, change: list[float], t: QQ) -> Body:
@@ -146,7 +165,7 @@ class Bounce:
             min(max(v + dv, -self._fastest), self._fastest)
             for v, dv in zip(_translation_speed(body, t), change, strict=True)
         ]
-        return moved(body, onward(body, t, velocity, grid=self._grid))
+        return body.with_motion(onward(body, t, velocity, grid=self._grid))
 
 
 def _velocity(body: Body, vertex: int, t: QQ) -> tuple[float, float]:

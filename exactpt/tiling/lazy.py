@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import final
 
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.convex_bodies import all_stay_convex
 from exactpt.pseudotriangulation.build import build_mesh
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.pseudotriangulation.plane_sweep import sweep_diagonals
@@ -23,7 +24,7 @@ class LazyRules(Rules):
     @staticmethod
     def build(instant: PredicatesAt) -> Mesh:
         """A tiling of an instant: the greedy one of convex bodies, otherwise by a plane sweep."""
-        if instant.all_stay_convex():
+        if all_stay_convex(instant):
             return greedy_mesh(instant, VerticalDecomposition.at(instant))[0]
         mesh = build_mesh(instant, sweep_diagonals(instant))
         make_pointed(mesh, instant)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.convex_bodies import all_stay_convex
 from exactpt.errors import AuditError, InputError
 from exactpt.indices import VertexId
 from exactpt.kernel.counters import Counters
@@ -44,7 +45,7 @@ def plan(name: str, bodies: Sequence[Body], start: QQ, end: QQ) -> tuple[Entry, 
     entry = catalogue.choose(
         name,
         points=all(body.size == 1 for body in bodies),
-        convex=lambda: PredicatesAt(vertices(), start).all_stay_convex(),
+        convex=lambda: all_stay_convex(PredicatesAt(vertices(), start)),
     )
     if entry.bodies is Bodies.POINTS:
         return entry, _vertices_of_points(entry, bodies, start, end)

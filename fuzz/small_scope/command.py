@@ -49,7 +49,7 @@ def small_scope(
     shrink: float,
     show: int | None,
 ) -> None:
-    r"""Compare all methods on all small scenes, up to symmetry, and on a sample of larger ones.
+    """Compare all methods on all small scenes, up to symmetry, and on a sample of larger ones.
 
     \b
     Examples:

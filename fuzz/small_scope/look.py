@@ -3,26 +3,30 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Final, NamedTuple
 
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.comparison import contrast
 from exactpt.collision.contact import Contact
+from exactpt.collision.straight_search import rows_of
 from exactpt.kernel.numbers import ZZ
 from exactpt.scene.scene import Scene
 from exactpt.simulation.responses import stop
 from exactpt.simulation.simulation import Simulation
 from fuzz.limits import TooSlow, limit
+from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.scope import Planned
 from fuzz.statics import run_and_audit
 from fuzz.witnesses import check_proof, contact_by, tilings_of
 
-__all__ = ["AUDITED", "Answer", "Look", "look", "look_at_proof"]
+__all__ = ["AUDITED", "Answer", "Look", "look", "looks", "looks_at_proofs"]
 
 AUDITED: Final = 16
 """One in this many scenes gets an audit of a tiling between events, and another one a simulation
 that continues after the contact."""
+
+REFERENCE: Final = "reference"
 
 PATIENCE: Final = 20.0
 """Seconds of processor time after which a method counts as hanging."""
@@ -32,7 +36,8 @@ class Answer(NamedTuple):
     """The answer of a method about a scene.
 
     Attributes:
-        method: "pairs", the name of a tiling, or "static" or "going on" and such a name.
+        method: "auto", "pairs", "arrays", the name of a tiling, or "static" or "going on" and
+            such a name.
         seconds: processor time.
         fault: what is wrong with the answer; None if it is right.
     """
@@ -47,25 +52,43 @@ class Look(NamedTuple):
 
     Attributes:
         planned: the scene.
-        contact: whether there is a contact.
+        contact: the first contact by the reference; None if there is none.
         as_planned: whether it is at the planned time.
         answers: the answers of all methods.
     """
 
     planned: Planned
-    contact: bool
+    contact: Contact | None
     as_planned: bool
     answers: list[Answer]
 
+    @property
+    def has_reference(self) -> bool:
+        """Whether the reference has answered."""
+        return self.answers[0].method != REFERENCE
+
+
+def looks(several: Sequence[Planned]) -> list[Look]:
+    """Compare all methods with the reference in each of some scenes, arrays in one call."""
+    seen = [look(planned) for planned in several]
+    asked = [one for one in seen if one.has_reference and suits(one.planned.scene)]
+    judged = verdicts([one.planned.scene for one in asked], [one.contact for one in asked])
+    for one, (seconds, fault) in zip(asked, judged, strict=True):
+        one.answers.append(Answer(ARRAYS, seconds, fault))
+    return seen
+
 
 def look(planned: Planned) -> Look:
-    """Compare all methods with the reference."""
+    """Compare methods with the reference: all but arrays.
+
+    Where bodies do not all move straight, "auto" is "pairs", and is not asked.
+    """
     scene = planned.scene
     try:
         expected = first_contact_allpairs(scene)
     except Exception as error:  # any exception is a finding
-        broken = Answer("reference", 0.0, type(error).__name__)
-        return Look(planned, contact=False, as_planned=False, answers=[broken])
+        broken = Answer(REFERENCE, 0.0, type(error).__name__)
+        return Look(planned, None, as_planned=False, answers=[broken])
 
     def compare(name: str) -> str | None:
         return contrast(expected, contact_by(scene, name))
@@ -77,18 +100,23 @@ def look(planned: Planned) -> Look:
         run_and_audit(scene, name, middle=False)
 
     names = tilings_of(scene)
-    answers = [_answer(name, compare, name) for name in ("pairs", *names)]
+    searches = ("pairs",) if rows_of(scene) is None else ("auto", "pairs")
+    answers = [_answer(name, compare, name) for name in (*searches, *names)]
     turn, rest = divmod(planned.number, AUDITED)
     name = names[turn % len(names)]
     if rest == 0:
         answers.append(_answer(f"static {name}", audit, name))
     elif rest == AUDITED // 2:
         answers.append(_answer(f"going on {name}", go_on, name))
-    return Look(planned, expected is not None, _as_planned(planned, expected), answers)
+    return Look(planned, expected, _as_planned(planned, expected), answers)
 
 
-def look_at_proof(planned: Planned) -> Look:
-    """Check the proof by one of the tilings, in C++, and one in 32 in Python too."""
+def looks_at_proofs(several: Sequence[Planned]) -> list[Look]:
+    """Check the proof by one of the tilings in C++, and of one scene in 32 in Python too."""
+    return [_look_at_proof(planned) for planned in several]
+
+
+def _look_at_proof(planned: Planned) -> Look:
     names = tilings_of(planned.scene)
     name, in_python = names[planned.number % len(names)], planned.number % 32 == 0
 
@@ -96,7 +124,7 @@ def look_at_proof(planned: Planned) -> Look:
         check_proof(planned.scene, tiling, in_python=in_python)
 
     answer = _answer(f"proof {name}", check, name)
-    return Look(planned, contact=False, as_planned=False, answers=[answer])
+    return Look(planned, None, as_planned=False, answers=[answer])
 
 
 def _as_planned(planned: Planned, contact: Contact | None) -> bool:

@@ -19,7 +19,7 @@ from exactpt.errors import InputError
 from exactpt.files import write_atomically
 from exactpt.scene.format import to_json
 from fuzz.cases import Failure, failure_of, shrunk
-from fuzz.small_scope.look import AUDITED, look, look_at_proof
+from fuzz.small_scope.look import AUDITED, looks, looks_at_proofs
 from fuzz.small_scope.scope import planned, sizes
 from fuzz.small_scope.tally import Fault, Tally
 
@@ -82,8 +82,9 @@ def count(numbers: range, *, proofs: bool = False) -> Tally:
     """The tally of the scenes with these numbers."""
     began = clock.process_time()
     tally = Tally()
-    for number in numbers:
-        tally.note((look_at_proof if proofs else look)(planned(number)))
+    compare = looks_at_proofs if proofs else looks
+    for seen in compare([planned(number) for number in numbers]):
+        tally.note(seen)
     tally.seconds = clock.process_time() - began
     return tally
 

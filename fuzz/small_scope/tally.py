@@ -52,7 +52,10 @@ class Tally:
         """Count a scene."""
         cell = seen.planned.cell
         wrong = any(answer.fault for answer in seen.answers)
-        _add(self.cells.setdefault(cell, [0] * 4), [1, seen.contact, seen.as_planned, wrong])
+        _add(
+            self.cells.setdefault(cell, [0] * 4),
+            [1, seen.contact is not None, seen.as_planned, wrong],
+        )
         for method, seconds, fault in seen.answers:
             _add(self.methods.setdefault(method, [0, 0, 0.0]), [1, fault is not None, seconds])
             if fault is not None:

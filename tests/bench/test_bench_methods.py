@@ -9,6 +9,7 @@ from exactpt.bench.methods.closed_form import CLOSED_FORM
 from exactpt.bench.methods.method import UnsuitableScene, error_of
 from exactpt.bench.methods.moving import Moving
 from exactpt.bench.methods.own import EXACT_SEARCH, OWN, fresh
+from exactpt.bench.methods.with_box2d import BOX2D
 from exactpt.bench.methods.with_ipctk import with_additive, with_tight_inclusion
 from exactpt.bench.methods.with_pymunk import with_pymunk
 from exactpt.bench.methods.with_shapely import with_shapely
@@ -112,3 +113,16 @@ def test_errors():
 
 def test_a_fresh_scene_is_the_same_scene():
     assert fresh(thrown()).at(3) == thrown().at(3)
+
+
+@pytest.mark.parametrize("make, truth", [(meeting, 3.0), (passing, None)])
+def test_box2d_stops_just_before_the_contact(make, truth):
+    pytest.importorskip("Box2D")
+    found = answer(BOX2D, make())
+    assert found is None if truth is None else 0.0 < truth - found < 0.005
+
+
+@pytest.mark.parametrize("make", [thrown, segments_and_points, closing_jaw, turning])
+def test_box2d_is_for_two_polygons_in_linear_motion(make):
+    with pytest.raises(UnsuitableScene):
+        BOX2D.prepare(make())

@@ -1,6 +1,8 @@
 """Every benchmark at tiny sizes: the files, the counts, and that a wrong answer is an error."""
 
 import sys
+from collections import Counter
+from functools import partial
 from types import SimpleNamespace
 
 import pytest
@@ -10,6 +12,8 @@ from click.testing import CliRunner
 from exactpt.bench import (
     arithmetic,
     arrays,
+    auto,
+    cliffs,
     first_contact,
     kernel,
     points,
@@ -18,9 +22,12 @@ from exactpt.bench import (
     skipping,
     small,
     stability,
+    timing,
+    within,
     wrong_answers,
 )
 from exactpt.bench.catalogue import BENCHMARKS
+from exactpt.bench.everyday import EVERYDAY
 from exactpt.bench.methods.method import Method
 from exactpt.bench.number_types import ARITHMETICS
 from exactpt.bench.planted import FAMILIES as PLANTED
@@ -289,6 +296,19 @@ def test_a_folder_that_is_a_file_is_refused(tmp_path, capsys):
     assert capsys.readouterr().err.count("\n") == 1
 
 
+def test_within(results, alone):
+    within.run(results.output, within.Sizes(bodies=12, runs=1), 0)
+    rows = results.rows("within")
+    assert [row["ratio"] for row in rows if row["question"] == "first_contact"] == ["1.0"] * 3
+    assert len(rows) == 12
+
+
+def test_a_wrong_approach_is_an_error(results, monkeypatch, alone):
+    monkeypatch.setattr(within, "first_within", lambda *_, **__: None)
+    with pytest.raises(AuditError, match="disagree about distance"):
+        within.run(results.output, within.Sizes(bodies=12, runs=1), 0)
+
+
 def test_small(results, alone):
     tiny = small.Sizes(triangles=3, bodies=9, plans=3, pieces=4, runs=1)
     small.run(results.output, tiny, 0)
@@ -330,3 +350,45 @@ def test_a_proof_that_is_rejected_is_an_error(results, monkeypatch):
     monkeypatch.setattr("exactpt.proof.lines.Lines.none", lambda *_: iter([wrong]))
     with pytest.raises(AuditError, match="rejected: line"):
         proofs.run(results.output, proofs.Sizes(10, 16, 2), 0)
+
+
+def test_auto_is_beside_all_other_methods(results, alone):
+    auto.run(results.output, auto.Sizes((1,), 1), 0)
+    rows = results.rows("auto")
+    assert [row["family"] for row in rows] == list(EVERYDAY)
+    for row in rows:
+        assert row["best"] in ("pairs", "greedy", "mixed", "lazy")
+        assert float(row["ratio"]) == pytest.approx(float(row["auto ms"]) / float(row["best ms"]))
+    assert sum(row["contact"] != "" for row in rows) >= 5
+
+
+def test_cliffs(results, alone):
+    cliffs.run(results.output, cliffs.Sizes((9,), 9, 4, 1), 0)
+    questions = Counter(row["question"] for row in results.rows("cliffs"))
+    assert questions["convoy of 9"] == questions["4 turning bodies"] == 4
+    assert sum("time span" in question for question in questions) == 8
+    assert sum("rate" in question for question in questions) == 2
+    lanes = {row["tiling"]: row for row in results.rows("cliffs-lanes")}
+    assert list(lanes) == ["greedy", "mixed", "lazy"]
+    assert lanes["greedy"]["times greedy"] == "1.0"
+    assert all(float(row["exact share"]) < 0.01 for row in lanes.values())
+
+
+def test_methods_that_disagree_are_an_error(monkeypatch):
+    contact = SimpleNamespace(time=1, kind="vertex-edge", pairs=())
+    monkeypatch.setattr(auto, "first_contact", lambda _, method: contact if method else None)
+    with pytest.raises(AuditError, match="disagree about something"):
+        auto.beside("something", meeting(), {"a": {"method": ""}, "b": {"method": "b"}}, 1)
+
+
+def test_what_takes_long_is_asked_once(monkeypatch):
+    asked = Counter()
+
+    def prepare(name):
+        asked[name] += 1
+        return lambda: name
+
+    monkeypatch.setattr(timing, "timed", lambda ask: (name := ask(), 0.1 if name == "fast" else 2))
+    found = timing.in_turn({n: partial(prepare, n) for n in ("slow", "fast")}, 5)
+    assert asked == {"slow": 1, "fast": 5}
+    assert found == {"slow": ("slow", 2), "fast": ("fast", 0.1)}

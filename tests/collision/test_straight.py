@@ -206,10 +206,10 @@ def test_a_crowd_of_doubles_is_built_without_a_rational(monkeypatch):
         count[0] += 1
 
     bodies = crowd(200)
-    monkeypatch.setattr("exactpt.motion.body.polynomial", counted)
-    monkeypatch.setattr("exactpt.motion.body.rational", counted)
+    monkeypatch.setattr("exactpt.motion.shape.polynomial", counted)
+    monkeypatch.setattr("exactpt.motion.shape.rational", counted)
     monkeypatch.setattr("exactpt.kernel.polynomial.rational", counted)
-    monkeypatch.setattr("exactpt.scene.scene.first_self_touch", counted)
+    monkeypatch.setattr("exactpt.scene.simple.first_self_touch", counted)
     Scene([Body(*body) for body in bodies], (0, 1))
     assert count == [0]
 
@@ -217,7 +217,7 @@ def test_a_crowd_of_doubles_is_built_without_a_rational(monkeypatch):
 def test_exact_vertices_are_made_for_what_may_touch_alone():
     scene = Scene([Body(*body) for body in crowd(200)], (0, 4))
     contact = first_contact(scene)
-    made = [body for body in scene.bodies if body._positions is not None]
+    made = [body for body in scene.bodies if body._shape.is_exact]
     assert contact is not None
     assert len(made) < 40
     assert told(contact) == told(PairsSearch(scene).run_to_contact())

@@ -17,6 +17,7 @@ from exactpt import Body, Rigid, Scene, Simulation, Translation, cli, first_cont
 from exactpt.cli.runs import collide
 from exactpt.collision import pairs, straight_search
 from exactpt.errors import AuditError
+from exactpt.motion import swept_edges
 from exactpt.scene.generate import generate
 
 ROOT = Path(__file__).parents[2]
@@ -108,14 +109,14 @@ def convoy(count):
 def test_in_a_convoy_pairs_compares_edges_of_one_body_alone(monkeypatch):
     assert "a convoy of 1,000 bodies at one velocity" in README
     met = []
-    find = pairs.overlapping_pairs
+    find = swept_edges.overlapping_pairs
 
     def counting(boxes):
         for first, second in find(boxes):
             met.append(len(first))
             yield first, second
 
-    monkeypatch.setattr(pairs, "overlapping_pairs", counting)
+    monkeypatch.setattr(swept_edges, "overlapping_pairs", counting)
 
     assert pairs.PairsSearch(convoy(1000)).run_to_contact() is None
     assert sum(met) == 1000 * 3 * 3

@@ -164,6 +164,12 @@ def test_nested_rings_alternate(order):
         (drawing('<circle r="1e9"/>'), "raise the tolerance"),
         (drawing('<path d="M0 0C0 1e9 1e9 0 5 5"/>'), "raise the tolerance"),
         (drawing('<path d="M0 0C0 1e200 1e300 0 5 5"/>'), "raise the tolerance"),
+        (drawing('<path d="L0 0L9 0L0 9Z"/>'), "does not begin with a move"),
+        (drawing('<rect width="1e300" height="1e308" rx="1e307"/>'), "raise the tolerance"),
+        (
+            drawing('<g transform="scale(1 2)"><rect width="-1e308" height="4" rx="1"/></g>'),
+            "tolerance",
+        ),
         (drawing('<path id="b" d="M0 0l2 2v-2l-2 1z"/>'), r"\(id b\): body 'b': not a simple poly"),
     ],
 )

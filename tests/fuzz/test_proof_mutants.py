@@ -11,7 +11,7 @@ from fuzz.proofs import run as mutants_run
 from fuzz.proofs.checking import checker, is_geometric
 from fuzz.proofs.command import proof_mutants
 from fuzz.proofs.run import KINDS, Mutant, Progress, is_true, mutants
-from fuzz.small_scope.look import look_at_proof
+from fuzz.small_scope.look import looks_at_proofs
 from fuzz.small_scope.scope import planned
 from fuzz.witnesses import Difference, check_proof
 
@@ -87,8 +87,8 @@ def test_the_checker_is_started_again():
 
 
 def test_proofs_of_the_small_scope():
-    for number in range(0, 96, 32):
-        (answer,) = look_at_proof(planned(number)).answers
+    for look in looks_at_proofs([planned(number) for number in range(0, 96, 32)]):
+        (answer,) = look.answers
         assert answer.method.startswith("proof ")
         assert answer.fault is None
 

@@ -12,7 +12,9 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from exactpt.arrays import first_contacts
 from exactpt.collision.allpairs import first_contact_allpairs
+from exactpt.collision.straight_search import rows_of
 from exactpt.errors import InputError
 from exactpt.geometry.polygon import contains, edges, first_self_touch, segments_meet, signed_area2
 from exactpt.kernel.numbers import QQ
@@ -20,8 +22,10 @@ from exactpt.scene.format import loads, to_json
 from exactpt.scene.scene import Scene
 from fuzz import corpus
 from fuzz.planted import PLANTED
+from fuzz.small_scope import by_arrays
+from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.command import small_scope
-from fuzz.small_scope.look import look
+from fuzz.small_scope.look import look, looks
 from fuzz.small_scope.motions import ORDERS, SLOTS, TIMES, approaches
 from fuzz.small_scope.numbering import spread
 from fuzz.small_scope.placements import (
@@ -376,6 +380,75 @@ def test_tilings_are_audited_now_and_then():
     assert methods["pairs"] == methods["greedy"] == 64
     for more in ("static", "going on"):
         assert sum(n for name, n in methods.items() if name.startswith(more)) == 4
+
+
+def test_arrays_are_asked_for_two_bodies_that_translate():
+    seen = looks([planned(n) for n in range(50)])
+
+    for one in seen:
+        told = [answer.fault for answer in one.answers if answer.method == ARRAYS]
+        assert told == ([None] if suits(one.planned.scene) else [])
+    orders = Counter(one.planned.cell.order for one in seen if suits(one.planned.scene))
+    assert set(orders) == {"rest", "linear", "square", "cube", "fourth"}
+
+
+def test_auto_is_asked_where_it_is_not_pairs():
+    for one in looks([planned(n) for n in range(50)]):
+        methods = [answer.method for answer in one.answers]
+        assert ("auto" in methods) == (rows_of(one.planned.scene) is not None)
+
+
+def _wrong(attribute, value):
+    """Arrays that tell something wrong about each fourth pair."""
+
+    def ask(*args, **options):
+        contacts = first_contacts(*args, **options)
+        getattr(contacts, attribute)[::4] = value
+        return contacts
+
+    return ask
+
+
+@pytest.mark.parametrize(
+    ("attribute", "value", "fault"),
+    [
+        ("found", False, "missed"),
+        ("low", 1e9, "time"),
+        ("low", -1e9, "enclosure"),
+        ("kind", 2, "kind"),
+        ("vertex", 7, "pairs"),
+        ("edge", 7, "pairs"),
+        ("other_vertex", 7, "pairs"),
+    ],
+)
+def test_a_wrong_answer_of_arrays_is_found(monkeypatch, attribute, value, fault):
+    monkeypatch.setattr(by_arrays, "first_contacts", _wrong(attribute, value))
+
+    told = [
+        answer.fault
+        for one in looks([planned(n) for n in range(50)])
+        for answer in one.answers
+        if answer.method == ARRAYS
+    ]
+
+    assert set(told[::4]) == {fault}
+    assert set(told[1::4]) == {None}
+
+
+def test_a_call_that_fails_is_asked_scene_by_scene(monkeypatch):
+    def ask(vertices, *args, **options):
+        if len(vertices) > 2:
+            raise ZeroDivisionError
+        return first_contacts(vertices, *args, **options)
+
+    monkeypatch.setattr(by_arrays, "first_contacts", ask)
+    scenes = [s.scene for s in map(planned, range(200)) if suits(s.scene)]
+
+    told = verdicts(scenes, [first_contact_allpairs(scene) for scene in scenes])
+
+    wrong = [scene.vertex_count > 2 for scene in scenes]
+    assert [v.fault == "ZeroDivisionError" for v in told] == wrong
+    assert not all(wrong)
 
 
 @pytest.mark.plain

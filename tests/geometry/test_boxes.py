@@ -30,9 +30,12 @@ def all_pairs(boxes):
     }
 
 
+@pytest.mark.parametrize("few", [0, 64])
 @given(st.lists(box, max_size=40))
-def test_every_pair_that_meets_is_told_once(boxes):
-    found = pairs_of(boxes)
+def test_every_pair_that_meets_is_told_once(few, boxes):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(boxes_module, "_FEW", few)
+        found = pairs_of(boxes)
 
     assert len(found) == len(set(found))
     assert set(found) == all_pairs(boxes)
@@ -42,6 +45,7 @@ def test_every_pair_that_meets_is_told_once(boxes):
 def test_chunks_are_of_no_matter(boxes):
     whole = sorted(pairs_of(boxes))
     with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(boxes_module, "_FEW", 0)
         patch.setattr(boxes_module, "_CHUNK", 3)
         assert sorted(pairs_of(boxes)) == whole
 

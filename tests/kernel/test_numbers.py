@@ -16,6 +16,7 @@ from oracles import exact, is_nearest_double
 from strategies import as_rational, doubles, wide_fractions
 
 from exactpt.errors import InputError
+from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import (
     QQ,
     ZZ,
@@ -178,6 +179,28 @@ def test_rational_takes_sympy_rationals():
     assert rational(sympy.Integer(5)) == 5
 
 
+@given(value=st.decimals(allow_nan=False, allow_infinity=False))
+def test_a_decimal_is_its_exact_value(value):
+    assert exact(rational(value)) == Fraction(value)
+
+
+@given(q=wide_fractions)
+def test_an_algebraic_number_that_is_rational_is_a_number(q):
+    number = AlgebraicNumber(q)
+
+    assert exact(rational(number)) == q
+    assert number.as_integer_ratio() == q.as_integer_ratio()
+
+
+def test_a_rational_root_of_an_irrational_looking_polynomial_is_a_number():
+    assert rational(AlgebraicNumber.root([-8, 0, 0, 27], 0, 1)) == QQ(2, 3)
+
+
+def test_an_irrational_number_is_refused_with_what_to_do():
+    with pytest.raises(InputError, match=r"irrational.*\.low, \.high or float\(\)"):
+        rational(AlgebraicNumber.root([-2, 0, 1], 1, 2))
+
+
 @pytest.mark.parametrize(
     "value",
     [
@@ -203,7 +226,10 @@ def test_rational_takes_sympy_rationals():
         sympy.pi,
         pytest.param(sympy.nan, id="sympy.nan"),
         sympy.oo,
-        Decimal("0.5"),
+        Decimal("nan"),
+        Decimal("-inf"),
+        Decimal("1e100001"),
+        AlgebraicNumber.root([-2, 0, 1], 1, 2),
         "one",
     ],
     ids=repr,

@@ -180,3 +180,80 @@ def test_the_repr_can_be_read_back():
 
     assert repr(f) == "Polynomial(['0', '1/2', '-1'])"
     assert eval(repr(f)) == f
+
+
+@given(f=polys, c=fractions)
+def test_a_number_stands_for_a_constant(f, c):
+    constant = Polynomial([c])
+
+    assert f + c == c + f == f + constant
+    assert f - c == f - constant
+    assert c - f == constant - f
+    assert f * c == c * f == f * constant
+    assert c == 0 or f / c == f * (1 / c)
+
+
+@given(f=polys, exponent=st.integers(0, 5))
+def test_a_power_is_a_product(f, exponent):
+    product = ONE
+    for _ in range(exponent):
+        product = product * f
+
+    assert f**exponent == product
+
+
+@given(f=polys, g=polys, x=fractions)
+def test_a_composition_is_evaluated_from_inside(f, g, x):
+    assert f(g)(x) == f(g(x))
+
+
+@pytest.mark.parametrize(
+    "use",
+    [lambda: ONE**-1, lambda: ONE + "one", lambda: ONE * [1], ZERO.roots],
+    ids=["a negative power", "a word", "a list", "the roots of zero"],
+)
+def test_what_has_no_value_is_refused(use):
+    with pytest.raises(InputError):
+        use()
+
+
+def test_a_polynomial_is_not_divided_by_zero():
+    with pytest.raises(ZeroDivisionError):
+        ONE / 0
+
+
+@given(
+    roots=st.lists(fractions, min_size=1, max_size=4),
+    factor=fractions.filter(bool),
+    bounds=st.tuples(fractions, fractions),
+)
+def test_the_roots_are_those_of_the_factors(roots, factor, bounds):
+    f = ONE * factor
+    for root in roots:
+        f = f * (Polynomial([0, 1]) - root)
+    after, until = sorted(bounds)
+
+    assert f.roots() == sorted(set(roots))
+    assert f.roots(after, until) == sorted({r for r in roots if after < r <= until})
+
+
+@given(f=polys.filter(lambda f: f.degree > 0), x=fractions)
+def test_signs_at_and_after_a_time(f, x):
+    value = f(x)
+
+    assert f.sign(x) == (value > 0) - (value < 0)
+    later = f.roots(after=x)
+    middle = (x + later[0].low) / 2 if later and later[0].low > x else None
+    if middle is not None:
+        assert f.sign_after(x) == f.sign(middle)
+    assert ZERO.sign_after(x) == 0
+
+
+def test_signs_at_an_irrational_time():
+    t = Polynomial([0, 1])
+    (root,) = (t * t - 2).roots(after=0)
+
+    assert (t * t - 2).sign(root) == 0
+    assert (t * t - 2).sign_after(root) == 1
+    assert (2 - t * t).sign_after(root) == -1
+    assert (t - "3/2").sign(root) == -1

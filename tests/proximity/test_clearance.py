@@ -5,12 +5,12 @@ from itertools import pairwise
 from random import Random
 
 import pytest
-from tiny import scene_of
 
 from exactpt import Body, InputError, Scene, Translation, clearance, contact_intervals, distance
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.algebraic_value import quotient_at, square_root
 from exactpt.kernel.numbers import QQ, ZZ
+from fuzz.questions.tiny import pair_scene
 
 BOX = Body("box", [(0, 0), (2, 0), (2, 2), (0, 2)])
 
@@ -95,7 +95,7 @@ def value(piece, t):
 def test_tiny_scenes_against_samples(count):
     random = Random(f"clearance {count}")
 
-    assert sum(check(scene_of(random)) for _ in range(count)) > 2 * count
+    assert sum(check(pair_scene(random)) for _ in range(count)) > 2 * count
 
 
 def test_values_of_quotients():

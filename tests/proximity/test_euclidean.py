@@ -5,16 +5,16 @@ from fractions import Fraction
 from random import Random
 
 import pytest
-import reference
 from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf
-from tiny import scene_of
 
 from exactpt import Body, InputError, Rigid, Scene, Translation, distance, first_within
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.square_root import nearest_square_root
+from fuzz.questions import reference
+from fuzz.questions.tiny import pair_scene
 
 WALL = Body("wall", [(10, -9), (10, 9)])
 BOX = Body("box", [(0, 0), (5, 0), (5, 9), (0, 9)])
@@ -107,7 +107,7 @@ def test_tiny_scenes_against_the_definition(count):
     random = Random(f"within {count}")
     found = 0
     for _ in range(count):
-        scene = scene_of(random)
+        scene = pair_scene(random)
         a, b = scene.bodies
         squared = QQ(random.choice([0, 1, 2, 4, 5]), random.choice([1, 1, 2, 9]))
         time = first_within(scene, "a", "b", norm="euclidean", distance_squared=squared)

@@ -3,12 +3,12 @@
 from random import Random
 
 import pytest
-import reference
-from tiny import scene_of
 
 from exactpt import Body, InputError, Pieces, Rigid, Scene, Translation
 from exactpt.proximity.intervals import contact_intervals, contacts
 from exactpt.scene.generate import FAMILIES, generate
+from fuzz.questions import reference
+from fuzz.questions.tiny import pair_scene
 
 SQUARE = [(0, 0), (2, 0), (2, 2), (0, 2)]
 WALL = Body("wall", [(10, -9), (10, 9)])
@@ -129,7 +129,7 @@ def test_tiny_scenes_against_the_definition(count):
     random = Random(count)
     found = 0
     for _ in range(count):
-        scene = scene_of(random)
+        scene = pair_scene(random)
         found += compare(scene, *scene.bodies)
 
     assert found > count / 4

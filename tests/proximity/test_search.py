@@ -1,14 +1,19 @@
 """The first approach of any two bodies: the least of all pairs, and few exact decisions."""
 
 from itertools import combinations
+from random import Random
 
 import pytest
 
-from exactpt import Body, Rigid, Scene, Translation
+from exactpt import Approach, Body, InputError, Rigid, Scene, Translation, first_within
+from exactpt.bench.shapes import crowd
+from exactpt.collision import approach
 from exactpt.kernel.numbers import QQ
+from exactpt.proximity import near
 from exactpt.proximity.search import ApproachSearch
-from exactpt.proximity.within import first_within
 from exactpt.scene.generate import FAMILIES, generate
+from fuzz.questions import reference
+from fuzz.questions.tiny import touching_scene
 
 
 def search(scene, d):
@@ -59,3 +64,149 @@ def test_a_turning_body():
     scene = Scene([mill, *points], (0, 2))
 
     assert search(scene, QQ(1)) == by_pairs(scene, QQ(1))
+
+
+def defined(scene, squared):
+    """The first approach of any two bodies, from the definition."""
+    found = []
+    for a, b in combinations(scene.bodies, 2):
+        time = reference.first_within(a, b, scene._start, scene._end, squared)
+        if time is not None:
+            found.append((time, (a.name, b.name)))
+    least = min((time for time, _ in found), default=None)
+    return least and Approach(least, tuple(sorted(ab for time, ab in found if time == least)))
+
+
+@pytest.mark.parametrize(
+    "count", [60, pytest.param(3_000, marks=pytest.mark.slow)], ids=["few", "many"]
+)
+def test_all_bodies_against_the_definition(count):
+    random, seen = Random(f"approach {count}"), set()
+    for _ in range(count):
+        scene = touching_scene(random)
+        squared = QQ(random.choice([0, 0, 1, 2]), random.choice([1, 4, 9]))
+        found = first_within(scene, distance_squared=squared, norm="euclidean")
+        assert found == defined(scene, squared)
+        seen.add(found and (found.time == scene.start, len(found.pairs) > 1))
+    assert {(True, True), (True, False), (False, False)} <= seen
+
+
+@pytest.mark.parametrize("family", sorted(FAMILIES))
+def test_pairs_that_are_passed_over_are_farther_apart(family, monkeypatch):
+    """In the maximum norm, pairs are passed over by boxes; in small scenes too, here."""
+    scene = small(family, 1)
+    if scene is not None:
+        extent = max(abs(c) for body in scene.bodies for p in body.at(scene.start) for c in p)
+        every = first_within(scene, distance=extent / 20, norm="max")
+        monkeypatch.setattr(near, "FEW", 0)
+        assert first_within(scene, distance=extent / 20, norm="max") == every
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("norm", ["euclidean", "max", "x", "y"])
+def test_every_norm_is_the_least_of_all_pairs(norm, seed):
+    scene = crowd(6, Random(seed), radius=300, end=4)
+    found = first_within(scene, distance=100, norm=norm)
+
+    every = [
+        (first_within(scene, a.name, b.name, 100, norm=norm), (a.name, b.name))
+        for a, b in combinations(scene.bodies, 2)
+    ]
+    least = min((time for time, _ in every if time is not None), default=None)
+    nearest = tuple(sorted(ab for time, ab in every if time == least))
+    assert found == (None if least is None else Approach(least, nearest))
+
+
+@pytest.mark.parametrize("first", [1, 3, 8, 10_000])
+def test_however_many_pairs_are_searched_first(first, monkeypatch):
+    """A crowd, and two pairs that come within the distance at the same time as another one."""
+    scene = crowd(40, Random(first), radius=100, end=4)
+    far = [Body(f"far{i}", [(9000 + 50 * i, y)]) for i in range(3) for y in (0,)]
+    close = [Body(f"near{i}", [(9000 + 50 * i, 40)], Translation([0], [0, -300])) for i in range(3)]
+    both = Scene([*scene.bodies, *far, *close], (0, 4))
+    monkeypatch.setattr(approach, "FIRST", first)
+
+    found = first_within(both, distance=10, norm="euclidean")
+
+    assert found.time == QQ(1, 10)
+    assert found.pairs == (("far0", "near0"), ("far1", "near1"), ("far2", "near2"))
+    alone = first_within(scene, distance=10, norm="euclidean")
+    assert (alone.time, alone.pairs) == named(scene, search(scene, QQ(10)))
+
+
+def named(scene, found):
+    return found.time, tuple((scene.bodies[i].name, scene.bodies[j].name) for i, j in found.pairs)
+
+
+@pytest.mark.parametrize(
+    "options, words",
+    [
+        ({"distance": 1}, "a norm has to be named: euclidean, max, x, y"),
+        ({"distance": 1, "norm": "taxi"}, "no norm 'taxi'"),
+        ({"norm": "max"}, "either a distance or its square"),
+        ({"distance_squared": 2, "norm": "max"}, "for the Euclidean norm, not for 'max'"),
+        ({"distance": -1, "norm": "euclidean"}, "a distance is not negative: -1"),
+        ({"a": "p", "distance": 1, "norm": "max"}, "two names of bodies are given, or none"),
+    ],
+)
+def test_wrong_questions(options, words):
+    scene = Scene([Body("p", [(0, 0)]), Body("q", [(5, 0)])])
+    with pytest.raises(InputError, match=words):
+        first_within(scene, **options)
+
+
+def test_points_that_meet_in_one_coordinate_at_one_time():
+    """Along an axis only neighbours are searched: with d = 0 there may be points between."""
+    points = [Body(f"p{i}", [(i, 3 * i * i)], Translation([0, 4 - i])) for i in range(3)]
+    bodies = [*points, Body("q", [(9, 0), (10, 0)], Translation([0, -5])), Body("r", [(20, 0)])]
+    found = first_within(Scene(bodies, (0, 9)), distance=0, norm="x")
+
+    assert found == Approach(found.time, tuple(combinations(["p0", "p1", "p2", "q"], 2)))
+    assert found.time == 1
+
+
+@pytest.mark.parametrize("d", ["1e-400", "1e-30", "1e30", "1e400"])
+@pytest.mark.parametrize("norm", ["euclidean", "max", "x", "y"])
+def test_distances_beyond_the_range_of_doubles(norm, d):
+    """Few bodies and many: the searches with boxes are asked with all of them."""
+    for count in (2, 14):
+        bodies = [Body(f"p{i:2}", [(10 * i, 10 * i)], Translation([0, -i])) for i in range(count)]
+        scene = Scene(bodies, (0, 20))
+        found = first_within(scene, distance=d, norm=norm)
+
+        every = {
+            (a.name, b.name): first_within(scene, a.name, b.name, d, norm=norm)
+            for a, b in combinations(bodies, 2)
+        }
+        least = min((time for time in every.values() if time is not None), default=None)
+        pairs = tuple(sorted(ab for ab, time in every.items() if time == least))
+        assert found == (None if least is None else Approach(least, pairs))
+
+
+def test_bodies_that_hover_are_decided_exactly_in_few_intervals(monkeypatch):
+    """Without a limit, all intervals would be halved to the end: 130,000 of them."""
+    asked = []
+    may_be_near = ApproachSearch._may_be_near
+
+    def counted(self, *arguments):
+        asked.append(len(arguments[-1]))
+        return may_be_near(self, *arguments)
+
+    monkeypatch.setattr(ApproachSearch, "_may_be_near", counted)
+    hub = Body("hub", [(0, 0), (1, 0), (1, 1), (0, 1)])
+    arms = [Body(f"a{i}", [(2 + i, 0), (2 + i, 2)], Rigid([0, 1], pivot=(0, 0))) for i in range(4)]
+    scene = Scene([hub, *arms], (-2, 2))
+
+    assert search(scene, QQ(1, 2)) is None
+    # Distances keep to themselves; one that another pair keeps is larger than those of some.
+    found = ApproachSearch(scene, lambda _, j: QQ(1, 9) if j > 1 else QQ(0), QQ(1)).run()
+    assert found is None
+    assert len(asked) < 2000
+
+
+def test_bodies_that_stay_apart():
+    scene = Scene([Body("p", [(0, 0)]), Body("q", [(5, 0)])])
+    for norm in ("euclidean", "max", "x"):
+        assert first_within(scene, distance=4, norm=norm) is None
+        assert first_within(Scene([]), distance=4, norm=norm) is None
+    assert first_within(scene, distance=4, norm="y").pairs == (("p", "q"),)

@@ -11,6 +11,7 @@ from render_scenes import demo
 
 from exactpt.certificates.one_sided import OneSided
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
+from exactpt.proximity.clearance import clearance
 from exactpt.pseudotriangulation.flip import shadow
 from exactpt.render.film import film_of
 from exactpt.render.fixed import near
@@ -350,3 +351,26 @@ def test_zoomed_in_near_the_contact_it_stays_true(page, digits):
     found = abs((x2 - x1) * (y - y1) - (y2 - y1) * (x - x1)) / math.hypot(x2 - x1, y2 - y1)
     assert 1 < expected < 1000
     assert found == pytest.approx(expected, abs=0.01)
+
+
+def test_the_plot_of_a_clearance_follows_the_time(browser, tmp_path):
+    """The cursor is above the thumb of the scrubber, and the minimum above its time."""
+    scene = generate("convex", 0)
+    names = [body.name for body in scene.bodies[:2]]
+    film = film_of(scene)
+    path = tmp_path / "gap.html"
+    path.write_text(page_of(film, gap=clearance(scene, *names)), encoding="utf-8")
+    browser.get(path.as_uri())
+    share = 0.25
+    at = scene.start + (near(film.end, QQ(100)) - scene._start) / 4
+    browser.execute_script("exactpt.seek(arguments[0]); exactpt.state()", str(at))
+
+    left = browser.execute_script("return document.getElementById('now').style.left")
+    assert float(left.rstrip("%")) == pytest.approx(100 * share, abs=0.1)
+    plot, ruler = (
+        browser.execute_script(f"return document.querySelector('{q}').getBoundingClientRect()")
+        for q in (".gap", "#ticks")
+    )
+    assert plot["left"] == pytest.approx(ruler["left"], abs=2)
+    assert plot["bottom"] < ruler["top"]
+    assert browser.get_log("browser") == []

@@ -158,6 +158,8 @@ class Controls {
     const share = span > 0n ? toDouble(((player.time - film.start) << 52n) / span, -52) : 0;
     const scrub = byId("scrub");
     if (document.activeElement !== scrub || Number(scrub.value) !== share) scrub.value = share;
+    const now = byId("now");
+    if (now !== null) now.style.left = `${100 * share}%`;
     scrub.setAttribute("aria-valuetext", `${byId("time").textContent}, ${player.step} of ${count}`);
     document.body.classList.toggle("playing", player.isPlaying);
     byId("play").setAttribute("aria-label", player.isPlaying ? "Pause" : "Play");

@@ -10,7 +10,7 @@ from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, Translation
-from exactpt.scene.families.shapes import cells, convex_polygon, poly, shape, velocity
+from exactpt.scene.families.shapes import cells, convex_polygon, in_cells, poly, shape, velocity
 from exactpt.scene.scene import Scene
 
 __all__ = [
@@ -26,21 +26,17 @@ __all__ = [
 
 def convex(rng: Random) -> Scene:
     """Convex polygons in linear motion."""
-    k = rng.randint(2, 12)
-    bodies = [
-        Body(f"b{i}", convex_polygon(rng, c, 40, rng.randint(3, 9)), velocity(rng, 50))
-        for i, c in enumerate(cells(rng, k, 100))
-    ]
+
+    def outline(rng: Random, center: Point, radius: int) -> list[Point]:
+        return convex_polygon(rng, center, radius, rng.randint(3, 9))
+
+    bodies = in_cells(rng, rng.randint(2, 12), 100, 40, 50, outline)
     return Scene(bodies, (0, rng.choice([1, 2, 5])))
 
 
 def mixed_shapes(rng: Random) -> Scene:
     """Convex polygons, segments and points in linear motion."""
-    k = rng.randint(1, 12)
-    bodies = [
-        Body(f"b{i}", shape(rng, c, 40), velocity(rng, 50))
-        for i, c in enumerate(cells(rng, k, 100))
-    ]
+    bodies = in_cells(rng, rng.randint(1, 12), 100, 40, 50)
     return Scene(bodies, (0, rng.choice([1, 2, 5])))
 
 

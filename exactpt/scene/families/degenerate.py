@@ -10,7 +10,7 @@ from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid, Translation
-from exactpt.scene.families.shapes import box, cells, poly, shape, velocity
+from exactpt.scene.families.shapes import box, cells, in_cells, poly, shape, velocity
 from exactpt.scene.scene import Scene
 
 __all__ = [
@@ -31,10 +31,7 @@ __all__ = [
 
 def small_grid(rng: Random) -> Scene:
     """Shapes with tiny integer coordinates and velocities: degeneracies everywhere."""
-    k = rng.randint(2, 8)
-    bodies = [
-        Body(f"b{i}", shape(rng, c, 1), velocity(rng, 1)) for i, c in enumerate(cells(rng, k, 3))
-    ]
+    bodies = in_cells(rng, rng.randint(2, 8), 3, 1, 1)
     return Scene(bodies, (0, rng.choice([1, 3, 6])))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from random import Random
 
 from exactpt.errors import InputError
@@ -19,6 +19,7 @@ __all__ = [
     "cells",
     "convex_polygon",
     "hull",
+    "in_cells",
     "is_simple",
     "poly",
     "shape",
@@ -103,3 +104,18 @@ def is_simple(body: Body) -> bool:
     except InputError:
         return False
     return True
+
+
+def in_cells(
+    rng: Random,
+    count: int,
+    spacing: int,
+    size: int,
+    speed: int,
+    outline: Callable[[Random, Point, int], list[Point]] = shape,
+) -> list[Body]:
+    """Bodies in linear motion around the centers of `cells`; by default each any `shape`."""
+    return [
+        Body(f"b{i}", outline(rng, c, size), velocity(rng, speed))
+        for i, c in enumerate(cells(rng, count, spacing))
+    ]

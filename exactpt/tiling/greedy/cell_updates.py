@@ -61,13 +61,7 @@ def add_body(
     cells.vertex += extremes
     for of_arc in (cells.left_up, cells.left_down, cells.right_up, cells.right_down):
         of_arc.extend((NO_CELL, NO_CELL))
-    row, tops, bottoms = [first], list[int](), list[int]()
-    while (arc := cells.right[row[-1]]) != NO_ARC and predicates.left_of(
-        cells.vertex[arc], extremes[1]
-    ):
-        above = is_above(cells.vertex[arc])
-        (tops if above else bottoms).append(arc)
-        row.append((cells.right_down if above else cells.right_up)[arc])
+    row, tops, bottoms = _crossed(cells, predicates, first, extremes[1], is_above)
     spare = row[1:-1][::-1]
     if len(row) > 1:
         last = row[-1]
@@ -81,6 +75,22 @@ def add_body(
     cells.right_up[r] = cells.right_down[r] = last
     cells.right[first], cells.left[last] = l, r
     return [first, *rows[0], *rows[1], last]
+
+
+def _crossed(
+    cells: VerticalDecomposition,
+    predicates: Predicates,
+    first: int,
+    last: VertexId,
+    is_above: Callable[[VertexId], bool],
+) -> tuple[list[int], list[int], list[int]]:
+    """The cells that a new body crosses, and the arcs between them: above it, and below it."""
+    row, tops, bottoms = [first], list[int](), list[int]()
+    while (arc := cells.right[row[-1]]) != NO_ARC and predicates.left_of(cells.vertex[arc], last):
+        above = is_above(cells.vertex[arc])
+        (tops if above else bottoms).append(arc)
+        row.append((cells.right_down if above else cells.right_up)[arc])
+    return row, tops, bottoms
 
 
 def remove_body(

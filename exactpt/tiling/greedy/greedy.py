@@ -11,6 +11,7 @@ from typing import final
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certificate import CELL, kind_of, part_of
+from exactpt.certificates.convex_bodies import all_stay_convex
 from exactpt.certificates.one_sided import OneSided
 from exactpt.errors import AuditError
 from exactpt.indices import CertificateId, HalfEdge, VertexId
@@ -113,7 +114,7 @@ class VerticalRules(Rules):
     def allows_body(self, body: Body, t: QQ) -> bool:
         """See `Rules.allows_body`: it must stay convex."""
         alone = Vertices.of([body], t, self.certified.certifier.end)
-        return PredicatesAt(alone, t).all_stay_convex()
+        return all_stay_convex(PredicatesAt(alone, t))
 
     def enter(self, i: int) -> None:
         """See `Rules.enter`."""

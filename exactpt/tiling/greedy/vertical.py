@@ -9,11 +9,15 @@ becomes vertical (paper, section 4.2). A free bitangent that becomes vertical to
 its bodies at extremes which see each other vertically: they are the left and the right arc
 of one cell, which collapses. So the decomposition replaces the shadow edges of 2k diagonals,
 with six certificates each and events that change nothing. It has at most 3k + 1 cells with
-one linear certificate each, x(left arc) < x(right arc), and no events besides the flips.
+one linear certificate each, x(left arc) < x(right arc), which fails only where a bitangent
+is flipped. Which vertex of a body is its leftmost or rightmost changes where an edge of the
+body becomes vertical: never in a translation, in other motions by a certificate of its own,
+whose event changes the vertex of an arc and no cell.
 """
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from typing import Final, final
 
 from exactpt.certificates.at_time import PredicatesAt, sorted_by_x
@@ -108,30 +112,15 @@ class VerticalDecomposition:
             A and B.
         """
         l, r = self.left[cell], self.right[cell]
-        if left_is_lower:
-            l_left, l_left_other = self.left_up, self.left_down
-            l_right, l_right_other = self.right_up, self.right_down
-        else:
-            l_left, l_left_other = self.left_down, self.left_up
-            l_right, l_right_other = self.right_down, self.right_up
         # What is "up" for l is "down" for r.
-        r_left, r_left_other = l_left_other, l_left
-        r_right, r_right_other = l_right_other, l_right
-        a, b = l_left[l], r_right[r]
-        r_left[r] = a
-        if r_left_other[r] == cell:
-            r_left_other[r] = a
-        l_right[l] = b
-        if l_right_other[l] == cell:
-            l_right_other[l] = b
-        self.right[a] = r
-        self.left[b] = l
-        l_left[l] = cell
-        if l_left_other[l] == a:
-            l_left_other[l] = cell
-        r_right[r] = cell
-        if r_right_other[r] == b:
-            r_right_other[r] = cell
+        a = (self.left_up if left_is_lower else self.left_down)[l]
+        b = (self.right_down if left_is_lower else self.right_up)[r]
+        lefts, rights = (self.left_up, self.left_down), (self.right_up, self.right_down)
+        _replace(lefts, r, cell, a)
+        _replace(rights, l, cell, b)
+        _replace(lefts, l, a, cell)
+        _replace(rights, r, b, cell)
+        self.right[a], self.left[b] = r, l
         self.left[cell], self.right[cell] = r, l
         return a, b
 
@@ -155,30 +144,39 @@ class VerticalDecomposition:
             ask()
             arc = arc_of[v]
             if arc % 2 == 0:
-                low, high = 0, len(active)
-                while low < high:
-                    middle = (low + high) // 2
-                    if is_above(instant, lower[active[middle]], v):
-                        low = middle + 1
-                    else:
-                        high = middle
-                cell = gaps[low]
-                self.right[cell] = arc
-                below, above = self._new_cell(arc), self._new_cell(arc)
-                self.left_up[arc] = self.left_down[arc] = cell
-                self.right_down[arc], self.right_up[arc] = below, above
-                gaps[low : low + 1] = [below, above]
-                active.insert(low, arc >> 1)
+                at = bisect_left(
+                    active, 1, key=lambda other: not is_above(instant, lower[other], v)
+                )
+                gaps[at : at + 1] = self._open(arc, gaps[at])
+                active.insert(at, arc >> 1)
             else:
                 at = active.index(arc >> 1)
-                below, above = gaps[at], gaps[at + 1]
-                self.right[below] = self.right[above] = arc
-                cell = self._new_cell(arc)
-                self.left_down[arc], self.left_up[arc] = below, above
-                self.right_up[arc] = self.right_down[arc] = cell
-                gaps[at : at + 2] = [cell]
+                gaps[at : at + 2] = [self._close(arc, gaps[at], gaps[at + 1])]
                 del active[at]
         return self
+
+    def _open(self, arc: int, cell: int) -> list[int]:
+        """End a cell at a left extreme; the cells below and above its body begin there."""
+        self.right[cell] = arc
+        below, above = self._new_cell(arc), self._new_cell(arc)
+        self.left_up[arc] = self.left_down[arc] = cell
+        self.right_down[arc], self.right_up[arc] = below, above
+        return [below, above]
+
+    def _close(self, arc: int, below: int, above: int) -> int:
+        """End the cells below and above a body at its right extreme; one cell begins there."""
+        self.right[below] = self.right[above] = arc
+        cell = self._new_cell(arc)
+        self.left_down[arc], self.left_up[arc] = below, above
+        self.right_up[arc] = self.right_down[arc] = cell
+        return cell
+
+
+def _replace(halves: tuple[list[int], list[int]], arc: int, old: int, new: int) -> None:
+    """Replace a cell on one side of a wall, in its upper and its lower half."""
+    for half in halves:
+        if half[arc] == old:
+            half[arc] = new
 
 
 def lower_chain(predicates: Predicates, ring: list[VertexId]) -> list[VertexId]:

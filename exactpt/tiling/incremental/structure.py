@@ -43,6 +43,7 @@ from __future__ import annotations
 from typing import Any, Final, NamedTuple, final
 
 from exactpt.certificates.predicates import Predicates
+from exactpt.errors import AuditError
 from exactpt.indices import VertexId
 from exactpt.tiling.incremental.paths import SearchableTree
 from exactpt.tiling.incremental.tree import NONE, TangentTree
@@ -127,9 +128,19 @@ class IncrementalStructure:
 
     @classmethod
     def resumed(cls, state: dict[str, Any]) -> IncrementalStructure:
-        """The structure of a saved state."""
-        upper, lower = state["parents"]
-        structure = cls.of(state["order"], (upper, lower))
+        """The structure of a saved state.
+
+        Raises:
+            AuditError: if it is none: walks along its trees might not end.
+        """
+        order, (upper, lower) = state["order"], state["parents"]
+        if sorted(order) != list(range(len(order))):
+            raise AuditError("the x-order does not have every point once")
+        structure = cls.of(order, (upper, lower))
+        for parent in (upper, lower):
+            for p in order[1:]:
+                if parent[p] < 0 or structure.rank[parent[p]] >= structure.rank[p]:
+                    raise AuditError(f"point {p} hangs on none to its left")
         for tree, steps in zip(structure.trees, state["steps"], strict=True):
             tree.steps = steps
         return structure

@@ -1,0 +1,234 @@
+"""The first contact of some pairs of bodies, or the first that is new.
+
+Bodies that touch at the start come into a new contact when they touch after they have parted, or
+when they begin to overlap (`exactpt.proximity.renewed`). Each pair whose swept boxes meet is
+searched alone, up to the best time so far.
+"""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Collection, Iterable, Sequence
+from typing import TypeAlias, final
+
+from exactpt.collision.allpairs import touches_at
+from exactpt.collision.contact import Contact, contact_of, tracks_before
+from exactpt.collision.ignoring import groups_of
+from exactpt.collision.initial import initial_touches
+from exactpt.collision.pairs import PairsSearch
+from exactpt.collision.planner import is_rigid
+from exactpt.collision.straight_search import Row, first_touching, rows_of
+from exactpt.errors import BudgetExceeded, InputError
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.budget import GRACE, ask, within
+from exactpt.kernel.numbers import QQ, shorten
+from exactpt.motion.body import Body
+from exactpt.motion.incidence import Touch
+from exactpt.proximity.near import pairs_that_come_near
+from exactpt.proximity.renewed import new_contact_time
+from exactpt.scene.scene import Scene, scene_of
+
+__all__ = ["SelectedSearch", "check_selectable"]
+
+Meeting: TypeAlias = "tuple[AlgebraicNumber, Iterable[Touch]]"
+
+
+def check_selectable(method: str, tiling: str, proof: object) -> None:
+    """Check that some pairs, or new contacts, can be asked for in this way.
+
+    Raises:
+        InputError: if not.
+    """
+    if method == "kinetic" or tiling != "auto" or proof is not None:
+        what = "a proof is about" if proof is not None else "a tiling watches"
+        raise InputError(
+            f"{what} all bodies, from the start on: contacts between some, or new ones after "
+            "the start, are found by pairs alone"
+        )
+
+
+@final
+class SelectedSearch:
+    """A search for the first contact of selected pairs.
+
+    Args:
+        scene: the bodies, their motions and the time span.
+        after_start: whether bodies that touch at the start count only when they have parted
+            and touch again, or begin to overlap.
+        between: pairs of names; contacts of other pairs do not count, nor do those of a body
+            with itself. All if not given.
+        ignoring: groups of body names; contacts within a group are ignored.
+        exact_only: whether exact arithmetic decides everything, without the float filters.
+        max_seconds: time limit, in seconds; None for no limit.
+
+    Attributes:
+        name: the name of the tiling: None.
+        pairs: number of pairs of bodies that have been compared.
+
+    Raises:
+        InputError: if there is no body of a name, or a pair is not one of two bodies.
+    """
+
+    name = None
+
+    def __init__(
+        self,
+        scene: Scene,
+        *,
+        after_start: bool = False,
+        between: Iterable[Sequence[str]] | None = None,
+        ignoring: Iterable[Collection[str]] = (),
+        exact_only: bool = False,
+        max_seconds: float | None = None,
+    ) -> None:
+        self._scene = scene
+        self._after_start = after_start
+        self._between = None if between is None else _numbered(scene, between)
+        self._group = groups_of(scene, ignoring)
+        self._exact_only = exact_only
+        self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
+        self._rows: dict[int, list[Row]] | None = None
+        self.pairs = 0
+
+    @property
+    def stats(self) -> dict[str, object]:
+        """The counts of the search so far, see docs/format.md."""
+        scene = self._scene
+        return {
+            "bodies": len(scene.bodies),
+            "vertices": scene.vertex_count,
+            "events": 0,
+            "pairs": self.pairs,
+        }
+
+    def passed(self) -> None:
+        """No time up to which there is no contact is known before the end of the search."""
+
+    def run_to_contact(self) -> Contact | None:
+        """The first contact that counts in the closed time span; None if there is none.
+
+        Raises:
+            BudgetExceeded: when the time limit is reached.
+        """
+        with within(None if self._deadline is None else self._deadline + GRACE):
+            try:
+                return self._first_contact()
+            except BudgetExceeded as spent:
+                spent.reached = None  # what is known of one pair is not known of all
+                raise
+
+    def _first_contact(self) -> Contact | None:
+        scene, start = self._scene, AlgebraicNumber(self._scene._start)
+        pairs = self._candidates()
+        touches, overlaps = initial_touches(scene, pairs)
+        if overlaps and not self._after_start:
+            return contact_of(scene, start, touches, overlaps)
+        self._read_rows()
+        touching = set(overlaps)
+        best: AlgebraicNumber | None = None
+        found: list[tuple[tuple[int, ...], Iterable[Touch]]] = []
+        alone = [(i,) for i in self._self_touching()]
+        for pair in (*sorted(touching), *(p for p in pairs if p not in touching), *alone):
+            ask()
+            self.pairs += 1
+            until = scene._end if best is None else min(best._high, scene._end)
+            meeting = self._renewed(*pair) if pair in touching else self._first(pair, until)
+            if meeting is None:
+                continue
+            order = -1 if best is None else meeting[0].compare(best)
+            if order < 0:
+                best, found = meeting[0], []
+            if order <= 0:
+                found.append((pair, meeting[1]))
+        if best is None:
+            return None
+        at_start = [(pair[0], pair[-1]) for pair, _ in found] if best == start else []
+        return contact_of(scene, best, [t for _, some in found for t in some], at_start)
+
+    def _candidates(self) -> list[tuple[int, int]]:
+        """The pairs i < j of bodies that may come into a contact that counts."""
+        between, group = self._between, self._group
+        pairs = pairs_that_come_near(self._scene, QQ(0)) if between is None else between
+        return [(i, j) for i, j in pairs if group[i] != group[j]]
+
+    def _self_touching(self) -> list[int]:
+        """The bodies that may touch themselves."""
+        if self._between is not None:
+            return []
+        return [i for i, body in enumerate(self._scene.bodies) if not is_rigid(body)]
+
+    def _read_rows(self) -> None:
+        rows = None if self._exact_only else rows_of(self._scene)
+        if rows is not None:
+            self._rows = {i: [] for i in range(len(self._scene.bodies))}
+            for row in rows:
+                self._rows[row.body].append(row)
+
+    def _renewed(self, i: int, j: int) -> Meeting | None:
+        """The first new contact of two bodies that touch at the start.
+
+        It is looked for beyond the best time so far: at that time they may begin to overlap.
+        """
+        scene = self._scene
+        a, b = scene.bodies[i], scene.bodies[j]
+        if _move_together(a, b, scene._start, scene._end):
+            return None
+        time = new_contact_time(a, b, scene._start, scene._end)
+        if time is None:
+            return None
+        part = scene_of((a, b), scene._start, scene._end)
+        return time, _numbered_touches(part, time, (i, j))
+
+    def _first(self, pair: tuple[int, ...], until: QQ) -> Meeting | None:
+        """The first contact of bodies that are disjoint at the start; of one, with itself."""
+        scene = self._scene
+        if until <= scene._start:
+            return None
+        if self._rows is not None:
+            rows = [row for i in pair for row in self._rows[i]]
+            met = first_touching(rows, scene._start, until, lambda _, __: True)
+            return None if met is None else (AlgebraicNumber(met.time), met.touches)
+        part = scene_of([scene.bodies[i] for i in pair], scene._start, until)
+        alone = [body.name for body in part.bodies] if len(pair) > 1 else []
+        search = PairsSearch(part, exact_only=self._exact_only, ignoring_self=alone)
+        contact = search.run_to_contact()
+        if contact is None:
+            return None
+        return contact.time, _numbered_touches(part, contact.time, pair)
+
+
+def _numbered(scene: Scene, between: Iterable[Sequence[str]]) -> list[tuple[int, int]]:
+    """Pairs of names as pairs i < j of numbers, each once."""
+    number = {body.name: i for i, body in enumerate(scene.bodies)}
+    pairs: set[tuple[int, int]] = set()
+    for names in between:
+        if isinstance(names, str) or len(names) != 2 or names[0] == names[1]:
+            raise InputError(f"between: not the names of two bodies: {shorten(names)}")
+        for name in names:
+            if name not in number:
+                raise InputError(f"between: there is no body {shorten(name)}")
+        i, j = sorted(number[name] for name in names)
+        pairs.add((i, j))
+    return sorted(pairs)
+
+
+def _move_together(a: Body, b: Body, start: QQ, end: QQ) -> bool:
+    """Whether two bodies certainly keep their places relative to each other."""
+    if any(start < t < end for t in (*a._breakpoints, *b._breakpoints)):
+        return False
+    tracks = (*a._piece_after(start).tracks, *b._piece_after(start).tracks)
+    motion = tracks[0].motion
+    return motion is not None and all(track.motion == motion for track in tracks)
+
+
+def _numbered_touches(part: Scene, time: AlgebraicNumber, numbers: Sequence[int]) -> list[Touch]:
+    """The incidences of some bodies at a time, of bodies with numbers of the whole scene."""
+    if time.compare_rational(part._start) == 0:
+        tracks = [body._piece_after(part._start).tracks for body in part.bodies]
+    else:
+        tracks = tracks_before(part, time)
+    return [
+        touch._replace(body=numbers[touch.body], other=numbers[touch.other])
+        for touch in touches_at(part, tracks, time)
+        if len(numbers) == 1 or touch.body != touch.other
+    ]

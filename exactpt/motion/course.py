@@ -1,0 +1,98 @@
+"""The course of a body: the trajectories of its vertices, piece by piece."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import NamedTuple, final
+
+from exactpt.errors import InputError
+from exactpt.kernel.budget import ask
+from exactpt.kernel.numbers import QQ, show
+from exactpt.motion.motions import Motion, Pieces, Position, SimpleMotion, Translation
+from exactpt.motion.shape import Shape
+from exactpt.motion.track import Track
+
+__all__ = ["Course", "Piece"]
+
+
+class Piece(NamedTuple):
+    """The motion of a body up to a time.
+
+    Attributes:
+        until: the last time of the piece; None if it has no end.
+        tracks: the trajectory of each vertex, in the order of the scene.
+    """
+
+    until: QQ | None
+    tracks: tuple[Track, ...]
+
+
+@final
+class Course:
+    """A shape under a motion; each piece is computed on demand.
+
+    Attributes:
+        motion: the motion.
+        breakpoints: the times at which the formulas of the trajectories change, in order.
+
+    Raises:
+        InputError: if a vertex jumps.
+    """
+
+    __slots__ = ("_last", "_pieces", "_shape", "breakpoints", "motion")
+
+    def __init__(self, shape: Shape, motion: Motion) -> None:
+        self.motion = motion
+        self._shape = shape
+        self._pieces: dict[QQ | None, Piece] = {}
+        self._last: tuple[QQ, list[tuple[QQ, QQ]]] | None = None
+        ends = {frame.t for frame in shape.keyframes}
+        if isinstance(motion, Pieces):
+            ends.update(motion._until)
+            self._check_continuity(motion)
+        self.breakpoints: tuple[QQ, ...] = tuple(sorted(ends))
+
+    def after(self, t: QQ) -> Piece:
+        """The piece just after a rational time."""
+        ended = bisect_right(self.breakpoints, t)
+        end = self.breakpoints[ended] if ended < len(self.breakpoints) else None
+        if end not in self._pieces:
+            motion = self.motion
+            if isinstance(motion, Pieces):
+                motion = motion.motions[bisect_right(motion._until, t)]
+            self._pieces[end] = Piece(end, _tracks(self._shape.after(t), motion))
+        return self._pieces[end]
+
+    def at(self, t: QQ) -> list[tuple[QQ, QQ]]:
+        """The positions at a time; those at the last time asked for are cached."""
+        last = self._last  # one read: other threads may share the body
+        if last is None or last[0] != t:
+            self._last = last = t, [track._at(t) for track in self.after(t).tracks]
+        return last[1][:]
+
+    def _check_continuity(self, motion: Pieces) -> None:
+        for t, (before, after) in zip(motion._until, pairwise(motion.motions), strict=True):
+            if (
+                isinstance(before, Translation)
+                and isinstance(after, Translation)
+                and before._at(t) == after._at(t)
+            ):
+                continue
+            shape = self._shape.after(t)
+            both = zip(_tracks(shape, before), _tracks(shape, after), strict=True)
+            for i, (a, b) in enumerate(both):
+                if a._at(t) != b._at(t):
+                    raise InputError(
+                        f"vertex {i} jumps at t = {show(t)} "
+                        f"from {show(*a._at(t))} to {show(*b._at(t))}"
+                    )
+
+
+def _tracks(shape: Sequence[Position], motion: SimpleMotion) -> tuple[Track, ...]:
+    tracks = []
+    for position in shape:
+        ask()
+        tracks.append(motion.track(position))
+    return tuple(tracks)

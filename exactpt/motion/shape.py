@@ -1,0 +1,216 @@
+"""The shape of a body: its vertices in the rest frame, where they may deform."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any, Final, NamedTuple, TypeAlias, final
+
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ, Rational, as_doubles, rational, shorten, show
+from exactpt.kernel.polynomial import Polynomial, polynomial
+from exactpt.motion.motions import Coefficients, Position
+
+__all__ = ["Keyframe", "Keyframes", "Shape", "VertexLike"]
+
+VertexLike: TypeAlias = (
+    "Sequence[Rational] | Mapping[str, Coefficients] | tuple[Polynomial, Polynomial]"
+)
+"""A vertex as a caller may write it: (x, y), or {"x": polynomial, "y": polynomial}."""
+
+Keyframes: TypeAlias = "Sequence[tuple[Rational, Sequence[Sequence[Rational]]]]"
+"""Keyframes as a caller may write them: pairs (t, vertices)."""
+
+_PAIRS: Final = (tuple, list)
+
+
+class Keyframe(NamedTuple):
+    """The shape of a deforming body at one time."""
+
+    t: Fraction
+    vertices: tuple[tuple[Fraction, Fraction], ...]
+
+
+@final
+class Shape:
+    """Vertices in the rest frame: constant, polynomials in t, or interpolated linearly.
+
+    Vertices given as doubles are kept, and become rationals when these are needed.
+
+    Args:
+        vertices: as in `Body`.
+        keyframes: as in `Body`.
+        ring: whether a last vertex that repeats the first, of more than three, is dropped.
+
+    Attributes:
+        size: the number of vertices.
+        doubles: the coordinates x and y, if all were given as doubles.
+        keyframes: in the order of time; none if vertices were given.
+    """
+
+    __slots__ = ("_pieces", "_positions", "doubles", "keyframes", "size")
+
+    def __init__(
+        self,
+        vertices: Iterable[VertexLike] | None,
+        keyframes: Keyframes | None = None,
+        *,
+        ring: bool = False,
+    ) -> None:
+        self.doubles: tuple[list[float], list[float]] | None = None
+        self.keyframes: tuple[Keyframe, ...] = ()
+        self._pieces: list[tuple[Position, ...]] = []
+        self._positions: tuple[Position, ...] | None = None
+        if keyframes is not None:
+            self.keyframes = frames = _read_keyframes(keyframes)
+            between = [_between(*pair) for pair in pairwise(frames)]
+            self._pieces = [_at_rest(frames[0]), *between, _at_rest(frames[-1])]
+            self._positions = ()
+            self.size = len(frames[0].vertices)
+        else:
+            given = _listed("vertices", vertices)
+            self.doubles = _read_doubles(given)
+            if self.doubles is None:
+                self._positions = tuple(_read_vertex(i, v) for i, v in enumerate(given))
+            self.size = len(given)
+            if ring and self.size > 3:
+                self._drop_closing_point()
+        if not self.size:
+            raise InputError("at least one vertex is needed")
+
+    def _drop_closing_point(self) -> None:
+        if self._positions is not None:
+            if self._positions[0] != self._positions[-1]:
+                return
+            self._positions = self._positions[:-1]
+        elif self.doubles is not None:
+            xs, ys = self.doubles
+            if (xs[0], ys[0]) != (xs[-1], ys[-1]):
+                return
+            self.doubles = xs[:-1], ys[:-1]
+        self.size -= 1
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether the rational positions are known: they are not, of doubles, until asked for."""
+        return self._positions is not None
+
+    @property
+    def positions(self) -> tuple[Position, ...]:
+        """The vertices; none if the shape was given by keyframes."""
+        if self._positions is None:
+            xs, ys = self.doubles or ([], [])
+            self._positions = tuple(
+                (Polynomial([x]), Polynomial([y])) for x, y in zip(xs, ys, strict=True)
+            )
+        return self._positions
+
+    def after(self, t: QQ) -> tuple[Position, ...]:
+        """Those just after a time; before the first keyframe and after the last they rest."""
+        if not self.keyframes:
+            return self.positions
+        return self._pieces[bisect_right(self.keyframes, t, key=lambda frame: frame.t)]
+
+    def given(self) -> dict[str, object]:
+        """The keyword arguments from which a body of this shape can be made."""
+        if self.keyframes:
+            return {"keyframes": tuple(
+                (str(frame.t), tuple((str(x), str(y)) for x, y in frame.vertices))
+                for frame in self.keyframes
+            )}  # fmt: skip
+        if self.doubles is not None:
+            return {"vertices": tuple(zip(*self.doubles, strict=True))}
+        return {"vertices": tuple(map(_given, self.positions))}
+
+
+def _given(vertex: Position) -> tuple[object, object]:
+    """A vertex as an argument of the constructor; constants if it does not deform."""
+    if vertex[0].degree > 0 or vertex[1].degree > 0:
+        return vertex
+    x, y = (f._at(QQ(0)) for f in vertex)
+    return str(x), str(y)
+
+
+def _listed(what: str, values: object) -> list[Any]:
+    if isinstance(values, Iterable) and not isinstance(values, (str, Mapping)):
+        return list(values)
+    raise InputError(f"{what}: not a list: {shorten(values)}")
+
+
+def _pair(point: object) -> tuple[Any, Any]:
+    coordinates = list(point) if isinstance(point, Iterable) else []
+    if isinstance(point, str) or len(coordinates) != 2:
+        raise InputError(f"a vertex has two coordinates: {shorten(point)}")
+    return coordinates[0], coordinates[1]
+
+
+def _read_doubles(vertices: Sequence[object]) -> tuple[list[float], list[float]] | None:
+    """The coordinates x and y of vertices; None unless all are pairs of doubles."""
+    flat: list[object] = []
+    for vertex in vertices:
+        if type(vertex) not in _PAIRS or len(vertex) != 2:  # type: ignore[arg-type]
+            return None
+        flat += vertex  # type: ignore[arg-type]
+    near = as_doubles(flat)
+    return None if near is None else (near[::2], near[1::2])
+
+
+def _read_vertex(index: int, vertex: VertexLike) -> Position:
+    try:
+        if isinstance(vertex, Mapping):
+            unknown = set(vertex) - {"x", "y"}
+            if unknown:
+                raise InputError(f"unknown key {min(unknown)!r}")
+            return polynomial(vertex.get("x", ())), polynomial(vertex.get("y", ()))
+        x, y = _pair(vertex)
+        return polynomial(x), polynomial(y)
+    except InputError as error:
+        raise InputError(f"vertex {index}: {error}") from None
+
+
+def _read_keyframes(keyframes: Keyframes) -> tuple[Keyframe, ...]:
+    frames: list[Keyframe] = []
+    for i, keyframe in enumerate(_listed("keyframes", keyframes)):
+        if not isinstance(keyframe, Sequence) or len(keyframe) != 2:
+            raise InputError(f"keyframe {i}: not (t, vertices): {shorten(keyframe)}")
+        frame = _read_keyframe(i, *keyframe)
+        if frames and frame.t <= frames[-1].t:
+            raise InputError(f"keyframe {i}: t = {show(frame.t)} is not after {show(frames[-1].t)}")
+        if frames and len(frame.vertices) != len(frames[0].vertices):
+            raise InputError(
+                f"keyframe {i}: {len(frame.vertices)} vertices, "
+                f"but keyframe 0 has {len(frames[0].vertices)}"
+            )
+        frames.append(frame)
+    if not frames:
+        raise InputError("at least one keyframe is needed")
+    return tuple(frames)
+
+
+def _read_keyframe(i: int, t: Rational, vertices: object) -> Keyframe:
+    pairs = map(_pair, _listed(f"keyframe {i}", vertices))
+    try:
+        points = tuple((rational(x), rational(y)) for x, y in pairs)
+        return Keyframe(rational(t), points)
+    except InputError as error:
+        raise InputError(f"keyframe {i}: {error}") from None
+
+
+def _at_rest(frame: Keyframe) -> tuple[Position, ...]:
+    return tuple((Polynomial([x]), Polynomial([y])) for x, y in frame.vertices)
+
+
+def _between(before: Keyframe, after: Keyframe) -> tuple[Position, ...]:
+    """The linear interpolation a + (b - a) (t - t0) / (t1 - t0) of each vertex."""
+    span = after.t - before.t
+
+    def line(a: QQ, b: QQ) -> Polynomial:
+        slope = (b - a) / span
+        return Polynomial([a - slope * before.t, slope])
+
+    return tuple(
+        (line(x0, x1), line(y0, y1))
+        for (x0, y0), (x1, y1) in zip(before.vertices, after.vertices, strict=True)
+    )

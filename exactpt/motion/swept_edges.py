@@ -1,0 +1,97 @@
+"""The vertices and edges of moving bodies as numbers, and the pairs whose swept boxes meet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import final
+
+import numpy as np
+
+from exactpt.geometry.boxes import Boxes, overlapping_pairs
+from exactpt.kernel.doubles import Indices
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.swept import SweptBoxes
+from exactpt.motion.vertices import Vertices
+
+__all__ = ["SweptEdges"]
+
+
+@final
+class SweptEdges:
+    """All vertices and edges, numbered from 0 in the order of the bodies.
+
+    Args:
+        bodies: at least one.
+        start, end: the time span.
+
+    Attributes:
+        vertices: the moving vertices.
+        ids: the id of each vertex.
+        body: the body of each vertex.
+        ends: shape (m, 2), the vertices of each edge; a point is an edge from itself to itself.
+        edge_index: the number of each edge in its body.
+        motion: the motion identity of each vertex, see `exactpt.motion.image.Image`.
+        deforms: for each body, whether it deforms.
+        boxes: the swept boxes of the vertices.
+    """
+
+    def __init__(self, bodies: Sequence[Body], start: QQ, end: QQ) -> None:
+        self.vertices = Vertices.of(bodies, start, end, plain=True)
+        self.ids = self.vertices.ids()
+        self.body: Indices = np.array([self.vertices.all[v].body for v in self.ids])
+        ends: list[tuple[int, int]] = []
+        self.edge_index: list[int] = []
+        base = 0
+        for body in bodies:
+            pairs = body.edges or [(0, 0)]
+            ends += [(base + a, base + b) for a, b in pairs]
+            self.edge_index += range(len(pairs))
+            base += body.size
+        self.ends: Indices = np.array(ends)
+        self._read_images()
+
+    def _read_images(self) -> None:
+        images = [self.vertices.all[v].image for v in self.ids]
+        self.boxes = SweptBoxes(images, self.vertices.frame.errors)
+        self.motion: Indices = np.array([image.motion for image in images])
+        self.deforms = np.array([moving.deforms for moving in self.vertices.bodies])
+
+    def until(self, end: QQ) -> QQ:
+        """The time at which the first current piece of motion ends, ``end`` at the latest."""
+        return min([end, *(m.until for m in self.vertices.bodies if m.until is not None)])
+
+    def enter_pieces(self, now: QQ) -> None:
+        """Replace the pieces of motion that end at a time by those that follow."""
+        ended = [i for i, m in enumerate(self.vertices.bodies) if m.until == now]
+        for i in ended:
+            self.vertices.enter_piece(i, now)
+        if not all(self._replace_images(i) for i in ended):
+            self._read_images()
+
+    def _replace_images(self, i: int) -> bool:
+        """Read the enclosures of a body that has entered a piece; false if there is no room."""
+        moving = self.vertices.bodies[i]
+        images = [self.vertices.all[v].image for v in moving.ring]
+        first = moving.ring[0]  # ids are numbered in order
+        self.motion[first : first + len(images)] = [image.motion for image in images]
+        self.deforms[i] = moving.deforms
+        return self.boxes.replace(first, images, self.vertices.frame.errors)
+
+    def during(self, now: QQ, later: QQ) -> Boxes:
+        """The boxes that the vertices sweep, normalised."""
+        frame = self.vertices.frame
+        return self.boxes.during(frame.time(now)[0], frame.time(later)[1])
+
+    def around(self, boxes: Boxes) -> Boxes:
+        """The boxes of the edges, given those of the vertices."""
+        a, b = self.ends[:, 0], self.ends[:, 1]
+        low, high = np.minimum(boxes[a], boxes[b]), np.maximum(boxes[a], boxes[b])
+        return np.stack((low[:, 0], high[:, 1], low[:, 2], high[:, 3]), axis=1)
+
+    def meeting(self, boxes: Boxes, edge_boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
+        """The pairs of a vertex and an edge whose boxes meet, in blocks."""
+        n = len(self.ids)
+        for first, second in overlapping_pairs(np.concatenate((boxes, edge_boxes))):
+            crossed = (first < n) & (second >= n)
+            yield first[crossed], second[crossed] - n

@@ -1,0 +1,1 @@
+"""Questions beside the first contact, against their definitions."""

@@ -1,0 +1,228 @@
+"""One case of each question: the answers, and whether they are those of the definition."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import combinations, pairwise
+from random import Random
+from typing import Final, NamedTuple
+
+from exactpt.collision.approach import Approach, first_within
+from exactpt.collision.detector import first_contact
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.algebraic_value import quotient_at
+from exactpt.kernel.numbers import QQ, ZZ, rational
+from exactpt.proximity.clearance import Clearance, ClearancePiece, clearance
+from exactpt.proximity.distance import distance
+from exactpt.proximity.features import Feature
+from exactpt.proximity.intervals import contact_intervals
+from exactpt.scene.scene import Scene
+from fuzz.questions import by_cgal, reference
+from fuzz.questions.norms import Norm, first_within_norm
+from fuzz.questions.renewal import first_new_contact
+from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
+from fuzz.questions.tiny import touching_scene
+
+OTHERS: Final[tuple[Norm, ...]] = ("max", "x", "y")
+
+__all__ = ["QUESTIONS", "Checked", "checked"]
+
+
+class Checked(NamedTuple):
+    """A case that has been checked.
+
+    Attributes:
+        scene: its scene.
+        kind: what happens in it, for the table of a run.
+        fault: what is not as defined; None if all is.
+        signs: number of signs, roots and orders that CGAL has decided.
+    """
+
+    scene: Scene
+    kind: str
+    fault: str | None
+    signs: int = 0
+
+
+def checked(question: str, seed: int, number: int) -> Checked:
+    """Check the case of a question with this number."""
+    return QUESTIONS[question](Random(f"{question} {seed} {number}"))
+
+
+def _distance(random: Random) -> Checked:
+    """first_within, distance and clearance of two bodies."""
+    scene = distant_scene(random)
+    gap = clearance(scene, "a", "b")
+    squared = _asked(random, scene, gap)
+    time = first_within(scene, "a", "b", norm="euclidean", distance_squared=squared)
+    a, b = scene.bodies
+    expected = reference.first_within(a, b, scene._start, scene._end, squared)
+    fault = None
+    if time != expected:
+        fault = f"first_within {squared}: {time}, not {expected}"
+    kind = "never" if time is None else "at the start" if time == scene.start else "later"
+    if time is not None and time > scene.start and time == gap.minimum.time:
+        kind = "a graze, or the end"
+    return Checked(scene, kind, fault or _wrong_distance(random, scene, gap))
+
+
+def _asked(random: Random, scene: Scene, gap: Clearance) -> QQ:
+    """A squared distance: small, that at some time, or the least if that is rational."""
+    least = gap.minimum.squared.simplified()
+    choices = [QQ(random.choice([0, 1, 2, 4, 5]), random.choice([1, 2, 9]))]
+    choices.append(rational(gap.squared(random.randint(int(scene.start), int(scene.end)))))
+    if least.is_rational:
+        choices.append(least._low)
+    return random.choice(choices)
+
+
+def _wrong_distance(random: Random, scene: Scene, gap: Clearance) -> str | None:
+    """What is wrong with distances at times, the pieces, or the minimum."""
+    ends = AlgebraicNumber(scene._start), AlgebraicNumber(scene._end)
+    if (gap.pieces[0].start, gap.pieces[-1].end) != ends:
+        return "the pieces do not cover the time span"
+    for before, after in pairwise(gap.pieces):
+        if before.end != after.start or _value(before, before.end) != _value(after, after.start):
+            return f"a jump of the distance at {before.end}"
+    span = scene._end - scene._start
+    samples = {*(scene._start + span * k / 8 for k in range(9))}
+    samples.add(scene._start + span * random.randint(0, 997) / 997)
+    least = gap.minimum.squared
+    for t in sorted(samples):
+        expected, features = reference.nearest(scene.bodies[0], scene.bodies[1], t)
+        there = distance(scene, "a", "b", at=t)
+        found = {(_place(f), _place(g)) for f, g in there.features}
+        if (there.squared, found) != (expected, features) or gap.squared(t) != expected:
+            return f"distance at {t}: {there}, {gap.squared(t)}, not {expected}, {features}"
+        if least.compare_rational(expected) > 0:
+            return f"the minimum {least} is more than {expected} at {t}"
+    return _wrong_minimum(scene, gap)
+
+
+def _wrong_minimum(scene: Scene, gap: Clearance) -> str | None:
+    """The least distance is reached at its time and not before; a little less is never."""
+    time, squared = gap.minimum
+    a, b = scene.bodies
+    squared = squared.simplified()
+    if squared.is_rational:
+        first = reference.first_within(a, b, scene._start, scene._end, squared._low)
+        if first != time:
+            return f"the minimum is first at {first}, not at {time}"
+        below = squared._low - QQ(1, 10**30)
+    else:
+        while squared._low <= 0 or squared._high - squared._low > QQ(1, 10**30):
+            squared.refine()
+        if reference.first_within(a, b, scene._start, scene._end, squared._high) is None:
+            return f"the minimum {squared} is never reached"
+        below = squared._low
+    if below >= 0 and reference.first_within(a, b, scene._start, scene._end, below) is not None:
+        return f"less than the minimum {squared} is reached"
+    return None
+
+
+def _place(feature: Feature) -> reference.Place:
+    return ("v", feature.vertex) if feature.vertex is not None else ("e", feature.edge or 0)
+
+
+def _value(piece: ClearancePiece, t: AlgebraicNumber) -> AlgebraicNumber:
+    n, d = (tuple(map(ZZ, f)) for f in (piece.numerator, piece.denominator))
+    return quotient_at(n, d, t)
+
+
+def _approach(random: Random) -> Checked:
+    """first_within of any two bodies."""
+    scene = crowded_scene(random)
+    squared = QQ(random.choice([0, 0, 1, 2]), random.choice([1, 4, 9]))
+    found = first_within(scene, norm="euclidean", distance_squared=squared)
+    times = []
+    for a, b in combinations(scene.bodies, 2):
+        time = reference.first_within(a, b, scene._start, scene._end, squared)
+        if time is not None:
+            times.append((time, (a.name, b.name)))
+    least = min((time for time, _ in times), default=None)
+    expected = None
+    if least is not None:
+        expected = Approach(least, tuple(sorted(ab for time, ab in times if time == least)))
+    kind = "never" if found is None else "at the start" if found.time == scene.start else "later"
+    kind += f", {len(found.pairs)} pairs" if found else ""
+    fault = None if found == expected else f"within {squared}: {found}, not {expected}"
+    return Checked(scene, kind, fault)
+
+
+def _norms(random: Random) -> Checked:
+    """first_within in the other norms, of two bodies and of all."""
+    scene = distant_scene(random)
+    a, b = scene.bodies
+    d = QQ(random.choice([0, 1, 1, 2, 3]), random.choice([1, 1, 2, 3]))
+    norm = random.choice(OTHERS)
+    time = first_within(scene, "a", "b", d, norm=norm)
+    expected = first_within_norm(a, b, scene._start, scene._end, d, norm)
+    every = first_within(scene, distance=d, norm=norm)
+    kind = "never" if time is None else "at the start" if time == scene.start else "later"
+    fault = None
+    if time != expected or (every and every.time) != expected:
+        fault = f"within {d}, {norm}: {time}, {every}, not {expected}"
+    return Checked(scene, f"{norm}, {kind}", fault)
+
+
+def _intervals(random: Random) -> Checked:
+    """contact_intervals of two bodies."""
+    scene = meeting_scene(random)
+    a, b = scene.bodies
+    found = [(i.start, i.end) for i in contact_intervals(scene, a.name, b.name)]
+    expected = reference.contact_intervals(a, b, scene._start, scene._end)
+    touches = sum(start == end for start, end in found)
+    kind = f"{len(found)} intervals, {touches} of them touches"
+    return Checked(scene, kind, None if found == expected else f"{found}, not {expected}")
+
+
+def _after_start(random: Random) -> Checked:
+    """The first new contact."""
+    scene = touching_scene(random)
+    contact = first_contact(scene, after_start=True)
+    expected = first_new_contact(scene)
+    touching = not set(_touching(scene)).isdisjoint(expected[1] if expected else set())
+    if contact is None:
+        fault = None if expected is None else f"no new contact, not {expected}"
+        return Checked(scene, "none", fault)
+    number = {body.name: i for i, body in enumerate(scene.bodies)}
+    pairs = {
+        (min(ij), max(ij)) for p in contact.pairs for ij in [(number[p.body], number[p.other])]
+    }
+    kind = f"{contact.kind}, {'again' if touching else 'first'}"
+    fault = None
+    if (contact.time, pairs) != expected:
+        fault = f"{contact.time}, {pairs}, not {expected}"
+    return Checked(scene, kind, fault)
+
+
+def _touching(scene: Scene) -> list[tuple[int, int]]:
+    start = AlgebraicNumber(scene._start)
+    pairs = combinations(range(len(scene.bodies)), 2)
+    return [
+        (i, j)
+        for i, j in pairs
+        for a, b in [(scene.bodies[i], scene.bodies[j])]
+        if reference.meet_at(start, a, b, *reference.tracks(a, b, scene._start))
+    ]
+
+
+def _cgal(random: Random) -> Checked:
+    """Signs at the time of first_within, and the minimum of clearance, by CGAL."""
+    scene = distant_scene(random)
+    gap = clearance(scene, "a", "b")
+    squared = _asked(random, scene, gap)
+    time = first_within(scene, "a", "b", norm="euclidean", distance_squared=squared)
+    signs, fault = by_cgal.compare(scene, gap, squared, time)
+    return Checked(scene, "never" if time is None else "within", fault, signs)
+
+
+QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
+    "distance": _distance,
+    "approach": _approach,
+    "norms": _norms,
+    "intervals": _intervals,
+    "after-start": _after_start,
+    "cgal": _cgal,
+}
+"""A function from random choices to a case, by question."""

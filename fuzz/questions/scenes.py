@@ -1,0 +1,90 @@
+"""Scenes of two bodies whose distance has grazes, ties, and equal values for ever."""
+
+from __future__ import annotations
+
+from random import Random
+
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Motion, Pieces, Rigid, Translation
+from exactpt.scene.scene import Scene
+from fuzz.questions.tiny import pair_scene, touching_scene
+
+__all__ = ["crowded_scene", "distant_scene", "meeting_scene"]
+
+Shape = list[tuple[int, int]]
+
+
+def distant_scene(random: Random) -> Scene:
+    """A pair of any kind; or one that keeps or grazes its distance, with breakpoints."""
+    kind = random.randrange(4)
+    if kind == 0:
+        return pair_scene(random)
+    if kind == 1:
+        return _orbit(random)
+    shapes = [_axis_parallel(random, 0), _axis_parallel(random, random.randint(2, 6))]
+    bodies = [
+        Body(name, shape, _along_axis(random), closed=random.random() < 0.7)
+        for name, shape in zip("ab", shapes, strict=True)
+    ]
+    return Scene(bodies, time=(0, 4))
+
+
+def crowded_scene(random: Random) -> Scene:
+    """Three bodies, or some that touch at the start."""
+    if random.random() < 0.3:
+        return touching_scene(random)
+    scenes = [distant_scene(random), distant_scene(random)]
+    bodies = [
+        Body(f"{body.name}{i}", body.vertices, body.motion, closed=body.closed)
+        for i, scene in enumerate(scenes)
+        for body in scene.bodies[: 2 - i]
+    ]
+    return Scene(bodies, time=(0, 2))
+
+
+def meeting_scene(random: Random) -> Scene:
+    """Two bodies that are likely to meet."""
+    if random.random() < 0.5:
+        return pair_scene(random)
+    scene = touching_scene(random)
+    return Scene(scene.bodies[:2], (scene.start, scene.end))
+
+
+def _orbit(random: Random) -> Scene:
+    """A body that turns about a point, or about a corner of another body."""
+    x, y = random.randint(-1, 3), random.randint(-1, 3)
+    arm = [(x + 2, y), (x + random.choice([3, 4]), y + random.choice([0, 1]))]
+    moved: Motion = Rigid([0, random.choice([1, -1, 2])], pivot=(x, y))
+    hub = [(x, y)] if random.random() < 0.4 else _axis_parallel(random, random.choice([0, x]))
+    return Scene([Body("a", arm[: random.choice([1, 2])], moved), Body("b", hub)], time=(-2, 2))
+
+
+def _axis_parallel(random: Random, x: int) -> Shape:
+    w, h = random.randint(1, 3), random.randint(1, 3)
+    return random.choice(
+        [
+            [(x, 0)],
+            [(x, 0), (x, h)],
+            [(x, 0), (x + w, 0)],
+            [(x, 0), (x + w, 0), (x + w, h), (x, h)],
+            [(x, 0), (x + w, h), (x, 2 * h)],
+        ]
+    )
+
+
+def _along_axis(random: Random) -> Motion:
+    """Slides, parabolas with a turning point at an integer time, stops and changes of lane."""
+    u, at = random.choice([1, -1, 2]), random.choice([1, 2, 3])
+    slide, back = Translation([0], [0, u]), Translation([0], [2 * at * u, -u])
+    motions: list[Motion] = [
+        Translation([0]),
+        slide,
+        Translation([0, u]),
+        Translation([u * at * at, -2 * u * at, u]),  # u (t - at)^2
+        Translation([u * at * at, -2 * u * at, u], [0, 1]),
+        Translation([0, -at, 1]),
+        Pieces([(at, slide), (None, back)]),
+        Pieces([(at, slide), (None, Translation([0], [u * at]))]),
+        Pieces([(at, Translation([0, u])), (None, Translation([2 * u * at, -u]))]),
+    ]
+    return random.choice(motions)

@@ -1,0 +1,134 @@
+"""The answers of `exactpt.arrays` about scenes of the scope: many scenes in one call."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Sequence
+from itertools import accumulate
+from typing import NamedTuple
+
+import numpy as np
+
+from exactpt.arrays import KINDS, Contacts, first_contacts
+from exactpt.arrays.exact import exact
+from exactpt.collision.contact import Contact
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.scene.scene import Scene
+from fuzz.limits import TooSlow, limit
+
+__all__ = ["ARRAYS", "Verdict", "suits", "verdicts"]
+
+ARRAYS = "arrays"
+
+PATIENCE = 20.0
+"""Seconds of processor time after which a call counts as hanging."""
+
+WIDEST = 2.0**-40
+"""Maximum width of the enclosure of a time."""
+
+Coefficients = tuple[list[float], list[float]]
+"""Of a translation in x and in y, constant first."""
+
+
+class Verdict(NamedTuple):
+    """The judgement of an answer.
+
+    Attributes:
+        seconds: its share of the processor time of the call.
+        fault: what is wrong with it; None if it is right.
+    """
+
+    seconds: float
+    fault: str | None
+
+
+def suits(scene: Scene) -> bool:
+    """Whether a scene is a question for arrays: two rigid bodies that translate."""
+    return len(scene.bodies) == 2 and all(map(_translates, scene.bodies))
+
+
+def _translates(body: Body) -> bool:
+    rigid = bool(body.vertices) and all(f.degree <= 0 for vertex in body.vertices for f in vertex)
+    return rigid and isinstance(body.motion, Translation)
+
+
+def verdicts(scenes: Sequence[Scene], expected: Sequence[Contact | None]) -> list[Verdict]:
+    """The judgement of each answer; if the call fails, each scene is asked for by itself."""
+    began = clock.process_time()
+    try:
+        with limit(PATIENCE):
+            contacts = _ask(scenes)
+            faults = [
+                _fault(scene, contacts, k, contact)
+                for k, (scene, contact) in enumerate(zip(scenes, expected, strict=True))
+            ]
+    except (Exception, TooSlow) as error:  # any exception is a finding
+        if len(scenes) == 1:
+            return [Verdict(clock.process_time() - began, type(error).__name__)]
+        pairs = zip(scenes, expected, strict=True)
+        return [verdict for one in pairs for verdict in verdicts([one[0]], [one[1]])]
+    share = (clock.process_time() - began) / max(1, len(scenes))
+    return [Verdict(share, fault) for fault in faults]
+
+
+def _ask(scenes: Sequence[Scene]) -> Contacts:
+    """The first contacts of the two bodies of each scene."""
+    bodies = [body for scene in scenes for body in scene.bodies]
+    motions = [_coefficients(body) for body in bodies]
+    width = max((len(f) for motion in motions for f in motion), default=1)
+    return first_contacts(
+        [[_double(f._at(QQ(0))) for f in vertex] for body in bodies for vertex in body.vertices],
+        [0, *accumulate(body.size for body in bodies)],
+        np.arange(len(bodies)).reshape(-1, 2),
+        coefficients=[[[*f, *[0.0] * (width - len(f))] for f in motion] for motion in motions],
+        closed=[body.closed for body in bodies],
+        time=[[_double(scene._start), _double(scene._end)] for scene in scenes],
+    )
+
+
+def _coefficients(body: Body) -> Coefficients:
+    assert isinstance(body.motion, Translation)  # noqa: S101 - `suits`
+    x, y = (list(map(_double, f._coefficients)) for f in (body.motion.x, body.motion.y))
+    return x, y
+
+
+def _double(value: QQ) -> float:
+    """A number of the scope, which is a double.
+
+    Raises:
+        ValueError: if it is not.
+    """
+    near = float(value)
+    if exact(near) != value:
+        raise ValueError(f"not a double: {value}")
+    return near
+
+
+def _fault(scene: Scene, contacts: Contacts, k: int, expected: Contact | None) -> str | None:
+    """What is wrong with the answer about a scene; None if nothing is."""
+    if expected is None or not contacts.found[k]:
+        if (expected is None) == (not contacts.found[k]):
+            return None
+        return "found" if expected is None else "missed"
+    low, high = (exact(float(end[k])) for end in (contacts.low, contacts.high))
+    if expected.time.compare_rational(low) < 0 or expected.time.compare_rational(high) > 0:
+        return "time"
+    if high - low > WIDEST:
+        return "enclosure"
+    if KINDS[contacts.kind[k]] != expected.kind:
+        return "kind"
+    told = [int(row[k]) for row in (contacts.body, contacts.vertex)]
+    told += [int(row[k]) for row in (contacts.edge, contacts.other_vertex)]
+    return None if told == _first_incidence(scene, expected) else "pairs"
+
+
+def _first_incidence(scene: Scene, expected: Contact) -> list[int]:
+    """Body, vertex, edge and other vertex of the first incidence; -1 for what there is not."""
+    if not expected.pairs:
+        return [-1] * 4
+    first = expected.pairs[0]
+    edge = -1 if first.edge is None else first.edge
+    other = -1 if first.other_vertex is None else first.other_vertex
+    return [[body.name for body in scene.bodies].index(first.body), first.vertex, edge, other]

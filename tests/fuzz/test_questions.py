@@ -1,0 +1,143 @@
+"""Questions against their definitions: cases repeat, and what is wrong is found."""
+
+from random import Random
+
+import pytest
+import shapely
+from click.testing import CliRunner
+
+from exactpt import Body, Scene
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ
+from exactpt.proximity.clearance import Minimum
+from fuzz.questions import by_cgal, checks
+from fuzz.questions.command import questions
+from fuzz.questions.renewal import overlap
+from fuzz.questions.scenes import distant_scene
+from fuzz.questions.tiny import touching_scene
+
+DEFINED = [name for name in checks.QUESTIONS if name != "cgal"]
+
+
+def run(*words):
+    return CliRunner().invoke(questions, words, catch_exceptions=False)
+
+
+@pytest.mark.parametrize("question", DEFINED)
+def test_no_difference(question, tmp_path):
+    result = run("--question", question, "--cases", "60", "--keep", str(tmp_path / "found"))
+
+    assert result.exit_code == 0, result.output
+    assert f"{question}, seed 0, from case 0 on: 60 cases" in result.output
+    assert result.output.endswith(" 0 differences\n")
+    assert len(result.output.splitlines()) > 3  # several kinds of cases
+    assert not (tmp_path / "found").exists()
+
+
+@pytest.mark.cgal
+def test_no_difference_by_cgal():
+    result = run("--question", "cgal", "--cases", "60")
+
+    assert result.exit_code == 0, result.output
+    assert " decisions of CGAL, 0 differences" in result.output
+
+
+@pytest.mark.parametrize("question", DEFINED)
+def test_a_case_is_the_same_in_every_run(question):
+    first, again = (checks.checked(question, 3, 14) for _ in range(2))
+
+    assert first == again
+    assert checks.checked(question, 3, 15).scene != first.scene
+
+
+def never(*_, **__):
+    return None
+
+
+@pytest.mark.parametrize(
+    "question, planted, bug",
+    [
+        ("distance", "first_within", never),
+        ("approach", "first_within", never),
+        ("norms", "first_within", never),
+        ("intervals", "contact_intervals", lambda *_: []),
+        ("after-start", "first_contact", never),
+        ("after-start", "first_new_contact", never),
+    ],
+)
+def test_a_wrong_answer_is_found(question, planted, bug, monkeypatch, tmp_path):
+    monkeypatch.setattr(checks, planted, bug)
+    result = run("--question", question, "--cases", "20", "--keep", str(tmp_path))
+
+    assert result.exit_code == 1
+    assert f"{question}, case " in result.output
+    kept = sorted(tmp_path.glob(f"{question}-0-*.json"))
+    assert kept
+    assert Scene.load(kept[0]).bodies
+
+
+@pytest.fixture
+def gap():
+    return checks.clearance(distant_scene(Random("1")), "a", "b")
+
+
+def test_a_wrong_minimum_is_found(gap):
+    scene = distant_scene(Random("1"))
+    assert checks._wrong_minimum(scene, gap) is None
+    for wrong in (
+        Minimum(gap.minimum.time, AlgebraicNumber(gap.minimum.squared.high + 1)),
+        Minimum(AlgebraicNumber(scene.end + 1), gap.minimum.squared),
+    ):
+        object.__setattr__(gap, "minimum", wrong)
+        assert checks._wrong_minimum(scene, gap) is not None
+
+
+@pytest.mark.cgal
+def test_cgal_finds_a_wrong_minimum_and_a_wrong_time(gap):
+    scene = distant_scene(Random("1"))
+    time = checks.first_within(scene, "a", "b", 1, norm="euclidean")
+    assert by_cgal.compare(scene, gap, QQ(1), time)[1] is None
+    other = AlgebraicNumber(QQ(1, 7))
+    assert by_cgal.compare(scene, gap, QQ(0), other)[1] is not None
+    object.__setattr__(
+        gap, "minimum", Minimum(gap.minimum.time, AlgebraicNumber(gap.minimum.squared.high + 1))
+    )
+    assert (
+        "less than" in by_cgal.compare(scene, gap, QQ(1), time)[1]
+        or "is not" in (by_cgal.compare(scene, gap, QQ(1), time)[1])
+    )
+
+
+def test_overlap_by_vertical_lines_is_an_area_in_common():
+    random, seen = Random(5), set()
+    for _ in range(150):
+        scene = touching_scene(random)
+        a, b = scene.bodies[:2]
+        p, q = (body._at(scene._start) for body in (a, b))
+        if not a.has_interior or not b.has_interior:
+            continue
+        area = shapely.Polygon(p).intersection(shapely.Polygon(q)).area
+        found = overlap(a, b, scene._start)
+        assert found == (area > 1e-9)
+        seen.add(found)
+    assert seen == {True, False}
+
+
+@pytest.mark.parametrize(
+    "first, second, expected",
+    [
+        ([(0, 0), (4, 0), (0, 4)], [(1, 1)], True),
+        ([(0, 0), (4, 0), (0, 4)], [(2, 0)], False),
+        ([(0, 0), (4, 0), (0, 4)], [(0, 0)], False),
+        ([(0, 0), (4, 0), (0, 4)], [(0, 0), (2, 2)], True),
+        ([(0, 0), (4, 0), (0, 4)], [(0, 0), (3, 0)], False),
+        ([(0, 0), (4, 0), (0, 4)], [(1, 0), (1, 4)], True),
+        ([(0, 0), (2, 2)], [(0, 2), (2, 0)], True),
+        ([(0, 0), (2, 2)], [(1, 1), (2, 0)], False),
+    ],
+)
+def test_overlap_of_thin_bodies(first, second, expected):
+    a, b = Body("a", first), Body("b", second)
+
+    assert overlap(a, b, QQ(0)) is expected
+    assert overlap(b, a, QQ(0)) is expected

@@ -1,0 +1,36 @@
+"""What was public in 0.1.0 is still there: names, attributes and parameters.
+
+One that is to go keeps an alias for a version, which warns.
+"""
+
+import inspect
+from pathlib import Path
+
+import pytest
+
+import exactpt
+from exactpt import Body, Scene, Simulation
+
+LINES = (Path(__file__).parent / "public_0_1.txt").read_text(encoding="utf-8").split()
+
+
+@pytest.fixture(scope="module")
+def made():
+    """Instances of the classes whose constructors set public attributes."""
+    ball = Body("ball", [(0, 0), (1, 0), (0, 1)], exactpt.Translation([0, 1]))
+    simulation = Simulation(Scene([ball, Body("wall", [(5, -9), (5, 9)])], (0, 20)))
+    return {"Simulation": simulation, "FreeSpace": simulation.space()}
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_a_public_name_of_the_first_version_is_still_there(line, made):
+    """``Name``, ``Name.attribute``, ``name(parameter)`` or ``Name.method(parameter)``."""
+    place, _, parameter = line.rstrip(")").partition("(")
+    name, _, attribute = place.partition(".")
+    found = getattr(exactpt, name)
+    if attribute and not hasattr(found, attribute):
+        assert hasattr(made[name], attribute)
+        return
+    if attribute:
+        found = getattr(found, attribute)
+    assert not parameter or parameter in inspect.signature(found).parameters
