@@ -1,5 +1,6 @@
 """Mutants of proofs, a few of each kind: each is rejected, or true."""
 
+import hashlib
 import json
 
 import pytest
@@ -113,3 +114,16 @@ def test_states_of_both_kinds_of_runs(tmp_path):
     wrong = CliRunner().invoke(small_scope, ["--count", "1", "--state", state])
     assert wrong.exit_code == 2
     assert "with --proofs" in wrong.output
+
+
+def test_a_body_that_is_not_simple_may_touch_at_the_start_alone():
+    crossed = [[0, 0], [3, 3], [3, 0], [0, 1]]
+    bodies = [{"name": "c", "closed": False, "vertices": crossed}]
+    bodies.append({"name": "p", "vertices": [[0, 0]]})
+    scene = json.dumps({"exactpt": 1, "time": [0, 1], "bodies": bodies}).encode()
+    head = f"exactpt-proof 1\nscene sha256 {hashlib.sha256(scene).hexdigest()}\nspan 0 1\n"
+    at_start = Mutant("", scene, f"{head}contact 0 0 vertex 0 vertex 4\n".encode())
+    answer = checker().verdict(scene, at_start.proof)
+    assert answer.startswith("accepted: ")
+    assert is_true(at_start, answer)
+    assert not is_true(Mutant("", scene, f"{head}none\n".encode()), answer)
