@@ -17,7 +17,7 @@ COMPILED_TESTS := $(addprefix tests/,kernel certificates motion planar pseudotri
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
-demo: $(VENV)/installed ## set up, run the packaged scene to its first contact, write an animation
+demo: $(VENV)/installed ## set up, run the packaged scene to its first contact, write an animation, check a proof
 	$(BIN)/exactpt demo
 
 test: $(VENV)/developing cgal_check/build/cgal_check lint ## set up (CGAL included), pass the tests
@@ -68,6 +68,7 @@ lint: $(VENV)/developing ## formatting, rules, types, imports
 pictures: $(VENV)/developing ## draw the pictures of the README and of docs/gallery.md anew
 	$(BIN)/exactpt draw exactpt/data/demo.json --at contact -o docs/first-contact.svg
 	$(BIN)/python docs/draw_demo.py
+	$(BIN)/python docs/draw_proof.py
 	$(BIN)/python docs/draw_gallery.py
 
 docs: $(VENV)/developing ## the API pages, from the docstrings, in docs/api

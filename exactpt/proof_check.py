@@ -306,6 +306,12 @@ Until = Fraction | float  # the only float is infinity
 Shape = list[tuple[Poly, Poly]]
 
 
+class Bare(str):
+    """A number of JSON, as it is written: not one in quotes."""
+
+    __slots__ = ()
+
+
 def need(condition: object, what: str, data: Json = "") -> None:
     """Refuse the scene unless the condition holds."""
     if not condition:
@@ -446,11 +452,12 @@ class Scene:
             return dict(pairs)
 
         try:
-            data = json.loads(text, parse_int=str, parse_float=str, object_pairs_hook=unique)
+            data = json.loads(text, parse_int=Bare, parse_float=Bare, object_pairs_hook=unique)
         except (ValueError, RecursionError) as error:
             raise NoProofError(f"the scene is not JSON: {error}") from None
         top = keys(data, "exactpt", "time", "bodies")
-        need(top.get("exactpt") == "1", "not of format 1:", top.get("exactpt"))
+        version = top.get("exactpt")
+        need(version == "1" and isinstance(version, Bare), "not of format 1:", version)
         self.start, self.end = (number(t) for t in entries(top.get("time"), 2))
         need(self.start < self.end, "an empty time span:", top["time"])
         self.bodies: list[Body] = []

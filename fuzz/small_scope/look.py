@@ -20,7 +20,7 @@ from fuzz.small_scope.scope import Planned
 from fuzz.statics import run_and_audit
 from fuzz.witnesses import check_proof, contact_by, tilings_of
 
-__all__ = ["AUDITED", "Answer", "Look", "look", "look_at_proof", "looks"]
+__all__ = ["AUDITED", "Answer", "Look", "look", "looks", "looks_at_proofs"]
 
 AUDITED: Final = 16
 """One in this many scenes gets an audit of a tiling between events, and another one a simulation
@@ -111,8 +111,12 @@ def look(planned: Planned) -> Look:
     return Look(planned, expected, _as_planned(planned, expected), answers)
 
 
-def look_at_proof(planned: Planned) -> Look:
-    """Check the proof by one of the tilings, in C++, and one in 32 in Python too."""
+def looks_at_proofs(several: Sequence[Planned]) -> list[Look]:
+    """Check the proof by one of the tilings in C++, and of one scene in 32 in Python too."""
+    return [_look_at_proof(planned) for planned in several]
+
+
+def _look_at_proof(planned: Planned) -> Look:
     names = tilings_of(planned.scene)
     name, in_python = names[planned.number % len(names)], planned.number % 32 == 0
 

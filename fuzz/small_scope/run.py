@@ -19,7 +19,7 @@ from exactpt.errors import InputError
 from exactpt.files import write_atomically
 from exactpt.scene.format import to_json
 from fuzz.cases import Failure, failure_of, shrunk
-from fuzz.small_scope.look import AUDITED, look_at_proof, looks
+from fuzz.small_scope.look import AUDITED, looks, looks_at_proofs
 from fuzz.small_scope.scope import planned, sizes
 from fuzz.small_scope.tally import Fault, Tally
 
@@ -82,8 +82,8 @@ def count(numbers: range, *, proofs: bool = False) -> Tally:
     """The tally of the scenes with these numbers."""
     began = clock.process_time()
     tally = Tally()
-    scenes = [planned(number) for number in numbers]
-    for seen in map(look_at_proof, scenes) if proofs else looks(scenes):
+    compare = looks_at_proofs if proofs else looks
+    for seen in compare([planned(number) for number in numbers]):
         tally.note(seen)
     tally.seconds = clock.process_time() - began
     return tally

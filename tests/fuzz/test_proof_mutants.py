@@ -1,5 +1,6 @@
 """Mutants of proofs, a few of each kind: each is rejected, or true."""
 
+import hashlib
 import json
 
 import pytest
@@ -11,7 +12,7 @@ from fuzz.proofs import run as mutants_run
 from fuzz.proofs.checking import checker, is_geometric
 from fuzz.proofs.command import proof_mutants
 from fuzz.proofs.run import KINDS, Mutant, Progress, is_true, mutants
-from fuzz.small_scope.look import look_at_proof
+from fuzz.small_scope.look import looks_at_proofs
 from fuzz.small_scope.scope import planned
 from fuzz.witnesses import Difference, check_proof
 
@@ -87,8 +88,8 @@ def test_the_checker_is_started_again():
 
 
 def test_proofs_of_the_small_scope():
-    for number in range(0, 96, 32):
-        (answer,) = look_at_proof(planned(number)).answers
+    for look in looks_at_proofs([planned(number) for number in range(0, 96, 32)]):
+        (answer,) = look.answers
         assert answer.method.startswith("proof ")
         assert answer.fault is None
 
@@ -113,3 +114,16 @@ def test_states_of_both_kinds_of_runs(tmp_path):
     wrong = CliRunner().invoke(small_scope, ["--count", "1", "--state", state])
     assert wrong.exit_code == 2
     assert "with --proofs" in wrong.output
+
+
+def test_a_body_that_is_not_simple_may_touch_at_the_start_alone():
+    crossed = [[0, 0], [3, 3], [3, 0], [0, 1]]
+    bodies = [{"name": "c", "closed": False, "vertices": crossed}]
+    bodies.append({"name": "p", "vertices": [[0, 0]]})
+    scene = json.dumps({"exactpt": 1, "time": [0, 1], "bodies": bodies}).encode()
+    head = f"exactpt-proof 1\nscene sha256 {hashlib.sha256(scene).hexdigest()}\nspan 0 1\n"
+    at_start = Mutant("", scene, f"{head}contact 0 0 vertex 0 vertex 4\n".encode())
+    answer = checker().verdict(scene, at_start.proof)
+    assert answer.startswith("accepted: ")
+    assert is_true(at_start, answer)
+    assert not is_true(Mutant("", scene, f"{head}none\n".encode()), answer)

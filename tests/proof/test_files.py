@@ -131,6 +131,7 @@ def test_scenes_are_read_as_the_format_says():
     [
         "[]",
         '{"exactpt": 2, "time": [0, 1], "bodies": []}',
+        '{"exactpt": "1", "time": [0, 1], "bodies": []}',
         '{"exactpt": 1, "time": [1, 1], "bodies": []}',
         '{"exactpt": 1, "time": [0, NaN], "bodies": []}',
         '{"exactpt": 1, "time": [0, 1], "bodies": [{"name": "a", "vertices": []}]}',

@@ -25,6 +25,8 @@ def test_demo(tmp_path):
     assert "root of 1099 t^2 + 6750 t - 141750" in result.output
     assert "vertex 0 of boat on edge 6 of harbour" in result.output
     assert str(page) in result.output
+    last = result.output.splitlines()[-1]
+    assert last.startswith("  accepted: no contact before T = 8.6938")
     assert page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
 
 
