@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "faults.hpp"
+#include "numbers.hpp"
 
 namespace proof {
 
@@ -17,19 +18,13 @@ bool is_number_part(char c) {
          c == 'e' || c == 'E';
 }
 
-// The length of the digits at the front.
-std::size_t digits(std::string_view text) {
-  const std::size_t end = text.find_first_not_of("0123456789");
-  return end == std::string_view::npos ? text.size() : end;
-}
-
 bool is_json_number(std::string_view text) {
   if (!text.empty() && text.front() == '-') text.remove_prefix(1);
-  const std::size_t whole = digits(text);
+  const std::size_t whole = leading_digits(text);
   if (whole == 0 || (whole > 1 && text.front() == '0')) return false;
   text.remove_prefix(whole);
   if (!text.empty() && text.front() == '.') {
-    const std::size_t part = digits(text.substr(1));
+    const std::size_t part = leading_digits(text.substr(1));
     if (part == 0) return false;
     text.remove_prefix(part + 1);
   }
@@ -37,7 +32,7 @@ bool is_json_number(std::string_view text) {
   if (text.front() != 'e' && text.front() != 'E') return false;
   text.remove_prefix(1);
   if (!text.empty() && (text.front() == '+' || text.front() == '-')) text.remove_prefix(1);
-  return !text.empty() && digits(text) == text.size();
+  return !text.empty() && leading_digits(text) == text.size();
 }
 
 // The text with its numbers replaced by their indices in a list: the parser would round them.

@@ -3,6 +3,7 @@
 
 #include <gmpxx.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,12 @@ Interval enclosure(const Rational& q);
 bool is_fraction(std::string_view text);
 bool is_integer(std::string_view text);
 Rational fraction(std::string_view text);  // of a text that is one
+
+// The length of the digits at the front.
+std::size_t leading_digits(std::string_view text);
+
+// "1.25", "-3e-2"; nothing if it is not, or the exponent is huge.
+std::optional<Rational> decimal(std::string_view text);
 
 inline int sign(const Integer& n) { return mpz_sgn(n.get_mpz_t()); }
 inline int sign(const Rational& q) { return mpq_sgn(q.get_mpq_t()); }

@@ -1,7 +1,6 @@
 #include "reading.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "faults.hpp"
 
@@ -13,50 +12,11 @@ using Rationals = Poly<Rational>;
 using Position = std::pair<Rationals, Rationals>;
 
 constexpr std::size_t most_digits = 10'000;
-constexpr long highest_exponent = 100'000;
 
 const Json* member(const Json& json, std::string_view key) {
   const Json* found = json.find(key);
   if (!found) throw NoProof("the scene lacks the key " + std::string(key));
   return found;
-}
-
-std::size_t digits(std::string_view text) {
-  const std::size_t end = text.find_first_not_of("0123456789");
-  return end == std::string_view::npos ? text.size() : end;
-}
-
-// "1.25", "-3e-2"; nothing if it is not.
-std::optional<Rational> decimal(std::string_view text) {
-  const bool negative = !text.empty() && text.front() == '-';
-  if (!text.empty() && (negative || text.front() == '+')) text.remove_prefix(1);
-  const std::size_t whole = digits(text);
-  std::string figures(text.substr(0, whole));
-  text.remove_prefix(whole);
-  long exponent = 0;
-  if (!text.empty() && text.front() == '.') {
-    const std::size_t part = digits(text.substr(1));
-    figures += text.substr(1, part);
-    exponent = -static_cast<long>(part);
-    text.remove_prefix(part + 1);
-  }
-  if (figures.empty()) return std::nullopt;
-  if (!text.empty()) {
-    if (text.front() != 'e' && text.front() != 'E') return std::nullopt;
-    text.remove_prefix(1);
-    const bool small = !text.empty() && text.front() == '-';
-    if (!text.empty() && (small || text.front() == '+')) text.remove_prefix(1);
-    if (text.empty() || text.size() > 9 || digits(text) != text.size()) return std::nullopt;
-    const long written = std::stol(std::string(text));
-    if (written > highest_exponent) return std::nullopt;
-    exponent += small ? -written : written;
-  }
-  Integer power;
-  mpz_ui_pow_ui(power.get_mpz_t(), 10, static_cast<unsigned long>(std::labs(exponent)));
-  const Integer n(figures, 10);
-  Rational q = exponent < 0 ? Rational(n, power) : Rational(Integer(n * power));
-  q.canonicalize();
-  return negative ? Rational(-q) : q;
 }
 
 Rationals polynomial(const Json* json) {
