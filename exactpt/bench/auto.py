@@ -21,7 +21,7 @@ from exactpt.scene.scene import Scene
 __all__ = ["FULL", "QUICK", "Sizes", "beside", "run"]
 
 DEFAULT: Final = "auto"
-WARM: Final = tuple(EVERYDAY[name](Random(0), 1) for name in ("spinning rocks", "a huge offset"))
+WARM: Final = tuple(EVERYDAY[name](Random(0), 3) for name in ("spinning rocks", "a huge offset"))
 
 
 class Sizes(NamedTuple):

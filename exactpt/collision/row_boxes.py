@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Boxes, overlapping_pairs, widen_unknown
 from exactpt.kernel.budget import ask
+from exactpt.kernel.doubles import middles
 from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.kernel.rounding import SLACK, TINY, U
 
@@ -68,7 +69,7 @@ class RowBoxes:
         self._c_error, self._v_error = np.array(errors).reshape(-1, 2).T
         self._start = np.array([enclosing_floats(row.start)[0] for row in rows])
         self._end = np.array([enclosing_floats(row.end)[1] for row in rows])
-        self.drift: Floats = np.median(self._v, axis=0) if len(rows) else np.zeros(2)
+        self.drift: Floats = middles(self._v) if len(rows) else np.zeros(2)
 
     @classmethod
     def of_doubles(cls, numbers: Floats, start: QQ, end: QQ) -> RowBoxes:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import shorten
 
-__all__ = ["Floats", "Indices", "doubles", "first_true", "indices"]
+__all__ = ["Floats", "Indices", "doubles", "first_true", "indices", "middles"]
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
@@ -75,3 +75,12 @@ def _refuse(wrong: NDArray[np.bool_], given: NDArray[np.generic], what: str, why
     if at is not None:
         place = f"[{', '.join(map(str, at))}]" if at else ""
         raise InputError(f"{what}{place}: {why}: {given[at]!s}")
+
+
+def middles(rows: Floats) -> Floats:
+    """The upper median of each column of one or more rows.
+
+    The first use of ``np.median`` imports ``numpy.ma``, which takes longer than many a question.
+    """
+    middle: Floats = np.sort(rows, axis=0)[len(rows) // 2]
+    return middle

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Boxes, widen_unknown
 from exactpt.kernel.budget import ask
+from exactpt.kernel.doubles import middles
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ class SweptBoxes:
         straight = ~self._turning & ~np.isnan(self._xs[:, 0])
         if drifting and straight.any():
             for drift, cs in zip(self.drift, (self._xs, self._ys), strict=True):
-                drift[1:] = np.median(cs[straight, 1:], axis=0)
+                drift[1:] = middles(cs[straight, 1:])
                 cs[~self._turning] -= drift
 
     def replace(self, first: int, images: Sequence[Image], errors: Sequence[float]) -> bool:
