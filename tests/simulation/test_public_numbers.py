@@ -46,6 +46,7 @@ ARGUMENTS = {
     "ray_cast": ((-50, "1/4"), (1, 0)),
     "refine_to": (Fraction(1, 100),),
     "relative_hull": ("box",),
+    "core_squared": ("1/3",),
     "squared": ("1/3",),
     "shorten": ([(-50, -50), (50, -50), (50, 50)],),
     "sign_after": ((-1, 1),),
