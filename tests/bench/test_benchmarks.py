@@ -317,11 +317,13 @@ def test_small(results, alone):
     assert {row["question"] for row in rows} == {
         "two triangles",
         "9 convex bodies",
+        "9 octagons",
+        "9 discs",
         "plans among 30 obstacles",
         "20 bodies of 4 pieces",
     }
     assert {row["error"] for row in rows if row["method"].startswith("exactpt")} <= {"0.0", ""}
-    assert len(rows) == 11
+    assert len(rows) == 13
 
 
 def test_a_wrong_answer_to_a_small_question_is_an_error(results, monkeypatch, alone):
