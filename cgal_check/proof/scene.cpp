@@ -115,7 +115,7 @@ Scene::Scene(const std::string& text) {
   const Json* time = json.find("time");
   const Json* bodies = json.find("bodies");
   if (!version || !time || !bodies) throw NoProof("the scene lacks a key");
-  if (version->kind != Json::Kind::number || exact_number(version) != 1)
+  if (version->kind != Json::Kind::number || version->text != "1")
     throw NoProof("the scene is of another version");
   if (list(time).size() != 2) throw NoProof("the scene has no time span");
   start_ = exact_number(&time->items[0]);

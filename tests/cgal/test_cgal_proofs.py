@@ -240,6 +240,7 @@ SCENES = [
     b"[" * 100_000 + b"]" * 100_000,
     b'{"exactpt": 1, "time": [0, 1], "bodies": [',
     b'{"exactpt": 2, "time": [0, 1], "bodies": []}',
+    b'{"exactpt": 1.0, "time": [0, 1], "bodies": []}',
     b'{"exactpt": 1, "time": [1, 1], "bodies": []}',
     b'{"exactpt": 1, "time": [0, NaN], "bodies": []}',
     b'{"exactpt": 1, "time": [0, 01], "bodies": []}',
