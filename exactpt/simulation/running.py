@@ -117,7 +117,8 @@ class Run:
             except ContactFound as contact:
                 found = contact
         if respond is None:
-            self._end_with(found)
+            with self._guarded():
+                self._end_with(found)
         else:
             self._answer(found, respond, grid)
         return True
@@ -177,7 +178,9 @@ class Run:
 
     def _answer(self, found: ContactFound, respond: Response, grid: QQ) -> None:
         """Respond just before a contact; unless something is changed, it takes place."""
-        living, kinetic, contact = self.living, self.living.kinetic, self._contact(found)
+        living, kinetic = self.living, self.living.kinetic
+        with self._guarded():
+            contact = self._contact(found)
         ahead = met(contact, living)
         if self.met is not None and ahead.is_again(self.met):
             self._record(found)

@@ -19,7 +19,9 @@ from exactpt.collision.contact import Contact, Pair
 from exactpt.errors import InputError
 from exactpt.indices import VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.integer_polynomial import sign_at, square_free
 from exactpt.kernel.numbers import QQ, ZZ, parse_rational, shorten, show
+from exactpt.kernel.sturm import count_roots, sturm_sequence
 from exactpt.motion.body import Body
 from exactpt.motion.frame import Frame
 from exactpt.motion.vertices import Vertices
@@ -136,9 +138,22 @@ def number_to_json(number: AlgebraicNumber) -> Data:
 
 
 def number_from_json(data: Data) -> AlgebraicNumber:
-    """The number that `number_to_json` has written."""
+    """The number that `number_to_json` has written.
+
+    Raises:
+        InputError: if the polynomial has not just one root in the interval: refinements of it
+            would not end.
+    """
     low, high = parse_rational(data["low"]), parse_rational(data["high"])
-    return AlgebraicNumber.root(tuple(ZZ(c) for c in data["polynomial"]), low, high)
+    f = tuple(ZZ(c) for c in data["polynomial"])
+    if low == high:
+        isolated = sign_at(f, low) == 0
+    else:
+        simple = len(f) > 1 and len(square_free(f)) == len(f)
+        isolated = simple and low < high and count_roots(sturm_sequence(f), low, high) == 1
+    if not isolated:
+        raise InputError(f"no root of its polynomial: {shorten(data)}")
+    return AlgebraicNumber.root(f, low, high)
 
 
 def _time_to_json(time: EventTime) -> Data:

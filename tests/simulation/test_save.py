@@ -254,6 +254,30 @@ def test_bug_rings_without_all_vertices_are_refused(tmp_path, place, value, mess
         Simulation.restore(tmp_path / "run.json")
 
 
+@pytest.mark.parametrize(
+    "number",
+    [
+        {"polynomial": ["-2", "0", "1"], "low": "2", "high": "3"},
+        {"polynomial": ["-2", "0", "1"], "low": "-2", "high": "2"},
+        {"polynomial": ["-2", "0", "1"], "low": "2", "high": "1"},
+        {"polynomial": ["4", "0", "-4", "0", "1"], "low": "1", "high": "2"},
+        {"polynomial": ["-2", "1"], "low": "3", "high": "3"},
+        {"polynomial": [], "low": "1", "high": "2"},
+    ],
+    ids=["none", "two", "no interval", "a double one", "another number", "of nothing"],
+)
+def test_bug_times_that_are_no_roots_are_refused(tmp_path, number):
+    """Their refinement had no end, after the last event, where no deadline was asked for."""
+    simulation = Simulation(generate("convex", 2), tiling="greedy")
+    simulation.step()
+    data = without_seal(simulation.to_json())
+    forged = changed(data, ("state", "now", "exact"), number)
+    (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
+
+    with pytest.raises(InputError, match="no root of its polynomial"):
+        Simulation.restore(tmp_path / "run.json")
+
+
 def test_the_size_of_a_file_is_bounded(tmp_path):
     Simulation(generate("stars", 2)).save(tmp_path / "run.json")
 
