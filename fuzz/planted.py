@@ -31,10 +31,18 @@ from exactpt.tiling.clock import Clock
 from exactpt.tiling.greedy.greedy import VerticalRules
 from exactpt.tiling.repairs import Repairs
 from fuzz.cases import Failure, failure_of
+from fuzz.small_scope.look import look
+from fuzz.small_scope.scope import planned
 
 __all__ = ["PLANTED", "WITNESSES", "Found", "hunt", "table"]
 
 WITNESSES: Final = ("reference", "static", "filters", "symmetry")
+
+IN_SMALL_SCOPE: Final = frozenset({"even zeros of copies ignored"})
+"""Bugs that hardly show in families: they are hunted in the small scope."""
+
+SMALL_SCOPE: Final = 1000
+"""Number of scenes of the small scope in which these are looked for."""
 
 Function = Callable[..., Any]
 
@@ -270,14 +278,16 @@ class Found:
 
 
 def hunt(bug: str, most: int = 400, witnesses: Sequence[str] = WITNESSES, seed: int = 0) -> Found:
-    """Look for a planted bug in at most ``most`` scenes of a campaign.
+    """Look for a planted bug in at most ``most`` scenes of a campaign, or of the small scope.
 
     Raises:
         InputError: if the package is compiled: compiled functions cannot be patched.
     """
     if not filters.__file__.endswith(".py"):
         raise InputError("mistakes are planted in the plain package only: make plain")
-    began = clock.perf_counter()
+    began = clock.process_time()
+    if bug in IN_SMALL_SCOPE:
+        return _hunt_in_small_scope(bug, began)
     families = list(FAMILIES)
     for number in range(most):
         family = families[number % len(families)]
@@ -286,8 +296,20 @@ def hunt(bug: str, most: int = 400, witnesses: Sequence[str] = WITNESSES, seed: 
             for witness in witnesses:
                 failure = failure_of(witness, scene, number, patience=5.0)
                 if failure is not None:
-                    return Found(bug, failure, family, number + 1, clock.perf_counter() - began)
-    return Found(bug, None, "", most, clock.perf_counter() - began)
+                    return Found(bug, failure, family, number + 1, clock.process_time() - began)
+    return Found(bug, None, "", most, clock.process_time() - began)
+
+
+def _hunt_in_small_scope(bug: str, began: float) -> Found:
+    for number in range(SMALL_SCOPE):
+        with PLANTED[bug]():
+            seen = look(planned(number))
+        for answer in seen.answers:
+            if answer.fault is not None:
+                failure = Failure(answer.method, answer.fault, answer.fault, "")
+                seconds = clock.process_time() - began
+                return Found(bug, failure, "the small scope", number + 1, seconds)
+    return Found(bug, None, "", SMALL_SCOPE, clock.process_time() - began)
 
 
 def table(found: Sequence[Found]) -> list[str]:
