@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import signal
+import sys
 import threading
 import time as clock
 from collections.abc import Iterator
@@ -90,14 +91,19 @@ def _signals(seconds: float, left: float, ends: float | None) -> Iterator[None]:
 
 @contextlib.contextmanager
 def _watched(seconds: float, ends: float | None) -> Iterator[None]:
-    """The same for a thread, by a second thread that watches the time."""
+    """The same for a thread, by a second thread that watches the time.
+
+    It watches no longer than the function that asked for the limit runs. So it ends even if an
+    exception that it raises arrives while it is withdrawn, and another thread, which may have the
+    identifier of this one later, is left alone.
+    """
     over = threading.Lock()
     over.acquire()
-    thread = ctypes.c_ulong(threading.get_ident())
+    thread, asker = ctypes.c_ulong(threading.get_ident()), _asker()
 
     def watch() -> None:
         wait = seconds
-        while not over.acquire(timeout=wait):
+        while not over.acquire(timeout=wait) and _runs(asker, thread.value):
             kind = ctypes.py_object(_over(ends))
             ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, kind)
             wait = AGAIN
@@ -108,6 +114,22 @@ def _watched(seconds: float, ends: float | None) -> Iterator[None]:
         yield
     finally:
         _withdraw(over, watcher, thread)
+
+
+def _asker() -> FrameType | None:
+    """The frame of the function that has entered `limit`."""
+    frame: FrameType | None = sys._getframe()
+    while frame is not None and frame.f_code.co_filename in (__file__, contextlib.__file__):
+        frame = frame.f_back
+    return frame
+
+
+def _runs(function: FrameType | None, thread: int) -> bool:
+    """Whether a frame is one of those that a thread is in."""
+    frame = sys._current_frames().get(thread)
+    while frame is not None and frame is not function:
+        frame = frame.f_back
+    return frame is not None
 
 
 def _withdraw(over: threading.Lock, watcher: threading.Thread, thread: ctypes.c_ulong) -> None:

@@ -110,6 +110,34 @@ def test_a_limit_in_a_thread_is_over_when_it_is_left():
     assert done == [True]
 
 
+def test_bug_a_watch_that_was_not_withdrawn_ends_with_the_function_that_asked():
+    """It went on, and killed whichever thread got the identifier next: a pool of processes hung."""
+    kept, raised = [], []
+
+    def ask():
+        kept.append(limit(0.05))
+        kept[0].__enter__()
+
+    def work():
+        ask()
+        try:
+            time.sleep(0.2)
+            for _ in range(1000):
+                pass
+        except TooSlow as late:
+            raised.append(late)
+
+    before = set(threading.enumerate())
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    for watcher in set(threading.enumerate()) - before:
+        watcher.join(5)
+
+    assert raised == []
+    assert set(threading.enumerate()) <= before
+
+
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_a_limit_of_time_holds_for_a_witness_that_hangs(monkeypatch, jobs):
     """Neither its patience nor the time for shrinking go beyond the end of the campaign."""
