@@ -120,7 +120,7 @@ def look_at_proof(planned: Planned) -> Look:
         check_proof(planned.scene, tiling, in_python=in_python)
 
     answer = _answer(f"proof {name}", check, name)
-    return Look(planned, contact=False, as_planned=False, answers=[answer])
+    return Look(planned, contact=None, as_planned=False, answers=[answer])
 
 
 def _as_planned(planned: Planned, contact: Contact | None) -> bool:
