@@ -13,7 +13,7 @@ from exactpt.testing.families import FAMILIES, LINEAR, make_question
 from exactpt.testing.questions import Moving, Question
 from exactpt.testing.shrinking import shrink
 from exactpt.testing.table import Table
-from exactpt.testing.truths import Truth, truths
+from exactpt.testing.truth import Truth, truths
 
 __all__ = [
     "FAMILIES",

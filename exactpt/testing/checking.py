@@ -16,7 +16,7 @@ from exactpt.testing.families import FAMILIES, make_question
 from exactpt.testing.questions import Question
 from exactpt.testing.shrinking import shrink_data
 from exactpt.testing.table import Table
-from exactpt.testing.truths import Truth, truth_of, truths
+from exactpt.testing.truth import Truth, truth_of, truths
 
 __all__ = ["Counterexample", "Report", "check"]
 
@@ -65,7 +65,7 @@ class Report:
     counterexamples: tuple[Counterexample, ...]
     _module: str
     _function: str
-    _tolerance: Rational
+    _tolerance: float
 
     @property
     def ok(self) -> bool:
@@ -138,7 +138,7 @@ def check(
         worst.see(found, question)
     examples = tuple(_shrunken(toi, found, q, exact) for found, q in worst.in_order())
     module, function = (getattr(toi, key, "") for key in ("__module__", "__qualname__"))
-    return Report(table, examples, module, function, tolerance)
+    return Report(table, examples, module, function, float(exact))
 
 
 def _with_truths(asked: Sequence[Question]) -> Iterator[tuple[Question, Truth]]:

@@ -11,7 +11,7 @@ from exactpt.testing.comparing import verdict
 from exactpt.testing.families import FAMILIES, make_question
 from exactpt.testing.questions import Asked, Name, double, objects, read_question
 from exactpt.testing.table import Table
-from exactpt.testing.truths import truths
+from exactpt.testing.truth import truths
 
 __all__ = ["NO_ANSWER", "judged", "questions_in"]
 
@@ -50,7 +50,11 @@ def judged(
     table, wrong, names = Table(), list[str](), list(questions)
     for first in range(0, len(names), CHUNK):
         some = names[first : first + CHUNK]
-        for name, truth in zip(some, truths([questions[n] for n in some]), strict=True):
+        try:
+            right = truths([questions[n] for n in some])
+        except InputError as error:
+            raise InputError(f"among its questions: {error}") from None
+        for name, truth in zip(some, right, strict=True):
             answer = given.get(name, NO_ANSWER)
             found = verdict(truth.time, answer, tolerance)
             table.count(_family(name), found)

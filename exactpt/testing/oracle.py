@@ -11,7 +11,7 @@ from typing import BinaryIO, Final
 
 from exactpt.errors import InputError
 from exactpt.testing.questions import Asked, Name, read_question
-from exactpt.testing.truths import Truth, truths
+from exactpt.testing.truth import Truth, truths
 
 __all__ = ["Refusals", "answers", "batches"]
 

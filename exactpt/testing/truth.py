@@ -116,21 +116,23 @@ def _pair(contacts: Contacts, k: int) -> dict[str, object] | None:
 def _time(question: Question, contacts: Contacts, k: int) -> AlgebraicNumber | None:
     """The time as the one root of the first incidence's polynomial in the enclosure of arrays.
 
-    None if it is not clear that there is one: a quadratic has exactly one root between two
-    places where its signs are opposite.
+    None if it is not clear that there is one. A quadratic has exactly one root between two
+    places where its signs are opposite, and one root in all if its discriminant is 0.
     """
-    mover, other = (question.a, question.b)[:: 1 if contacts.body[k] == 0 else -1]
-    f = _incidence(mover, other, contacts, k)
-    if f.degree == 1:
-        c0, c1 = f._coefficients
-        return AlgebraicNumber(-c0 / c1)
-    if f.degree != 2:
-        return None
     low, high = rational(float(contacts.low[k])), rational(float(contacts.high[k]))
-    cleared = f._integer()  # noqa: SLF001
-    if sign_at(cleared, low) * sign_at(cleared, high) >= 0:
+    if low == high:
+        return AlgebraicNumber(low)
+    mover, other = (question.a, question.b)[:: 1 if contacts.body[k] == 0 else -1]
+    f = _incidence(mover, other, contacts, k)._integer()  # noqa: SLF001
+    if len(f) == 2:
+        return AlgebraicNumber(QQ(-f[0], f[1]))
+    if len(f) != 3:
         return None
-    return AlgebraicNumber.root(cleared, low, high)
+    if f[1] * f[1] == 4 * f[0] * f[2]:
+        return AlgebraicNumber(QQ(-f[1], 2 * f[2]))
+    if sign_at(f, low) * sign_at(f, high) >= 0:
+        return None
+    return AlgebraicNumber.root(f, low, high)
 
 
 def _incidence(mover: Moving, other: Moving, contacts: Contacts, k: int) -> Polynomial:

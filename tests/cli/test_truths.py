@@ -205,7 +205,7 @@ def test_the_judge_says_what_is_wrong(tmp_path, capsys):
 def test_what_is_no_answer_is_refused(tmp_path, capsys, text, says):
     (tmp_path / "a.jsonl").write_text(text)
 
-    assert code_of("judge", str(tmp_path / "a.jsonl")) == 2
+    assert code_of("judge", tmp_path / "a.jsonl") == 2
 
     err = capsys.readouterr().err
     assert says in err
@@ -220,6 +220,16 @@ def test_a_question_without_an_answer_counts_as_crashed(tmp_path):
     result = run("judge", tmp_path / "a.jsonl", "--questions", tmp_path / "q.jsonl")
 
     assert result.stdout.splitlines()[1].split() == ["others", "1", "0", "0", "0", "0", "1"]
+
+
+def test_a_question_that_has_no_truth_is_named(tmp_path, capsys):
+    bow = {"vertices": [[0, 0], [1, 1], [1, 0], [0, 1]]}
+    line = json.dumps({"id": 1, "time": [0, 1], "a": STILL, "b": bow})
+    (tmp_path / "q.jsonl").write_text(line)
+    (tmp_path / "a.jsonl").write_text('{"id": 1, "time": 0}')
+
+    assert code_of("judge", tmp_path / "a.jsonl", "--questions", tmp_path / "q.jsonl") == 2
+    assert "a.jsonl: among its questions: body " in capsys.readouterr().err
 
 
 def test_a_wrong_family_is_refused(capsys):
