@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import Final, TypeAlias, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, rational
+from exactpt.kernel.numbers import QQ, Rational
 from exactpt.scene.format import from_json, to_json
-from exactpt.testing.comparing import TOLERANCE, VERDICTS, shown_time, verdict
+from exactpt.testing.comparing import TOLERANCE, VERDICTS, bound, shown_time, verdict
 from exactpt.testing.families import FAMILIES, make_question
 from exactpt.testing.questions import Question
 from exactpt.testing.shrinking import shrink_data
@@ -125,9 +125,9 @@ def check(
             missed or invented, however near.
 
     Raises:
-        InputError: if there is no such family.
+        InputError: if there is no such family, or the tolerance is negative.
     """
-    table, worst, exact = Table(), _Worst(), rational(tolerance)
+    table, worst, exact = Table(), _Worst(), bound(tolerance)
     names = list(FAMILIES if families is None else families)
     if not names:
         raise InputError("families: none is named")

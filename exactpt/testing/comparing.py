@@ -12,7 +12,15 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, rational, shorten
 from exactpt.scene.scene import Scene
 
-__all__ = ["TOLERANCE", "VERDICTS", "Answer", "assert_same_contact", "shown_time", "verdict"]
+__all__ = [
+    "TOLERANCE",
+    "VERDICTS",
+    "Answer",
+    "assert_same_contact",
+    "bound",
+    "shown_time",
+    "verdict",
+]
 
 VERDICTS: Final = ("right", "missed", "invented", "early", "late", "crashed")
 """What an answer can be."""
@@ -22,6 +30,18 @@ TOLERANCE: Final = 1e-9
 
 Answer: TypeAlias = "Rational | AlgebraicNumber | Mapping[str, object] | Contact | None"
 """A time, or None for no contact; a contact, or one as JSON (docs/format.md), has witnesses too."""
+
+
+def bound(tolerance: Rational) -> QQ:
+    """A tolerance as a rational.
+
+    Raises:
+        InputError: if it is negative, or no number.
+    """
+    exact = rational(tolerance)
+    if exact < 0:
+        raise InputError(f"a tolerance is not negative: {shorten(tolerance)}")
+    return exact
 
 
 def verdict(time: AlgebraicNumber | None, answer: object, tolerance: QQ) -> str:
@@ -65,7 +85,7 @@ def assert_same_contact(scene: Scene, answer: Answer, *, tolerance: Rational = T
     if not isinstance(pairs, Sequence) or not all(isinstance(p, Mapping) for p in pairs):
         raise InputError(f"not pairs of features: {shorten(pairs)}")
     truth = first_contact(scene)
-    fault = verdict(None if truth is None else truth.time, given, rational(tolerance))
+    fault = verdict(None if truth is None else truth.time, given, bound(tolerance))
     if fault == "crashed":
         raise InputError(f"not a time: {shorten(given)}")
     if fault != "right":

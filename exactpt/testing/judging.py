@@ -6,8 +6,8 @@ from collections.abc import Iterable, Sequence
 from typing import Final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, shorten
-from exactpt.testing.comparing import verdict
+from exactpt.kernel.numbers import Rational, shorten
+from exactpt.testing.comparing import bound, verdict
 from exactpt.testing.families import FAMILIES, make_question
 from exactpt.testing.questions import Asked, Name, double, objects, read_question
 from exactpt.testing.table import Table
@@ -21,7 +21,7 @@ NO_ANSWER: Final = object()
 
 
 def judged(
-    answers: Iterable[bytes], asked: dict[Name, Asked] | None, tolerance: QQ
+    answers: Iterable[bytes], asked: dict[Name, Asked] | None, tolerance: Rational
 ) -> tuple[Table, list[str]]:
     """The table of answers, and a line for each wrong one.
 
@@ -32,8 +32,10 @@ def judged(
         tolerance: the largest error of a time that is none.
 
     Raises:
-        InputError: if a line is no answer, or answers no question or one a second time.
+        InputError: if a line is no answer, or answers no question or one a second time; or if
+            the tolerance is negative.
     """
+    exact = bound(tolerance)
     given: dict[Name, object] = {}
     for number, line in enumerate(answers, 1):
         if line.strip():
@@ -56,7 +58,7 @@ def judged(
             raise InputError(f"among its questions: {error}") from None
         for name, truth in zip(some, right, strict=True):
             answer = given.get(name, NO_ANSWER)
-            found = verdict(truth.time, answer, tolerance)
+            found = verdict(truth.time, answer, exact)
             table.count(_family(name), found)
             if found != "right":
                 wrong.append(f"{name}: {found}")

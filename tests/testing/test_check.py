@@ -135,6 +135,11 @@ def test_a_wrong_family_is_refused():
         check(toi, families=[])
 
 
+def test_a_negative_tolerance_is_refused():
+    with pytest.raises(InputError, match="a tolerance is not negative: -1"):
+        check(toi, tolerance=-1)
+
+
 def test_the_tolerance_is_exact():
     def off(question):
         return truth_of(question).time.low + 1
