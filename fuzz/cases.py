@@ -13,8 +13,8 @@ from typing import NamedTuple
 from exactpt.errors import InputError
 from exactpt.scene.format import loads, to_json
 from exactpt.scene.scene import Scene
+from exactpt.testing.shrinking import shrink_data
 from fuzz.limits import HANGS, TimeIsUp, TooSlow, limit, patience_of
-from fuzz.shrink import shrink
 from fuzz.subscene import scene_of
 from fuzz.witnesses import WITNESSES, Difference
 
@@ -183,5 +183,5 @@ def shrunk(
         return True
 
     with contextlib.suppress(TimeIsUp):
-        shrink(json.loads(failure.scene), still_fails, seconds)
+        shrink_data(json.loads(failure.scene), still_fails, seconds)
     return best

@@ -19,6 +19,7 @@ from exactpt.cli.pictures import demo, draw
 from exactpt.cli.runs import collide, simulate
 from exactpt.cli.terminal import drop_standard_output, encodable, tell
 from exactpt.cli.tilings import check, tile
+from exactpt.cli.truths import judge, oracle, questions
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 
 __all__ = ["cli", "main"]
@@ -68,7 +69,10 @@ def cli() -> None:
     """
 
 
-for _command in (demo, collide, simulate, tile, check, draw, convert, generate, bench):
+_COMMANDS = (
+    demo, collide, simulate, tile, check, draw, convert, generate, questions, oracle, judge, bench,
+)  # fmt: skip
+for _command in _COMMANDS:
     cli.add_command(_command)
 
 

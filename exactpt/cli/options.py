@@ -28,6 +28,7 @@ __all__ = [
     "RATIONAL",
     "SCENE",
     "SCENE_FILE",
+    "SECONDS",
     "TILING",
     "bounded",
     "budget",
@@ -85,6 +86,7 @@ SCENE_FILE: Final = "exactpt.scene"
 """Key in the context of a command under which its scene file is kept."""
 
 RATIONAL = _Rational()
+SECONDS = _Seconds(min=0)
 MOMENT = _Moment()
 SCENE = click.argument("scene", type=click.Path(path_type=Path), metavar="SCENE")
 TILING = click.option(
@@ -120,9 +122,9 @@ def bounded(command: Callable[..., Any]) -> Callable[..., Any]:
         callback=_keep_bound,
         expose_value=False,
     )(command)
-    return click.option(
-        "--max-seconds", type=_Seconds(min=0), help="Stop after this time (exit code 4)."
-    )(command)
+    return click.option("--max-seconds", type=SECONDS, help="Stop after this time (exit code 4).")(
+        command
+    )
 
 
 def max_memory() -> int | None:

@@ -124,7 +124,7 @@ def _look_at_proof(planned: Planned) -> Look:
         check_proof(planned.scene, tiling, in_python=in_python)
 
     answer = _answer(f"proof {name}", check, name)
-    return Look(planned, None, as_planned=False, answers=[answer])
+    return Look(planned, contact=None, as_planned=False, answers=[answer])
 
 
 def _as_planned(planned: Planned, contact: Contact | None) -> bool:

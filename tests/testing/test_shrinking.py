@@ -2,9 +2,11 @@
 
 import json
 
+import pytest
+
 from exactpt.scene.format import loads, to_json
 from exactpt.scene.generate import FAMILIES, generate
-from fuzz.shrink import shrink
+from exactpt.testing.shrinking import shrink, shrink_data
 
 
 def shrunk(data, fails):
@@ -15,7 +17,7 @@ def shrunk(data, fails):
             return False
         return fails(candidate)
 
-    return shrink(data, judged, seconds=30.0)
+    return shrink_data(data, judged, seconds=30.0)
 
 
 def test_one_guilty_body_is_left_alone_and_at_rest():
@@ -67,4 +69,15 @@ def test_what_never_fails_again_is_left_as_it_is():
 def test_time_runs_out():
     data = to_json(generate("convex", 1))
 
-    assert shrink(data, lambda _: True, seconds=0.0) == data
+    assert shrink_data(data, lambda _: True, seconds=0.0) == data
+
+
+def test_a_scene_is_shrunken_to_a_scene():
+    smallest = shrink(generate("convex", 1), lambda scene: len(scene.bodies) > 1)
+
+    assert [body.size for body in smallest.bodies] == [1, 1]
+
+
+def test_a_scene_that_does_not_fail_is_refused():
+    with pytest.raises(ValueError, match="the scene itself does not fail"):
+        shrink(generate("row", 0), lambda _: False)

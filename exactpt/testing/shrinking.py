@@ -1,5 +1,7 @@
 """Shrinking: a smaller scene that still fails, by delta debugging on its JSON data.
 
+The fuzzer of the repository shrinks by it too.
+
 Source: A. Zeller and R. Hildebrandt, *Simplifying and isolating failure-inducing input*,
 IEEE Transactions on Software Engineering 28 (2002) 183-200: remove halves first, then
 quarters, and so on.
@@ -14,7 +16,11 @@ from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any, Final, TypeAlias
 
-__all__ = ["shrink"]
+from exactpt.errors import InputError
+from exactpt.scene.format import from_json, to_json
+from exactpt.scene.scene import Scene
+
+__all__ = ["shrink", "shrink_data"]
 
 Data: TypeAlias = Any
 """A scene as JSON data. Candidates may be invalid scenes; ``fails`` must be false for these."""
@@ -22,7 +28,34 @@ Data: TypeAlias = Any
 Path: TypeAlias = tuple[str | int, ...]
 
 
-def shrink(data: Data, fails: Callable[[Data], bool], seconds: float) -> Data:
+def shrink(scene: Scene, fails: Callable[[Scene], bool], *, seconds: float = 60.0) -> Scene:
+    """The smallest scene found for which something still fails.
+
+    Fewer bodies, a shorter span, fewer vertices, simpler motions, rounder numbers: each is kept
+    if ``fails`` is true of the scene then.
+
+    Args:
+        scene: a scene for which ``fails`` is true.
+        fails: whether a scene fails. It is asked about valid scenes alone.
+        seconds: time limit; the search ends by itself, too.
+
+    Raises:
+        ValueError: if ``fails`` is false for the scene itself.
+    """
+    if not fails(scene):
+        raise ValueError("nothing to be shrunken: the scene itself does not fail")
+
+    def fails_as_data(data: Data) -> bool:
+        try:
+            smaller = from_json(data)
+        except InputError:
+            return False
+        return fails(smaller)
+
+    return from_json(shrink_data(to_json(scene), fails_as_data, seconds))
+
+
+def shrink_data(data: Data, fails: Callable[[Data], bool], seconds: float) -> Data:
     """The smallest scene found in time for which ``fails`` holds; it must hold for ``data``."""
     deadline = clock.monotonic() + seconds
     best, size = data, _size(data)

@@ -1,0 +1,207 @@
+"""check: anyone's time of impact against the truth, with shrunken counterexamples."""
+
+from __future__ import annotations
+
+import math
+import pprint
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final, TypeAlias, final
+
+from exactpt.errors import InputError
+from exactpt.kernel.numbers import QQ, Rational
+from exactpt.scene.format import from_json, to_json
+from exactpt.testing.comparing import TOLERANCE, VERDICTS, bound, shown_time, verdict
+from exactpt.testing.families import FAMILIES, make_question
+from exactpt.testing.questions import Question
+from exactpt.testing.shrinking import shrink_data
+from exactpt.testing.table import Table
+from exactpt.testing.truth import Truth, truth_of, truths
+
+__all__ = ["Counterexample", "Report", "check"]
+
+Toi: TypeAlias = Callable[[Question], object]
+
+CHUNK: Final = 1000
+"""Number of questions whose truths are found at once."""
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Counterexample:
+    """A question that is answered wrong, shrunken.
+
+    Attributes:
+        verdict: what is wrong: "missed", "invented", "early", "late" or "crashed".
+        question: the question; its ``name`` is that of the question that was shrunken.
+        answer: the wrong answer, or the exception.
+        truth: the right one.
+    """
+
+    verdict: str
+    question: Question
+    answer: object
+    truth: Truth
+
+    def __str__(self) -> str:
+        time = self.truth.time
+        right = "no contact" if time is None else f"a contact at t = {shown_time(time)}"
+        sizes = f"{len(self.question.a.vertices)} and {len(self.question.b.vertices)} vertices"
+        said = "no contact" if self.answer is None else repr(self.answer)
+        return f"{self.verdict} ({self.question.name}, {sizes}): {said}; the truth is {right}"
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What `check` has found. ``str(report)`` is the table and a line for each counterexample.
+
+    Attributes:
+        table: the verdicts, by family.
+        counterexamples: at most one for each way to be wrong.
+    """
+
+    table: Table
+    counterexamples: tuple[Counterexample, ...]
+    _module: str
+    _function: str
+    _tolerance: float
+
+    @property
+    def ok(self) -> bool:
+        """Whether all answers are right."""
+        return self.table.ok
+
+    def pytest_file(self) -> str:
+        """The text of a pytest file with a test for each counterexample."""
+        known = self._module != "__main__" and self._function.isidentifier()
+        imported = f"from {self._module} import {self._function} as toi"
+        other = "from my_module import toi  # the place of your function"
+        head = [
+            '"""Questions that were answered wrong, found by exactpt.testing."""\n',
+            "from exactpt.testing import Question, assert_same_contact\n",
+            imported if known else other,
+        ]
+        return "\n".join([*head, *map(self._test, self.counterexamples)]) + "\n"
+
+    def _test(self, example: Counterexample) -> str:
+        data = {**example.question.to_json(), "id": example.question.name}
+        written = pprint.pformat(data, indent=1, width=92, sort_dicts=False)
+        return (
+            f"\n\ndef test_{example.verdict}():\n"
+            f'    """{_one_line(str(example))}"""\n'
+            f"    question = Question.from_json(\n{_indented(written, 8)}\n    )\n"
+            f"    assert_same_contact("
+            f"question.scene, toi(question), tolerance={self._tolerance!r})"
+        )
+
+    def __str__(self) -> str:
+        return "\n".join([str(self.table), *map(str, self.counterexamples)])
+
+
+def check(
+    toi: Toi,
+    *,
+    cases: int = 1000,
+    seed: int = 0,
+    families: Sequence[str] | None = None,
+    tolerance: Rational = TOLERANCE,
+) -> Report:
+    """Ask a function for times of impact, and compare its answers with the truth.
+
+    >>> from exactpt.testing import check
+    >>> report = check(lambda question: None, cases=4, families=["edge_to_edge"])
+    >>> report.table.total["missed"], report.ok
+    (4, False)
+
+    Args:
+        toi: takes a `Question`, and returns the time of the first contact (a float, an integer,
+            a Fraction), or None if there is none in the closed time span. Whatever else it
+            returns or raises counts as crashed.
+        cases: the number of questions, dealt to the families in turn.
+        seed: the seed of the questions.
+        families: names of `FAMILIES`; all if not given.
+        tolerance: the largest error of a time that is none. It forgives no contact that is
+            missed or invented, however near.
+
+    Raises:
+        InputError: if there is no such family, or the tolerance is negative.
+    """
+    table, worst, exact = Table(), _Worst(), bound(tolerance)
+    names = list(FAMILIES if families is None else families)
+    if not names:
+        raise InputError("families: none is named")
+    asked = [make_question(names[i % len(names)], seed, i // len(names)) for i in range(cases)]
+    for question, truth in _with_truths(asked):
+        found, _ = _judged(toi, question, truth, exact)
+        table.count(str(question.name).partition(":")[0], found)
+        worst.see(found, question)
+    examples = tuple(_shrunken(toi, found, q, exact) for found, q in worst.in_order())
+    module, function = (getattr(toi, key, "") for key in ("__module__", "__qualname__"))
+    return Report(table, examples, module, function, float(exact))
+
+
+def _with_truths(asked: Sequence[Question]) -> Iterator[tuple[Question, Truth]]:
+    for first in range(0, len(asked), CHUNK):
+        some = asked[first : first + CHUNK]
+        yield from zip(some, truths(some), strict=True)
+
+
+class _Worst:
+    """The smallest question of each verdict."""
+
+    def __init__(self) -> None:
+        self._smallest: dict[str, Question] = {}
+
+    def see(self, found: str, question: Question) -> None:
+        before = self._smallest.get(found)
+        if before is None or question.size < before.size:
+            self._smallest[found] = question
+
+    def in_order(self) -> list[tuple[str, Question]]:
+        return [(v, self._smallest[v]) for v in VERDICTS[1:] if v in self._smallest]
+
+
+def _judged(toi: Toi, question: Question, truth: Truth, tolerance: QQ) -> tuple[str, object]:
+    """The verdict about an answer, and the answer, which may be an exception."""
+    try:
+        answer = toi(question)
+    except Exception as error:  # what a wrong function does is a finding
+        return "crashed", error
+    return verdict(truth.time, answer, tolerance), answer
+
+
+def _shrunken(toi: Toi, found: str, question: Question, tolerance: QQ) -> Counterexample:
+    """The smallest question found that is wrong in the same way.
+
+    A polygon stays one, and the kind of the true contact stays, too: otherwise most shrink to two
+    points that touch at the start, which is another fault.
+    """
+    kept = _polygons(question), truth_of(question).kind
+
+    def fails(data: dict[str, object]) -> bool:
+        try:
+            smaller = Question.from_scene(from_json(data))
+            if _polygons(smaller) != kept[0]:
+                return False
+            truth = truth_of(smaller)
+        except InputError:
+            return False
+        return truth.kind == kept[1] and _judged(toi, smaller, truth, tolerance)[0] == found
+
+    data = shrink_data(to_json(question.scene), fails, math.inf)
+    smallest = Question.from_scene(from_json(data), question.name)
+    truth = truth_of(smallest)
+    return Counterexample(found, smallest, _judged(toi, smallest, truth, tolerance)[1], truth)
+
+
+def _polygons(question: Question) -> list[bool]:
+    return [body.closed and len(body.vertices) > 2 for body in (question.a, question.b)]
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split()).replace("\\", "\\\\").replace('"', "'")
+
+
+def _indented(text: str, width: int) -> str:
+    return "\n".join(" " * width + line for line in text.splitlines())

@@ -1,0 +1,109 @@
+"""The oracle: questions as lines of JSON in, truths as lines of JSON out, in the same order."""
+
+from __future__ import annotations
+
+import json
+import os
+import select
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import BinaryIO, Final
+
+from exactpt.errors import InputError
+from exactpt.testing.questions import Asked, Name, read_question
+from exactpt.testing.truth import Truth, truths
+
+__all__ = ["Refusals", "answers", "batches"]
+
+MOST: Final = 4096
+"""Most questions that are answered at once."""
+LONGEST: Final = 1 << 24
+"""Most bytes of a line."""
+PIECE: Final = 1 << 16
+
+
+@dataclass(slots=True)
+class Refusals:
+    """How many questions were refused, and the reason of the first."""
+
+    count: int = 0
+    first: str = ""
+
+
+def batches(stream: BinaryIO) -> Iterator[list[bytes]]:
+    """The lines of a stream, as many at a time as have come: it never waits with lines in hand.
+
+    Raises:
+        InputError: if a line is longer than `LONGEST`.
+    """
+    rest = b""
+    while piece := _next_piece(stream):
+        lines = (rest + piece).split(b"\n")
+        while len(lines) <= MOST and _has_more(stream) and (piece := _next_piece(stream)):
+            more = (lines.pop() + piece).split(b"\n")
+            lines += more
+            if len(lines[-1]) > LONGEST:
+                break
+        rest = lines.pop()
+        if len(rest) > LONGEST:
+            raise InputError(f"a line of more than {LONGEST} bytes")
+        if lines:
+            yield lines
+    if rest:
+        yield [rest]
+
+
+def _next_piece(stream: BinaryIO) -> bytes:
+    """What has come; waits for it. Empty at the end."""
+    return os.read(stream.fileno(), PIECE)
+
+
+def _has_more(stream: BinaryIO) -> bool:
+    return bool(select.select([stream], [], [], 0)[0])
+
+
+def answers(lines: Sequence[bytes], first: int, refusals: Refusals) -> Iterator[str]:
+    """The answers to lines of questions, each a line of JSON; empty lines have none.
+
+    Args:
+        lines: the questions.
+        first: the number of the first line, from 1; it is the id of a question without one.
+        refusals: where the refused ones are counted. Their answer is ``{"id", "error"}``.
+    """
+    names: list[Name] = []
+    found: list[Truth | InputError] = []
+    asked: list[Asked] = []
+    places: list[int] = []
+    for number, line in enumerate(lines, first):
+        if not line.strip():
+            continue
+        try:
+            name, question = read_question(line)
+        except InputError as error:
+            names.append(number)
+            found.append(error)
+            continue
+        names.append(number if name is None else name)
+        places.append(len(found))
+        asked.append(question)
+        found.append(Truth(None))
+    for place, answer in zip(places, _each(asked), strict=True):
+        found[place] = answer
+    for name, answer in zip(names, found, strict=True):
+        if isinstance(answer, Truth):
+            yield json.dumps({"id": name, **answer.to_json()})
+        else:
+            refusals.count += 1
+            refusals.first = refusals.first or f"question {name}: {answer}"
+            yield json.dumps({"id": name, "error": str(answer)})
+
+
+def _each(asked: Sequence[Asked]) -> list[Truth | InputError]:
+    """The truth of each question, or why it has none: halves are asked again without the others."""
+    try:
+        return [*truths(asked)]
+    except InputError as error:
+        if len(asked) == 1:
+            return [error]
+    middle = len(asked) // 2
+    return _each(asked[:middle]) + _each(asked[middle:])

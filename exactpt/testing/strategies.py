@@ -1,0 +1,146 @@
+"""What Hypothesis draws from: outlines, motions, pairs of bodies in motion, whole scenes.
+
+>>> from hypothesis import given, settings
+>>> from exactpt.testing import strategies
+>>> @settings(max_examples=5)
+... @given(strategies.pairs_in_motion(family="grazing_corner"))
+... def test(question):
+...     assert question.scene.bodies[0].name == "a"
+>>> test()
+
+All numbers are doubles, and mean exactly what they say. Hypothesis shrinks what is drawn; so does
+`exactpt.testing.shrink`, if it is a scene.
+"""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from exactpt.errors import InputError
+from exactpt.geometry.predicates import side
+from exactpt.kernel.numbers import rational
+from exactpt.motion.motions import Rigid, Translation
+from exactpt.scene.families.shapes import hull
+from exactpt.scene.generate import FAMILIES as SCENES
+from exactpt.scene.generate import POINTS, generate
+from exactpt.scene.scene import Scene
+from exactpt.testing.families import FAMILIES, make_question
+from exactpt.testing.questions import Moving, Question
+
+try:
+    from hypothesis import strategies as st
+    from hypothesis.strategies import SearchStrategy
+except ImportError:
+    raise InputError("this needs Hypothesis: pip install 'exactpt[testing]'") from None
+
+__all__ = [
+    "chains",
+    "convex_polygons",
+    "coordinates",
+    "motions",
+    "pairs_in_motion",
+    "scenes",
+    "simple_polygons",
+]
+
+Outline: TypeAlias = list[tuple[float, float]]
+
+
+def coordinates(size: int = 8) -> SearchStrategy[float]:
+    """Doubles up to a size: small integers, halves and quarters (so that ties happen), or any."""
+    ties = st.builds(lambda n, d: n / d, st.integers(-size, size), st.sampled_from([1, 1, 2, 4]))
+    return st.one_of(ties, ties, st.floats(-size, size, allow_subnormal=False))
+
+
+def convex_polygons(most: int = 8) -> SearchStrategy[Outline]:
+    """Strictly convex polygons of 3 to ``most`` vertices, counter-clockwise."""
+    return _points(3, most).map(_hull).filter(lambda outline: len(outline) > 2)
+
+
+def simple_polygons(most: int = 8) -> SearchStrategy[Outline]:
+    """Simple polygons of 3 to ``most`` vertices, counter-clockwise, convex or not."""
+    return _points(3, most).map(_monotone).filter(lambda outline: len(outline) > 2)
+
+
+def chains(most: int = 6) -> SearchStrategy[Outline]:
+    """Simple open chains of 2 to ``most`` vertices; they never turn back in x."""
+    return _points(2, most).map(sorted)
+
+
+def motions(*, degree: int = 1, turning: bool = False) -> SearchStrategy[Translation | Rigid]:
+    """Translations with polynomials up to a degree; with ``turning``, half of them turn too."""
+    path = st.lists(coordinates(2), max_size=degree).map(lambda c: [0.0, *c])
+    translations = st.builds(Translation, path, path)
+    if not turning:
+        return translations
+    turn = st.sampled_from([-1.0, -0.5, 0.25, 0.5, 1.0]).map(lambda c: [0.0, c])
+    turns = st.builds(lambda half, x, y: Rigid(half, x=x, y=y), turn, path, path)
+    return st.one_of(translations, turns)
+
+
+def pairs_in_motion(family: str | None = None) -> SearchStrategy[Question]:
+    """Questions about two bodies that translate.
+
+    Those of a family are drawn by their numbers, which their names tell.
+
+    Args:
+        family: one of `exactpt.testing.FAMILIES`, most of which are degenerate: grazes, slides,
+            ties, far from the origin. If not given: polygons and chains of any kind.
+
+    Raises:
+        InputError: if there is no such family.
+    """
+    if family is None:
+        times = st.tuples(st.just(0.0), st.sampled_from([1.0, 4.0, 16.0]))
+        return st.builds(Question, _moving(), _moving(), times)
+    make_question(family)  # refuses unknown names
+    return st.integers(0, 2**32).map(lambda number: make_question(family, number=number))
+
+
+def scenes(family: str | None = None) -> SearchStrategy[Scene]:
+    """Valid scenes.
+
+    Args:
+        family: one of `exactpt.testing.FAMILIES` (two bodies), or one that `exactpt generate`
+            knows (several). If not given: any of the latter.
+
+    Raises:
+        InputError: if there is no such family.
+    """
+    if family in FAMILIES:
+        return pairs_in_motion(family).map(lambda question: question.scene)
+    known = {**SCENES, **POINTS}
+    if family is not None and family not in known:
+        raise InputError(f"no family {family!r}; there are: {', '.join([*FAMILIES, *known])}")
+    names = st.sampled_from(list(known)) if family is None else st.just(family)
+    return st.builds(generate, names, st.integers(0, 2**32))
+
+
+def _points(least: int, most: int) -> SearchStrategy[Outline]:
+    point = st.tuples(coordinates(), coordinates())
+    return st.lists(point, min_size=least, max_size=most, unique=True)
+
+
+def _hull(points: Outline) -> Outline:
+    exact = [(rational(x), rational(y)) for x, y in points]
+    return [(float(x), float(y)) for x, y in hull(exact)]
+
+
+def _monotone(points: Outline) -> Outline:
+    """The polygon of two chains, below and above the line from the leftmost to the rightmost point.
+
+    Each is ordered by x, then by y: so neither chain touches itself, and one is below the other.
+    """
+    ordered = sorted(points)
+    exact = [(rational(x), rational(y)) for x, y in ordered]
+    sides = [side(exact[0], exact[-1], p) for p in exact]
+    below = [p for p, s in zip(ordered, sides, strict=True) if s <= 0]
+    above = [p for p, s in zip(ordered, sides, strict=True) if s > 0]
+    return below + above[::-1] if any(sides) else []
+
+
+def _moving() -> SearchStrategy[Moving]:
+    path = st.lists(coordinates(2), max_size=2).map(lambda c: (0.0, *c))
+    closed = st.one_of(convex_polygons(), simple_polygons()).map(lambda v: (v, True))
+    outlines = st.one_of(closed, closed, chains().map(lambda v: (v, False)))
+    return st.builds(lambda o, x, y: Moving(tuple(o[0]), x, y, o[1]), outlines, path, path)

@@ -1,0 +1,152 @@
+"""Truths: the exact first contacts of many questions, by arrays where bodies translate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from exactpt.arrays.contacts import KINDS, Contacts
+from exactpt.arrays.pairs import first_contacts
+from exactpt.collision.contact import Contact
+from exactpt.collision.detector import first_contact
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.integer_polynomial import sign_at
+from exactpt.kernel.numbers import QQ, rational
+from exactpt.kernel.polynomial import Polynomial
+from exactpt.testing.questions import Asked, Moving, Question
+
+__all__ = ["Truth", "truth_of", "truths"]
+
+
+class Truth(NamedTuple):
+    """The first contact of two bodies, "a" and "b".
+
+    Attributes:
+        time: the exact time; None if there is no contact.
+        kind: as in `exactpt.Contact`; None without a contact.
+        pair: the first incidence as JSON (docs/format.md), without its point and normal; None if
+            there is none.
+    """
+
+    time: AlgebraicNumber | None
+    kind: str | None = None
+    pair: dict[str, object] | None = None
+
+    def to_json(self) -> dict[str, object]:
+        """The truth as a JSON object, see docs/testing.md."""
+        if self.time is None:
+            return {"time": None}
+        return {"time": self.time.to_json(), "kind": self.kind, "pair": self.pair}
+
+
+def truths(questions: Sequence[Asked]) -> list[Truth]:
+    """The truths of questions, in their order.
+
+    Raises:
+        InputError: if a span is empty, or a body is not simple.
+    """
+    plain = [k for k, asked in enumerate(questions) if isinstance(asked, Question)]
+    found = dict(zip(plain, _by_arrays([questions[k] for k in plain]), strict=True))
+    return [found[k] if k in found else truth_of(asked) for k, asked in enumerate(questions)]
+
+
+def truth_of(asked: Asked) -> Truth:
+    """The truth of one question.
+
+    Raises:
+        InputError: see `truths`.
+    """
+    contact = first_contact(asked.scene if isinstance(asked, Question) else asked)
+    return Truth(None) if contact is None else _truth(contact)
+
+
+def _truth(contact: Contact) -> Truth:
+    pairs = contact.pairs  # with them, the time has its final form
+    first = None
+    if pairs:
+        first = {key: v for key, v in pairs[0].to_json().items() if key in ("kind", "a", "b")}
+    return Truth(contact.time, contact.kind, first)
+
+
+def _by_arrays(questions: Sequence[Asked]) -> Iterator[Truth]:
+    asked = [q for q in questions if isinstance(q, Question)]
+    if not asked:
+        return
+    bodies = [body for q in asked for body in (q.a, q.b)]
+    size = max(2, *(max(len(m.x), len(m.y)) for m in bodies))
+    coefficients = np.zeros((len(bodies), 2, size))
+    for k, m in enumerate(bodies):
+        coefficients[k, 0, : len(m.x)] = m.x
+        coefficients[k, 1, : len(m.y)] = m.y
+    contacts = first_contacts(
+        [v for m in bodies for v in m.vertices],
+        np.cumsum([0, *(len(m.vertices) for m in bodies)]),
+        np.arange(len(bodies)).reshape(-1, 2),
+        coefficients=coefficients,
+        closed=[m.closed for m in bodies],
+        time=[q.time for q in asked],
+    )
+    for k, question in enumerate(asked):
+        yield _answer(question, contacts, k) if contacts.found[k] else Truth(None)
+
+
+def _answer(question: Question, contacts: Contacts, k: int) -> Truth:
+    """The truth of a question that arrays have answered, with the exact time."""
+    kind = KINDS[contacts.kind[k]]
+    if kind == "initial":
+        return Truth(AlgebraicNumber(question.time[0]), kind, _pair(contacts, k))
+    time = _time(question, contacts, k)
+    return truth_of(question) if time is None else Truth(time, kind, _pair(contacts, k))
+
+
+def _pair(contacts: Contacts, k: int) -> dict[str, object] | None:
+    body, edge = int(contacts.body[k]), int(contacts.edge[k])
+    if body < 0:
+        return None
+    other = ("edge", edge) if edge >= 0 else ("vertex", int(contacts.other_vertex[k]))
+    return {
+        "kind": "vertex-edge" if edge >= 0 else "vertex-vertex",
+        "a": {"body": "ab"[body], "vertex": int(contacts.vertex[k])},
+        "b": {"body": "ab"[1 - body], other[0]: other[1]},
+    }
+
+
+def _time(question: Question, contacts: Contacts, k: int) -> AlgebraicNumber | None:
+    """The time as the one root of the first incidence's polynomial in the enclosure of arrays.
+
+    None if it is not clear that there is one. A quadratic has exactly one root between two
+    places where its signs are opposite, and one root in all if its discriminant is 0.
+    """
+    low, high = rational(float(contacts.low[k])), rational(float(contacts.high[k]))
+    if low == high:
+        return AlgebraicNumber(low)
+    mover, other = (question.a, question.b)[:: 1 if contacts.body[k] == 0 else -1]
+    f = _incidence(mover, other, contacts, k)._integer()  # noqa: SLF001
+    if len(f) == 2:
+        return AlgebraicNumber(QQ(-f[0], f[1]))
+    if len(f) != 3:
+        return None
+    if f[1] * f[1] == 4 * f[0] * f[2]:
+        return AlgebraicNumber(QQ(-f[1], 2 * f[2]))
+    if sign_at(f, low) * sign_at(f, high) >= 0:
+        return None
+    return AlgebraicNumber.root(f, low, high)
+
+
+def _incidence(mover: Moving, other: Moving, contacts: Contacts, k: int) -> Polynomial:
+    """A polynomial that vanishes at the time of the first incidence."""
+    edge = int(contacts.edge[k])
+    at = edge if edge >= 0 else int(contacts.other_vertex[k])
+    v, p = mover.vertices[contacts.vertex[k]], other.vertices[at]
+    x = Polynomial(mover.x) - Polynomial(other.x) + Polynomial([_minus(v[0], p[0])])
+    y = Polynomial(mover.y) - Polynomial(other.y) + Polynomial([_minus(v[1], p[1])])
+    if edge < 0:
+        return x if x.degree == 1 else y
+    q = other.vertices[(edge + 1) % len(other.vertices)]
+    return y * Polynomial([_minus(q[0], p[0])]) - x * Polynomial([_minus(q[1], p[1])])
+
+
+def _minus(a: float, b: float) -> QQ:
+    return rational(a) - rational(b)
