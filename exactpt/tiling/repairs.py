@@ -19,7 +19,6 @@ from exactpt.certificates.coincidence import nearer, nearer_copy, strictly_betwe
 from exactpt.certificates.perturbation import comes_first
 from exactpt.errors import AuditError
 from exactpt.indices import HalfEdge, Triple
-from exactpt.kernel.budget import ask
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.audit import audit_star
 from exactpt.pseudotriangulation.mesh import OUTER
@@ -52,7 +51,6 @@ class Repairs:
         table, batch, rules = self.certified.table, self.certified.batch, self._rules
         rounds, most = 0, 64 + 4 * (len(table.pending) + len(table.angles))
         while table.angles or rules.is_violated():
-            ask()
             rounds += 1
             if rounds > most:
                 raise RebuildNeeded

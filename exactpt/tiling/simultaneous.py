@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import final
 
 from exactpt.indices import HalfEdge
+from exactpt.kernel.budget import ask
 from exactpt.pseudotriangulation.mesh import Mesh
 
 __all__ = ["Batch"]
@@ -39,7 +40,11 @@ class Batch:
         self._repair = 0
 
     def begin_repair(self) -> None:
-        """Begin another repair, to which `touch` refers from now on."""
+        """Begin another repair, to which `touch` refers from now on; ask for the budget.
+
+        Repairs of a forged tiling may have no end.
+        """
+        ask()
         self._repair += 1
 
     def touch(self, half_edges: list[HalfEdge]) -> None:

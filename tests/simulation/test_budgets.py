@@ -19,6 +19,7 @@ from exactpt.motion.motions import Translation
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
+from exactpt.tiling.simultaneous import Batch
 
 
 def of_degree(degree):
@@ -258,3 +259,15 @@ def test_collide_with_little_memory(tmp_path, capsys, all_of_them):
 
     assert end.value.code == 4
     assert "exactpt: the memory is used up" in capsys.readouterr().err
+
+
+def test_bug_repairs_without_end_are_ended_by_the_budget():
+    """The exchanges of a forged vertical decomposition went on for ever."""
+    batch = Batch()
+
+    def repair():
+        while True:
+            batch.begin_repair()
+
+    with pytest.raises(BudgetExceeded), within(clock.monotonic() + 0.1):
+        repair()
