@@ -17,7 +17,9 @@ from exactpt.kernel.numbers import QQ
 
 __all__ = ["collide_all"]
 
-TOGETHER: Final = {"scene", "every", "as_json", "until", "exit_code", "max_seconds", "max_memory"}
+TOGETHER: Final = {
+    "scene", "every", "as_json", "until", "exit_code", "max_seconds", "max_memory", "max_bytes"
+}  # fmt: skip
 """Options that go together with --all."""
 
 

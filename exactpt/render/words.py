@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import nearest_float
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from exactpt.collision.contact import Contact, Pair
-    from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.numbers import QQ
 
 __all__ = [
@@ -44,7 +46,8 @@ def time_in_words(time: AlgebraicNumber | QQ) -> str:
     exact = str(low)
     if low == getattr(time, "high", time) and len(exact) <= 16:
         return f"t = {exact}"
-    return f"t ≈ {float(time):.12g}"
+    near = float(time) if isinstance(time, AlgebraicNumber) else nearest_float(time)
+    return f"t ≈ {near:.12g}"
 
 
 def pair_in_words(pair: Pair) -> str:

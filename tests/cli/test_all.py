@@ -60,3 +60,11 @@ def test_options_of_the_first_contact_are_refused(scene, option, capsys):
     assert capsys.readouterr().err == (
         f"exactpt: --all: {option[0]} is for the first contact alone\n"
     )
+
+
+def test_a_bound_on_the_size_of_the_file_holds(scene, capsys):
+    with pytest.raises(SystemExit) as left:
+        main(["collide", str(scene), "--all", "--max-bytes", "100"])
+
+    assert left.value.code == 2
+    assert "more than 100 bytes" in capsys.readouterr().err

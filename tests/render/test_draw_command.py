@@ -5,6 +5,8 @@ from click.testing import CliRunner
 from render_scenes import demo, small
 
 from exactpt.cli import cli, main
+from exactpt.motion.body import Body
+from exactpt.scene.scene import Scene
 
 
 def run(*arguments):
@@ -68,3 +70,13 @@ def test_bad_calls(scene, monkeypatch, capsys, arguments, message):
 
 def test_help_has_examples():
     assert "exactpt draw scene.json --at contact -o contact.svg" in run("draw", "--help").output
+
+
+def test_bug_a_start_beyond_the_doubles_is_drawn(tmp_path):
+    """The hostile fuzzer found an OverflowError in the title."""
+    Scene([Body("a", [(0, 0), (1, 0), (0, 1)])], (-(10**400), 4)).save(tmp_path / "far.json")
+
+    result = run("draw", tmp_path / "far.json", "-o", tmp_path / "far.svg")
+
+    assert result.exit_code == 0
+    assert "t ≈ -inf" in (tmp_path / "far.svg").read_text(encoding="utf-8")
