@@ -419,11 +419,15 @@ def moved(motion: dict[str, Json], x: Poly, y: Poly) -> Track:
     data = motion
     if "rigid" in motion:
         # A turn by the angle a with tan(a / 2) = h: (1 - h^2, 2 h) / (1 + h^2) is (cos, sin).
-        data = keys(keys(motion, "rigid")["rigid"], "half_turn", "pivot", "x", "y")
+        allowed = "half_turn", "pivot", "x", "y", "orientation"
+        data = keys(keys(motion, "rigid")["rigid"], *allowed)
         h = polynomial(data.get("half_turn"))
         px, py = (polynomial([c]) for c in entries(data.get("pivot", ["0", "0"]), 2))
+        c, s = (polynomial([c]) for c in entries(data.get("orientation", ["1", "0"]), 2))
+        need(c * c + s * s == one, "an orientation that is no unit vector:", data)
         w, cosine, sine = one + h * h, one - h * h, h + h
         x, y = x - px, y - py
+        x, y = c * x - s * y, s * x + c * y
         x, y = cosine * x - sine * y + w * px, sine * x + cosine * y + w * py
     elif "affine" in motion:
         data = keys(keys(motion, "affine")["affine"], "matrix", "x", "y")

@@ -171,14 +171,16 @@ def _simple_motion(data: Json, where: str) -> SimpleMotion:
     if isinstance(data, dict) and "rigid" in data:
         an_object(data, where, required=["rigid"])
         at = f'{where}: "rigid"'
-        rigid = an_object(data["rigid"], at, required=["half_turn"], optional={"pivot", "x", "y"})
-        pivot = a_list(rigid.get("pivot", [Number("0"), Number("0")]), f'{at}: "pivot"', length=2)
-        return Rigid(
-            _coordinate(rigid, "half_turn", at),
-            pivot=[exact_number(c, f'{at}: "pivot"') for c in pivot],
-            x=_coordinate(rigid, "x", at),
-            y=_coordinate(rigid, "y", at),
-        )
+        optional = {"pivot", "x", "y", "orientation"}
+        rigid = an_object(data["rigid"], at, required=["half_turn"], optional=optional)
+        pivot = _pair(rigid, "pivot", at, ("0", "0"))
+        orientation = _pair(rigid, "orientation", at, ("1", "0"))
+        x, y = _coordinate(rigid, "x", at), _coordinate(rigid, "y", at)
+        half_turn = _coordinate(rigid, "half_turn", at)
+        try:
+            return Rigid(half_turn, pivot=pivot, x=x, y=y, orientation=orientation)
+        except InputError as error:
+            raise InputError(f"{at}: {error}") from None
     if isinstance(data, dict) and "affine" in data:
         an_object(data, where, required=["affine"])
         at = f'{where}: "affine"'
@@ -191,6 +193,11 @@ def _simple_motion(data: Json, where: str) -> SimpleMotion:
         return Affine(matrix, x=_coordinate(affine, "x", at), y=_coordinate(affine, "y", at))
     translation = an_object(data, where, optional={"x", "y"})
     return Translation(_coordinate(translation, "x", where), _coordinate(translation, "y", where))
+
+
+def _pair(data: dict[str, Json], key: str, where: str, default: tuple[str, str]) -> list[QQ]:
+    both = a_list(data.get(key, [*map(Number, default)]), f'{where}: "{key}"', length=2)
+    return [exact_number(c, f'{where}: "{key}"') for c in both]
 
 
 def _coordinate(data: dict[str, Json], key: str, where: str) -> Polynomial:
@@ -264,14 +271,15 @@ def _motion_to_json(motion: Motion) -> dict[str, object]:
             ]
         }
     if isinstance(motion, Rigid):
-        return {
-            "rigid": {
-                "pivot": [_text(c) for c in motion._pivot],
-                "half_turn": _coefficients(motion.half_turn),
-                "x": _coefficients(motion.x),
-                "y": _coefficients(motion.y),
-            }
+        rigid = {
+            "pivot": [_text(c) for c in motion._pivot],
+            "half_turn": _coefficients(motion.half_turn),
+            "x": _coefficients(motion.x),
+            "y": _coefficients(motion.y),
         }
+        if motion._orientation[0] != 1:
+            rigid["orientation"] = [_text(c) for c in motion._orientation]
+        return {"rigid": rigid}
     if isinstance(motion, Affine):
         matrix = [[_coefficients(p) for p in row] for row in motion.matrix]
         x, y = _coefficients(motion.x), _coefficients(motion.y)
