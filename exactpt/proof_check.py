@@ -404,7 +404,9 @@ def motions(data: Json) -> list[tuple[Until, dict[str, Json]]]:
     """The motions of a body, one after the other: (until, motion)."""
     pieces = [{"motion": data}]
     if isinstance(data, dict) and "pieces" in data:
-        pieces = [keys(p, "until", "motion") for p in entries(keys(data, "pieces")["pieces"])]
+        pieces = [
+            keys(p, "until", "motion") for p in entries(keys(data, "pieces", "spin")["pieces"])
+        ]
     whole = pieces and "until" not in pieces[-1] and all("until" in p for p in pieces[:-1])
     need(whole, '"until" belongs to all pieces but the last:', data)
     ends: list[Until] = [*(number(p["until"]) for p in pieces[:-1]), inf]

@@ -182,7 +182,7 @@ struct Pieces {
 Pieces<Motion> motions(const Json* json) {
   if (!json || json->kind != Json::Kind::object || !json->find("pieces"))
     return {{}, {simple_motion(json)}};
-  allow_keys(*json, {"pieces"});
+  allow_keys(*json, {"pieces", "spin"});
   Pieces<Motion> pieces;
   const std::vector<Json>& rows = list(json->find("pieces"));
   for (const Json& row : rows) {

@@ -240,7 +240,6 @@ class Affine(_Given):
         return f"Affine({self.matrix!r}, x={self.x!r}, y={self.y!r})"
 
 
-@final
 class Pieces(_Given):
     """A sequence of motions: each holds until its time, the last for ever.
 

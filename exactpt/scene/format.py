@@ -23,6 +23,7 @@ from exactpt.motion.motions import (
     SimpleMotion,
     Translation,
 )
+from exactpt.motion.spin import Spin
 from exactpt.scene.json_values import (
     MOST_DIGITS,
     Json,
@@ -150,7 +151,7 @@ def _keyframes(data: Json, where: str) -> list[tuple[QQ, list[tuple[QQ, QQ]]]]:
 
 def _motion(data: Json, where: str) -> Motion:
     if isinstance(data, dict) and "pieces" in data:
-        an_object(data, where, required=["pieces"])
+        an_object(data, where, required=["pieces"], optional={"spin"})
         pieces: list[tuple[QQ | None, SimpleMotion]] = []
         rows = a_list(data["pieces"], f'{where}: "pieces"')
         for i, row in enumerate(rows):
@@ -160,11 +161,18 @@ def _motion(data: Json, where: str) -> Motion:
             if (until is None) != (i == len(rows) - 1):
                 raise InputError(f'{at}: "until" belongs to every piece but the last')
             pieces.append((until, _simple_motion(piece["motion"], f'{at}: "motion"')))
+        spin = _rate_and_error(data["spin"], f'{where}: "spin"') if "spin" in data else None
         try:
-            return Pieces(pieces)
+            return Spin.of_pieces(pieces, *spin) if spin else Pieces(pieces)
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
     return _simple_motion(data, where)
+
+
+def _rate_and_error(data: Json, where: str) -> tuple[QQ, QQ]:
+    spin = an_object(data, where, required=["omega", "error"])
+    omega, error = (exact_number(spin[key], f'{where}: "{key}"') for key in ("omega", "error"))
+    return omega, error
 
 
 def _simple_motion(data: Json, where: str) -> SimpleMotion:
@@ -264,12 +272,15 @@ def _body_to_json(body: Body) -> dict[str, object]:
 def _motion_to_json(motion: Motion) -> dict[str, object]:
     if isinstance(motion, Pieces):
         ends = [{"until": _text(t)} for t in motion._until]
-        return {
+        pieces: dict[str, object] = {
             "pieces": [
                 {**end, "motion": _motion_to_json(m)}
                 for end, m in zip([*ends, {}], motion.motions, strict=True)
             ]
         }
+        if isinstance(motion, Spin):
+            pieces["spin"] = {"omega": _text(motion._omega), "error": _text(motion._error)}
+        return pieces
     if isinstance(motion, Rigid):
         rigid = {
             "pivot": [_text(c) for c in motion._pivot],

@@ -3,7 +3,7 @@
 import pytest
 from proving import agrees, by_both_checkers, proof_of, verdict  # noqa: F401 - a fixture
 
-from exactpt import Body, Pieces, Rigid, Scene, Translation, proof_check
+from exactpt import Body, Pieces, Rigid, Scene, Spin, Translation, proof_check
 from exactpt.proof import prove
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 
@@ -42,6 +42,14 @@ def test_a_turn_that_begins_at_an_angle_and_passes_180_degrees():
         lines, contact = proof_of(scene)
         assert (contact is None) == (post == (9, 9))
         assert verdict(scene, lines).startswith("accepted: ")
+
+
+def test_a_spin_is_pieces_to_a_checker():
+    mill = Body("mill", [(0, 0), (3, 0), (3, 1)], Spin(2, time=(0, 3), error="1/10"))
+    scene = Scene([mill, Body("post", [(-2, -2)])], time=(0, 3))
+    lines, contact = proof_of(scene)
+    assert contact is not None
+    assert verdict(scene, lines).startswith("accepted: ")
 
 
 def test_no_contact():
