@@ -23,6 +23,7 @@ from fuzz.campaign import Campaign, run
 from fuzz.cases import Outcome
 from fuzz.hostile import run as hostile_run
 from fuzz.hostile.files import FORMATS
+from fuzz.proofs.command import proof_mutants
 from fuzz.questions.command import questions
 from fuzz.record import differences, record
 from fuzz.small_scope.command import small_scope
@@ -76,6 +77,7 @@ def fuzz(
       python -m fuzz planted
       python -m fuzz small-scope
       python -m fuzz questions
+      python -m fuzz proof-mutants
       python -m fuzz --hostile --cases 100000
       python -m fuzz --soak 60
     """
@@ -232,6 +234,7 @@ COMMANDS = {
     "record": make_record,
     "battery": run_battery,
     "planted": find_planted,
+    "proof-mutants": proof_mutants,
     "small-scope": small_scope,
     "questions": questions,
 }

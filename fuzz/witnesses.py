@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Final, TypeAlias
 
 from exactpt import proof_check
-from exactpt.cgal import check_proof
 from exactpt.check import check_run
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.comparison import contrast, in_words
@@ -19,10 +16,11 @@ from exactpt.collision.tilings import tilings_for
 from exactpt.proof import prove
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
+from fuzz.proofs.checking import checker
 from fuzz.statics import run_and_audit
 from fuzz.variants import VARIANTS, difference
 
-__all__ = ["WITNESSES", "Difference", "Witness", "contact_by", "tilings_of"]
+__all__ = ["WITNESSES", "Difference", "Witness", "check_proof", "contact_by", "tilings_of"]
 
 Witness: TypeAlias = Callable[[Scene, int | None], None]
 """A check of a scene; raises `Difference`, or any other exception, if it fails.
@@ -119,24 +117,29 @@ def cgal(scene: Scene, turn: int | None) -> None:
 
 
 def proof(scene: Scene, turn: int | None) -> None:
-    """The proof is accepted by the checker in C++, and in every fourth turn by that in Python."""
+    """The proof is accepted by the checker in C++, and in one of 17 turns by that in Python."""
 
     def check(name: str) -> None:
-        proved = prove(scene, tiling=name)
-        with TemporaryDirectory() as folder:
-            paths = [Path(folder) / "scene.json", Path(folder) / "proof"]
-            for path, content in zip(paths, (proved.scene, proved.text), strict=True):
-                path.write_bytes(content)
-            verdict = check_proof(*paths)
-        if not verdict.accepted:
-            raise Difference(f"{name}: proof", verdict.line)
-        if turn is None or turn % 4 == 0:
-            try:
-                proof_check.check(proved.scene, proved.text)
-            except proof_check.Rejected as rejected:
-                raise Difference(f"{name}: proof in Python", str(rejected)) from None
+        check_proof(scene, name, in_python=turn is None or turn % 17 == 0)
 
     _with_tilings(scene, check, turn)
+
+
+def check_proof(scene: Scene, tiling: str, *, in_python: bool) -> None:
+    """Have the proof by a tiling checked by the checker in C++, and by that in Python.
+
+    Raises:
+        Difference: if it is not accepted.
+    """
+    proved = prove(scene, tiling=tiling)
+    answer = checker().verdict(proved.scene, proved.text)
+    if not answer.startswith("accepted: "):
+        raise Difference(f"{tiling}: proof", answer)
+    if in_python:
+        try:
+            proof_check.check(proved.scene, proved.text)
+        except proof_check.Rejected as rejected:
+            raise Difference(f"{tiling}: proof in Python", str(rejected)) from None
 
 
 WITNESSES: Final[dict[str, Witness]] = {

@@ -13,7 +13,7 @@ __all__ = ["BENCHMARKS", "run"]
 BENCHMARKS: Final[dict[str, str]] = {
     "first-contact": "run time against error in the time of the first contact",
     "small": "small questions, building scenes, plans among obstacles, many pieces of motion",
-    "auto": "the default method beside all others, on ten families of everyday scenes",
+    "auto": "the default method beside all others, on twenty families of everyday scenes",
     "cliffs": "convoys, long spans, turning bodies, lanes: beside the best method",
     "within": "first_within beside first_contact, of the same crowds",
     "wrong-answers": "contacts missed, invented and late, close to degeneracy",
@@ -23,6 +23,7 @@ BENCHMARKS: Final[dict[str, str]] = {
     "points": "changes of the tilings of moving points beside the paper's bounds",
     "skipping": "what is never computed, beside a run that computes all of it",
     "arrays": "many small questions at once, beside one by one, ipctk and Box2D",
+    "proofs": "size and cost of proofs of first contacts, beside the run alone",
     "kernel": "first roots and their order, beside python-flint, SymPy and mpmath",
 }
 """Name of each benchmark, and what it shows."""

@@ -39,7 +39,7 @@ def linear_orientations(
     signs, lows, highs = _linear_orientations(
         [v.image for v in vertices.all],
         ids,
-        vertices.frame.errors,
+        vertices.enclosures.errors,
         now_low,
         now_high,
         horizons[ids].min(axis=1),

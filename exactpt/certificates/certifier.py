@@ -58,7 +58,7 @@ class Certifier:
         skipped: the number of certificates not computed, since they cannot fail.
         zeros: the number of computed certificates that vanish now, or for ever.
         counters: the counts of decisions of the run.
-        errors: bounds on the coefficients of the float enclosures, see `Frame`.
+        errors: bounds on the coefficients of the float enclosures, see `Enclosures`.
         positions: the positions of the vertices now, in doubles.
     """
 
@@ -72,7 +72,7 @@ class Certifier:
         self.skipped: int = 0
         self.zeros: int = 0
         self.counters: Counters = vertices.counters
-        self.errors: list[float] = vertices.frame.errors
+        self.errors: list[float] = vertices.enclosures.errors
         self.roots_now: list[tuple[int, int, int]] = []
         low, high = vertices.frame.time(start)
         self.now: EventTime = EventTime(low, high, -1, -1, -1, AlgebraicNumber(start))

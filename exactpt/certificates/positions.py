@@ -29,7 +29,7 @@ def positions_at(vertices: Vertices, low: float, high: float) -> tuple[Floats, F
     the formula of `Positions` (at the time 0 itself nothing is rounded).
     """
     images = [v.image for v in vertices.all]
-    errors = vertices.frame.errors
+    errors = vertices.enclosures.errors
     x0, y0, x1, y1 = linear_parts(images).T
     if low == high == 0.0:
         x, y, error = x0.copy(), y0.copy(), np.full(len(images), errors[0])

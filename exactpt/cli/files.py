@@ -92,10 +92,7 @@ def convert(
         raise InputError(f"--time: the span from {show(time[0])} to {show(time[1])} is empty")
     idle = _typed("time", "tolerance", "holes", "skip_invalid")
 
-    def leave_out(line: str) -> None:
-        if not quiet:
-            tell(f"left out: {line}")
-
+    left_out: list[str] = []
     with time_limit(max_seconds, max_memory()):
         if idle and holds_scene(source, max_bytes()):
             raise InputError(f"{idle[0]}: {source} is a scene, which is read as it is")
@@ -104,13 +101,19 @@ def convert(
             time=time,
             tolerance=tolerance,
             holes=holes,
-            skipped=leave_out if skip_invalid else None,
+            skipped=left_out.append if skip_invalid else None,
             max_bytes=max_bytes(),
         )
+        remarks = [f"left out: {line}" for line in left_out]
+        is_scene = target.suffix.lower() == ".json"
+        if is_scene and not quiet:
+            remarks += _what_touches(scene)
         write_shapes(scene, target, at)
-        if target.suffix.lower() == ".json" and not quiet:
+    if not quiet:
+        for line in remarks:
+            tell(line)
+        if is_scene:
             say(f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices: {target}")
-            _say_what_touches(scene)
     return 0
 
 
@@ -121,22 +124,22 @@ def _typed(*names: str) -> list[str]:
     return [f"--{name.replace('_', '-')}" for name in given]
 
 
-def _say_what_touches(scene: Scene) -> None:
+def _what_touches(scene: Scene) -> list[str]:
+    """A line about the bodies that touch at the start, if there are any."""
     from exactpt.collision.initial import initial_touches
 
     try:
         _, pairs = initial_touches(scene)
     except InputError as error:  # too many to be listed
-        tell(str(error))
-        return
-    if pairs:
-        names = [name_in_words(body.name) for body in scene.bodies]
-        some = [f"{names[i]} and {names[j]}" for i, j in pairs[:_FEW]]
-        more = [f"{len(pairs) - _FEW} more pairs"] if len(pairs) > _FEW else []
-        tell(
-            f"bodies touch at the start, so that the first contact is there: "
-            f"{', '.join(some + more)}"
-        )
+        return [str(error)]
+    if not pairs:
+        return []
+    names = [name_in_words(body.name) for body in scene.bodies]
+    some = [f"{names[i]} and {names[j]}" for i, j in pairs[:_FEW]]
+    more = [f"{len(pairs) - _FEW} more pairs"] if len(pairs) > _FEW else []
+    return [
+        f"bodies touch at the start, so that the first contact is there: {', '.join(some + more)}"
+    ]
 
 
 class _WithFamilies(click.Command):

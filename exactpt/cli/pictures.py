@@ -92,7 +92,7 @@ def draw(
 @click.command()
 @output("Where the animation goes.", default=Path("exactpt-demo.html"))
 def demo(output: Path) -> int:
-    """Run a packaged scene to its first contact and draw an animation of it.
+    """Run a packaged scene to its first contact, draw an animation, and have a proof checked.
 
     \b
     Example:
@@ -101,6 +101,7 @@ def demo(output: Path) -> int:
     from importlib.resources import files
 
     from exactpt.files import write_atomically
+    from exactpt.proof import prove
     from exactpt.render.film import film_of
     from exactpt.render.page import page_of
     from exactpt.scene.format import loads
@@ -111,4 +112,7 @@ def demo(output: Path) -> int:
     say(f"{len(given.bodies)} bodies: {bodies}", *answer_in_words(given, film.contact))
     write_atomically(output, page_of(film, title="exactpt demo"))
     say(f"the animation is in {output}: open it in a browser")
+    proof = prove(given)
+    say(f"a proof of {len(proof.text):,} bytes, checked by a program that shares no code:")
+    say(f"  {proof.check()}")
     return 0

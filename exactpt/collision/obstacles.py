@@ -13,6 +13,7 @@ from exactpt.collision.row_boxes import RowBoxes
 from exactpt.collision.straight_search import Row, rows_of
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
+from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.swept import SweptBoxes
 from exactpt.scene.scene import Scene
@@ -46,6 +47,7 @@ class SlabBoxes:
     def __init__(self, bodies: Sequence[Body], start: QQ, end: QQ) -> None:
         points = [point for body in bodies for point in body._at(start)]
         self._frame: Frame = frame_for(points or [(QQ(0), QQ(0))], start, end)
+        self._enclosures = Enclosures(self._frame)
         self._cuts = [start + (end - start) * k / SLABS for k in range(SLABS + 1)]
         times = [self._frame.time(t) for t in self._cuts]
         self._lows = np.array([low for low, _ in times[:-1]])
@@ -61,8 +63,8 @@ class SlabBoxes:
         for since, until in pairwise([start, *inner, end]):
             low, high = self._frame.time(since)[0], self._frame.time(until)[1]
             during = np.nonzero((self._lows <= high) & (self._highs >= low))[0]
-            images = self._frame.images(body._piece_after(since).tracks)
-            swept = SweptBoxes(images, self._frame.errors, drifting=False)
+            images = self._enclosures.images(body._piece_after(since).tracks)
+            swept = SweptBoxes(images, self._enclosures.errors, drifting=False)
             lows, highs = np.maximum(self._lows[during], low), np.minimum(self._highs[during], high)
             places = swept.during(lows, highs)
             boxes[during, ::2] = np.minimum(boxes[during, ::2], places[..., ::2].min(axis=1))

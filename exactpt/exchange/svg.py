@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["shapes_of", "svg_of"]
 
-_MOST_CHORDS: Final = 100_000
+_MOST_CHORDS: Final = 20_000
 """Maximum number of chords of one curve; more indicate a mistaken tolerance."""
 _MOST_POINTS: Final = 2_000_000
 """Maximum number of points of a drawing."""

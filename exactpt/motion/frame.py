@@ -1,55 +1,35 @@
-"""Float enclosures of trajectories: doubles with proven error bounds, in normalised units.
+"""The normalisation of space and time in which doubles compute.
 
-The normalisation shifts and scales space and time: x' = (x - cx) / 2^s, likewise y with a
-scale of its own, t' = (t - t0) / 2^r. It preserves the signs of orientations and of
-differences of coordinates, and the order of times. So the filters work as well for a scene
-that is far from the origin, or very small or large, as for any other.
+It shifts and scales: x' = (x - cx) / 2^s, likewise y with a scale of its own,
+t' = (t - t0) / 2^r. The signs of orientations and of differences of coordinates, and the order
+of times, stay as they are. So the filters work as well for a scene that is far from the origin,
+or very small or large, as for any other.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Hashable, Iterable, Sequence
-from itertools import chain
-from typing import TYPE_CHECKING, Final, final
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, final
 
 from exactpt.kernel.budget import LONG, ask
-from exactpt.kernel.numbers import QQ, ZZ, enclosing_floats, nearest_float, power_of_two
-from exactpt.kernel.polynomial import ONE
-from exactpt.kernel.rounding import U
-from exactpt.motion.image import Arm, Image
-from exactpt.motion.track import Turning
+from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of_two
 
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.motion.track import Track
 
-__all__ = ["Frame", "frame_for"]
-
-SMALLEST: Final = 2.0**-300
-LARGEST: Final = 2.0**100
-"""Range of the size of nonzero coefficients that the filters accept.
-
-Certificates are sums of products of two differences, or of three coefficients. A difference
-of doubles of size 2^-300 or more is 0 or at least 2^-352. So no product underflows.
-"""
-SMALLEST_OF_ARMS: Final = 2.0**-100
-"""The same for `Arm`: certificates with arms have products of four coefficients."""
-INTEGERS: Final = 2.0**53
-"""All integers of smaller absolute value are doubles."""
-
-_ONE: Final = (ZZ(1),)
+__all__ = ["Frame", "binary_exponent", "combined", "frame_for"]
 
 
 @final
 class Frame:
-    """A normalisation of space and time, numbers for rigid motions, and error bounds.
+    """A normalisation of space and time.
 
     Attributes:
-        center, scale, origin, time_scale: the normalisation x' = (x - center[0]) /
-            2^scale[0], likewise y, and t' = (t - origin) / 2^time_scale.
-        errors: ``errors[i]`` bounds the error of coefficient i of every enclosure of a
-            translating trajectory made so far, in x and in y; 0 while all are exact.
+        center, scale, origin, time_scale: x' = (x - center[0]) / 2^scale[0], likewise y;
+            t' = (t - origin) / 2^time_scale.
+        is_identity: whether it changes nothing.
     """
 
     def __init__(
@@ -59,16 +39,13 @@ class Frame:
         self.scale = scale
         self.origin = origin
         self.time_scale = time_scale
-        self._identity = (
+        self.is_identity: bool = (
             center == (QQ(0), QQ(0)) and scale == (0, 0) and origin == 0 and time_scale == 0
         )
-        self._motions: dict[object, int] = {}
-        self._named: int = 0
-        self.errors: list[float] = [0.0, 0.0]
 
     def point(self, position: tuple[QQ, QQ]) -> tuple[float, float]:
         """The doubles nearest to a normalised position."""
-        if self._identity:
+        if self.is_identity:
             return nearest_float(position[0]), nearest_float(position[1])
         return (
             nearest_float((position[0] - self.center[0]) * power_of_two(-self.scale[0])),
@@ -77,13 +54,13 @@ class Frame:
 
     def time(self, t: QQ) -> tuple[float, float]:
         """Doubles that enclose a rational time, normalised."""
-        if self._identity:
+        if self.is_identity:
             return enclosing_floats(t)
         return enclosing_floats((t - self.origin) * power_of_two(-self.time_scale))
 
     def enclosure(self, t: AlgebraicNumber) -> tuple[float, float]:
         """Doubles that enclose an algebraic time, normalised; at most two ulps apart."""
-        if self._identity:
+        if self.is_identity:
             return t.enclosure()
         while True:
             lo, hi = self.time(t._low)[0], self.time(t._high)[1]
@@ -95,163 +72,22 @@ class Frame:
         """The rational time of which a double is the normalised value."""
         return QQ(*t.as_integer_ratio()) * power_of_two(self.time_scale) + self.origin
 
-    def images(self, tracks: Sequence[Track]) -> list[Image]:
-        """The enclosures of trajectories, fast if most successive ones share their motion."""
-        images: list[Image] = []
-        motion, last = -1, None
-        tails: tuple[list[float], list[float]] | None = None
-        for track in tracks:
-            ask()
-            if last is None or track.motion != last:
-                motion, last = self._number(track.motion), track.motion
-                tails = self._integer_tails(track)
-            image = None if tails is None else _integer_image(track, *tails, motion)
-            images.append(image or self._image(track, motion))
-        return images
-
-    def _number(self, motion: Hashable) -> int:
-        """The number of a rigid motion, as in `Track.motion`; -1 for None."""
-        if motion is None:
-            return -1
-        number = self._motions.setdefault(motion, self._named)
-        self._named = max(self._named, number + 1)
-        return number
-
-    def _integer_tails(self, track: Track) -> tuple[list[float], list[float]] | None:
-        """All but the constant coefficients of a trajectory, if they are small integers.
-
-        Rounding is monotone and 2^53 is a double, so an integer rounded to less than 2^53
-        is itself less, and hence a double.
-        """
-        if not self._identity or track.w != _ONE:
-            return None
-        x, y = ([nearest_float(QQ(c)) for c in part[1:]] for part in (track.x, track.y))
-        if not all(abs(c) < INTEGERS for c in (*x, *y)):
-            return None
-        size = max(len(x), len(y))
-        self.errors += [0.0] * (size + 1 - len(self.errors))
-        return x + [0.0] * (size - len(x)), y + [0.0] * (size - len(y))
-
-    def _image(self, track: Track, motion: int) -> Image:
-        x, y, w = self._moved(track)
-        size = max(len(x), len(y), 1)
-        if len(w) > 1:
-            size = max(size, len(w))
-            # A common factor of x, y and w is free. The power of two rounds nothing.
-            divisor = power_of_two(_exponent(QQ(max(map(abs, w)))))
-            ws = _floats(w, divisor, size)
-        else:
-            ws, divisor = [], QQ(w[0])
-        xs, ys = _floats(x, divisor, size), _floats(y, divisor, size)
-        self.errors += [0.0] * (size - len(self.errors))
-        if not (_moderate(xs) and _moderate(ys) and _moderate(ws)):
-            nan = [math.nan] * size
-            return Image(nan, nan, nan if ws else [], motion)
-        if not ws:
-            self._note_errors(x, xs, divisor)
-            self._note_errors(y, ys, divisor)
-        image = Image(xs, ys, ws, motion)
-        if isinstance(track.motion, Turning):
-            image.arm = self._arm(track, track.motion)
-        return image
-
-    def _arm(self, track: Track, turning: Turning) -> Arm | None:
-        """The trajectory as a pivot and an arm, with w = 1 + h^2 for the half turn h.
-
-        (The denominators of trajectories of one motion differ by constants.) None if the
-        degrees are too large, or a coefficient is out of range.
-        """
-        paths = turning.x._coefficients, turning.y._coefficients
-        w = (ONE + turning.half_turn * turning.half_turn)._coefficients
-        if len(w) > 3 or max(map(len, paths)) > 3:
-            return None
-        factor = w[0] / track.w[0]
-        w_now = self._in_time(list(w))
-        divisor = power_of_two(_exponent(max(map(abs, w_now))))
-        parts: list[list[float]] = []
-        for path, x, c, scale in zip(
-            paths, (track.x, track.y), self.center, self.scale, strict=True
-        ):
-            unit = power_of_two(-scale)
-            r = [a * factor for a in x] + [QQ(0)] * (len(path) + 3)
-            for i, a in enumerate(w):
-                for j, b in enumerate(path):
-                    r[i + j] -= a * b
-            r = self._in_time([a * unit for a in r[:3]])
-            p = self._in_time(_combine(list(path), [QQ(1)], -c, unit))
-            parts.append(_floats(p, QQ(1), 3))
-            parts.append([*_floats(r, divisor, 3), *_floats([r[0] / w_now[0]], QQ(1), 1)])
-        parts.append(_floats(w_now, divisor, 3))
-        if not all(map(_fits_in_arms, chain.from_iterable(parts))):
-            return None
-        pivot_x, arm_x, pivot_y, arm_y, denominator = parts
-        return Arm(pivot_x, pivot_y, arm_x, arm_y, denominator)
-
-    def _in_time(self, f: list[QQ]) -> list[QQ]:
+    def in_time(self, f: list[QQ]) -> list[QQ]:
+        """A polynomial in the scene's time as one in normalised time."""
         return _substituted(f, self.origin, power_of_two(self.time_scale))
 
-    @property
-    def motion_count(self) -> int:
-        """The number of different motions known."""
-        return len(self._motions)
-
-    def forget_motions(self, kept: Collection[int]) -> None:
-        """Forget all motions but those in ``kept``: no enclosure has them any more."""
-        self._motions = {key: i for key, i in self._motions.items() if i in kept}
-
-    def _moved(self, track: Track) -> tuple[Sequence[QQ], Sequence[QQ], Sequence[QQ]]:
+    def moved(self, track: Track) -> tuple[Sequence[QQ], Sequence[QQ], Sequence[QQ]]:
         """The exact normalised coefficients of a trajectory, up to a common factor."""
-        if self._identity:
+        if self.is_identity:
             return track.x, track.y, track.w  # type: ignore[return-value]
         cx, cy = self.center
         x, y, w = ([QQ(c) for c in part] for part in (track.x, track.y, track.w))
-        x = _combine(x, w, -cx, power_of_two(-self.scale[0]))
-        y = _combine(y, w, -cy, power_of_two(-self.scale[1]))
-        return self._in_time(x), self._in_time(y), self._in_time(w)
-
-    def _note_errors(self, exact: Sequence[QQ], floats: list[float], divisor: QQ) -> None:
-        # Rounding to nearest errs by at most U |c| / (1 + U), and so by at most U times the
-        # double; doubled, for a margin. A third of it would be wrong: 1 + U (1 - epsilon)
-        # becomes 1, with an error of nearly U.
-        for i, c in enumerate(exact):
-            error = abs(floats[i]) * (2.0 * U)
-            if error > self.errors[i] and QQ(*floats[i].as_integer_ratio()) * divisor != c:
-                self.errors[i] = error
+        x = combined(x, w, -cx, power_of_two(-self.scale[0]))
+        y = combined(y, w, -cy, power_of_two(-self.scale[1]))
+        return self.in_time(x), self.in_time(y), self.in_time(w)
 
 
-def _integer_image(track: Track, x: list[float], y: list[float], motion: int) -> Image | None:
-    """The enclosure with these higher coefficients, if it is exact; else None."""
-    if track.w != _ONE:
-        return None
-    try:
-        x0 = float(track.x[0]) if track.x else 0.0
-        y0 = float(track.y[0]) if track.y else 0.0
-    except OverflowError:
-        return None
-    if abs(x0) < INTEGERS and abs(y0) < INTEGERS:
-        return Image([x0, *x], [y0, *y], [], motion)
-    return None
-
-
-def _floats(coefficients: Iterable[QQ], divisor: QQ, size: int) -> list[float]:
-    one = divisor == 1
-    # Only 0 itself becomes 0.0: a number that underflows becomes NaN, as out of range.
-    values = [
-        nearest_float(c if one else c / divisor) or (math.nan if c else 0.0) for c in coefficients
-    ]
-    return values + [0.0] * (size - len(values))
-
-
-def _moderate(values: list[float]) -> bool:
-    return all(v == 0.0 or SMALLEST <= abs(v) <= LARGEST for v in values)
-
-
-def _fits_in_arms(v: float) -> bool:
-    """Whether products of four such numbers do not underflow."""
-    return v == 0.0 or SMALLEST_OF_ARMS <= abs(v) <= LARGEST
-
-
-def _combine(f: list[QQ], g: list[QQ], a: QQ, factor: QQ) -> list[QQ]:
+def combined(f: list[QQ], g: list[QQ], a: QQ, factor: QQ) -> list[QQ]:
     """(f + a g) * factor."""
     size = max(len(f), len(g))
     f = f + [QQ(0)] * (size - len(f))
@@ -285,7 +121,7 @@ def frame_for(points: Sequence[tuple[QQ, QQ]], start: QQ, end: QQ) -> Frame:
     cx, sx = _axis([p[0] for p in points])
     cy, sy = _axis([p[1] for p in points])
     span = end - start
-    r = _exponent(span)
+    r = binary_exponent(span)
     r = 0 if -10 <= r <= 10 else r
     far = max(abs(start), abs(end)) > 16 * span
     return Frame((cx, cy), (sx, sy), start if far else QQ(0), r)
@@ -300,11 +136,12 @@ def _axis(values: list[QQ]) -> tuple[QQ, int]:
     extent = max(values) - min(values)
     least = min(values, key=abs)
     center = least if abs(least) > 16 * extent else QQ(0)
-    exponent = _exponent(extent or max(map(abs, values)))
+    exponent = binary_exponent(extent or max(map(abs, values)))
     return center, (0 if -20 <= exponent <= 20 else exponent)
 
 
-def _exponent(value: QQ) -> int:
+def binary_exponent(value: QQ) -> int:
+    """About the binary exponent of a number; 0 for 0."""
     if value == 0:
         return 0
     return abs(value.numerator).bit_length() - value.denominator.bit_length()

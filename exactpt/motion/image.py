@@ -52,7 +52,7 @@ class Arm:
 class Image:
     """The doubles nearest to the normalised coefficients of a trajectory.
 
-    With the error bounds `exactpt.motion.frame.Frame.errors` they enclose the trajectory.
+    With the error bounds `exactpt.motion.enclosures.Enclosures.errors` they enclose the trajectory.
     If a coefficient is neither 0 nor of size 2^-300 to 2^100, all of them are NaN, which no
     filter accepts.
 

@@ -30,7 +30,7 @@ class SweptBoxes:
 
     Args:
         images: the enclosures.
-        errors: their error bounds, see `exactpt.motion.frame.Frame`.
+        errors: their error bounds, see `exactpt.motion.enclosures.Enclosures`.
         drifting: whether the drift is subtracted; if not, it is 0.
 
     Attributes:

@@ -53,7 +53,7 @@ class SweptEdges:
 
     def _read_images(self) -> None:
         images = [self.vertices.all[v].image for v in self.ids]
-        self.boxes = SweptBoxes(images, self.vertices.frame.errors)
+        self.boxes = SweptBoxes(images, self.vertices.enclosures.errors)
         self.motion: Indices = np.array([image.motion for image in images])
         self.deforms = np.array([moving.deforms for moving in self.vertices.bodies])
 
@@ -76,7 +76,7 @@ class SweptEdges:
         first = moving.ring[0]  # ids are numbered in order
         self.motion[first : first + len(images)] = [image.motion for image in images]
         self.deforms[i] = moving.deforms
-        return self.boxes.replace(first, images, self.vertices.frame.errors)
+        return self.boxes.replace(first, images, self.vertices.enclosures.errors)
 
     def during(self, now: QQ, later: QQ) -> Boxes:
         """The boxes that the vertices sweep, normalised."""

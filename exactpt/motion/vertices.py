@@ -16,6 +16,7 @@ from exactpt.indices import NO_VERTEX, VertexId
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.motion.convexity import stays_convex
+from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.image import Image
 from exactpt.motion.infinitesimal import Direction, displacements, ring_of_copies
@@ -114,6 +115,7 @@ class Vertices:
         bodies: the moving bodies, in the order of the scene.
         counters: the counts of decisions about these vertices.
         frame: the normalisation of the enclosures.
+        enclosures: the enclosures of the trajectories.
         changes: how often trajectories have changed, or bodies been added or removed.
     """
 
@@ -130,6 +132,7 @@ class Vertices:
     ) -> None:
         self.counters: Counters = Counters()
         self.frame: Frame = frame
+        self.enclosures: Enclosures = Enclosures(frame)
         self.changes: int = 0
         self._plain: bool = plain
         self._end: QQ = end
@@ -224,7 +227,7 @@ class Vertices:
         """Whether a body deforms in its current piece or any later one."""
         body = self.bodies[i].body
         return self.bodies[i].deforms or any(
-            _deforms(self.frame.images(body._piece_after(t).tracks))
+            _deforms(self.enclosures.images(body._piece_after(t).tracks))
             for t in body._breakpoints
             if t > start
         )
@@ -236,7 +239,7 @@ class Vertices:
         piece = moving.body._piece_after(t)
         moving.since = t
         self._set_until(moving, piece.until)
-        images = self.frame.images(piece.tracks)
+        images = self.enclosures.images(piece.tracks)
         moving.deforms = _deforms(images)
         for vertex_id in moving.ring:
             vertex = self.all[vertex_id]
@@ -266,8 +269,8 @@ class Vertices:
         moving.body = body
         self.enter_piece(i, t)
         tiled, moving.is_tiled = moving.is_tiled, moving.is_tiled or self._may_pinch(i, t, end)
-        if self.frame.motion_count > 2 * len(self.all) + 64:
-            self.frame.forget_motions({v.image.motion for v in self.all})
+        if self.enclosures.motion_count > 2 * len(self.all) + 64:
+            self.enclosures.forget_motions({v.image.motion for v in self.all})
         return moving.is_tiled and not tiled
 
     def name(self, vertex_id: VertexId) -> str:

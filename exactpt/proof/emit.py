@@ -43,6 +43,8 @@ class ProofRun:
 
     Attributes:
         tiling: the name of the tiling.
+        nodes: the vertices of the scene.
+        maker: what makes the lines.
         kinetic: the tiling; None before the run, or if there is no run.
         contact: the first contact, or None; known once all lines have been generated.
     """
@@ -61,8 +63,8 @@ class ProofRun:
         self.tiling: str = tiling_for_contact(scene, tiling)
         self._options = exact_only, max_events
         self._file = scene_bytes(scene) if scene_file is None else scene_file
-        self._nodes = Nodes(scene)
-        self._lines = Lines(self._nodes)
+        self.nodes = Nodes(scene)
+        self.maker = Lines(self.nodes)
         self.kinetic: Tiling | None = None
         self.contact: Contact | None = None
 
@@ -80,7 +82,7 @@ class ProofRun:
         touches, overlaps = initial_touches(scene)
         if overlaps:
             self.contact = contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)
-            yield self._lines.contact_at_start(touches, overlaps)
+            yield self.maker.contact_at_start(touches, overlaps)
         elif scene.bodies:
             yield from self._run()
         else:
@@ -90,17 +92,17 @@ class ProofRun:
         scene, (exact_only, most), events = self._scene, self._options, 0
         kinetic = start_tiling(scene, self.tiling, scene._start, exact_only=exact_only)
         self.kinetic = kinetic
-        watch = Watch(kinetic, self._nodes)
-        yield from self._lines.faces(watch.first())
+        watch = Watch(kinetic, self.nodes)
+        yield from self.maker.faces(watch.first())
         try:
             while (happened := kinetic.advance(scene._end)) is not None:
                 events += len(happened)
                 if most is not None and events > most:
                     raise BudgetExceeded("the number of events is used up", self.reached())
                 if kinetic.now.compare_rational(scene._end) < 0:
-                    yield from self._lines.event(watch.step())
+                    yield from self.maker.event(watch.step())
         except ContactFound as found:
             self.contact = contact_of(scene, kinetic.now, sorted(found.touches))
-            yield from self._lines.contact(kinetic.now, watch.names(), found.touches)
+            yield from self.maker.contact(kinetic.now, watch.names(), found.touches)
         else:
-            yield from self._lines.none(scene._end)
+            yield from self.maker.none(scene._end)

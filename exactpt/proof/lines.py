@@ -39,18 +39,21 @@ class Lines:
 
     Args:
         nodes: the vertices of the scene.
+
+    Attributes:
+        after: of each half-edge of the map, the one that follows around its face.
     """
 
     def __init__(self, nodes: Nodes) -> None:
         self._nodes = nodes
         self._angles = Angles(nodes)
-        self._after: dict[DirectedEdge, DirectedEdge] = {}
+        self.after: dict[DirectedEdge, DirectedEdge] = {}
 
     def faces(self, faces: Iterable[Cycle]) -> Iterator[str]:
         """The lines of the faces from the start on."""
         ordered = sorted(faces)
         links = followers(face.nodes for face in ordered)
-        self._after = links | followers(self._nodes.solid_faces())
+        self.after = links | followers(self._nodes.solid_faces())
         for label, cycle in ordered:
             yield f"{label} {' '.join(map(str, cycle))}"
         self._angles.begin(_angles(links, {}), AlgebraicNumber(self._nodes.scene._start))
@@ -88,11 +91,11 @@ class Lines:
         yield from self.renewals(step.time)
         renewed = self._angles.vanishing(step.time)
         old, new = (followers(f.nodes for f in faces) for faces in (step.gone, step.come))
-        items = change(self._after, old, new, self._is_body_edge)
+        items = change(self.after, old, new, self.is_body_edge)
         begun = _angles(new, old)
         changed = {(v, w) for _, v, w in begun}
         renewed = [
-            angle for angle in renewed if angle[1:] in self._after and angle[1:] not in changed
+            angle for angle in renewed if angle[1:] in self.after and angle[1:] not in changed
         ]
         items += [f"= {v} {w}" for _, v, w in renewed]
         self._angles.end(old.keys() - new.keys())
@@ -108,7 +111,8 @@ class Lines:
             items = " ".join(f"= {v} {w}" for _, v, w in angles)
             yield f"event {time_text(time, angles, self._nodes)} {items}"
 
-    def _is_body_edge(self, u: int, v: int) -> bool:
+    def is_body_edge(self, u: int, v: int) -> bool:
+        """Whether two vertices are the ends of an edge of a body."""
         i = self._nodes.body_of[u]
         if self._nodes.body_of[v] != i:
             return False

@@ -45,7 +45,7 @@ def _near_during(vertices: Vertices, begin: QQ, end: QQ, reach: QQ) -> set[tuple
     images = [vertices.all[v].image for moving in vertices.bodies for v in moving.ring]
     sizes = [len(moving.ring) for moving in vertices.bodies]
     firsts = np.cumsum([0, *sizes[:-1]])
-    swept = SweptBoxes(images, vertices.frame.errors)
+    swept = SweptBoxes(images, vertices.enclosures.errors)
     half = [enclosing_floats(reach * power_of_two(-s - 1))[1] for s in vertices.frame.scale]
     found: set[tuple[int, int]] = set()
     width = (end - begin) / SLABS

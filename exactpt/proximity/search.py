@@ -125,7 +125,7 @@ class ApproachSearch:
         """Read the trajectories of the current pieces of motion."""
         images = [self._vertices.all[v].image for v in self._ids]
         frame = self._vertices.frame
-        self._swept = SweptBoxes(images, frame.errors)
+        self._swept = SweptBoxes(images, self._vertices.enclosures.errors)
         # Units of both axes, relative to the smaller one: powers of two.
         unit = min(frame.scale)
         self._units = np.array([math.ldexp(1.0, s - unit) for s in frame.scale])

@@ -137,6 +137,10 @@ def _mark_face(instant: PredicatesAt, mesh: Mesh, first: HalfEdge, seen: list[bo
         seen[h] = True
         corners += mesh.corner[h]
         h = m.following[h]
+    if h != first:  # of inconsistent signs, such as those of a forged file
+        raise AuditError(
+            f"the half-edges after {instant.vertices.name(m.origin[first])} return elsewhere"
+        )
     if corners == 0:
         for h in m.face(first):
             mesh.region[h] = OUTER

@@ -17,6 +17,7 @@ from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
 from exactpt.collision.contact import Contact, Pair
 from exactpt.errors import InputError
+from exactpt.indices import VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, ZZ, parse_rational, shorten, show
 from exactpt.motion.body import Body
@@ -63,7 +64,7 @@ def tiling_to_json(kinetic: Tiling) -> Data:
             for moving in vertices.bodies
         ],
         "free": list(vertices.free),
-        "frame": _frame_to_json(vertices.frame),
+        "frame": _frame_to_json(vertices.frame) | {"errors": list(vertices.enclosures.errors)},
         "counts": [certifier.made, certifier.skipped, certifier.zeros],
         "stats": {"events": dict(stats.events)} | {name: getattr(stats, name) for name in _STATS},
         "queue": [
@@ -75,23 +76,36 @@ def tiling_to_json(kinetic: Tiling) -> Data:
     return {**data, **kinetic.state()}
 
 
+def _rings_from_json(data: Data, bodies: Sequence[Body]) -> list[list[tuple[VertexId, int]]]:
+    """The ring of each body: ids, every one used once, each with its vertex in the scene."""
+    rings = [[(v, index) for v, index in body["ring"]] for body in data["bodies"]]
+    ids = sorted([*(v for ring in rings for v, _ in ring), *data["free"]])
+    if ids != list(range(len(ids))):
+        raise InputError("a vertex is there twice, or not at all")
+    for body, ring in zip(bodies, rings, strict=True):
+        if {index for _, index in ring} != set(range(body.size)):
+            raise InputError(f"not the vertices of body {shorten(body.name)}")
+    return rings
+
+
 def tiling_from_json(data: Data, bodies: Sequence[Body], last: QQ, *, exact_only: bool) -> Tiling:
     """The tiling with a saved state, for bodies with their motions, up to the ``last`` time.
 
     Raises:
-        InputError: if the state is of another time span, which the run would take for its own.
+        InputError: if the state is of another time span, which the run would take for its own, or
+            does not have the vertices of the bodies.
     """
     if parse_rational(data["end"]) != last:
         raise InputError(f"the tiling ends at t = {shorten(data['end'])[1:-1]}, not {show(last)}")
     vertices = Vertices(
         bodies,
-        [[(v, index) for v, index in body["ring"]] for body in data["bodies"]],
+        _rings_from_json(data, bodies),
         [parse_rational(body["since"]) for body in data["bodies"]],
         _frame_from_json(data["frame"]),
         parse_rational(data["end"]),
         data["free"],
     )
-    vertices.frame.errors[:] = data["frame"]["errors"]
+    vertices.enclosures.errors[:] = data["frame"]["errors"]
     for moving, body in zip(vertices.bodies, data["bodies"], strict=True):
         moving.is_tiled = body["tiled"]
     certifier = Certifier(vertices, QQ(0), parse_rational(data["end"]), exact_only=exact_only)
@@ -149,7 +163,6 @@ def _frame_to_json(frame: Frame) -> Data:
         "scale": list(frame.scale),
         "origin": str(frame.origin),
         "time_scale": frame.time_scale,
-        "errors": list(frame.errors),
     }
 
 

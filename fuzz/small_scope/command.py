@@ -32,6 +32,7 @@ FAILED, INTERRUPTED = 1, 130
     type=click.Path(dir_okay=False, path_type=Path),
     help="Continue from this file if it exists, and update it.",
 )
+@click.option("--proofs", is_flag=True, help="Check the proof by a tiling, and nothing else.")
 @click.option("--jobs", type=click.IntRange(min=1), default=1, help="Number of processes.")
 @click.option("--shrink", default=20.0, show_default=True, help="Seconds for shrinking a fault.")
 @click.option(
@@ -43,6 +44,7 @@ def small_scope(
     start: int | None,
     today: bool,  # noqa: FBT001
     state: Path | None,
+    proofs: bool,  # noqa: FBT001
     jobs: int,
     shrink: float,
     show: int | None,
@@ -53,13 +55,14 @@ def small_scope(
     Examples:
       python -m fuzz small-scope --state scope.json --jobs 2
       python -m fuzz small-scope --today --seconds 60
+      python -m fuzz small-scope --proofs --state proofs.json --count 100000
       python -m fuzz small-scope --show 1510 > scene.json
     """
     if show is not None:
         click.echo(json.dumps(to_json(planned(show).scene), indent=1))
         return
     try:
-        progress = _progress(start, today=today, state=state)
+        progress = _progress(start, today=today, state=state, proofs=proofs)
     except InputError as error:
         raise click.UsageError(str(error)) from None
     click.echo(f"scenes of a round: {', '.join(f'{k} {v:,}' for k, v in sizes().items())}")
@@ -75,16 +78,21 @@ def small_scope(
     sys.exit(FAILED if progress.tally.disagreements else 0)
 
 
-def _progress(start: int | None, *, today: bool, state: Path | None) -> Progress:
+def _progress(start: int | None, *, today: bool, state: Path | None, proofs: bool) -> Progress:
     """Where to begin, or to continue."""
     if start is not None and today:
         raise InputError("either --start or --today")
     if state is not None and state.exists():
         if start is not None or today:
             raise InputError(f"--start and --today are for a new run, but there is {state}")
-        return Progress.load(state)
+        progress = Progress.load(state)
+        if progress.proofs != proofs:
+            raise InputError(
+                f"{state}: of a run {'with' if progress.proofs else 'without'} --proofs"
+            )
+        return progress
     first = start_of(datetime.datetime.now(datetime.UTC).date()) if today else start or 0
-    return Progress(first, first)
+    return Progress(first, first, proofs=proofs)
 
 
 class _Reporter:

@@ -18,9 +18,9 @@ from fuzz.limits import TooSlow, limit
 from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.scope import Planned
 from fuzz.statics import run_and_audit
-from fuzz.witnesses import contact_by, tilings_of
+from fuzz.witnesses import check_proof, contact_by, tilings_of
 
-__all__ = ["AUDITED", "Answer", "Look", "look", "looks"]
+__all__ = ["AUDITED", "Answer", "Look", "look", "look_at_proof", "looks"]
 
 AUDITED: Final = 16
 """One in this many scenes gets an audit of a tiling between events, and another one a simulation
@@ -109,6 +109,18 @@ def look(planned: Planned) -> Look:
     elif rest == AUDITED // 2:
         answers.append(_answer(f"going on {name}", go_on, name))
     return Look(planned, expected, _as_planned(planned, expected), answers)
+
+
+def look_at_proof(planned: Planned) -> Look:
+    """Check the proof by one of the tilings, in C++, and one in 32 in Python too."""
+    names = tilings_of(planned.scene)
+    name, in_python = names[planned.number % len(names)], planned.number % 32 == 0
+
+    def check(tiling: str) -> None:
+        check_proof(planned.scene, tiling, in_python=in_python)
+
+    answer = _answer(f"proof {name}", check, name)
+    return Look(planned, contact=False, as_planned=False, answers=[answer])
 
 
 def _as_planned(planned: Planned, contact: Contact | None) -> bool:

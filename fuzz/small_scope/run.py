@@ -10,6 +10,7 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from dataclasses import dataclass, field
+from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Final
@@ -18,7 +19,7 @@ from exactpt.errors import InputError
 from exactpt.files import write_atomically
 from exactpt.scene.format import to_json
 from fuzz.cases import Failure, failure_of, shrunk
-from fuzz.small_scope.look import AUDITED, looks
+from fuzz.small_scope.look import AUDITED, look_at_proof, looks
 from fuzz.small_scope.scope import planned, sizes
 from fuzz.small_scope.tally import Fault, Tally
 
@@ -39,17 +40,20 @@ class Progress:
         start: number of its first scene.
         next: number of the first scene that has not been checked.
         tally: tally of the checked scenes.
+        proofs: whether proofs are checked, instead of answers compared.
         finished: whether it was not interrupted.
     """
 
     start: int = 0
     next: int = 0
     tally: Tally = field(default_factory=Tally)
+    proofs: bool = False
     finished: bool = True
 
     def save(self, path: Path) -> None:
         """Write it to a file, from which a run can continue."""
-        data = {"round": sizes(), "start": self.start, "next": self.next, **self.tally.to_json()}
+        data = {"round": sizes(), "start": self.start, "next": self.next, "proofs": self.proofs}
+        data |= self.tally.to_json()
         write_atomically(path, json.dumps(data) + "\n")
 
     @classmethod
@@ -63,7 +67,8 @@ class Progress:
             data = json.loads(path.read_text())
             if data["round"] != sizes():
                 raise InputError(f"{path}: of another scope, {data['round']}")
-            return cls(data["start"], data["next"], Tally.from_json(data))
+            proofs = data.get("proofs", False)
+            return cls(data["start"], data["next"], Tally.from_json(data), proofs)
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise InputError(f"{path}: not the state of a run: {error}") from None
 
@@ -73,11 +78,12 @@ def start_of(day: datetime.date) -> int:
     return day.toordinal() * A_DAY
 
 
-def count(numbers: range) -> Tally:
+def count(numbers: range, *, proofs: bool = False) -> Tally:
     """The tally of the scenes with these numbers."""
     began = clock.process_time()
     tally = Tally()
-    for seen in looks([planned(number) for number in numbers]):
+    scenes = [planned(number) for number in numbers]
+    for seen in map(look_at_proof, scenes) if proofs else looks(scenes):
         tally.note(seen)
     tally.seconds = clock.process_time() - began
     return tally
@@ -102,7 +108,8 @@ def run(
     """
     deadline = None if seconds is None else clock.monotonic() + seconds
     todo = _chunks(progress.next, most, deadline)
-    counted = ((c, count(c)) for c in todo) if jobs == 1 else _on_cores(todo, jobs)
+    tally_of = partial(count, proofs=progress.proofs)
+    counted = ((c, tally_of(c)) for c in todo) if jobs == 1 else _on_cores(tally_of, todo, jobs)
     try:
         for numbers, tally in counted:
             new = progress.tally.add(tally)
@@ -120,14 +127,16 @@ def _chunks(start: int, most: int | None, deadline: float | None) -> Iterator[ra
         yield range(first, end)
 
 
-def _on_cores(todo: Iterator[range], jobs: int) -> Iterator[tuple[range, Tally]]:
+def _on_cores(
+    tally_of: Callable[[range], Tally], todo: Iterator[range], jobs: int
+) -> Iterator[tuple[range, Tally]]:
     """The tallies in order; a few chunks are queued ahead of the running ones."""
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
         pending: deque[tuple[range, Future[Tally]]] = deque()
         try:
             while True:
                 for numbers in itertools.islice(todo, 2 * jobs - len(pending)):
-                    pending.append((numbers, pool.submit(count, numbers)))
+                    pending.append((numbers, pool.submit(tally_of, numbers)))
                 if not pending:
                     return
                 numbers, future = pending.popleft()
@@ -142,7 +151,7 @@ def failure_in(number: int, fault: Fault, seconds: float) -> Failure:
     A fault that no witness of campaigns finds is not shrunk.
     """
     scene, turn = planned(number).scene, number // AUDITED
-    witness = "static" if fault.method.startswith("static") else "reference"
+    witness = {"static": "static", "proof": "proof"}.get(fault.method.split()[0], "reference")
     failure = failure_of(witness, scene, turn)
     if failure is None:
         said = f"{fault.method}: {fault.what}"

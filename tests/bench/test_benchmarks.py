@@ -17,6 +17,7 @@ from exactpt.bench import (
     first_contact,
     kernel,
     points,
+    proofs,
     scaling,
     skipping,
     small,
@@ -27,6 +28,7 @@ from exactpt.bench import (
 )
 from exactpt.bench.catalogue import BENCHMARKS
 from exactpt.bench.everyday import EVERYDAY
+from exactpt.bench.everyday_later import EVERYDAY_LATER
 from exactpt.bench.methods.method import Method
 from exactpt.bench.number_types import ARITHMETICS
 from exactpt.bench.planted import FAMILIES as PLANTED
@@ -331,7 +333,7 @@ def test_a_wrong_answer_to_a_small_question_is_an_error(results, monkeypatch, al
 def test_auto_is_beside_all_other_methods(results, alone):
     auto.run(results.output, auto.Sizes((1,), 1), 0)
     rows = results.rows("auto")
-    assert [row["family"] for row in rows] == list(EVERYDAY)
+    assert [row["family"] for row in rows] == [*EVERYDAY, *EVERYDAY_LATER]
     for row in rows:
         assert row["best"] in ("pairs", "greedy", "mixed", "lazy")
         assert float(row["ratio"]) == pytest.approx(float(row["auto ms"]) / float(row["best ms"]))
@@ -368,3 +370,26 @@ def test_what_takes_long_is_asked_once(monkeypatch):
     found = timing.in_turn({n: partial(prepare, n) for n in ("slow", "fast")}, 5)
     assert asked == {"slow": 1, "fast": 5}
     assert found == {"slow": ("slow", 2), "fast": ("fast", 0.1)}
+
+
+@pytest.mark.cgal
+def test_proofs(results, program, monkeypatch):
+    monkeypatch.setenv("EXACTPT_CGAL_CHECK", str(program))
+    proofs.run(results.output, proofs.Sizes(10, 16, 4), 0)
+    rows = results.rows("proofs")
+    assert len(rows) == 7
+    assert all(int(row["bytes an event"] or 0) <= 130 for row in rows)
+    assert all(float(row["C++ s"]) >= 0 for row in rows)
+
+
+def test_proofs_without_the_program(results, tmp_path, monkeypatch):
+    monkeypatch.setenv("EXACTPT_CGAL_CHECK", str(tmp_path / "none"))
+    proofs.run(results.output, proofs.Sizes(10, 16, 2), 0)
+    assert {row["C++ s"] for row in results.rows("proofs")} == {""}
+
+
+def test_a_proof_that_is_rejected_is_an_error(results, monkeypatch):
+    wrong = "contact 0 0 vertex 0 vertex 1"
+    monkeypatch.setattr("exactpt.proof.lines.Lines.none", lambda *_: iter([wrong]))
+    with pytest.raises(AuditError, match="rejected: line"):
+        proofs.run(results.output, proofs.Sizes(10, 16, 2), 0)

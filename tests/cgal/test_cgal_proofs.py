@@ -335,7 +335,7 @@ def test_a_check_verifies_the_proof_first(program, monkeypatch):
     assert report.proof
     assert report.to_json()["proof"] is True
     assert report.lines()[0].startswith("CGAL agrees: the proof is accepted; ")
-    monkeypatch.setattr("exactpt.proof.lines.Lines._is_body_edge", lambda *_: True)
+    monkeypatch.setattr("exactpt.proof.lines.Lines.is_body_edge", lambda *_: True)
     monkeypatch.setattr("exactpt.proof.lines.change", lambda *_: ["- 0 1"])
     report = check_scene(scene)
     assert report.proof is False

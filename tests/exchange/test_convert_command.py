@@ -6,6 +6,8 @@ import pytest
 from click.testing import CliRunner
 
 from exactpt.cli import cli, main
+from exactpt.collision import initial
+from exactpt.errors import BudgetExceeded
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.scene.generate import FAMILIES, POINTS
@@ -149,3 +151,33 @@ def test_generate_prints_a_scene():
 def test_generate_guesses_what_was_meant(capsys):
     assert "no family 'staers': perhaps stars" in refused(capsys, "generate", "staers")
     assert "perhaps convex (all: --help)" in refused(capsys, "generate", "zzz")
+
+
+def test_a_refusal_is_one_line_though_an_outline_was_left_out(tmp_path, capsys):
+    """The hostile fuzzer found the line about the outline before the one about the error."""
+    source = tmp_path / "two.wkt"
+    source.write_text("POLYGON ((0 0, 2 2, 2 0, 0 2, 0 0))\nPOLPOLYGON\n")
+
+    with pytest.raises(SystemExit):
+        main(["convert", str(source), str(tmp_path / "two.json"), "--skip-invalid"])
+
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert "not well-known text" in error
+
+
+def test_nothing_is_written_if_the_time_is_used_up_by_what_touches(tmp_path, monkeypatch, capsys):
+    """The hostile fuzzer found the file, and exit code 4."""
+
+    def slow(scene):
+        raise BudgetExceeded("the time is used up", scene.start)
+
+    monkeypatch.setattr(initial, "initial_touches", slow)
+    (tmp_path / "two.wkt").write_text(TOUCHING)
+
+    with pytest.raises(SystemExit) as left:
+        main(["convert", str(tmp_path / "two.wkt"), str(tmp_path / "two.json")])
+
+    assert left.value.code == 4
+    assert capsys.readouterr().out == ""
+    assert [file.name for file in tmp_path.iterdir()] == ["two.wkt"]

@@ -17,6 +17,7 @@ from exactpt.kernel.integer_polynomial import primitive
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, rational
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.kernel.roots import roots_after
+from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import frame_for
 from exactpt.motion.incidence import difference, orientation
 from exactpt.motion.track import track
@@ -84,7 +85,8 @@ def attack(seed, cases):
     rng, wrong, seen, decided = random.Random(seed), [], Counter(), Counter()
     for _ in range(cases):
         style, motion, tracks, frame, scene = hostile_tracks(rng)
-        images = frame.images(tracks)
+        enclosures = Enclosures(frame)
+        images, errors = enclosures.images(tracks), enclosures.errors
         if rng.random() < 0.7:
             function, ask = orientation(*tracks), coefficients.orientation
         else:
@@ -94,10 +96,10 @@ def attack(seed, cases):
         true, end = in_frame(frame, function), rational(frame.time(scene._end)[1])
         if not any(true):
             now = *frame.time(scene._start), float(end)
-            assert ask(*images, frame.errors, *now, at_root=False)[0] == 0
+            assert ask(*images, errors, *now, at_root=False)[0] == 0
             continue
         case = asked(rng, true, near_roots(rng, true, end), (), ())
-        said = ask(*images, frame.errors, case.now_low, case.now_high, case.horizon, case.at_root)
+        said = ask(*images, errors, case.now_low, case.now_high, case.horizon, case.at_root)
         for key in (style, motion):
             seen[key] += 1
             decided[key] += said[0] != 0

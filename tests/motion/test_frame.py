@@ -11,6 +11,7 @@ from strategies import algebraics, as_rational, fractions
 
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
+from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.motions import Rigid
 from exactpt.motion.track import track
@@ -67,8 +68,9 @@ def padded(f, size):
 @given(frame=frames(), x=polys, y=polys)
 def test_images_of_translating_tracks_are_within_the_errors(frame, x, y):
     path = track(Polynomial(x), Polynomial(y), None, None)
+    enclosures = Enclosures(frame)
 
-    image = frame.images([path])[0]
+    image = enclosures.images([path])[0]
 
     if math.isnan(image.x0):
         return
@@ -77,7 +79,7 @@ def test_images_of_translating_tracks_are_within_the_errors(frame, x, y):
         assert len(true) == len(floats)
         for i, (a, c) in enumerate(zip(floats, true, strict=True)):
             if a or abs(c) > Fraction(2) ** -1074:  # (see the bug below)
-                assert abs(Fraction(a) - c) <= Fraction(frame.errors[i])
+                assert abs(Fraction(a) - c) <= Fraction(enclosures.errors[i])
                 assert a == 0.0 or 2.0**-300 <= abs(a) <= 2.0**100
 
 
@@ -87,8 +89,9 @@ def test_images_of_turning_tracks_are_right_to_a_unit(frame, h, x):
     turn = Polynomial(h)
     w = Polynomial([1]) + turn * turn
     path = track(Polynomial(x), turn, w, ("turn", 1))
+    enclosures = Enclosures(frame)
 
-    image = frame.images([path])[0]
+    image = enclosures.images([path])[0]
 
     if math.isnan(image.x0) or not image.ws:
         return
@@ -116,10 +119,11 @@ def test_images_of_turning_tracks_are_right_to_a_unit(frame, h, x):
 def test_bug_a_turning_track_of_doubles_is_moderate():
     """Its integers are beyond 2^100, but only their ratios matter."""
     frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    enclosures = Enclosures(frame)
     motion = Rigid([0.1234567, 0.7654321], pivot=(0.9876543, -0.3456789), x=[0.1, 0.3])
     path = motion.track((Polynomial([1.2345678]), Polynomial([0.5678901])))
 
-    image = frame.images([path])[0]
+    image = enclosures.images([path])[0]
 
     assert path.bits > 150
     assert max(image.ws) < 2.0
@@ -132,32 +136,36 @@ def test_a_center_near_the_points_keeps_doubles():
     values = [QQ(*(1e9 + rng.uniform(-30, 30)).as_integer_ratio()) for _ in range(50)]
     for points in (values, [-v for v in values]):
         frame = frame_for([(v, v) for v in points], QQ(0), QQ(1))
+        enclosures = Enclosures(frame)
         tracks = [track(Polynomial([v]), Polynomial([v, 1]), None, None) for v in points]
 
-        images = frame.images(tracks)
+        images = enclosures.images(tracks)
 
         assert max(abs(image.x0) for image in images) < 64.0
-        assert not any(frame.errors)
+        assert not any(enclosures.errors)
 
 
 def test_bug_a_coefficient_too_small_for_a_double_counts_as_zero():
     """1e-400 becomes 0.0, which passes for moderate and exact; the exact value must be tested."""
     frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    enclosures = Enclosures(frame)
     tiny = Polynomial([1, Fraction(1, 10**400)])
 
-    image = frame.images([track(tiny, Polynomial([1]), None, None)])[0]
+    image = enclosures.images([track(tiny, Polynomial([1]), None, None)])[0]
 
-    assert math.isnan(image.x0) or frame.errors[1] > 0.0
+    assert math.isnan(image.x0) or enclosures.errors[1] > 0.0
 
 
 def test_bug_the_errors_are_shorter_than_an_image_of_nan():
     """A cubic of immoderate size left ``errors`` at two entries: an IndexError later."""
     frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    enclosures = Enclosures(frame)
 
-    image = frame.images([track(Polynomial([0, 0, 0, 10**40]), Polynomial([1]), None, None)])[0]
+    path = track(Polynomial([0, 0, 0, 10**40]), Polynomial([1]), None, None)
+    image = enclosures.images([path])[0]
 
     assert math.isnan(image.x0)
-    assert len(frame.errors) >= len(image.xs)
+    assert len(enclosures.errors) >= len(image.xs)
 
 
 @given(frame=frames(), case=algebraics())
@@ -187,63 +195,68 @@ def test_a_double_of_the_frame_stands_for_one_time(frame, t):
 def test_ordinary_scenes_keep_their_integers(points, x, end):
     exact_points = [(as_rational(p), as_rational(q)) for p, q in [(0, 0), (1, 1), *points]]
     frame = frame_for(exact_points, QQ(0), QQ(end))
+    enclosures = Enclosures(frame)
 
-    image = frame.images([track(Polynomial(x), Polynomial([7]), None, None)])[0]
+    image = enclosures.images([track(Polynomial(x), Polynomial([7]), None, None)])[0]
 
     assert [value(x, Fraction(1))] == [sum(map(Fraction, image.xs), Fraction(0))]
-    assert not any(frame.errors)
+    assert not any(enclosures.errors)
     assert frame.time(QQ(end)) == (float(end), float(end))
 
 
 def test_integers_are_exact_as_far_as_doubles_are():
     frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    enclosures = Enclosures(frame)
 
-    exact_ones = frame.images(
+    exact_ones = enclosures.images(
         [track(Polynomial([2**53 - 1, -(2**53)]), Polynomial([]), None, None)]
     )[0]
-    errors = list(frame.errors)
-    rounded = frame.images([track(Polynomial([2**53 + 1]), Polynomial([1]), None, None)])[0]
-    huge = frame.images([track(Polynomial([10**400]), Polynomial([1]), None, None)])[0]
+    errors = list(enclosures.errors)
+    rounded = enclosures.images([track(Polynomial([2**53 + 1]), Polynomial([1]), None, None)])[0]
+    huge = enclosures.images([track(Polynomial([10**400]), Polynomial([1]), None, None)])[0]
 
     assert exact_ones.xs == [2.0**53 - 1, -(2.0**53)]
     assert exact_ones.ys == [0.0, 0.0]
     assert errors == [0.0, 0.0]
     assert rounded.xs == [2.0**53]
-    assert frame.errors[0] >= 1.0
+    assert enclosures.errors[0] >= 1.0
     assert math.isnan(huge.x0)
 
 
 def test_tracks_of_one_body_have_one_motion():
     frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    enclosures = Enclosures(frame)
     path, other, rest = Polynomial([1, 2]), Polynomial([7, 2]), Polynomial([1])
     tracks = [track(x, rest, None, None) for x in (path, other, rest, path)]
 
-    first, second, third, fourth = (image.motion for image in frame.images(tracks))
+    first, second, third, fourth = (image.motion for image in enclosures.images(tracks))
 
     assert first == second == fourth != third
-    assert frame.images(tracks[:1])[0].motion == first
+    assert enclosures.images(tracks[:1])[0].motion == first
 
 
 def test_integer_vertices_among_others_of_one_body():
     """Tracks of one motion whose denominators differ have different numerators."""
     frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    enclosures = Enclosures(frame)
     xs = (3, QQ(1, 2), 0, 2**60, -5)
     tracks = [track(Polynomial([x, 7]), Polynomial([0, 0, 1]), None, None) for x in xs]
 
-    images = frame.images(tracks)
+    images = enclosures.images(tracks)
 
     assert [image.xs for image in images] == [[float(x), 7.0, 0.0] for x in xs]
     assert [image.ys for image in images] == [[0.0, 0.0, 1.0]] * 5
-    assert not any(frame.errors)
+    assert not any(enclosures.errors)
 
 
 def test_the_bound_is_at_most_twice_the_largest_error():
     """Cut to a quarter it would be wrong; scenes hardly ever show that, as few vertices are so."""
     worst = 1 + UNIT * (1 - Fraction(1, 2**30))
     frame = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)
+    enclosures = Enclosures(frame)
 
-    image = frame.images([track(Polynomial([worst]), Polynomial([0]), None, None)])[0]
+    image = enclosures.images([track(Polynomial([worst]), Polynomial([0]), None, None)])[0]
 
     error = abs(Fraction(image.x0) - worst)
-    assert Fraction(frame.errors[0]) / 4 < error <= Fraction(frame.errors[0])
-    assert Fraction(frame.errors[0]) < Fraction(2001, 1000) * error
+    assert Fraction(enclosures.errors[0]) / 4 < error <= Fraction(enclosures.errors[0])
+    assert Fraction(enclosures.errors[0]) < Fraction(2001, 1000) * error

@@ -9,6 +9,7 @@ from strategies import as_rational, doubles, fractions
 
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
+from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import frame_for
 from exactpt.motion.motions import Affine, Rigid, Translation
 from exactpt.motion.swept import SweptBoxes
@@ -33,11 +34,12 @@ bodies = st.one_of(
 def test_boxes_contain_the_vertices(bodies, begin, length):
     tracks = [body._piece_after(QQ(0)).tracks[0] for body in bodies]
     frame = frame_for([body.at(QQ(0))[0] for body in bodies], QQ(0), QQ(8))
-    images = frame.images(tracks)
+    enclosures = Enclosures(frame)
+    images = enclosures.images(tracks)
     first, last = as_rational(begin), as_rational(begin + length)
     low, high = frame.time(first)[0], frame.time(last)[1]
 
-    swept = SweptBoxes(images, frame.errors)
+    swept = SweptBoxes(images, enclosures.errors)
     boxes = swept.during(low, high).tolist()
 
     for track, (x_low, x_high, y_low, y_high) in zip(tracks, boxes, strict=True):
@@ -65,8 +67,9 @@ def test_what_all_have_in_common_moves_no_box():
         for i in range(5)
     ]
     frame = frame_for([(QQ(0), QQ(0)), (QQ(12), QQ(4))], QQ(0), QQ(1000))
+    enclosures = Enclosures(frame)
 
-    swept = SweptBoxes(frame.images(tracks), frame.errors)
+    swept = SweptBoxes(enclosures.images(tracks), enclosures.errors)
 
     for i, box in enumerate(swept.during(0.0, 1000.0).tolist()):
         assert [round(v, 6) for v in box] == [3 * i, 3 * i, i, i]
@@ -81,11 +84,12 @@ def test_boxes_contain_what_underflows(bits, numerator):
     for degree in range(1060 // bits - 1, 1074 // bits + 2):
         power = Body("a", [(0, 0)], Translation([0] * degree + [1]))
         frame = frame_for([(QQ(0), QQ(0))], QQ(0), QQ(1))
-        image = frame.images([power._piece_after(QQ(0)).tracks[0]])[0]
+        enclosures = Enclosures(frame)
+        image = enclosures.images([power._piece_after(QQ(0)).tracks[0]])[0]
         low, high = frame.time(t)[0], frame.time(t * (1 + QQ(1, 1 << 50)))[1]
 
-        rest = frame.images([Body("b", [(0, 0)])._piece_after(QQ(0)).tracks[0]])[0]
-        swept = SweptBoxes([image, rest, rest], frame.errors)
+        rest = enclosures.images([Body("b", [(0, 0)])._piece_after(QQ(0)).tracks[0]])[0]
+        swept = SweptBoxes([image, rest, rest], enclosures.errors)
         x_low, x_high, *_ = swept.during(low, high)[0].tolist()
 
         assert x_low <= t**degree <= x_high
@@ -96,11 +100,12 @@ def test_boxes_are_tight():
     line = Body("a", [(0, 0)], Translation([0, 1], [0, -2]))._piece_after(QQ(0)).tracks[0]
     turn = Body("a", [(1, 0)], Rigid([0, Fraction(1, 4)]))._piece_after(QQ(0)).tracks[0]
     frame = frame_for([(QQ(0), QQ(0)), (QQ(2), QQ(2))], QQ(0), QQ(1))
+    enclosures = Enclosures(frame)
     assert frame.point((QQ(1, 2), QQ(1, 2))) == (0.5, 0.5)
 
     rest = Body("b", [(1, 1)])._piece_after(QQ(0)).tracks[0]
-    images = frame.images([line, turn, rest, rest])
-    boxes = SweptBoxes(images, frame.errors).during(0.0, 1.0)
+    images = enclosures.images([line, turn, rest, rest])
+    boxes = SweptBoxes(images, enclosures.errors).during(0.0, 1.0)
 
     assert [round(v, 9) for v in boxes[0].tolist()] == [0, 1, -2, 0]
     x_low, x_high, y_low, y_high = boxes[1].tolist()
@@ -114,9 +119,10 @@ def test_what_cannot_be_bounded_has_the_whole_plane():
     spin = Body("b", [(1, 0)], Rigid([0, 1]))._piece_after(QQ(0)).tracks[0]
     rest = Body("c", [(1, 1)])._piece_after(QQ(0)).tracks[0]
     frame = frame_for([(QQ(0), QQ(0)), (QQ(1), QQ(1))], QQ(0), QQ(100))
-    images = frame.images([huge, spin, rest])
+    enclosures = Enclosures(frame)
+    images = enclosures.images([huge, spin, rest])
 
-    boxes = SweptBoxes(images, frame.errors).during(-50.0, 50.0).tolist()
+    boxes = SweptBoxes(images, enclosures.errors).during(-50.0, 50.0).tolist()
 
     inf = float("inf")
     assert boxes[0] == boxes[1] == [-inf, inf, -inf, inf]

@@ -10,11 +10,11 @@ from exactpt import Body, Scene, Translation
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
-from exactpt.proof.changes import change, followers
 from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.scene.format import loads
 from exactpt.scene.generate import generate
 from exactpt.tiling import engine, touching
+from fuzz.proofs.wrong import spliced, touching_and_going
 
 pytestmark = pytest.mark.usefixtures("by_both_checkers")
 
@@ -74,53 +74,21 @@ def test_spliced_at_a_contact():
     assert accepted(scene, right)
 
 
-def spliced(scene, time, later, tiling):
-    """A run up to a time, and one from a later time on, made into one proof with an event."""
-    first = ProofRun(scene.until(time), tiling=tiling, scene_file=scene_bytes(scene))
-    lines = list(first.lines())
-    rest = Scene.going_on(scene, [*scene.bodies], QQ(later))
-    second = ProofRun(rest, tiling=tiling, scene_file=scene_bytes(scene))
-    others = list(second.lines())
-    start = next(i for i, line in enumerate(others) if line.split()[0] in ("event", "none"))
-    again = ProofRun(rest, tiling=tiling, scene_file=scene_bytes(scene))
-    generator = again.lines()
-    for _ in range(start):
-        next(generator)
-    old, new = first._lines._after, again._lines._after
-    solid = followers(first._nodes.solid_faces())
-    words = [f"= {u} {v}" for u, v in old.keys() & new.keys() - solid.keys()]
-    words += change(dict(old), old, new, first._lines._is_body_edge)
-    lines[2] = f"span {scene.start} {scene.end}"
-    return [*lines[:-1], f"event {time} {time} {' '.join(words)}", *others[start:]]
-
-
-def touching_and_going(random):
-    """Random bodies on a grid of which one comes down to touch another at t = 1, and leaves."""
-    rows = [[(0, 0), (4, 0)], [(1, 0), (4, 1), (2, 2)], [(0, 0), (2, 1), (4, 0)], [(2, 0)]]
-    low, high = random.choice(rows), random.choice(rows)
-    shift = random.randint(-3, 3)
-    drop = min(y for _, y in high) - max(y for _, y in low)
-    lower = Body("low", low, closed=len(low) != 3 or random.random() < 0.5)
-    motion = Translation([shift, random.randint(-1, 1)], [Fraction(1 - drop), -2, 1])
-    upper = Body("high", [(x, y) for x, y in high], motion, closed=random.random() < 0.5)
-    return Scene([lower, upper, Body("p", [(9, 1)]), Body("q", [(-9, 2)])], time=(0, 2))
-
-
 @pytest.mark.parametrize("tiling", ["lazy", "greedy", "mixed"])
 def test_spliced_runs(tiling):
     """Spliced at a touch-and-go contact: rejected; at a time without contact: accepted."""
     random, wrong, right = Random(tiling), 0, 0
     for _ in range(40):
-        scene = touching_and_going(random)
+        scene = touching_and_going(random, with_event=False)
         contact = first_contact_allpairs(scene)
         if contact is None:
-            lines = spliced(scene, Fraction(1), Fraction(1), tiling)
+            lines = spliced(scene, QQ(1), QQ(1), tiling)
             assert accepted(scene, lines)
             right += 1
         elif contact.time == 1:
             later = Scene.going_on(scene, scene.bodies, QQ(1) + QQ(1, 2**20))
             if first_contact_allpairs(later) is None:
-                lines = spliced(scene, Fraction(1), later.start, tiling)
+                lines = spliced(scene, QQ(1), later._start, tiling)
                 answer = verdict(scene, lines)
                 assert " at t = 1" in answer
                 assert "coincide" in answer or "is on the edge" in answer
@@ -288,7 +256,7 @@ def test_an_engine_that_is_blind_to_contacts(tiling, monkeypatch):
         monkeypatch.setattr(module, "report_touches", lambda *_: None)
     random, right, wrong = Random(f"blind {tiling}"), 0, 0
     for _ in range(60):
-        scene = touching_and_going(random)
+        scene = touching_and_going(random, with_event=False)
         if (expected := first_contact_allpairs(scene)) and expected.kind == "initial":
             continue
         try:

@@ -236,6 +236,24 @@ def test_bug_points_that_hang_in_a_circle_are_refused(tmp_path, place, value, me
         Simulation.restore(tmp_path / "run.json")
 
 
+@pytest.mark.parametrize(
+    "place, value, message",
+    [
+        ((1, "ring", 0, 0), -1, "a vertex is there twice, or not at all"),
+        ((1, "ring", 0, 0), 1, "a vertex is there twice, or not at all"),
+        ((1, "ring", 2, 1), 0, "not the vertices of body 'b1'"),
+    ],
+)
+def test_bug_rings_without_all_vertices_are_refused(tmp_path, place, value, message):
+    """A tiling was built anew from faces that never closed; the hostile fuzzer found it."""
+    data = without_seal(Simulation(generate("convex", 2), tiling="greedy").to_json())
+    forged = changed(data, ("state", "bodies", *place), value)
+    (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
+
+    with pytest.raises(InputError, match=message):
+        Simulation.restore(tmp_path / "run.json")
+
+
 def test_the_size_of_a_file_is_bounded(tmp_path):
     Simulation(generate("stars", 2)).save(tmp_path / "run.json")
 

@@ -1,0 +1,1 @@
+"""Proofs under attack: mutants of proofs of right answers, and proofs of wrong ones."""

@@ -1,0 +1,213 @@
+"""Campaigns of mutants: each is rejected, or true by the all-pairs reference."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import time as clock
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass, field
+from fractions import Fraction
+from functools import partial
+from pathlib import Path
+from random import Random
+from typing import Final, NamedTuple
+
+from exactpt.collision.allpairs import first_contact_allpairs
+from exactpt.collision.tilings import tilings_for
+from exactpt.errors import InputError
+from exactpt.files import write_atomically
+from exactpt.proof import prove
+from exactpt.proof.emit import scene_bytes
+from exactpt.scene.format import loads
+from exactpt.scene.generate import FAMILIES, POINTS, generate
+from exactpt.scene.scene import Scene
+from fuzz.proofs.checking import checker, is_geometric
+from fuzz.proofs.texts import TEXTS
+from fuzz.proofs.wrong import wheel, wrong_splice
+
+__all__ = ["KINDS", "Mutant", "Progress", "is_true", "mutants", "run"]
+
+PER_SCENE: Final = 3
+"""Number of mutants of a kind that a proof gets."""
+
+OTHER: Final = "another scene's vertices"
+WHEEL: Final = "wheel wound twice"
+SPLICED: Final = "spliced at a contact"
+PLANTED: Final = "contact planted at an event"
+
+KINDS: Final = (*TEXTS, OTHER, WHEEL, SPLICED, PLANTED)
+"""The kinds of mutants."""
+
+
+class Mutant(NamedTuple):
+    """A proof that ought not to be.
+
+    Attributes:
+        kind: one of `KINDS`.
+        scene: the bytes of the scene's file.
+        proof: the bytes of the proof.
+    """
+
+    kind: str
+    scene: bytes
+    proof: bytes
+
+
+@dataclass(slots=True)
+class Counts:
+    """Numbers of mutants of a kind.
+
+    Attributes:
+        mutants: all of them.
+        past: those which reading and map have not rejected.
+        true: those which are accepted, and true.
+    """
+
+    mutants: int = 0
+    past: int = 0
+    true: int = 0
+
+
+@dataclass(slots=True)
+class Progress:
+    """The progress of a campaign.
+
+    Attributes:
+        next: the number of the next round.
+        counts: by kind.
+        found: mutants that are accepted and not true, as names of files without ending.
+    """
+
+    next: int = 0
+    counts: dict[str, Counts] = field(default_factory=lambda: {kind: Counts() for kind in KINDS})
+    found: list[str] = field(default_factory=list)
+
+    def save(self, path: Path) -> None:
+        """Write it to a file, from which a campaign can continue."""
+        write_atomically(path, json.dumps(asdict(self)) + "\n")
+
+    @classmethod
+    def load(cls, path: Path) -> Progress:
+        """Read it from a file.
+
+        Raises:
+            InputError: if it is no such file.
+        """
+        try:
+            data = json.loads(path.read_text(encoding="utf-8"))
+            counts = {kind: Counts(**data["counts"][kind]) for kind in KINDS}
+            return cls(data["next"], counts, data["found"])
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise InputError(f"{path}: not the state of a campaign: {error}") from None
+
+    def table(self) -> list[str]:
+        """One line for each kind, and the sum."""
+        lines = [f"{'mutants of proofs':30}{'all':>9}{'past the map':>14}{'true':>7}"]
+        rows = [*self.counts.items()]
+        total = Counts(*(sum(getattr(c, n) for _, c in rows) for n in ("mutants", "past", "true")))
+        for kind, c in [*rows, ("all", total)]:
+            lines.append(f"{kind:30}{c.mutants:>9}{c.past:>14}{c.true:>7}")
+        return [*lines, f"{len(self.found)} accepted, and not true"]
+
+
+def mutants(number: int, kinds: set[str]) -> Iterator[Mutant]:
+    """The mutants of a round: those of one proof, and others."""
+    random = Random(f"mutants:{number}")
+    families = [*FAMILIES, *POINTS]
+    scene = generate(families[number % len(families)], 100_000 + number // len(families))
+    texts = [kind for kind in (*TEXTS, OTHER) if kind in kinds]
+    if texts:
+        _, file, proof = prove(scene, tiling=random.choice(tilings_for(scene)))
+        lines = proof.decode().splitlines()
+        for kind in texts:
+            for _ in range(PER_SCENE):
+                made = _moved(file, lines, random) if kind == OTHER else TEXTS[kind](lines, random)
+                if isinstance(made, list):
+                    made = file, made
+                if made is not None and made[1] != lines:
+                    yield Mutant(kind, made[0], _text(made[1]))
+    others: dict[str, Callable[[Random], tuple[Scene, list[str]] | None]] = {
+        WHEEL: wheel,
+        SPLICED: partial(wrong_splice, with_event=False),
+        PLANTED: partial(wrong_splice, with_event=True),
+    }
+    for kind, make in others.items():
+        for _ in range(PER_SCENE if kind in kinds else 0):
+            wrong = make(random)
+            if wrong is not None:
+                yield Mutant(kind, scene_bytes(wrong[0]), _text(wrong[1]))
+
+
+def _text(lines: list[str]) -> bytes:
+    return ("\n".join(lines) + "\n").encode()
+
+
+def _moved(file: bytes, lines: list[str], random: Random) -> tuple[bytes, list[str]] | None:
+    """The scene with a vertex at rest in its body elsewhere, and the proof made out to it."""
+    data = json.loads(file)
+    bodies = [body for body in data["bodies"] if isinstance(body.get("vertices", [{}])[0], list)]
+    if not bodies:
+        return None
+    vertices = random.choice(bodies)["vertices"]
+    plain = [k for k, v in enumerate(vertices) if isinstance(v, list)]
+    k, size = random.choice(plain), random.choice([1, 10, 100])
+    vertices[k] = [
+        str(Fraction(c) + Fraction(random.randint(-99, 99), 99) * size) for c in vertices[k]
+    ]
+    other = json.dumps(data).encode()
+    return other, [lines[0], f"scene sha256 {hashlib.sha256(other).hexdigest()}", *lines[2:]]
+
+
+def is_true(mutant: Mutant, answer: str) -> bool:
+    """Whether what has been accepted is right by the reference."""
+    scene = loads(mutant.scene.decode())
+    last = mutant.proof.decode().split("\n")[2].split()[2]
+    contact = first_contact_allpairs(scene.until(last))
+    if not answer.startswith("accepted: no contact before T = "):
+        return contact is None
+    time = answer.removeprefix("accepted: no contact before T = ").split(";")[0]
+    ends = time.split("(between ")[-1].rstrip(")").split(" and ")
+    low, high = Fraction(ends[0]), Fraction(ends[-1])
+    if contact is None:
+        return False
+    return contact.time.compare_rational(low) >= 0 >= contact.time.compare_rational(high)
+
+
+def run(
+    progress: Progress,
+    report: Callable[[Mutant, str], None],
+    saved: Callable[[], None],
+    *,
+    most: int,
+    past: int,
+    seconds: float | None = None,
+) -> None:
+    """Continue a campaign.
+
+    Args:
+        progress: its progress, updated.
+        report: called with a mutant that is accepted and not true, and its name.
+        saved: called after every round.
+        most: number of mutants of a kind.
+        past: number of mutants of a kind that reading and map do not reject.
+        seconds: time limit in seconds; None for no limit.
+    """
+    deadline = None if seconds is None else clock.monotonic() + seconds
+    while deadline is None or clock.monotonic() < deadline:
+        kinds = {k for k, c in progress.counts.items() if c.mutants < most or c.past < past}
+        if not kinds:
+            return
+        for i, mutant in enumerate(list(mutants(progress.next, kinds))):
+            counts = progress.counts[mutant.kind]
+            answer = checker().verdict(mutant.scene, mutant.proof)
+            is_accepted = answer.startswith("accepted: ")
+            counts.mutants += 1
+            counts.past += is_accepted or is_geometric(answer)
+            if is_accepted and is_true(mutant, answer):
+                counts.true += 1
+            elif is_accepted:
+                progress.found.append(f"{mutant.kind} {progress.next}.{i}")
+                report(mutant, progress.found[-1])
+        progress.next += 1
+        saved()

@@ -1,0 +1,115 @@
+"""Mutants of proofs, a few of each kind: each is rejected, or true."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from exactpt import proof_check
+from exactpt.scene.generate import generate
+from fuzz.proofs import run as mutants_run
+from fuzz.proofs.checking import checker, is_geometric
+from fuzz.proofs.command import proof_mutants
+from fuzz.proofs.run import KINDS, Mutant, Progress, is_true, mutants
+from fuzz.small_scope.look import look_at_proof
+from fuzz.small_scope.scope import planned
+from fuzz.witnesses import Difference, check_proof
+
+pytestmark = pytest.mark.cgal
+
+
+@pytest.fixture(autouse=True)
+def _program(program, monkeypatch):
+    monkeypatch.setenv("EXACTPT_CGAL_CHECK", str(program))
+
+
+def in_python(mutant):
+    try:
+        return proof_check.check(mutant.scene, mutant.proof)
+    except (proof_check.Rejected, proof_check.NoProofError) as error:
+        return str(error)
+
+
+def test_each_kind_gets_past_the_map():
+    past = set()
+    for number in range(4):
+        for mutant in mutants(number, set(KINDS)):
+            answer = checker().verdict(mutant.scene, mutant.proof)
+            is_accepted = answer.startswith("accepted: ")
+            assert is_accepted == in_python(mutant).startswith("accepted: "), mutant
+            assert not is_accepted or is_true(mutant, answer)
+            if is_geometric(answer):
+                past.add(mutant.kind)
+    assert past == set(KINDS)
+
+
+def test_the_same_mutants_again():
+    assert list(mutants(3, set(KINDS))) == list(mutants(3, set(KINDS)))
+
+
+def test_a_campaign_that_is_resumed(tmp_path):
+    state, keep = tmp_path / "state.json", tmp_path / "found"
+    words = ["--cases", "33", "--past", "1", "--keep", str(keep), "--state", str(state)]
+    done = CliRunner().invoke(proof_mutants, [*words, "--seconds", "0"])
+    assert (done.exit_code, state.exists()) == (0, False)
+    done = CliRunner().invoke(proof_mutants, words)
+    assert done.output.endswith("\n0 accepted, and not true\n")
+    data = json.loads(state.read_text())
+    assert all(c["mutants"] >= 3 and c["past"] >= 1 for c in data["counts"].values())
+    assert CliRunner().invoke(proof_mutants, words).output == done.output
+    state.write_text("{}")
+    assert CliRunner().invoke(proof_mutants, words).exit_code == 2
+
+
+def test_what_is_accepted_and_wrong_is_found(tmp_path, monkeypatch):
+    class Blind:
+        def verdict(self, *_):
+            return "accepted: no contact from t = 0 to t = 1"
+
+    monkeypatch.setattr(mutants_run, "checker", Blind)
+    found = []
+    progress = Progress()
+    seconds = 5.0
+    mutants_run.run(
+        progress, lambda *met: found.append(met), lambda: None, most=3, past=1, seconds=seconds
+    )
+    assert len(found) == len(progress.found) > 0
+    assert all(isinstance(mutant, Mutant) for mutant, _ in found)
+
+
+def test_the_checker_is_started_again():
+    answers = []
+    for _ in range(2):
+        answers.append(checker().verdict(b"{}", b"no proof"))
+        checker().close()
+    assert answers[0] == answers[1]
+    assert answers[0].startswith("no proof: ")
+
+
+def test_proofs_of_the_small_scope():
+    for number in range(0, 96, 32):
+        (answer,) = look_at_proof(planned(number)).answers
+        assert answer.method.startswith("proof ")
+        assert answer.fault is None
+
+
+def test_a_wrong_proof_is_a_difference(monkeypatch):
+    from exactpt.proof.lines import Lines
+
+    monkeypatch.setattr(Lines, "none", lambda *_: iter(["none"]))
+    monkeypatch.setattr(Lines, "contact", lambda *_: iter(["none"]))
+    with pytest.raises(Difference, match="proof"):
+        check_proof(generate("stars", 6), "lazy", in_python=False)
+
+
+def test_states_of_both_kinds_of_runs(tmp_path):
+    from fuzz.small_scope.command import small_scope
+
+    state = str(tmp_path / "state.json")
+    words = ["--count", "3", "--start", "0", "--state", state, "--proofs"]
+    done = CliRunner().invoke(small_scope, words)
+    assert done.exit_code == 0
+    assert "proof " in done.output
+    wrong = CliRunner().invoke(small_scope, ["--count", "1", "--state", state])
+    assert wrong.exit_code == 2
+    assert "with --proofs" in wrong.output
