@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from exactpt.motion.body import Body
     from exactpt.motion.local_time import Velocity, in_local_time, spline
     from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
+    from exactpt.motion.spin import Spin
     from exactpt.proof.written import Proof, prove
     from exactpt.proximity.clearance import Clearance, clearance
     from exactpt.proximity.distance import Distance, distance
@@ -65,6 +66,7 @@ __all__ = [
     "Rigid",
     "Scene",
     "Simulation",
+    "Spin",
     "Translation",
     "Velocity",
     "clearance",
@@ -117,6 +119,7 @@ _ROOMS: Final = {
         "Rigid",
         "Translation",
     ),
+    "exactpt.motion.spin": ("Spin",),
     "exactpt.proof.written": (
         "Proof",
         "prove",

@@ -410,7 +410,9 @@ def motions(data: Json) -> list[tuple[Until, dict[str, Json]]]:
     """The motions of a body, one after the other: (until, motion)."""
     pieces = [{"motion": data}]
     if isinstance(data, dict) and "pieces" in data:
-        pieces = [keys(p, "until", "motion") for p in entries(keys(data, "pieces")["pieces"])]
+        pieces = [
+            keys(p, "until", "motion") for p in entries(keys(data, "pieces", "spin")["pieces"])
+        ]
     whole = pieces and "until" not in pieces[-1] and all("until" in p for p in pieces[:-1])
     need(whole, '"until" belongs to all pieces but the last:', data)
     ends: list[Until] = [*(number(p["until"]) for p in pieces[:-1]), inf]
@@ -425,11 +427,15 @@ def moved(motion: dict[str, Json], x: Poly, y: Poly) -> Track:
     data = motion
     if "rigid" in motion:
         # A turn by the angle a with tan(a / 2) = h: (1 - h^2, 2 h) / (1 + h^2) is (cos, sin).
-        data = keys(keys(motion, "rigid")["rigid"], "half_turn", "pivot", "x", "y")
+        allowed = "half_turn", "pivot", "x", "y", "orientation"
+        data = keys(keys(motion, "rigid")["rigid"], *allowed)
         h = polynomial(data.get("half_turn"))
         px, py = (polynomial([c]) for c in entries(data.get("pivot", ["0", "0"]), 2))
+        c, s = (polynomial([c]) for c in entries(data.get("orientation", ["1", "0"]), 2))
+        need(c * c + s * s == one, "an orientation that is no unit vector:", data)
         w, cosine, sine = one + h * h, one - h * h, h + h
         x, y = x - px, y - py
+        x, y = c * x - s * y, s * x + c * y
         x, y = cosine * x - sine * y + w * px, sine * x + cosine * y + w * py
     elif "affine" in motion:
         data = keys(keys(motion, "affine")["affine"], "matrix", "x", "y")

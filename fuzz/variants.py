@@ -161,7 +161,10 @@ class Variant:
             turn = self._then(motion.half_turn)
             mirrored = a * d - b * c < 0
             pivot = self._point(motion.pivot)
-            return Rigid(-turn if mirrored else turn, pivot=pivot, x=x, y=y)
+            cosine, sine = motion.orientation
+            if mirrored:
+                turn, sine = -turn, -sine
+            return Rigid(turn, pivot=pivot, x=x, y=y, orientation=(cosine, sine))
         return self._affine(motion, (x, y))
 
     def _affine(self, motion: Affine, offset: Position) -> Affine:

@@ -244,7 +244,8 @@ def motion_at(motion: Json | None, x: Fraction, y: Fraction, t: Fraction):
         px, py = (Fraction(str(c)) for c in rigid.get("pivot", ["0", "0"]))
         h = _at(rigid["half_turn"], t)
         cosine, sine = (1 - h * h) / (1 + h * h), 2 * h / (1 + h * h)
-        dx, dy = x - px, y - py
+        c, s = (Fraction(str(part)) for part in rigid.get("orientation", ["1", "0"]))
+        dx, dy = c * (x - px) - s * (y - py), s * (x - px) + c * (y - py)
         return (
             px + cosine * dx - sine * dy + _at(rigid.get("x", []), t),
             py + sine * dx + cosine * dy + _at(rigid.get("y", []), t),

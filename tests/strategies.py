@@ -271,7 +271,10 @@ def _motion(draw):
         return {}
     x, y = draw(coefficients), draw(coefficients)
     if kind == "one":
-        return {"motion": draw(_one_motion(x, y, [Fraction(0)]))}
+        motion = draw(_one_motion(x, y, [Fraction(0)]))
+        if "rigid" in motion and draw(st.booleans()):
+            motion["rigid"]["orientation"] = draw(st.sampled_from([["3/5", "4/5"], ["0", "-1"]]))
+        return {"motion": motion}
     breaks = sorted(draw(st.sets(fractions.map(abs), max_size=3)))
     pieces = []
     for i, end in enumerate([*breaks, None]):

@@ -80,16 +80,22 @@ Motion translation(const Json* json) {
   return {one, {}, {}, one, polynomial(json->find("x")), polynomial(json->find("y")), one};
 }
 
+// Two constants: a pivot, or an orientation.
+std::pair<Rationals, Rationals> pair(const Json* json, int x, int y) {
+  if (!json) return {constant(x), constant(y)};
+  const std::vector<Json>& both = list(json);
+  if (both.size() != 2) throw NoProof("the scene has a rotation with a pair that is none");
+  return {constant(exact_number(&both[0])), constant(exact_number(&both[1]))};
+}
+
 Motion rotation(const Json& json) {
-  allow_keys(json, {"pivot", "half_turn", "x", "y"});
-  Rationals px, py;
-  if (const Json* pivot = json.find("pivot")) {
-    const std::vector<Json>& both = list(pivot);
-    if (both.size() != 2) throw NoProof("the scene has a pivot that is no point");
-    px = constant(exact_number(&both[0])), py = constant(exact_number(&both[1]));
-  }
+  allow_keys(json, {"pivot", "half_turn", "x", "y", "orientation"});
+  const auto [px, py] = pair(json.find("pivot"), 0, 0);
+  const auto [c, s] = pair(json.find("orientation"), 1, 0);
   const Rationals h = polynomial(member(json, "half_turn")), one = constant(1);
-  const Rationals w = one + h * h, cosine = one - h * h, sine = h + h;
+  if (c * c + s * s != one) throw NoProof("the scene has an orientation that is no unit vector");
+  const Rationals w = one + h * h, cos_h = one - h * h, sin_h = h + h;
+  const Rationals cosine = cos_h * c - sin_h * s, sine = sin_h * c + cos_h * s;
   const Rationals x = polynomial(json.find("x")), y = polynomial(json.find("y"));
   const Rationals zero;
   return {cosine, zero - sine, sine, cosine,
@@ -136,7 +142,7 @@ struct Pieces {
 Pieces<Motion> motions(const Json* json) {
   if (!json || json->kind != Json::Kind::object || !json->find("pieces"))
     return {{}, {simple_motion(json)}};
-  allow_keys(*json, {"pieces"});
+  allow_keys(*json, {"pieces", "spin"});
   Pieces<Motion> pieces;
   const std::vector<Json>& rows = list(json->find("pieces"));
   for (const Json& row : rows) {

@@ -62,7 +62,8 @@ def in_local_time(
     (Fraction(10, 1), Fraction(13, 1), Fraction(15, 1))
 
     The body is at rest before the start, and after the last step if that has a duration. Angles of
-    rotation are not added up: half-turns of successive rotations must fit (see `Rigid`).
+    rotation are not added up: half-turns and orientations of successive rotations must fit (see
+    `Rigid`).
 
     Args:
         steps: pairs of a positive duration and a motion; the last duration may be None, for ever.
@@ -133,8 +134,13 @@ def _composed(motion: SimpleMotion, time: Polynomial, x: QQ, y: QQ) -> Translati
     if isinstance(motion, Translation):
         return Translation(motion.x(time) + x, motion.y(time) + y)
     if isinstance(motion, Rigid):
-        turn = motion.half_turn(time)
-        return Rigid(turn, pivot=motion._pivot, x=motion.x(time) + x, y=motion.y(time) + y)
+        return Rigid(
+            motion.half_turn(time),
+            pivot=motion._pivot,
+            x=motion.x(time) + x,
+            y=motion.y(time) + y,
+            orientation=motion._orientation,
+        )
     if isinstance(motion, Affine):
         matrix = [[f(time) for f in row] for row in motion.matrix]
         return Affine(matrix, x=motion.x(time) + x, y=motion.y(time) + y)

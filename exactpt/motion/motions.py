@@ -133,9 +133,20 @@ class Rigid(_Given):
 
     With h = half_turn, cos a = (1 - h^2) / (1 + h^2) and sin a = 2 h / (1 + h^2): the
     coordinates are rational functions with the positive denominator 1 + h^2.
+
+    Args:
+        half_turn: the tangent of half the angle, a polynomial in the time.
+        pivot: the centre of rotation.
+        x: a translation, as in `Translation`, applied last.
+        y: likewise.
+        orientation: the cosine and the sine, rational, of a constant angle by which the body is
+            turned about the pivot first; so pieces can begin at any angle, and pass 180 degrees.
+
+    Raises:
+        InputError: if an argument is invalid, such as an orientation that is no unit vector.
     """
 
-    __slots__ = ("_pivot", "half_turn", "x", "y")
+    __slots__ = ("_orientation", "_pivot", "half_turn", "x", "y")
 
     def __init__(
         self,
@@ -144,9 +155,14 @@ class Rigid(_Given):
         pivot: Sequence[Rational] = (0, 0),
         x: Coefficients = ZERO,
         y: Coefficients = ZERO,
+        orientation: Sequence[Rational] = (1, 0),
     ) -> None:
         px, py = rationals(pivot, 2, "a pivot has two coordinates")
         self._pivot: tuple[QQ, QQ] = (px, py)
+        c, s = rationals(orientation, 2, "an orientation is a cosine and a sine")
+        if c * c + s * s != 1:
+            raise InputError(f"an orientation is a unit vector: {show(c, s)}")
+        self._orientation: tuple[QQ, QQ] = (c, s)
         self.half_turn = polynomial(half_turn)
         self.x = polynomial(x)
         self.y = polynomial(y)
@@ -156,12 +172,20 @@ class Rigid(_Given):
         """The centre of rotation."""
         return place(self._pivot)
 
+    @property
+    def orientation(self) -> tuple[Fraction, Fraction]:
+        """The cosine and the sine of the angle by which the body is turned first."""
+        return place(self._orientation)
+
     def track(self, position: Position) -> Track:
         """The trajectory of the vertex with this position in the rest frame."""
         px, py = Polynomial([self._pivot[0]]), Polynomial([self._pivot[1]])
         h = self.half_turn
         w, cosine, sine = ONE + h * h, ONE - h * h, h + h
         dx, dy = position[0] - px, position[1] - py
+        if self._orientation[0] != 1:
+            c, s = (Polynomial([part]) for part in self._orientation)
+            dx, dy = c * dx - s * dy, s * dx + c * dy
         x = cosine * dx - sine * dy + w * (px + self.x)
         y = sine * dx + cosine * dy + w * (py + self.y)
         if h.degree <= 0:
@@ -172,11 +196,14 @@ class Rigid(_Given):
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         pivot = (str(self._pivot[0]), str(self._pivot[1]))
-        return (self.half_turn,), {"pivot": pivot, "x": self.x, "y": self.y}
+        given: dict[str, object] = {"pivot": pivot, "x": self.x, "y": self.y}
+        if self._orientation[0] != 1:
+            given["orientation"] = (str(self._orientation[0]), str(self._orientation[1]))
+        return (self.half_turn,), given
 
     def __repr__(self) -> str:
-        pivot = (str(self._pivot[0]), str(self._pivot[1]))
-        return f"Rigid({self.half_turn!r}, pivot={pivot}, x={self.x!r}, y={self.y!r})"
+        (half_turn,), given = self._given()
+        return f"Rigid({half_turn!r}, {', '.join(f'{k}={v!r}' for k, v in given.items())})"
 
 
 @final
@@ -213,7 +240,6 @@ class Affine(_Given):
         return f"Affine({self.matrix!r}, x={self.x!r}, y={self.y!r})"
 
 
-@final
 class Pieces(_Given):
     """A sequence of motions: each holds until its time, the last for ever.
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from typing import TypeAlias, final
 
-from exactpt.kernel.numbers import nearest_float
+from exactpt.kernel.numbers import QQ
+from exactpt.kernel.radicals import nearest_root_sum
 
 __all__ = ["Hit", "Path", "Place", "VertexName"]
 
@@ -73,12 +73,13 @@ class Hit:
 @final
 @dataclass(frozen=True, slots=True)
 class Path:
-    """The shortest path of a homotopy class.
+    """A shortest path: of its homotopy class, or of all.
 
     Attributes:
         points: the start, the bends in order, and the goal; exact.
         bends: the vertex at each bend.
-        crossed: number of diagonals crossed by the sleeve of tiles.
+        crossed: number of diagonals crossed: by the sleeve of tiles, or by the legs of a path
+            that is the shortest of all.
     """
 
     points: tuple[tuple[Fraction, Fraction], ...]
@@ -87,8 +88,7 @@ class Path:
 
     @property
     def length(self) -> float:
-        """The Euclidean length, rounded to a double."""
-        return sum(
-            math.hypot(nearest_float(c - a), nearest_float(d - b))
-            for (a, b), (c, d) in pairwise(self.points)
+        """The double nearest to the Euclidean length."""
+        return nearest_root_sum(
+            (QQ(c) - QQ(a)) ** 2 + (QQ(d) - QQ(b)) ** 2 for (a, b), (c, d) in pairwise(self.points)
         )

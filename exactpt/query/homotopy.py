@@ -1,8 +1,13 @@
-"""Homotopy classes of paths: the diagonals that a path crosses, and its shortest representative."""
+"""Homotopy classes of paths: the diagonals that a path crosses, and its shortest representative.
+
+And the shortest of all classes.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from copy import copy
+from functools import cached_property
 from itertools import pairwise
 from typing import final
 
@@ -13,9 +18,11 @@ from exactpt.kernel.numbers import QQ, place
 from exactpt.planar.halfedge import twin, without_steps_back
 from exactpt.query.answers import Path, VertexName
 from exactpt.query.locate import find, place_of
-from exactpt.query.sleeve import Sleeves, pull_tight
+from exactpt.query.shortest import last_step
+from exactpt.query.sight import FreeTriangles
+from exactpt.query.sleeve import Sleeves, bends, pull_tight
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.query.walk import On, Ray, next_step
+from exactpt.query.walk import On, Ray, Spot, next_step
 
 __all__ = ["ShortestPaths"]
 
@@ -35,6 +42,18 @@ class ShortestPaths:
         first = self._tile(p)
         return self._tight(p, first, self._sleeves.dual_path(first, self._tile(q)), q)
 
+    def shortest(self, p: Point, q: Point) -> Path:
+        """A shortest path; its ends may be on bodies, but not in their interior."""
+        ends = [self._ends_of(find(self._plane, point)[0], point) for point in (p, q)]
+        if p == q or not self._plane.points:
+            return _path((p, q), (), 0)
+        free = copy(self._triangles)
+        start, goal = (free.inserted(*end) for end in ends)
+        step = last_step(free, start, goal)
+        nodes = step.nodes()
+        way = [(p, -1), *((free.points[v], v) for v in nodes[1:-1]), (q, -1)]
+        return self._named(p, bends(way), q, step.crossed)
+
     def shorten(self, points: Sequence[Point]) -> Path:
         """The shortest path homotopic to a polyline."""
         if not self._plane.points:
@@ -47,13 +66,26 @@ class ShortestPaths:
             tile = self._plane.face[part[-1] ^ 1] if part else tile
         return self._tight(points[0], first, without_steps_back(crossed), points[-1])
 
+    @cached_property
+    def _triangles(self) -> FreeTriangles:
+        return FreeTriangles(self._plane, self._sleeves)
+
+    def _ends_of(self, spot: Spot, p: Point) -> tuple[Point, Spot, tuple[int, int]]:
+        """A point, its spot, and the ends of the edge that it is on, for an insertion."""
+        plane = self._plane
+        if spot.on is On.FACE and spot.handle < OUTSIDE:
+            raise _not_free(p, place_of(plane, spot).body)
+        if spot.on is not On.EDGE:
+            return p, spot, (-1, -1)
+        return p, spot, (plane.map.origin[spot.handle], plane.map.origin[spot.handle ^ 1])
+
     def _tile(self, p: Point) -> int:
         """A tile that contains a free point, in its interior or on its boundary."""
         plane = self._plane
         spot, _ = find(plane, p)
         place = place_of(plane, spot)
         if place.body is not None:
-            raise InputError(f"the point ({p[0]}, {p[1]}) is not free: body {place.body!r} has it")
+            raise _not_free(p, place.body)
         if spot.on is On.EDGE:
             return max(plane.face[spot.handle], plane.face[spot.handle ^ 1])
         return spot.handle
@@ -86,9 +118,18 @@ class ShortestPaths:
     def _tight(self, start: Point, tile: int, crossed: Sequence[int], goal: Point) -> Path:
         plane = self._plane
         portals = self._sleeves.portals(start, tile, crossed, goal)
-        bends = pull_tight(start, goal, portals, plane.points)
-        points = (start, *(plane.points[v] for v in bends), goal)
-        return _path(points, tuple(plane.node_name(v) for v in bends), len(crossed))
+        nodes = pull_tight(start, goal, portals, plane.points)
+        return self._named(start, nodes, goal, len(crossed))
+
+    def _named(self, start: Point, nodes: Sequence[int], goal: Point, crossed: int) -> Path:
+        """The path that bends at these nodes."""
+        plane = self._plane
+        points = (start, *(plane.points[v] for v in nodes), goal)
+        return _path(points, tuple(plane.node_name(v) for v in nodes), crossed)
+
+
+def _not_free(p: Point, body: str | None) -> InputError:
+    return InputError(f"the point ({p[0]}, {p[1]}) is not free: body {body!r} has it")
 
 
 def _path(points: Iterable[Point], bends: tuple[VertexName, ...], crossed: int) -> Path:

@@ -21,7 +21,7 @@ from exactpt.errors import AuditError
 from exactpt.geometry.predicates import Point, between, side
 from exactpt.query.subdivision import Subdivision
 
-__all__ = ["Sleeves", "pull_tight", "triangulated"]
+__all__ = ["Sleeves", "Triangle", "bends", "pull_tight", "triangulated"]
 
 Triangle: TypeAlias = tuple[int, int, int]
 Portal: TypeAlias = tuple[int, int]
@@ -77,7 +77,8 @@ class Sleeves:
             here = self._triangle_at(tile, v, u)
         return portals + self._between(tile, here, self._triangle_of(tile, goal))
 
-    def _triangles(self, tile: int) -> list[Triangle]:
+    def triangles(self, tile: int) -> list[Triangle]:
+        """The triangles of a tile, counter-clockwise."""
         known = self._tiles.get(tile)
         if known is None:
             m = self._plane.map
@@ -87,21 +88,21 @@ class Sleeves:
 
     def _triangle_of(self, tile: int, p: Point) -> int:
         points = self._plane.points
-        for i, (a, b, c) in enumerate(self._triangles(tile)):
+        for i, (a, b, c) in enumerate(self.triangles(tile)):
             x, y, z = points[a], points[b], points[c]
             if side(x, y, p) >= 0 and side(y, z, p) >= 0 and side(z, x, p) >= 0:
                 return i
         raise AuditError(f"no triangle of tile {tile} has the point {p}")
 
     def _triangle_at(self, tile: int, u: int, v: int) -> int:
-        for i, (a, b, c) in enumerate(self._triangles(tile)):
+        for i, (a, b, c) in enumerate(self.triangles(tile)):
             if (u, v) in ((a, b), (b, c), (c, a)):
                 return i
         raise AuditError(f"no triangle of tile {tile} has the edge from {u} to {v}")
 
     def _between(self, tile: int, start: int, goal: int) -> list[Portal]:
         """The portals between two triangles of a tile."""
-        triangles = self._triangles(tile)
+        triangles = self.triangles(tile)
         owner = {
             edge: i for i, (a, b, c) in enumerate(triangles) for edge in ((a, b), (b, c), (c, a))
         }
@@ -191,7 +192,7 @@ def pull_tight(
                 continue
         i += 1
     path.append((goal, -1))
-    return _bends(path)
+    return bends(path)
 
 
 def _opens(apex: Point, left: Point, right: Point) -> bool:
@@ -203,7 +204,8 @@ def _opens(apex: Point, left: Point, right: Point) -> bool:
     return turn < 0 or (turn == 0 and between(left, right, apex))
 
 
-def _bends(path: Sequence[tuple[Point, int]]) -> list[int]:
+def bends(path: Sequence[tuple[Point, int]]) -> list[int]:
+    """The nodes, if not -1, at which a path turns, its start and its goal left out."""
     kept: list[tuple[Point, int]] = []
     for p, node in path:
         if kept and kept[-1][0] == p:

@@ -110,16 +110,32 @@ class FreeSpace:
     # Paths
 
     def path(self, start: PointLike, goal: PointLike) -> Path:
-        """The shortest path homotopic to one that crosses the fewest diagonals.
+        """The shortest path of the homotopy class of one that crosses the fewest diagonals.
 
-        Another homotopy class may contain a shorter path. Free points are always connected, if
-        need be around the convex hull.
+        Another homotopy class may contain a shorter path: see `shortest_path`. Free points are
+        always connected, if need be around the convex hull.
 
         Raises:
             InputError: if one of the points is not free.
         """
         p, q = _point(start), _point(goal)
         return self._paths((p, q)).path(p, q)
+
+    def shortest_path(self, start: PointLike, goal: PointLike) -> Path:
+        """A shortest path of all; it may touch bodies, but not cross them.
+
+        Lengths are compared exactly; of equally short paths it is always the same one. It takes
+        longer than `path`: the search looks around from each vertex that it reaches.
+
+        Args:
+            start: a point, which may be on the boundary of a body.
+            goal: likewise.
+
+        Raises:
+            InputError: if one of the points is in the interior of a body.
+        """
+        p, q = _point(start), _point(goal)
+        return self._paths((p, q)).shortest(p, q)
 
     def shorten(self, walk: Sequence[PointLike]) -> Path:
         """The shortest path homotopic to a polyline, with the same ends.

@@ -23,6 +23,7 @@ from exactpt.motion.motions import (
     SimpleMotion,
     Translation,
 )
+from exactpt.motion.spin import Spin
 from exactpt.scene.json_values import (
     MOST_DIGITS,
     Json,
@@ -158,7 +159,7 @@ def _keyframes(data: Json, where: str) -> list[tuple[QQ, list[tuple[QQ, QQ]]]]:
 
 def _motion(data: Json, where: str) -> Motion:
     if isinstance(data, dict) and "pieces" in data:
-        an_object(data, where, required=["pieces"])
+        an_object(data, where, required=["pieces"], optional={"spin"})
         pieces: list[tuple[QQ | None, SimpleMotion]] = []
         rows = a_list(data["pieces"], f'{where}: "pieces"')
         for i, row in enumerate(rows):
@@ -168,25 +169,34 @@ def _motion(data: Json, where: str) -> Motion:
             if (until is None) != (i == len(rows) - 1):
                 raise InputError(f'{at}: "until" belongs to every piece but the last')
             pieces.append((until, _simple_motion(piece["motion"], f'{at}: "motion"')))
+        spin = _rate_and_error(data["spin"], f'{where}: "spin"') if "spin" in data else None
         try:
-            return Pieces(pieces)
+            return Spin.of_pieces(pieces, *spin) if spin else Pieces(pieces)
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
     return _simple_motion(data, where)
+
+
+def _rate_and_error(data: Json, where: str) -> tuple[QQ, QQ]:
+    spin = an_object(data, where, required=["omega", "error"])
+    omega, error = (exact_number(spin[key], f'{where}: "{key}"') for key in ("omega", "error"))
+    return omega, error
 
 
 def _simple_motion(data: Json, where: str) -> SimpleMotion:
     if isinstance(data, dict) and "rigid" in data:
         an_object(data, where, required=["rigid"])
         at = f'{where}: "rigid"'
-        rigid = an_object(data["rigid"], at, required=["half_turn"], optional={"pivot", "x", "y"})
-        pivot = a_list(rigid.get("pivot", [Number("0"), Number("0")]), f'{at}: "pivot"', length=2)
-        return Rigid(
-            _coordinate(rigid, "half_turn", at),
-            pivot=[exact_number(c, f'{at}: "pivot"') for c in pivot],
-            x=_coordinate(rigid, "x", at),
-            y=_coordinate(rigid, "y", at),
-        )
+        optional = {"pivot", "x", "y", "orientation"}
+        rigid = an_object(data["rigid"], at, required=["half_turn"], optional=optional)
+        pivot = _pair(rigid, "pivot", at, ("0", "0"))
+        orientation = _pair(rigid, "orientation", at, ("1", "0"))
+        x, y = _coordinate(rigid, "x", at), _coordinate(rigid, "y", at)
+        half_turn = _coordinate(rigid, "half_turn", at)
+        try:
+            return Rigid(half_turn, pivot=pivot, x=x, y=y, orientation=orientation)
+        except InputError as error:
+            raise InputError(f"{at}: {error}") from None
     if isinstance(data, dict) and "affine" in data:
         an_object(data, where, required=["affine"])
         at = f'{where}: "affine"'
@@ -199,6 +209,11 @@ def _simple_motion(data: Json, where: str) -> SimpleMotion:
         return Affine(matrix, x=_coordinate(affine, "x", at), y=_coordinate(affine, "y", at))
     translation = an_object(data, where, optional={"x", "y"})
     return Translation(_coordinate(translation, "x", where), _coordinate(translation, "y", where))
+
+
+def _pair(data: dict[str, Json], key: str, where: str, default: tuple[str, str]) -> list[QQ]:
+    both = a_list(data.get(key, [*map(Number, default)]), f'{where}: "{key}"', length=2)
+    return [exact_number(c, f'{where}: "{key}"') for c in both]
 
 
 def _coordinate(data: dict[str, Json], key: str, where: str) -> Polynomial:
@@ -267,21 +282,25 @@ def _body_to_json(body: Body) -> dict[str, object]:
 def _motion_to_json(motion: Motion) -> dict[str, object]:
     if isinstance(motion, Pieces):
         ends = [{"until": _text(t)} for t in motion._until]
-        return {
+        pieces: dict[str, object] = {
             "pieces": [
                 {**end, "motion": _motion_to_json(m)}
                 for end, m in zip([*ends, {}], motion.motions, strict=True)
             ]
         }
+        if isinstance(motion, Spin):
+            pieces["spin"] = {"omega": _text(motion._omega), "error": _text(motion._error)}
+        return pieces
     if isinstance(motion, Rigid):
-        return {
-            "rigid": {
-                "pivot": [_text(c) for c in motion._pivot],
-                "half_turn": _coefficients(motion.half_turn),
-                "x": _coefficients(motion.x),
-                "y": _coefficients(motion.y),
-            }
+        rigid = {
+            "pivot": [_text(c) for c in motion._pivot],
+            "half_turn": _coefficients(motion.half_turn),
+            "x": _coefficients(motion.x),
+            "y": _coefficients(motion.y),
         }
+        if motion._orientation[0] != 1:
+            rigid["orientation"] = [_text(c) for c in motion._orientation]
+        return {"rigid": rigid}
     if isinstance(motion, Affine):
         matrix = [[_coefficients(p) for p in row] for row in motion.matrix]
         x, y = _coefficients(motion.x), _coefficients(motion.y)

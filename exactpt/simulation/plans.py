@@ -124,7 +124,8 @@ def _translation(motion: SimpleMotion) -> tuple[Polynomial, Polynomial]:
 def _translated(motion: SimpleMotion, x: Polynomial, y: Polynomial) -> SimpleMotion:
     """The same motion with another translation."""
     if isinstance(motion, Rigid):
-        return Rigid(motion.half_turn, pivot=motion._pivot, x=x, y=y)
+        turned = motion._orientation
+        return Rigid(motion.half_turn, pivot=motion._pivot, x=x, y=y, orientation=turned)
     if isinstance(motion, Affine):
         return Affine(motion.matrix, x=x, y=y)
     return Translation(x, y)

@@ -307,6 +307,10 @@ class Simulation:
         """A shortest path of its homotopy class now, see `FreeSpace.path`."""
         return self.space().path(start, goal)
 
+    def shortest_path(self, start: PointLike, goal: PointLike) -> answers.Path:
+        """A shortest path of all now, see `FreeSpace.shortest_path`."""
+        return self.space().shortest_path(start, goal)
+
     def shorten(self, walk: Sequence[PointLike]) -> answers.Path:
         """The shortest path homotopic to a polyline now, see `FreeSpace.shorten`."""
         return self.space().shorten(walk)

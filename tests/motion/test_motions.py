@@ -1,6 +1,7 @@
 """Motions and bodies: every kind of motion of every kind of shape, against `Fraction`."""
 
 import json
+import pickle
 from fractions import Fraction
 from itertools import pairwise
 
@@ -16,11 +17,13 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
+from exactpt.motion.local_time import in_local_time
 from exactpt.motion.motions import REST, Affine, Pieces, Rigid, Translation
 from exactpt.scene.format import loads
 
 times = st.one_of(fractions, st.builds(Fraction, st.integers(-99, 99), st.integers(1, 99)))
 points = st.tuples(fractions, fractions)
+orientations = st.sampled_from([(1, 0), (0, 1), (-1, 0), ("3/5", "4/5"), ("-5/13", "-12/13")])
 polys = st.lists(fractions, max_size=3)
 
 
@@ -139,11 +142,12 @@ def test_a_turn_keeps_the_distance_to_the_moving_pivot(point, turn, pivot, x, y,
     assert (px - qx) ** 2 + (py - qy) ** 2 == at_rest
 
 
-@given(point=points, turn=polys, pivot=points, t=times)
-def test_rigid_against_the_formula(point, turn, pivot, t):
-    motion = {"rigid": {"half_turn": list(map(str, turn)), "pivot": list(map(str, pivot))}}
+@given(point=points, turn=polys, pivot=points, o=orientations, t=times)
+def test_rigid_against_the_formula(point, turn, pivot, o, t):
+    rigid = {"half_turn": turn, "pivot": pivot, "orientation": o}
+    motion = {"rigid": {key: list(map(str, value)) for key, value in rigid.items()}}
 
-    (found,) = positions(Body("a", [point], Rigid(turn, pivot=pivot)), t)
+    (found,) = positions(Body("a", [point], Rigid(turn, pivot=pivot, orientation=o)), t)
 
     assert found == motion_at(motion, *point, t)
 
@@ -293,3 +297,43 @@ def test_bug_a_vertex_of_a_keyframe_may_have_any_number_of_coordinates(point):
 def test_bug_vertices_of_a_wrong_type_are_a_type_error(vertices):
     with pytest.raises(InputError):
         Body("a", vertices)
+
+
+def test_an_orientation_turns_first_and_so_a_turn_passes_180_degrees():
+    quarter = Rigid([0, 1])
+    steps = [(1, quarter)]
+    for i, orientation in enumerate([(0, 1), (-1, 0), (0, -1), (1, 0)]):
+        steps.append((i + 2, Rigid([-i - 1, 1], orientation=orientation)))
+    round_trip = Body("a", [(2, 0)], Pieces([*steps[:-1], (None, steps[-1][1])]))
+
+    assert [round_trip.at(t)[0] for t in range(5)] == [(2, 0), (0, 2), (-2, 0), (0, -2), (2, 0)]
+
+
+def test_a_turned_body_turns_with_the_same_motion_elsewhere():
+    """Their distance is constant: the identity of a rigid motion is without its orientation."""
+    a, b = (Rigid([0, 1], pivot=(1, 2), orientation=o) for o in ((1, 0), ("3/5", "4/5")))
+    p, q = (m.track((Polynomial([3]), Polynomial([4]))) for m in (a, b))
+
+    assert p.motion == q.motion
+    d = [
+        sum((u - v) ** 2 for u, v in zip(p.at(t), q.at(t), strict=True))
+        for t in (0, 1, Fraction(1, 3))
+    ]
+    assert d[0] == d[1] == d[2] != 0
+
+
+def test_an_orientation_is_kept():
+    turn = Rigid([0, 1], pivot=(1, 2), orientation=("3/5", "4/5"))
+
+    assert turn.orientation == (Fraction(3, 5), Fraction(4, 5))
+    assert pickle.loads(pickle.dumps(turn)) == turn != Rigid([0, 1], pivot=(1, 2))
+    assert eval(repr(turn), {"Rigid": Rigid, "Polynomial": Polynomial}) == turn
+    assert "orientation" not in repr(Rigid([0, 1]))
+    later = Body("a", [(0, 0)], in_local_time([(1, turn)]))
+    assert later.at(0) == Body("a", [(0, 0)], turn).at(0)
+
+
+@pytest.mark.parametrize("orientation", [(1, 1), (0, 0), (1,), "10", (0.6, 0.8)])
+def test_what_is_no_orientation(orientation):
+    with pytest.raises(InputError, match="orientation"):
+        Rigid([0, 1], orientation=orientation)

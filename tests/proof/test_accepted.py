@@ -3,7 +3,7 @@
 import pytest
 from proving import agrees, by_both_checkers, proof_of, verdict  # noqa: F401 - a fixture
 
-from exactpt import Body, Pieces, Scene, Translation, proof_check
+from exactpt import Body, Pieces, Rigid, Scene, Spin, Translation, proof_check
 from exactpt.proof import prove
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 
@@ -30,6 +30,26 @@ def test_contact():
     lines, _ = proof_of(scene)
     answer = "accepted: no contact before T = 3; contact of a vertex 1 with b vertex 0 at T"
     assert verdict(scene, lines) == answer
+
+
+def test_a_turn_that_begins_at_an_angle_and_passes_180_degrees():
+    quarters = [(0, 1), (-1, 0), (0, -1), (1, 0)]
+    turns = [Rigid([-i, 1], pivot=(0, 0), orientation=c) for i, c in enumerate(quarters)]
+    until = [1, 2, 3, None]
+    blade = Body("blade", [(0, 0), (3, 0), (3, 1)], Pieces(list(zip(until, turns, strict=True))))
+    for post in [(2, -2), (9, 9)]:
+        scene = Scene([blade, Body("post", [post])], time=(0, 4))
+        lines, contact = proof_of(scene)
+        assert (contact is None) == (post == (9, 9))
+        assert verdict(scene, lines).startswith("accepted: ")
+
+
+def test_a_spin_is_pieces_to_a_checker():
+    mill = Body("mill", [(0, 0), (3, 0), (3, 1)], Spin(2, time=(0, 3), error="1/10"))
+    scene = Scene([mill, Body("post", [(-2, -2)])], time=(0, 3))
+    lines, contact = proof_of(scene)
+    assert contact is not None
+    assert verdict(scene, lines).startswith("accepted: ")
 
 
 def test_no_contact():

@@ -21,6 +21,7 @@ from exactpt import (
     Rigid,
     Scene,
     Simulation,
+    Spin,
     Translation,
 )
 from exactpt.collision.pairs import PairsSearch
@@ -30,6 +31,7 @@ from exactpt.pseudotriangulation.snapshot import Snapshot
 PLAIN = {int, float, bool, str, bytes, type(None), Fraction}
 
 ARGUMENTS = {
+    "Spin.of_pieces": ([(0, Rigid(0)), (1, Rigid(0)), (None, Rigid(0))], 0, 1),
     "at": ("1/3",),
     "body": ("box",),
     "canonical_interval": (),
@@ -42,6 +44,7 @@ ARGUMENTS = {
     "locate": ((50, 50),),
     "neighbours": ("box",),
     "path": ((-50, -50), (50, 50)),
+    "shortest_path": ((-50, -50), (50, 50)),
     "since": ("1/3",),
     "ray_cast": ((-50, "1/4"), (1, 0)),
     "refine_to": (Fraction(1, 100),),
@@ -136,6 +139,7 @@ def test_bug_numbers_of_scenes_and_motions_are_pythons_own():
     scene = scene_of_every_kind()
 
     assert no_leaks(scene=scene) > 100
+    assert no_leaks(spin=Spin("1/9", (-20, 0), time=(0, 2), error="1/9")) > 3
     assert type(scene.start) is type(scene.body("mill").motion.pivot[0]) is Fraction
     assert json.dumps(Polynomial([1, 2, "1/3"]).degree) == "2"
 
@@ -229,9 +233,9 @@ def test_every_public_name_is_walked_through():
     reached = {
         "Affine", "AlgebraicNumber", "Body", "Bounce", "Contact", "Event", "FreeSpace", "Hit",
         "Pair", "Path", "Pieces", "Place", "Planner", "Polynomial", "Rigid", "Scene", "Simulation",
-        "Translation", "BudgetExceeded", "first_contact", "first_within", "onward", "Clearance",
-        "ContactInterval", "Distance", "clearance", "contact_intervals", "contacts", "distance",
-        "Approach", "Velocity", "in_local_time", "spline",
+        "Spin", "Translation", "BudgetExceeded", "first_contact", "first_within", "onward",
+        "Clearance", "ContactInterval", "Distance", "clearance", "contact_intervals", "contacts",
+        "distance", "Approach", "Velocity", "in_local_time", "spline",
     }  # fmt: skip
     without_numbers = {
         "AuditError", "ExactPTError", "InputError", "Proof", "prove", "read_shapes", "stop",

@@ -1,0 +1,241 @@
+"""Turning at a constant rate: rational turns whose angle differs from omega t by a proven error.
+
+The cosine and the sine of omega t are no rational functions of t. A `Spin` consists of pieces,
+each a `Rigid` motion that leads from one rational unit vector to the next; each of these vectors is
+found for its own time, so that errors do not add up. How they are found needs no proof, for
+`exactpt.motion.turned_angle` proves the error of any pieces.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Final, final
+
+from exactpt.errors import InputError
+from exactpt.kernel.arctangents import atan_bounds, pi_bounds
+from exactpt.kernel.budget import ask
+from exactpt.kernel.numbers import (
+    QQ,
+    Rational,
+    floor,
+    fraction,
+    nearest_float,
+    power_of_two,
+    rational,
+    rationals,
+    show,
+)
+from exactpt.kernel.polynomial import ZERO, Polynomial
+from exactpt.motion.motions import Coefficients, Pieces, Rigid, SimpleMotion
+from exactpt.motion.turned_angle import bits_for, exponent, is_within
+
+__all__ = ["Spin"]
+
+_MOST: Final = 100_000
+_SHORTEST: Final = 1 / 41
+"""Radians of a piece; for shorter ones the degree is raised (but for the last of a `Spin`)."""
+
+Vector = tuple[QQ, QQ]
+
+
+@final
+class Spin(Pieces):
+    """A turn about a pivot at a constant rate: by the angle omega t at the time t.
+
+    The angle of the pieces differs from omega t by at most the error, at every time in the span;
+    so a point at a distance r from the pivot is at most r times the error from where it should be.
+    Before the span the body does not turn, nor after it.
+
+    >>> wheel = Spin(2, (1, 1), time=(0, 10), error="1/1000")
+    >>> len(wheel.pieces), wheel.error
+    (88, Fraction(1, 1000))
+
+    Args:
+        omega: the angle by which the body turns in one unit of time, in radians, counter-clockwise.
+        pivot: the centre of rotation.
+        time: the start and the end of the span.
+        error: the largest error of the angle, in radians. Pieces have a half turn of degree 1
+            for errors from about 10^-6 on, of higher degrees for smaller ones.
+        x: a translation, as in `Translation`, applied last.
+        y: likewise.
+
+    Attributes:
+        angle: omega t, a polynomial.
+
+    Raises:
+        InputError: if an argument is invalid, or more than 100,000 pieces are needed.
+    """
+
+    __slots__ = ("_error", "_omega", "angle")
+
+    def __init__(
+        self,
+        omega: Rational,
+        pivot: Sequence[Rational] = (0, 0),
+        *,
+        time: Sequence[Rational],
+        error: Rational = "1/1000000",
+        x: Coefficients = ZERO,
+        y: Coefficients = ZERO,
+    ) -> None:
+        rate, most = _rates(omega, error)
+        start, end = rationals(time, 2, "a span has a start and an end")
+        if start >= end:
+            raise InputError(f"a span ends after it starts: {show(start)}, then {show(end)}")
+        bits_for(most, rate * max(abs(start), abs(end)))  # raises if the error is too small
+        degree, step = _first_try(rate, most, end - start)
+        while True:
+            turns = _Turns(rate, most, degree).between(start, end, step)
+            pieces: list[tuple[Rational | None, SimpleMotion]] = [
+                (until, Rigid(half, pivot=pivot, x=x, y=y, orientation=turned))
+                for until, half, turned in turns
+            ]
+            super().__init__(pieces)
+            if is_within(self, rate, most):
+                break
+            step /= 2
+        self._hold(rate, most)
+
+    def _hold(self, omega: QQ, error: QQ) -> None:
+        self._omega, self._error = omega, error
+        self.angle = Polynomial([0, omega])
+
+    @classmethod
+    def of_pieces(
+        cls,
+        pieces: Sequence[tuple[Rational | None, SimpleMotion]],
+        omega: Rational,
+        error: Rational,
+    ) -> Spin:
+        """The spin that consists of given pieces, after a proof that it is one.
+
+        Args:
+            pieces: as for `Pieces`: rigid motions, the first and the last without a turn.
+            omega: see `Spin`.
+            error: see `Spin`.
+
+        Raises:
+            InputError: if their angle differs from omega t by more than the error.
+        """
+        self = cls.__new__(cls)
+        Pieces.__init__(self, pieces)
+        rate, most = _rates(omega, error)
+        if not is_within(self, rate, most):
+            raise InputError(f"the pieces do not turn by {show(rate)} t within {show(most)}")
+        self._hold(rate, most)
+        return self
+
+    @property
+    def omega(self) -> Fraction:
+        """The angle by which the body turns in one unit of time, in radians."""
+        return fraction(self._omega)
+
+    @property
+    def error(self) -> Fraction:
+        """The largest error of the angle, in radians."""
+        return fraction(self._error)
+
+    @property
+    def pieces(self) -> tuple[tuple[Fraction | None, SimpleMotion], ...]:
+        """The motions, each with the time until which it holds."""
+        return tuple(zip((*self.until, None), self.motions, strict=True))
+
+    def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
+        (pieces,), _ = super()._given()
+        return (pieces, str(self._omega), str(self._error)), {}
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Spin.of_pieces, self._given()[0]
+
+    def __repr__(self) -> str:
+        span = str(self._until[0]), str(self._until[-1])
+        return f"Spin({str(self._omega)!r}, time={span}, error={str(self._error)!r})"
+
+
+def _rates(omega: Rational, error: Rational) -> tuple[QQ, QQ]:
+    rate, most = rational(omega), rational(error)
+    if most <= 0:
+        raise InputError(f"an error is positive: {show(most)}")
+    return rate, most
+
+
+def _first_try(omega: QQ, error: QQ, span: QQ) -> tuple[int, QQ]:
+    """A degree, and a duration of pieces that is likely to be short enough.
+
+    With the beginning of the Taylor series of the tangent as half turn, and its last coefficient
+    chosen for the end of the piece, the angle is off by about 0.77 c (a / 2)^(d + 2) for a
+    piece of a radians and the degree d, where c = 2 (2 / pi)^(d + 3) is the next coefficient. At
+    most half the error is left for it.
+    """
+    degree = -1
+    radians = 0.0
+    while radians < _SHORTEST:
+        degree += 2
+        scale = math.log2(1.54) + (degree + 3) * math.log2(2 / math.pi) - (degree + 2)
+        radians = min(1.5, 2.0 ** ((exponent(error) - 2 - scale) / (degree + 2)))
+    if abs(omega) * span <= rational(radians):
+        return degree, span
+    step = rational(radians) / abs(omega)
+    unit = power_of_two(exponent(step) - 3)  # times with few digits
+    step = max(floor(step / unit), 1) * unit
+    if span / step > _MOST:
+        raise InputError(f"more than {_MOST} pieces are needed for {show(omega * span)} radians")
+    return degree, step
+
+
+@final
+class _Turns:
+    """Pieces of a turn, with half turns of a degree; no proof."""
+
+    def __init__(self, omega: QQ, error: QQ, degree: int) -> None:
+        self.omega = omega
+        self.error = error
+        tangent = [QQ(0), QQ(1)]  # its Taylor series, by tan' = 1 + tan^2
+        while len(tangent) < degree:
+            k = len(tangent)
+            tangent.append(sum((tangent[i] * tangent[k - 1 - i] for i in range(k)), QQ(0)) / k)
+        self.tangent = tangent[:degree]
+
+    def between(self, start: QQ, end: QQ, step: QQ) -> list[tuple[QQ | None, Polynomial, Vector]]:
+        """Until when, half turn and orientation of each piece."""
+        a, u = start, self._vector(start)
+        turns: list[tuple[QQ | None, Polynomial, Vector]] = [(start, ZERO, u)]
+        while a < end:
+            ask()
+            b = min(a + step, end)
+            v = self._vector(b)
+            turns.append((b, self._half_turn(a, b, u, v), u))
+            a, u = b, v
+        return [*turns, (None, ZERO, u)]
+
+    def _vector(self, t: QQ) -> Vector:
+        """A rational unit vector near the angle omega t, with few digits."""
+        angle = self.omega * t
+        bits = bits_for(self.error, QQ(0))
+        quarter = pi_bounds(bits_for(self.error, angle) + 8)[0] / 2
+        quarters = floor(angle / quarter + QQ(1, 2))
+        half = (angle - quarters * quarter) / 2
+        m = rational(math.tan(nearest_float(half)))
+        for _ in range(max(1, bits // 32).bit_length() + 1):  # Newton's method
+            m = _rounded(m - (atan_bounds(m, bits + 8)[0] - half) * (1 + m * m), bits + 8)
+        m = _rounded(m, bits)
+        c, s = (1 - m * m) / (1 + m * m), 2 * m / (1 + m * m)
+        for _ in range(quarters % 4):
+            c, s = -s, c
+        return c, s
+
+    def _half_turn(self, a: QQ, b: QQ, u: Vector, v: Vector) -> Polynomial:
+        """The half turn that is 0 at a, and leads from u to v at b."""
+        whole = (u[0] * v[1] - u[1] * v[0]) / (1 + u[0] * v[0] + u[1] * v[1])
+        half = self.omega * (b - a) / 2
+        bits = bits_for(self.error, QQ(0))
+        series = [_rounded(c * half**k, bits) for k, c in enumerate(self.tangent)]
+        series.append(whole - sum(series, QQ(0)))
+        return Polynomial(series)(Polynomial([-a / (b - a), 1 / (b - a)]))
+
+
+def _rounded(value: QQ, bits: int) -> QQ:
+    unit = power_of_two(bits)
+    return floor(value * unit + QQ(1, 2)) / unit

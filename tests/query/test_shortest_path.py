@@ -1,0 +1,144 @@
+"""Shortest paths against the whole visibility graph, in 500-bit arithmetic."""
+
+import math
+from itertools import islice
+from random import Random
+
+import brute
+import pytest
+from test_space import check_taut, some_point, spaces
+from visibility_graph import VisibilityGraph, length_of
+
+from exactpt.collision.tilings import start_tiling
+from exactpt.errors import InputError
+from exactpt.motion.body import Body
+from exactpt.query.space import FreeSpace
+from exactpt.scene.generate import FAMILIES
+from exactpt.scene.scene import Scene
+from exactpt.simulation.simulation import Simulation
+
+
+def space_of(*bodies, tiling="auto"):
+    scene = Scene(bodies, (0, 1))
+    return FreeSpace(start_tiling(scene, tiling, scene.start), scene.start)
+
+
+def check_shortest(space, bodies, rng, count):
+    """Some random pairs of points; how many of them were not inside a body."""
+    found = 0
+    for _ in range(count):
+        start, goal = some_point(rng, bodies), some_point(rng, bodies)
+        if any((brute.owner(p, bodies) or (1, 1, 1))[1:] == (None, None) for p in (start, goal)):
+            continue
+        path = space.shortest_path(start, goal)
+        found += 1
+        check_taut(path, bodies)
+        assert (path.points[0], path.points[-1]) == (start, goal)
+        length = length_of(path.points)
+        expected = VisibilityGraph(bodies, start, goal).shortest(start, goal)
+        assert abs(length - expected) <= expected / 2**480
+        assert path.length == pytest.approx(float(expected), rel=1e-15)
+        if all(brute.owner(p, bodies) is None for p in (start, goal)):
+            assert path.length <= space.path(start, goal).length
+    return found
+
+
+@pytest.mark.parametrize("family", sorted(FAMILIES))
+def test_it_is_as_long_as_in_the_visibility_graph(family):
+    for scene, space, rng in islice(spaces(family, range(1)), 2):
+        if scene.vertex_count <= 16:
+            check_shortest(space, brute.points_of(scene, space.at), rng, 1)
+
+
+@pytest.mark.slow
+def test_it_is_as_long_as_in_the_visibility_graph_in_1000_scenes():
+    seed = scenes = paths = 0
+    while scenes < 1000:
+        for family in FAMILIES:
+            for scene, space, rng in spaces(family, (seed,)):
+                if scene.vertex_count <= 40:
+                    paths += check_shortest(space, brute.points_of(scene, space.at), rng, 3)
+                    scenes += 1
+        seed += 1
+    print(f"{paths} paths in {scenes} scenes")  # noqa: T201 - shown with -s
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_among_boxes_on_a_grid_ties_and_straight_bends_abound(seed):
+    rng = Random(seed)
+    boxes = [
+        Body(f"{x},{y}", [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)])
+        for x in range(0, 4, 2)
+        for y in range(0, 6, 2)
+        if rng.random() < 0.7
+    ]
+    space = space_of(*boxes, Body("far", [(7, 7)]))
+    bodies = {b.name: list(b.at(0)) for b in [*boxes, Body("far", [(7, 7)])]}
+    check_shortest(space, bodies, rng, 4)
+
+
+def test_a_path_does_not_cross_a_chain_at_its_vertex():
+    """From one side of the middle vertex of a chain to the other it leads around an end."""
+    chain = Body("chain", [(-3, 1), (0, 0), (4, 1)], closed=False)
+    path = space_of(chain).shortest_path((0, 1), (0, -1))
+
+    assert path.bends == (("chain", 0),)
+    assert path.points == ((0, 1), (-3, 1), (0, -1))
+
+
+def test_a_path_runs_along_edges_and_begins_and_ends_on_them():
+    box = Body("box", [(0, 0), (4, 0), (4, 2), (0, 2)])
+    space = space_of(box)
+
+    along = space.shortest_path((1, 0), (4, 1))
+    assert (along.bends, along.length) == ((("box", 1),), 4.0)
+    assert space.shortest_path((0, 0), (4, 2)).length == 6.0
+    assert space.shortest_path((0, 0), (3, 0)).bends == ()
+    assert space.shortest_path((-1, 0), (9, 0)).points == ((-1, 0), (9, 0))
+    assert space.shortest_path((2, 0), (2, 0)).length == 0.0
+
+
+def test_from_a_point_on_a_segment_it_leads_to_either_side():
+    space = space_of(Body("wall", [(0, 0), (4, 0)]), Body("p", [(9, 9)]))
+
+    assert space.shortest_path((1, 0), (2, 1)).length == math.sqrt(2)
+    assert space.shortest_path((1, 0), (2, -1)).length == math.sqrt(2)
+    assert space.shortest_path((1, 1), (1, -1)).points == ((1, 1), (0, 0), (1, -1))
+
+
+def test_through_points_it_goes_straight():
+    points = [Body(f"p{i}", [(i, 0)]) for i in range(1, 5)]
+    path = space_of(*points).shortest_path((0, 0), (5, 0))
+
+    assert (path.bends, path.length) == ((), 5.0)
+
+
+def test_out_of_a_pocket():
+    hook = [(0, 0), (6, 0), (6, 6), (5, 6), (5, 1), (1, 1), (1, 6), (0, 6)]
+    path = space_of(Body("hook", hook)).shortest_path((3, 2), (3, -1))
+
+    assert path.points in (
+        ((3, 2), (1, 6), (0, 6), (0, 0), (3, -1)),
+        ((3, 2), (5, 6), (6, 6), (6, 0), (3, -1)),
+    )
+
+
+def test_lengths_that_differ_by_less_than_doubles_can_tell():
+    """Around a spike: on one side the way is longer by 1e-40."""
+    for sign in (1, -1):
+        spike = Body("spike", [(0, "3/10"), (0, f"-{3 * 10**39 + sign}/{10**40}")])
+        path = space_of(spike).shortest_path((-1, 0), (1, 0))
+        assert path.bends == (("spike", 0 if sign > 0 else 1),)
+
+
+def test_what_a_shortest_path_refuses():
+    space = space_of(Body("a", [(0, 0), (4, 0), (0, 4)]))
+    for ends in (((1, 1), (9, 9)), ((9, 9), (1, 1))):
+        with pytest.raises(InputError, match=r"\(1, 1\) is not free: body 'a' has it"):
+            space.shortest_path(*ends)
+    assert space_of().shortest_path((0, 0), (3, 4)).length == 5.0
+
+
+def test_a_simulation_finds_it_too():
+    simulation = Simulation(Scene([Body("a", [(0, 0), (4, 0), (0, 4)])], (0, 1)))
+    assert simulation.shortest_path((-1, 1), (2, -1)).bends == (("a", 0),)
