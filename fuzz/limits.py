@@ -21,6 +21,9 @@ HANGS: Final = "hangs"
 WAITING: Final = 6.0
 """Elapsed time, in units of the limit of processor time, after which work that waits is stuck."""
 
+SHORTLY: Final = 0.01
+"""Seconds until a thread that is just entering or leaving a limit is looked at again."""
+
 AGAIN: Final = 0.5
 """Seconds between repeated interrupts: Python drops an exception raised in a finalizer."""
 
@@ -103,7 +106,12 @@ def _watched(seconds: float, ends: float | None) -> Iterator[None]:
 
     def watch() -> None:
         wait = seconds
-        while not over.acquire(timeout=wait) and _runs(asker, thread.value):
+        while not over.acquire(timeout=wait):
+            if not _runs(asker, thread.value):
+                return
+            if _is_outside(asker, thread.value):
+                wait = SHORTLY
+                continue
             kind = ctypes.py_object(_over(ends))
             ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, kind)
             wait = AGAIN
@@ -124,12 +132,27 @@ def _asker() -> FrameType | None:
     return frame
 
 
+def _frames(thread: int) -> Iterator[FrameType]:
+    """The frames that a thread is in, from the innermost outwards."""
+    frame = sys._current_frames().get(thread)
+    while frame is not None:
+        yield frame
+        frame = frame.f_back
+
+
 def _runs(function: FrameType | None, thread: int) -> bool:
     """Whether a frame is one of those that a thread is in."""
-    frame = sys._current_frames().get(thread)
-    while frame is not None and frame is not function:
-        frame = frame.f_back
-    return frame is not None
+    return any(frame is function for frame in _frames(thread))
+
+
+def _is_outside(asker: FrameType | None, thread: int) -> bool:
+    """Whether a thread is entering or leaving a limit: an exception could leave locks behind."""
+    for frame in _frames(thread):
+        if frame is asker:
+            return False
+        if frame.f_code.co_filename == __file__:
+            return True
+    return False
 
 
 def _withdraw(over: threading.Lock, watcher: threading.Thread, thread: ctypes.c_ulong) -> None:
