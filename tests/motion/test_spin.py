@@ -58,14 +58,14 @@ def test_the_angle_is_within_the_error(omega, error, time):
 
 
 @pytest.mark.slow
-def test_the_angle_is_within_the_error_of_1000_spins():
+def test_the_angle_is_within_the_error_of_100_spins():
     rng = Random(2)
-    for _ in range(1000):
-        omega = QQ(rng.randint(-300, 300), rng.randint(1, 99))
+    for _ in range(100):
+        duration = QQ(rng.randint(1, 99), rng.randint(1, 99))
+        omega = QQ(rng.randint(-30, 30), rng.randint(1, 99)) / duration
         start = QQ(rng.randint(-(10**4), 10**4), rng.randint(1, 99))
-        time = (start, start + QQ(rng.randint(1, 99), rng.randint(1, 99)))
-        error = QQ(1, rng.randint(1, 9) * 10 ** rng.randint(1, 20))
-        check(Spin(omega, time=time, error=error), rng, 6)
+        error = QQ(1, rng.randint(1, 9) * 10 ** rng.randint(1, 12))
+        check(Spin(omega, time=(start, start + duration), error=error), rng, 6)
 
 
 def test_errors_do_not_add_up():
