@@ -166,21 +166,33 @@ class PlanarMap:
         self.place(t, self.origin[h ^ 1])
 
     def face(self, h: HalfEdge) -> list[HalfEdge]:
-        """The half-edges of the face of h, in cyclic order from h."""
-        cycle = [h]
-        g = self.following[h]
+        """The half-edges of the face of h, in cyclic order from h.
+
+        Raises:
+            AuditError: if they do not come back to h, in a map that was forged.
+        """
+        cycle, following = [h], self.following
+        g, most = following[h], len(following)
         while g != h:
+            if len(cycle) > most:
+                raise AuditError(f"the half-edges after {h} return elsewhere")
             cycle.append(g)
-            g = self.following[g]
+            g = following[g]
         return cycle
 
     def star(self, h: HalfEdge) -> list[HalfEdge]:
-        """The star of the origin of h: the half-edges out of it, counter-clockwise from h."""
-        star = [h]
-        g = twin(self.previous[h])
+        """The star of the origin of h: the half-edges out of it, counter-clockwise from h.
+
+        Raises:
+            AuditError: if they do not come back to h, in a map that was forged.
+        """
+        star, previous = [h], self.previous
+        g, most = twin(previous[h]), len(previous)
         while g != h:
+            if len(star) > most:
+                raise AuditError(f"the half-edges around {h} return elsewhere")
             star.append(g)
-            g = twin(self.previous[g])
+            g = twin(previous[g])
         return star
 
     def half_edges(self) -> list[HalfEdge]:

@@ -119,3 +119,16 @@ def test_the_audit_sees_a_broken_link(damage):
 
     with pytest.raises(AuditError):
         m.audit()
+
+
+def test_bug_walks_of_a_forged_map_end():
+    """The hostile fuzzer found a saved run that was audited for ever."""
+    m = polygon(5)
+    m.following[4] = m.following[0]
+    with pytest.raises(AuditError, match="the half-edges after 0 return elsewhere"):
+        m.face(m.half_edges()[0])
+
+    m = polygon(5)
+    m.previous[3] = m.previous[7]
+    with pytest.raises(AuditError, match="return elsewhere"):
+        list(map(m.star, m.half_edges()))
