@@ -2,11 +2,12 @@
 
 import json
 from contextlib import suppress
+from pathlib import Path
 from random import Random
 
 import pytest
 
-from exactpt.errors import InputError
+from exactpt.errors import BudgetExceeded, InputError
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.scene.generate import FAMILIES, generate
@@ -276,6 +277,15 @@ def test_bug_times_that_are_no_roots_are_refused(tmp_path, number):
 
     with pytest.raises(InputError, match="no root of its polynomial"):
         Simulation.restore(tmp_path / "run.json")
+
+
+def test_bug_repairs_of_forged_points_keep_their_budget():
+    """The hostile fuzzer found it: a point is elsewhere than its tangents say, for ever."""
+    forged = Path(__file__).parent / "golden" / "forged_points.json"
+    simulation = Simulation.restore(forged, max_seconds=0.5)
+
+    with pytest.raises(BudgetExceeded):
+        simulation.run_to_contact()
 
 
 def test_the_size_of_a_file_is_bounded(tmp_path):

@@ -23,6 +23,7 @@ from exactpt.certificates.certificate import POINT_ORDER
 from exactpt.certificates.certifier import Certifier
 from exactpt.errors import AuditError
 from exactpt.indices import VertexId
+from exactpt.kernel.budget import ask
 from exactpt.planar.halfedge import edge_key
 from exactpt.tiling.events import Log
 from exactpt.tiling.incremental.certified_trees import CertifiedTrees
@@ -66,6 +67,7 @@ class TreeRepairs:
         n = len(self._certified.now.order)
         rounds = 0
         while any(self._certified.violated):
+            ask()  # repairs of a forged tree may have no end
             rounds += 1
             if rounds <= 16 + n // 4 and self._repair_one():
                 continue
