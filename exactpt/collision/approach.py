@@ -15,8 +15,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, isqrt
 from exactpt.proximity.near import pairs_that_come_near
-from exactpt.proximity.search import Approach as Found
-from exactpt.proximity.search import ApproachSearch
+from exactpt.proximity.search import ApproachSearch, Nearest
 from exactpt.proximity.stretches import two_bodies
 from exactpt.proximity.within import Norm, asked_distance, of_cores, time_within
 from exactpt.scene.scene import Scene, scene_of
@@ -119,7 +118,7 @@ def first_within(
         return time_within(first, second, scene._start, scene._end, d, norm)
     if a is not None or b is not None:
         raise InputError("two names of bodies are given, or none for all bodies")
-    found: Found | None = None
+    found: Nearest | None = None
     if len(scene.bodies) > 1:
         found = _first(scene, d, norm)
     if found is None:
@@ -128,7 +127,7 @@ def first_within(
     return Approach(found.time, tuple(sorted(names)))
 
 
-def _first(scene: Scene, d: QQ, norm: Norm) -> Found | None:
+def _first(scene: Scene, d: QQ, norm: Norm) -> Nearest | None:
     """The first approach of any two bodies, of which there are two."""
     if norm == "euclidean":
         return _euclidean(scene, d)
@@ -137,7 +136,7 @@ def _first(scene: Scene, d: QQ, norm: Norm) -> Found | None:
     return _on_axis(scene, d, norm)
 
 
-def _on_axis(scene: Scene, d: QQ, norm: Literal["x", "y"]) -> Found | None:
+def _on_axis(scene: Scene, d: QQ, norm: Literal["x", "y"]) -> Nearest | None:
     """The first approach along an axis.
 
     If all gaps between projections are more than d at the start, the order of the projections
@@ -155,7 +154,7 @@ def _on_axis(scene: Scene, d: QQ, norm: Literal["x", "y"]) -> Found | None:
         beside = takewhile(partial(_starts_by, high + d), islice(spans, k + 1, None))
         near += [(min(i, j), max(i, j)) for _, _, j in beside]
     if near:
-        return Found(AlgebraicNumber(scene._start), tuple(sorted(near)))
+        return Nearest(AlgebraicNumber(scene._start), tuple(sorted(near)))
     order = [i for _, _, i in spans]
     found = _by_pairs(scene, pairwise(order), d, norm)
     if found is None or d:
@@ -170,7 +169,7 @@ def _starts_by(limit: QQ, span: tuple[QQ, QQ, int]) -> bool:
 
 def _by_pairs(
     scene: Scene, candidates: Iterable[tuple[int, int]], d: QQ, norm: Norm
-) -> Found | None:
+) -> Nearest | None:
     """The first approach of some pairs: each is searched up to the best time so far."""
     best: AlgebraicNumber | None = None
     pairs: list[tuple[int, int]] = []
@@ -181,10 +180,10 @@ def _by_pairs(
         if time is None or order > 0:
             continue
         best, pairs = (time, [(i, j)]) if order < 0 else (best, [*pairs, (i, j)])
-    return None if best is None else Found(best, tuple(pairs))
+    return None if best is None else Nearest(best, tuple(pairs))
 
 
-def _euclidean(scene: Scene, squared: QQ) -> Found | None:
+def _euclidean(scene: Scene, squared: QQ) -> Nearest | None:
     most = _root_above(squared)
     if scene.is_rounded:
         return _of_rounded(scene, squared, most)
@@ -194,7 +193,7 @@ def _euclidean(scene: Scene, squared: QQ) -> Found | None:
     return ApproachSearch(scene, lambda _, __: squared, [most / 2] * len(scene.bodies)).run()
 
 
-def _of_rounded(scene: Scene, squared: QQ, most: QQ) -> Found | None:
+def _of_rounded(scene: Scene, squared: QQ, most: QQ) -> Nearest | None:
     """The first approach, some of the bodies being rounded."""
     radii = [body._radius for body in scene.bodies]
 
@@ -211,7 +210,7 @@ def _root_above(squared: QQ) -> QQ:
     return QQ(isqrt(n * d << 2 * shift) + 1, d << shift) if n else QQ(0)
 
 
-def _of_rows(scene: Scene, rows: Sequence[Row], squared: QQ, most: QQ) -> Found | None:
+def _of_rows(scene: Scene, rows: Sequence[Row], squared: QQ, most: QQ) -> Nearest | None:
     """The first approach of bodies that all move straight: first of those that come near first.
 
     Before the time at which the boxes of the next pair meet, grown by the distance in all, only
@@ -236,7 +235,7 @@ def _of_rows(scene: Scene, rows: Sequence[Row], squared: QQ, most: QQ) -> Found 
 
 def _of_some(
     scene: Scene, among: Collection[int], begin: QQ, end: QQ, squared: QQ, most: QQ
-) -> Found | None:
+) -> Nearest | None:
     """The first approach of some bodies, by number, in [begin, end]."""
     numbers = sorted(among)
     part = scene_of([scene.bodies[i] for i in numbers], begin, end)
@@ -244,4 +243,4 @@ def _of_some(
     found = ApproachSearch(part, lambda _, __: squared, half).run() if numbers else None
     if found is None:
         return None
-    return Found(found.time, tuple((numbers[i], numbers[j]) for i, j in found.pairs))
+    return Nearest(found.time, tuple((numbers[i], numbers[j]) for i, j in found.pairs))

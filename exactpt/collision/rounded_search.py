@@ -19,7 +19,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.incidence import Touch
 from exactpt.proximity.features import feature_pairs
-from exactpt.proximity.search import Approach, ApproachSearch, near_at_start, within_at_start
+from exactpt.proximity.search import ApproachSearch, Nearest, near_at_start, within_at_start
 from exactpt.scene.scene import Scene
 
 __all__ = ["RoundedSearch"]
@@ -53,7 +53,7 @@ class RoundedSearch:
             near = filter(self._watched, self._rows.near_at_start())
         return within_at_start(self._scene, self._squared, near)
 
-    def after_start(self, before: AlgebraicNumber | None) -> Approach | None:
+    def after_start(self, before: AlgebraicNumber | None) -> Nearest | None:
         """The first touches after the start, of bodies that do not touch then.
 
         Args:
@@ -93,7 +93,7 @@ class RoundedSearch:
         i, j = ij
         return bool(self._radii[i] or self._radii[j]) and self._groups[i] != self._groups[j]
 
-    def _of_rows(self, rows: RoundedRows, before: float) -> Approach | None:
+    def _of_rows(self, rows: RoundedRows, before: float) -> Nearest | None:
         """As `after_start`, for bodies that all move straight."""
         spans: dict[tuple[QQ, QQ], Span] = {}
         best: AlgebraicNumber | None = None
@@ -120,4 +120,4 @@ class RoundedSearch:
                 before = min(before, time.enclosure()[1])
             if order <= 0:
                 pairs.add((i, j))
-        return None if best is None else Approach(best, tuple(sorted(pairs)))
+        return None if best is None else Nearest(best, tuple(sorted(pairs)))

@@ -21,15 +21,13 @@ from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
 from exactpt.kernel.roots import roots_after
 from exactpt.kernel.rounding import U
-from exactpt.motion.swept import SweptBoxes
+from exactpt.motion.swept_edges import SweptEdges
 from exactpt.motion.track import Track
-from exactpt.motion.vertices import Vertices
 from exactpt.proximity.distance import squared_distance
 from exactpt.proximity.features import Feature, FeaturePair
-from exactpt.proximity.stretches import segments_of
 from exactpt.scene.scene import Scene
 
-__all__ = ["Apart", "Approach", "ApproachSearch", "Limit", "near_at_start", "within_at_start"]
+__all__ = ["Apart", "ApproachSearch", "Limit", "Nearest", "near_at_start", "within_at_start"]
 
 Indices: TypeAlias = NDArray[np.int64]
 Limit: TypeAlias = Callable[[int, int], QQ]
@@ -47,7 +45,7 @@ LASTING: Final = 2
 """Number of bisections, one after the other, that exclude too little to go on."""
 
 
-class Approach(NamedTuple):
+class Nearest(NamedTuple):
     """The first time at which bodies are within their distance.
 
     Attributes:
@@ -101,38 +99,31 @@ class ApproachSearch:
         self._squared = squared
         self._reach = reach
         self._apart = apart
-        self._vertices = Vertices.of(scene.bodies, scene._start, scene._end, plain=True)
-        ids: list[int] = []
-        edges: list[tuple[int, int]] = []
-        numbers: list[int] = []
-        for moving, body in zip(self._vertices.bodies, scene.bodies, strict=True):
-            base = len(ids)
-            ids += moving.ring
-            edges += [(base + a, base + b) for a, b in segments_of(body)]
-            numbers += range(len(segments_of(body)))
-        self._ids = ids
-        self._edges: Indices = np.array(edges)
-        self._numbers = numbers
-        self._body: Indices = np.array([self._vertices.all[v].body for v in ids])
-        self._read_tracks()
+        self._swept = SweptEdges(scene.bodies, scene._start, scene._end)
+        frame = self._swept.vertices.frame
+        # Units of both axes, relative to the smaller one: powers of two.
+        unit = min(frame.scale)
+        self._units = np.array([math.ldexp(1.0, s - unit) for s in frame.scale])
+        near = [nearest_float(d * power_of_two(-unit)) for d in reach]
+        self._grown = np.array(near)[self._swept.body] * (1.0 + 4.0 * U)
 
-    def run(self) -> Approach | None:
+    def run(self) -> Nearest | None:
         """The first approach in the closed time span; None if there is none."""
         near = near_at_start(self._scene, self._reach, self._apart)
         pairs = tuple(ij for ij, _ in within_at_start(self._scene, self._squared, near))
         if pairs:
-            return Approach(AlgebraicNumber(self._scene._start), pairs)
+            return Nearest(AlgebraicNumber(self._scene._start), pairs)
         return self.run_after_start()
 
-    def run_after_start(self) -> Approach | None:
+    def run_after_start(self) -> Nearest | None:
         """The first approach, if no two bodies are within their distance at the start."""
         now, end = self._scene._start, self._scene._end
         # Shorter slabs are no help to vertices without boxes.
         step = (end - now) / (SLABS if np.isfinite(self._boxes(now, end)).all() else 1)
-        many, least = 2 * len(self._ids) + 64, (end - now) / 2**20
+        many, least = 2 * len(self._swept.ids) + 64, (end - now) / 2**20
         while now < end:
             ask()
-            until = min([end, *(m.until for m in self._vertices.bodies if m.until is not None)])
+            until = self._swept.until(end)
             later = min(now + step, until)
             near = self._near(now, later)
             while len(near[0]) > many and step > least:
@@ -144,34 +135,15 @@ class ApproachSearch:
             found = self._search(now, later, self._left(now, later, near), DEPTH)
             if found is not None:
                 return found
-            if 4 * len(near[0]) < len(self._ids):
+            if 4 * len(near[0]) < len(self._swept.ids):
                 step *= 2
             now = later
-            self._enter_pieces(now)
+            self._swept.enter_pieces(now)
         return None
-
-    def _read_tracks(self) -> None:
-        """Read the trajectories of the current pieces of motion."""
-        images = [self._vertices.all[v].image for v in self._ids]
-        frame = self._vertices.frame
-        self._swept = SweptBoxes(images, self._vertices.enclosures.errors)
-        # Units of both axes, relative to the smaller one: powers of two.
-        unit = min(frame.scale)
-        self._units = np.array([math.ldexp(1.0, s - unit) for s in frame.scale])
-        reach = [nearest_float(d * power_of_two(-unit)) for d in self._reach]
-        self._grown = np.array(reach)[self._body] * (1.0 + 4.0 * U)
-
-    def _enter_pieces(self, now: QQ) -> None:
-        ended = [i for i, m in enumerate(self._vertices.bodies) if m.until == now]
-        for i in ended:
-            self._vertices.enter_piece(i, now)
-        if ended:
-            self._read_tracks()
 
     def _boxes(self, now: QQ, later: QQ) -> Boxes:
         """The boxes of the vertices in the smaller unit; the products are exact."""
-        frame = self._vertices.frame
-        boxes = self._swept.during(frame.time(now)[0], frame.time(later)[1])
+        boxes = self._swept.during(now, later)
         boxes *= np.repeat(self._units, 2)
         return boxes
 
@@ -185,23 +157,19 @@ class ApproachSearch:
     def _near(self, now: QQ, later: QQ) -> tuple[Indices, Indices]:
         """The numbers of vertices and of edges of other bodies that may be near in a slab."""
         boxes = self._boxes(now, later)
-        a, b = self._edges[:, 0], self._edges[:, 1]
-        low, high = np.minimum(boxes[a], boxes[b]), np.maximum(boxes[a], boxes[b])
-        of_edges = np.stack((low[:, 0], high[:, 1], low[:, 2], high[:, 3]), axis=1)
-        n = len(self._ids)
+        of_edges = self._swept.around(boxes)
         vs, es = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
-        grown = self._widened(boxes, self._grown), self._widened(of_edges, self._grown[a])
-        for first, second in overlapping_pairs(np.concatenate(grown)):
-            crossed = (first < n) & (second >= n)
-            v, e = first[crossed], second[crossed] - n
-            apart = self._apart(self._body[v], self._body[self._edges[e, 0]])
+        body, first = self._swept.body, self._swept.ends[:, 0]
+        grown = self._widened(boxes, self._grown), self._widened(of_edges, self._grown[first])
+        for v, e in self._swept.meeting(*grown):
+            apart = self._apart(body[v], body[first[e]])
             vs.append(v[apart])
             es.append(e[apart])
         return np.concatenate(vs), np.concatenate(es)
 
     def _search(
         self, now: QQ, later: QQ, near: tuple[Indices, Indices], depth: int, lasting: int = 0
-    ) -> Approach | None:
+    ) -> Nearest | None:
         """The first approach in (now, later] of vertices to edges, given by their numbers.
 
         Pairs that hover at about their distance are near in both halves of every interval: exact
@@ -240,7 +208,7 @@ class ApproachSearch:
         """
         middle = 0.5 * (boxes[:, ::2] + boxes[:, 1::2])
         half = np.hypot(*(0.5 * (boxes[:, 1::2] - boxes[:, ::2])).T)
-        a, b = self._edges[e, 0], self._edges[e, 1]
+        a, b = self._swept.ends[e, 0], self._swept.ends[e, 1]
         to_a, to_b = middle[a] - middle[v], middle[b] - middle[v]
         along = to_b - to_a
         length = np.einsum("ij,ij->i", along, along)
@@ -254,7 +222,7 @@ class ApproachSearch:
         may: NDArray[np.bool_] = ~(bound > 64.0 * U * size)  # NaN: it may
         return may
 
-    def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> Approach | None:
+    def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> Nearest | None:
         """The first approach, exactly."""
         begin = AlgebraicNumber(now)
         found: list[tuple[AlgebraicNumber, tuple[int, int]]] = []
@@ -271,7 +239,7 @@ class ApproachSearch:
                     break
         if best is None:
             return None
-        return Approach(best, tuple(sorted({ij for t, ij in found if t.compare(best) == 0})))
+        return Nearest(best, tuple(sorted({ij for t, ij in found if t.compare(best) == 0})))
 
     def _feature_pairs(
         self, v: Indices, e: Indices
@@ -279,15 +247,15 @@ class ApproachSearch:
         """The pairs of features to which a vertex and an edge belong, each once."""
         seen: set[tuple[int, ...]] = set()
         for one, edge in zip(v.tolist(), e.tolist(), strict=True):
-            a, b = self._edges[edge].tolist()
-            bodies = int(self._body[one]), int(self._body[a])
+            a, b = self._swept.ends[edge].tolist()
+            bodies = int(self._swept.body[one]), int(self._swept.body[a])
             for ends in ((a,), (b,), (a, b)) if a != b else ((a,),):
                 key = (one, *ends) if len(ends) > 1 else tuple(sorted((one, *ends)))
                 if key in seen:
                     continue
                 seen.add(key)
                 other = self._vertex(ends[0])[1] if len(ends) == 1 else None
-                feature = Feature(other, None if len(ends) == 1 else self._numbers[edge])
+                feature = Feature(other, None if len(ends) == 1 else self._swept.edge_index[edge])
                 track, index = self._vertex(one)
                 features = (Feature(index, None), feature)
                 tracks = tuple(self._vertex(k)[0] for k in ends)
@@ -299,5 +267,5 @@ class ApproachSearch:
 
     def _vertex(self, k: int) -> tuple[Track, int]:
         """The trajectory of a vertex and its number in its body."""
-        vertex = self._vertices.all[self._ids[k]]
+        vertex = self._swept.vertices.all[self._swept.ids[k]]
         return vertex.track, vertex.index
