@@ -12,16 +12,16 @@ import click
 
 from exactpt.cli.alarm import time_limit
 from exactpt.cli.intervals import collide_all
+from exactpt.cli.naming import names_in, two_names
 from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, max_memory
 from exactpt.cli.progress import QUIET, progress
-from exactpt.cli.searches import names_in, search_for, two_names
 from exactpt.cli.terminal import drop_standard_output, say
 from exactpt.cli.words import answer_in_words, event_in_words, stats_in_words
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import QQ, rational
 
 if TYPE_CHECKING:
-    from exactpt.cli.searches import Search
+    from exactpt.collision.search import Search
     from exactpt.scene.scene import Scene
     from exactpt.simulation.event import Event
     from exactpt.simulation.simulation import Simulation
@@ -108,6 +108,8 @@ def collide(
         return collide_all(
             scene, until, as_json=as_json, exit_code=exit_code, max_seconds=max_seconds
         )
+    from exactpt.collision.searches import Question, search_for
+
     given: Scene | None = None
     search: Search | None = None
     answer: dict[str, object] = {"contact": None}
@@ -117,19 +119,19 @@ def collide(
             if proof is not None and since is not None:
                 raise InputError("--since: a proof is about the scene file, from its start on")
             answer |= {"until": str(given._end), "tiling": tiling}
-            search = search_for(
-                given,
+            question = Question(
                 method,
                 tiling,
+                exact_only=exact_only,
                 ignoring=[names_in(text, "--ignore") for text in ignore],
                 after_start=after_start,
                 between=[two_names(text, "--between") for text in between] or None,
-                exact_only=exact_only,
+                proof=proof,
+                scene_file=scene.read_bytes() if proof is not None else None,
                 max_events=max_events,
                 max_seconds=max_seconds,
-                proof=proof,
-                path=scene,
             )
+            search = search_for(given, question)
             answer["tiling"] = search.name
             contact = search.run_to_contact()
             stated = contact and contact.to_json()
