@@ -162,7 +162,7 @@ for _name, _place in {
     "scene to shapely": "exactpt.exchange.shapely_adapter:geometries_of",
     "picture of a scene": "exactpt.render.notebook:scene_svg",
     "picture of a simulation": "exactpt.render.notebook:simulation_svg",
-    "proof of a first contact": "exactpt.proof.written:write_proof",
+    "search that writes a proof": "exactpt.proof.written:ProvedSearch",
     "proofs of a simulation": "exactpt.proof.living:ProofFolder",
     "table of a contact": "exactpt.render.notebook:contact_html",
 }.items():

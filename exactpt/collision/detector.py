@@ -6,25 +6,17 @@ import contextlib
 import time as clock
 from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
-from exactpt.collision.contact import Contact, contact_of
-from exactpt.collision.ignoring import groups_of
-from exactpt.collision.initial import initial_touches
-from exactpt.collision.straight_search import Row, first_touching, near_at, rows_of
-from exactpt.errors import BudgetExceeded, InputError, carrying
-from exactpt.extensions import extension
-from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.collision.contact import Contact
+from exactpt.collision.searches import Question, search_for
+from exactpt.errors import InputError, carrying
 from exactpt.kernel.budget import within
-from exactpt.kernel.numbers import Rational, fraction
-from exactpt.motion.body import refuse_rounded
+from exactpt.kernel.numbers import Rational
 from exactpt.scene.scene import Scene
 from exactpt.tiling import catalogue
 
-if TYPE_CHECKING:
-    from exactpt.tiling.tiling import Tiling
-
-__all__ = ["METHODS", "check_provable", "first_contact", "searches_pairs"]
+__all__ = ["METHODS", "first_contact"]
 
 
 METHODS: Final = ("kinetic", "pairs", "auto")
@@ -81,18 +73,16 @@ def first_contact(
         groups = list(ignoring)
         if since is not None:
             scene = scene.since(since)
-        if after_start or between is not None:
-            from exactpt.collision.selected import SelectedSearch, check_selectable
-
-            check_selectable(method, tiling, proof)
-            return SelectedSearch(
-                scene,
-                after_start=after_start,
-                between=between,
-                ignoring=groups,
-                exact_only=exact_only,
-            ).run_to_contact()
-        return _contact(scene, method, tiling, exact_only=exact_only, groups=groups, proof=proof)
+        question = Question(
+            method,
+            tiling,
+            exact_only=exact_only,
+            ignoring=groups,
+            after_start=after_start,
+            between=between,
+            proof=None if proof is None else Path(proof),
+        )
+        return search_for(scene, question, counting=False).run_to_contact()
 
 
 def _budget(
@@ -110,141 +100,3 @@ def _budget(
             raise InputError(f"{what}: not a number from 0 on: {bound!r}")
     deadline = None if max_seconds is None else clock.monotonic() + max_seconds
     return within(deadline, max_memory)
-
-
-def _contact(
-    scene: Scene,
-    method: str,
-    tiling: str,
-    *,
-    exact_only: bool,
-    groups: list[Collection[str]],
-    proof: str | Path | None,
-) -> Contact | None:
-    """As `first_contact`, with checked names."""
-    if scene.is_rounded:
-        return _of_rounded(scene, method, tiling, groups, proof, exact_only=exact_only)
-    if groups and method == "kinetic":
-        raise InputError("a tiling watches all bodies: to ignore some, use method='pairs'")
-    if proof is not None:
-        check_provable(method, groups)
-        write_proof = extension("proof of a first contact")
-        found: Contact | None = write_proof(scene, proof, tiling=tiling, exact_only=exact_only)
-        return found
-    if searches_pairs(method, tiling, groups):
-        return _by_pairs(scene, groups, tiling if method == "auto" else None, exact_only=exact_only)
-    return _by_tiling(scene, tiling, exact_only=exact_only)
-
-
-def _of_rounded(
-    scene: Scene,
-    method: str,
-    tiling: str,
-    groups: list[Collection[str]],
-    proof: str | Path | None,
-    *,
-    exact_only: bool,
-) -> Contact | None:
-    """The first contact of a scene with rounded bodies, by pairs.
-
-    Raises:
-        InputError: if a tiling or a proof is asked for.
-    """
-    if proof is not None or not searches_pairs(method, tiling, groups):
-        refuse_rounded(scene.bodies)
-    from exactpt.collision.rounded import first_contact_of_rounded
-
-    def plain(part: Scene, some: list[Collection[str]]) -> Contact | None:
-        return _by_pairs(part, some, None, exact_only=exact_only)
-
-    return first_contact_of_rounded(scene, groups, plain, exact_only=exact_only)
-
-
-def _by_pairs(
-    scene: Scene, groups: list[Collection[str]], otherwise: str | None, *, exact_only: bool
-) -> Contact | None:
-    """The first contact, by pairs of features.
-
-    Where boxes exclude nothing, and there are no groups, a tiling is kept if one is given.
-    """
-    rows = None if exact_only else rows_of(scene)
-    if rows is not None:
-        return _first_of_rows(scene, rows, groups)
-    from exactpt.collision.pairs import PairsSearch
-
-    search = PairsSearch(scene, exact_only=exact_only, ignoring=groups)
-    if otherwise is not None and not groups and search.is_blind():
-        return _by_tiling(scene, otherwise, exact_only=exact_only)
-    return search.run_to_contact()
-
-
-def _by_tiling(scene: Scene, tiling: str, *, exact_only: bool) -> Contact | None:
-    """The first contact, by a tiling that is kept up to it."""
-    from exactpt.collision.tilings import start_tiling, tiling_for_contact
-    from exactpt.tiling.events import ContactFound
-
-    touches, overlaps = initial_touches(scene)
-    if overlaps:
-        return contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)
-    name = tiling_for_contact(scene, tiling)
-    passed: float | None = None
-    kinetic: Tiling | None = None
-    try:
-        kinetic = start_tiling(scene, name, scene._start, exact_only=exact_only)
-        try:
-            for _ in kinetic.run():
-                passed = kinetic.certifier.now.low
-        except ContactFound as found:
-            return contact_of(scene, kinetic.now, found.touches)
-    except BudgetExceeded as spent:
-        spent.reached = scene.start
-        if kinetic is not None and passed is not None:
-            reached = kinetic.vertices.frame.exact_time(passed)
-            spent.reached = fraction(max(scene._start, reached))
-        raise
-    return None
-
-
-def _first_of_rows(
-    scene: Scene, rows: Sequence[Row], groups: Iterable[Collection[str]]
-) -> Contact | None:
-    """The first contact of bodies that all move straight."""
-    group = groups_of(scene, groups)
-
-    def apart(i: int, j: int) -> bool:
-        return group[i] != group[j]
-
-    near = [(i, j) for i, j in near_at(rows, scene._start) if apart(i, j)]
-    if near:
-        touches, overlaps = initial_touches(scene, near)
-        if overlaps:
-            return contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)
-    try:
-        found = first_touching(rows, scene._start, scene._end, apart)
-    except BudgetExceeded as spent:
-        spent.reached = scene.start
-        raise
-    return None if found is None else contact_of(scene, AlgebraicNumber(found.time), found.touches)
-
-
-def check_provable(method: str, groups: Collection[object]) -> None:
-    """Check that an answer of this method can be proved.
-
-    Raises:
-        InputError: if not.
-    """
-    if method == "pairs" or groups:
-        what = "method='pairs'" if method == "pairs" else "groups that ignore each other"
-        raise InputError(f"a proof needs a tiling, and {what} has none")
-
-
-def searches_pairs(method: str, tiling: str, groups: Collection[object] = ()) -> bool:
-    """Whether a method searches pairs: "pairs" does, "auto" does unless a tiling is named.
-
-    For a single first contact from a cold start the search over pairs is the faster one, also
-    for bodies that deform, change their motion, are entangled, drive in a convoy or never touch
-    (`exactpt bench first-contact`); "auto" leaves it only where it has no boxes
-    (`PairsSearch.is_blind`). Only a tiling can continue after the contact and answer questions
-    about the free space.
-    """
-    return method == "pairs" or (method == "auto" and (bool(groups) or tiling == "auto"))

@@ -28,23 +28,9 @@ from exactpt.proximity.near import pairs_that_come_near
 from exactpt.proximity.renewed import new_contact_time
 from exactpt.scene.scene import Scene, scene_of
 
-__all__ = ["SelectedSearch", "check_selectable"]
+__all__ = ["SelectedSearch"]
 
 Meeting: TypeAlias = "tuple[AlgebraicNumber, Iterable[Touch]]"
-
-
-def check_selectable(method: str, tiling: str, proof: object) -> None:
-    """Check that some pairs, or new contacts, can be asked for in this way.
-
-    Raises:
-        InputError: if not.
-    """
-    if method == "kinetic" or tiling != "auto" or proof is not None:
-        what = "a proof is about" if proof is not None else "a tiling watches"
-        raise InputError(
-            f"{what} all bodies, from the start on: contacts between some, or new ones after "
-            "the start, are found by pairs alone"
-        )
 
 
 @final

@@ -7,12 +7,17 @@ in the order in which their boxes meet, up to the first contact.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from itertools import combinations
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, final
 
+from exactpt.collision.contact import Contact, contact_of
+from exactpt.collision.ignoring import groups_of
+from exactpt.collision.initial import initial_touches
 from exactpt.collision.meeting import Meeting, Span, span_of
 from exactpt.collision.straight import first_meeting, window
+from exactpt.errors import BudgetExceeded
+from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.motion.incidence import Touch
@@ -22,6 +27,7 @@ from exactpt.scene.scene import Scene
 __all__ = [
     "MOST_VERTICES",
     "Row",
+    "StraightSearch",
     "Touching",
     "first_of_pairs",
     "first_touching",
@@ -56,6 +62,62 @@ class Touching(NamedTuple):
 
     time: QQ
     touches: list[Touch]
+
+
+@final
+class StraightSearch:
+    """A search for the first contact of bodies that all move straight.
+
+    Args:
+        scene: the bodies, their motions and the time span.
+        rows: the rows of the bodies, see `rows_of`.
+        ignoring: groups of body names; contacts within a group are ignored.
+
+    Attributes:
+        name: the name of the tiling: None.
+    """
+
+    name = None
+
+    def __init__(
+        self, scene: Scene, rows: Sequence[Row], ignoring: Iterable[Collection[str]] = ()
+    ) -> None:
+        self._scene = scene
+        self._rows = rows
+        self._group = groups_of(scene, ignoring)
+
+    @property
+    def stats(self) -> dict[str, object]:
+        """The sizes of the scene."""
+        scene = self._scene
+        return {"bodies": len(scene.bodies), "vertices": scene.vertex_count, "events": 0}
+
+    def passed(self) -> None:
+        """No time up to which there is no contact is known before the end of the search."""
+
+    def run_to_contact(self) -> Contact | None:
+        """The first contact in the closed time span of the scene; None if there is none.
+
+        Raises:
+            BudgetExceeded: if the time or memory of this thread is used up.
+        """
+        scene, rows = self._scene, self._rows
+        near = [(i, j) for i, j in near_at(rows, scene._start) if self._counts(i, j)]
+        if near:
+            touches, overlaps = initial_touches(scene, near)
+            if overlaps:
+                return contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)
+        try:
+            found = first_touching(rows, scene._start, scene._end, self._counts)
+        except BudgetExceeded as spent:
+            spent.reached = scene.start
+            raise
+        return (
+            None if found is None else contact_of(scene, AlgebraicNumber(found.time), found.touches)
+        )
+
+    def _counts(self, i: int, j: int) -> bool:
+        return self._group[i] != self._group[j]
 
 
 def rows_of(scene: Scene) -> list[Row] | None:

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, final
 
 from exactpt.errors import AuditError
 from exactpt.files import write_atomically, writing
 from exactpt.kernel.counters import Counts
+from exactpt.kernel.numbers import fraction
 from exactpt.proof.emit import ProofRun, scene_bytes
-from exactpt.simulation.report import report
+from exactpt.tiling.report import report
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact
-    from exactpt.kernel.numbers import QQ
     from exactpt.scene.scene import Scene
 
 __all__ = ["Proof", "ProvedSearch", "prove", "write_proof"]
@@ -126,7 +127,7 @@ class ProvedSearch:
 
     @property
     def stats(self) -> dict[str, object]:
-        """The counts of the run; see `exactpt.simulation.report`."""
+        """The counts of the run; see `exactpt.tiling.report`."""
         kinetic = self._proof.kinetic
         counts = Counts(0, 0, {}) if kinetic is None else kinetic.vertices.counters.now()
         return report(self._scene, kinetic, counts)
@@ -145,9 +146,9 @@ class ProvedSearch:
                 write(f"{line}\n")
         return self._proof.contact
 
-    def passed(self) -> QQ:
-        """A rational time before which there is provably no contact."""
-        return self._proof.reached()
+    def passed(self) -> Fraction:
+        """A rational time up to which there is provably no contact."""
+        return fraction(self._proof.reached())
 
 
 def write_proof(

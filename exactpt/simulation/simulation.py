@@ -21,9 +21,9 @@ from exactpt.scene.scene import Scene
 from exactpt.simulation.budget import Budget
 from exactpt.simulation.event import Event
 from exactpt.simulation.recording import Recorder
-from exactpt.simulation.report import report
 from exactpt.simulation.running import begin
 from exactpt.simulation.spaces import SpaceCache
+from exactpt.tiling.report import report
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact
@@ -128,7 +128,7 @@ class Simulation:
 
     @property
     def stats(self) -> dict[str, object]:
-        """The counts of the run so far, see `exactpt.simulation.report`."""
+        """The counts of the run so far, see `exactpt.tiling.report`."""
         living = self._run.living
         data = report(living.scene, living.tiling, living.counts)
         return data | {"contacts": self.contacts, "plans": living.changes}

@@ -6,8 +6,9 @@ import pytest
 
 from exactpt.collision import pairs, row_boxes
 from exactpt.collision.allpairs import first_contact_allpairs
-from exactpt.collision.detector import first_contact, searches_pairs
+from exactpt.collision.detector import first_contact
 from exactpt.collision.pairs import PairsSearch
+from exactpt.collision.searches import searches_pairs
 from exactpt.geometry.boxes import overlapping_pairs
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.motion import swept_edges

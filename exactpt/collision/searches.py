@@ -1,0 +1,132 @@
+"""The choice of the search that answers a question about the first contact."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from exactpt.collision.search import Search
+from exactpt.collision.straight_search import StraightSearch, rows_of
+from exactpt.errors import InputError
+from exactpt.extensions import extension
+from exactpt.scene.scene import Scene
+
+__all__ = ["Question", "search_for", "searches_pairs"]
+
+
+class Question(NamedTuple):
+    """What is asked about a scene, and how it is to be found.
+
+    Attributes:
+        method, tiling, exact_only, ignoring, after_start, between, proof: as in `first_contact`;
+            the names of method and tiling are known.
+        scene_file: the bytes of the scene's file, of which a proof then speaks.
+        max_events: maximum number of events of a tiling, which "auto" then keeps; None for no
+            limit.
+        max_seconds: time limit, in seconds; None for no limit.
+    """
+
+    method: str
+    tiling: str
+    exact_only: bool = False
+    ignoring: Sequence[Collection[str]] = ()
+    after_start: bool = False
+    between: Iterable[Sequence[str]] | None = None
+    proof: Path | None = None
+    scene_file: bytes | None = None
+    max_events: int | None = None
+    max_seconds: float | None = None
+
+
+def search_for(scene: Scene, question: Question, *, counting: bool = True) -> Search:
+    """The search that answers a question.
+
+    Args:
+        scene: the bodies, their motions and the time span.
+        question: the question.
+        counting: whether the search counts its decisions; the fastest one for straight motion
+            does not.
+
+    Raises:
+        InputError: if the method cannot answer this question.
+    """
+    method, tiling, exact_only, groups = question[:4]
+    if question.after_start or question.between is not None:
+        return _selected(scene, question)
+    if groups and method == "kinetic":
+        raise InputError("a tiling watches all bodies: to ignore some, use the method pairs")
+    if question.proof is not None:
+        return _proved(scene, question, question.proof)
+    if question.max_events is not None and method == "auto" and not groups:
+        method = "kinetic"
+    seconds = question.max_seconds
+    if searches_pairs(method, tiling, groups):
+        rows = None if counting or exact_only or scene.is_rounded else rows_of(scene)
+        if rows is not None:
+            return StraightSearch(scene, rows, groups)
+        from exactpt.collision.pairs import PairsSearch
+
+        search = PairsSearch(scene, exact_only=exact_only, max_seconds=seconds, ignoring=groups)
+        if method == "pairs" or groups or not search.is_blind():
+            return search
+    from exactpt.collision.tiling_search import TilingSearch
+
+    most = question.max_events
+    return TilingSearch(scene, tiling, exact_only=exact_only, max_events=most, max_seconds=seconds)
+
+
+def _selected(scene: Scene, question: Question) -> Search:
+    """The search for contacts of some pairs, or for new ones.
+
+    Raises:
+        InputError: if a tiling or a proof is asked for.
+    """
+    if question.method == "kinetic" or question.tiling != "auto" or question.proof is not None:
+        what = "a tiling watches" if question.proof is None else "a proof is about"
+        raise InputError(
+            f"{what} all bodies, from the start on: contacts between some, or new ones after "
+            "the start, are found by pairs alone"
+        )
+    from exactpt.collision.selected import SelectedSearch
+
+    return SelectedSearch(
+        scene,
+        after_start=question.after_start,
+        between=question.between,
+        ignoring=question.ignoring,
+        exact_only=question.exact_only,
+        max_seconds=question.max_seconds,
+    )
+
+
+def _proved(scene: Scene, question: Question, path: Path) -> Search:
+    """The search by a tiling that writes a proof.
+
+    Raises:
+        InputError: if the answer is to be found without a tiling.
+    """
+    if question.method == "pairs" or question.ignoring:
+        what = "groups that ignore each other" if question.ignoring else "method='pairs'"
+        raise InputError(f"a proof needs a tiling, and {what} has none")
+    proved: Search = extension("search that writes a proof")(
+        scene,
+        path,
+        tiling=question.tiling,
+        scene_file=question.scene_file,
+        exact_only=question.exact_only,
+        max_events=question.max_events,
+    )
+    return proved
+
+
+def searches_pairs(method: str, tiling: str, groups: Collection[object] = ()) -> bool:
+    """Whether a method searches pairs: "pairs" does, "auto" does unless a tiling is named.
+
+    For a single first contact from a cold start the search over pairs is the faster one, also
+    for bodies that deform, change their motion, are entangled, drive in a convoy or never touch
+    (`exactpt bench first-contact`); "auto" leaves it only where it has no boxes
+    (`PairsSearch.is_blind`). Only a tiling can continue after the contact and answer questions
+    about the free space.
+    """
+    return method == "pairs" or (method == "auto" and (bool(groups) or tiling == "auto"))
