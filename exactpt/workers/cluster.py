@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-from collections import deque
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -40,11 +39,10 @@ def results_on(
     left = None if seconds is None else 1.03 * seconds
     with _client(scheduler) as client:
         items: dict[str, Item] = {}
-        again: deque[Item] = deque()
         running = as_completed(timeout=left)
 
         def submit_next() -> None:
-            item = again.popleft() if again else next(todo, None)
+            item = next(todo, None)
             if item is not None:
                 future = client.submit(work.job, item, _silent, pure=False)
                 items[future.key] = item
@@ -54,9 +52,8 @@ def results_on(
             submit_next()
         with contextlib.suppress(TimeoutError):
             for future in running:
-                yield from _result(work, future, items.pop(future.key), again)
-                for _ in range(1 + len(again)):
-                    submit_next()
+                yield from _result(work, future, items.pop(future.key))
+                submit_next()
 
 
 def _client(scheduler: str) -> Client:
@@ -72,16 +69,11 @@ def _silent(step: Step) -> None:
     """Tell nobody."""
 
 
-def _result(
-    work: Work[Item, Result], future: Future, item: Item, again: deque[Item]
-) -> Iterator[Result]:
-    """The result of an item; one that has ended several workers is done in parts or given up."""
+def _result(work: Work[Item, Result], future: Future, item: Item) -> Iterator[Result]:
+    """The result of an item; one that has ended several workers is given up."""
     try:
         yield future.result()
     except Exception as error:  # of the cluster: a job raises nothing
-        if parts := work.parts(item):
-            again.extend(parts)
-        else:
-            result = work.lost(item, None, f"{ENDS} ({type(error).__name__})")
-            if result is not None:
-                yield result
+        result = work.lost(item, None, f"{ENDS} ({type(error).__name__})")
+        if result is not None:
+            yield result

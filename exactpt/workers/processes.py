@@ -156,8 +156,6 @@ def _ended(
     tries[item] += 1
     if tries[item] < MOST_TRIES:
         again.append(item)
-    elif parts := work.parts(item):
-        again.extend(parts)
     else:
         yield from _given_up(work, worker, ENDS)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
@@ -31,10 +31,6 @@ class Step(Protocol):
         """The time that is allowed for it."""
 
 
-def _whole(item: object) -> Sequence[Item]:  # noqa: ARG001
-    return ()
-
-
 @dataclass(frozen=True)
 class Work(Generic[Item, Result]):
     """What is done with each item; jobs and items are pickled.
@@ -44,11 +40,9 @@ class Work(Generic[Item, Result]):
         lost: the result of an item that is given up, whose last step is given, because it
             `ENDS` its workers, `HANGS` for longer than its step allows, or is `UNFINISHED` when
             the time of all is over; None for no result.
-        parts: smaller items that are done instead of one that ends its workers; none for `lost`.
         starting: the seconds in which a worker starts and a job tells its first step.
     """
 
     job: Callable[[Item, Callable[[Step], None]], Result]
     lost: Callable[[Item, Step | None, str], Result | None]
-    parts: Callable[[Item], Sequence[Item]] = _whole
     starting: float = float("inf")
