@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from itertools import islice
 from typing import Final
 
@@ -81,25 +83,41 @@ def _scene(content: bytes) -> Scene:
 
 def _by_arrays(contents: Sequence[bytes], question: Question) -> dict[int, Answer]:
     """The answers that filters have found, by the index of the scene."""
-    read: dict[int, TwoBodies] = {}
-    for k, content in enumerate(contents):
-        scene = read_two_bodies(content) if len(content) <= question.max_bytes else None
-        if scene is not None:
-            read[k] = scene
-    if not read:
-        return {}
     try:
-        with question.budget():
+        with question.budget(), _uncollected():
             ask()
-            return _screened(read, contents)
+            return _screened(_read(contents, question.max_bytes), contents)
     except BudgetExceeded:  # each by itself, then
         return {}
 
 
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Switch the garbage collector off: parsed scenes have no cycles, but are looked through."""
+    was = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was:
+            gc.enable()
+
+
+def _read(contents: Sequence[bytes], longest: int) -> dict[int, TwoBodies]:
+    read: dict[int, TwoBodies] = {}
+    for k, content in enumerate(contents):
+        scene = read_two_bodies(content) if len(content) <= longest else None
+        if scene is not None:
+            read[k] = scene
+    return read
+
+
 def _screened(read: dict[int, TwoBodies], contents: Sequence[bytes]) -> dict[int, Answer]:
+    if not read:
+        return {}
     scenes, places = [*read.values()], [*read]
     bodies = BodyArrays(
-        [point for scene in scenes for point in scene.points],
+        np.array([x for scene in scenes for x in scene.points]).reshape(-1, 2),
         np.cumsum([0, *(len(body.vertices) for scene in scenes for body in scene.bodies)]),
         coefficients=np.array([scene.coefficients for scene in scenes]).reshape(-1, 2, 3),
         closed=[body.closed for scene in scenes for body in scene.bodies],

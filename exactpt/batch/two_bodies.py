@@ -9,9 +9,10 @@ import json
 import math
 import re
 from collections.abc import Sequence
+from itertools import chain
 from typing import Final, NamedTuple, NoReturn, TypeAlias
 
-from exactpt.kernel.numbers import QQ, parse_rational
+from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import is_text
 from exactpt.scene.json_values import Number
 
@@ -59,15 +60,15 @@ class TwoBodies(NamedTuple):
         bodies: the two.
         time: the start and the end, as they are written.
         span: the start, which is a double, and a double after the end.
-        points: the vertices as nearest doubles, those of both bodies one after the other.
-        coefficients: for each body six doubles: those of x, then those of y.
+        coefficients: for each body six nearest doubles: those of x, then those of y.
+        points: the vertices as nearest doubles x, y, x, ..., those of one body after the other's.
     """
 
     bodies: tuple[Moving, Moving]
     time: tuple[Raw, Raw]
     span: tuple[float, float]
-    points: list[tuple[float, float]]
     coefficients: list[float]
+    points: list[float]
 
 
 def read_two_bodies(content: bytes) -> TwoBodies | None:
@@ -81,8 +82,8 @@ def read_two_bodies(content: bytes) -> TwoBodies | None:
 
 
 def exact(number: Raw) -> QQ:
-    """The number that is written."""
-    return QQ(number) if isinstance(number, int) else parse_rational(number)
+    """The number that is written, in the grammar of JSON or of `_TEXT`."""
+    return QQ(number)
 
 
 def _scene(data: object) -> TwoBodies:
@@ -93,62 +94,67 @@ def _scene(data: object) -> TwoBodies:
     time, bodies = data["time"], data["bodies"]
     if type(time) is not list or type(bodies) is not list or len(bodies) != 2:
         raise _Other
-    points: list[tuple[float, float]] = []
-    coefficients: list[float] = []
-    a, b = (_body(body, points, coefficients) for body in bodies)
     start, end = time
-    first, last = _double(start), _double(end)
+    a, b = map(_body, bodies)
+    motions = [[*axis, 0, 0, 0][:3] for body in (a, b) for axis in body.motion]
+    numbers = [start, end, *chain(*motions), *chain(*a.vertices, *b.vertices)]
+    first, last, *rest = _doubles(numbers)
     if a.name == b.name or first >= last or exact(start) != QQ(*first.as_integer_ratio()):
         raise _Other
     span = first, math.nextafter(last, math.inf)
-    return TwoBodies((a, b), (start, end), span, points, coefficients)
+    return TwoBodies((a, b), (start, end), span, rest[:12], rest[12:])
 
 
-def _body(
-    data: dict[str, object], points: list[tuple[float, float]], coefficients: list[float]
-) -> Moving:
+def _body(data: object) -> Moving:
     if type(data) is not dict or not data.keys() <= BODY:
         raise _Other
     name, rows, closed = data["name"], data["vertices"], data.get("closed", True)
     if type(name) is not str or not is_text(name) or type(closed) is not bool:
         raise _Other
-    if type(rows) is not list or not rows or (len(rows) > 3 and rows[0] == rows[-1]):
+    if type(rows) is not list or set(map(type, rows)) != {list} or set(map(len, rows)) != {2}:
         raise _Other
-    for row in rows:
-        if type(row) is not list:
-            raise _Other
-        x, y = row
-        points.append((_double(x), _double(y)))
+    if len(rows) > 3 and rows[0] == rows[-1]:
+        raise _Other
     motion = data.get("motion", {})
     if type(motion) is not dict or not motion.keys() <= AXES:
         raise _Other
-    axes = motion.get("x", []), motion.get("y", [])
-    for axis in axes:
-        if type(axis) is not list or len(axis) > 3:
-            raise _Other
-        coefficients += map(_double, axis)
-        coefficients += [0.0] * (3 - len(axis))
-    return Moving(name, rows, axes, closed)
+    x, y = motion.get("x", []), motion.get("y", [])
+    if not type(x) is type(y) is list or len(x) > 3 or len(y) > 3:
+        raise _Other
+    return Moving(name, rows, (x, y), closed)
 
 
-def _double(number: object) -> float:
-    """The nearest double to a number that is 0 or neither tiny nor huge."""
-    if type(number) is int:
-        x = float(number)
-        if abs(x) < LARGEST:
-            return x
-    elif type(number) is Number:
-        x = float(number)
-        if SMALLEST < abs(x) < LARGEST or not number.strip("-0."):
-            return x
-    elif type(number) is str:
-        match = _TEXT.fullmatch(number)
-        if match is not None:
-            p, q = match.groups()
-            x = float(number) if q is None else int(p) / int(q)
-            if SMALLEST < abs(x) < LARGEST or not (number if q is None else p).strip("-0."):
-                return x
-    raise _Other
+def _doubles(numbers: list[Raw]) -> list[float]:
+    """The nearest doubles to numbers of which each is 0 or neither tiny nor huge."""
+    kinds = set(map(type, numbers))
+    if kinds <= {int, Number}:
+        found = [*map(float, numbers)]
+    elif kinds <= {int, Number, str}:
+        found = [_quotient(n) if type(n) is str else float(n) for n in numbers]
+    else:
+        raise _Other
+    sizes = [*filter(None, map(abs, found))]
+    if sizes and not (min(sizes) > SMALLEST and max(sizes) < LARGEST):
+        raise _Other
+    if not all(_is_zero(n) for x, n in zip(found, numbers, strict=True) if not x):
+        raise _Other
+    return found
+
+
+def _quotient(text: str) -> float:
+    match = _TEXT.fullmatch(text)
+    if match is None:
+        raise _Other
+    p, q = match.groups()
+    return float(text) if q is None else int(p) / int(q)
+
+
+def _is_zero(number: Raw) -> bool:
+    """Whether it is the integer 0, or a text with without another digit than 0 before a solidus.
+
+    With an exponent it counts as none: the format bounds exponents.
+    """
+    return number == 0 or not str(number).partition("/")[0].strip("-0.")
 
 
 def _unique_keys(pairs: list[tuple[str, object]]) -> dict[str, object]:
