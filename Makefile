@@ -65,11 +65,12 @@ lint: $(VENV)/developing ## formatting, rules, types, imports
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
-pictures: $(VENV)/developing ## draw the pictures of the README and of docs/gallery.md anew
+pictures: $(VENV)/developing ## draw the pictures of the README, the gallery and the examples anew
 	$(BIN)/exactpt draw exactpt/data/demo.json --at contact -o docs/first-contact.svg
 	$(BIN)/python docs/draw_demo.py
 	$(BIN)/python docs/draw_proof.py
 	$(BIN)/python docs/draw_gallery.py
+	$(BIN)/python docs/draw_examples.py
 
 docs: $(VENV)/developing ## the API pages, from the docstrings, in docs/api
 	$(BIN)/python -W ignore -m pdoc --docformat google --output-directory docs/api exactpt
