@@ -29,6 +29,7 @@ class Journal:
     Args:
         target: the file of answers.
         question: what is asked.
+        length: the length of the input, which a batch that goes on must find again.
 
     Attributes:
         records: the chunks that are answered, by their starts.
@@ -38,14 +39,15 @@ class Journal:
             or another process writes them.
     """
 
-    def __init__(self, target: Path, question: Question) -> None:
+    def __init__(self, target: Path, question: Question, length: int) -> None:
         self._target = target
         self._paths = _beside(target, "part"), _beside(target, "journal")
         self.records: dict[int, Record] = {}
         with ExitStack() as opened:
             self._part, self._journal = (opened.enter_context(_open(path)) for path in self._paths)
             self._lock()
-            self._read(json.dumps({"exactpt batch": VERSION, "question": question.to_json()}))
+            about = {"exactpt batch": VERSION, "question": question.to_json(), "length": length}
+            self._read(json.dumps(about))
             self._close = opened.pop_all().close
 
     def add(self, answered: Answered) -> None:
@@ -91,8 +93,8 @@ class Journal:
         known, *lines = self._journal.read().split(b"\n")[:-1] or [b""]
         if known not in {b"", head.encode()}:
             raise InputError(
-                f"{self._paths[1]}: of another question: remove it and {self._paths[0].name}, "
-                "or ask the same"
+                f"{self._paths[1]}: of another question or input: remove it and "
+                f"{self._paths[0].name}, or ask the same"
             )
         size = 0
         try:

@@ -74,7 +74,7 @@ def run(
     if target.exists():
         raise InputError(f"{target}: it exists: remove it, or choose another name")
     most = size_of(source.size, jobs if scheduler is None else ON_A_CLUSTER)
-    journal = Journal(target, question)
+    journal = Journal(target, question, source.length)
     try:
         todo = source.chunks(dict(journal.records), most)
         done = sum(record.stop - record.start for record in journal.records.values())

@@ -131,12 +131,14 @@ def test_another_input_or_question_is_refused(scenes, tmp_path):
     part, journal = stopped(scenes, out)
     before = part.read_bytes(), journal.read_bytes()
 
-    assert "of another question" in refusal(scenes, out, Question(until=3))
+    other = "of another question or input"
+    assert other in refusal(scenes, out, Question(until=3))
     text = scenes.read_text()
     scenes.write_text(text.replace("0", "1", 1))
     assert "has changed since the batch began" in refusal(scenes, out)
-    scenes.write_text(text[:3000])
-    assert "has changed since the batch began" in refusal(scenes, out)
+    for shorter_or_longer in (text[:3000], text + "\n"):
+        scenes.write_text(shorter_or_longer)
+        assert other in refusal(scenes, out)
     scenes.write_text(text)
     assert (part.read_bytes(), journal.read_bytes()) == before
     run(scenes, out, Question(method="auto"))
