@@ -15,6 +15,7 @@ from exactpt.extensions import register
 
 if TYPE_CHECKING:
     from exactpt import arrays as arrays
+    from exactpt import batch as batch
     from exactpt.collision.approach import Approach, first_within
     from exactpt.collision.contact import Contact, Pair
     from exactpt.collision.detector import first_contact
@@ -170,9 +171,9 @@ for _name, _place in {
 
 
 def __getattr__(name: str) -> object:
-    """A public name, imported on first use (PEP 562); `exactpt.arrays` too."""
-    if name == "arrays":
-        return import_module("exactpt.arrays")
+    """A public name, imported on first use (PEP 562); `exactpt.arrays` and `exactpt.batch` too."""
+    if name in ("arrays", "batch"):
+        return import_module(f"exactpt.{name}")
     if name not in _ROOM_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value: object = getattr(import_module(_ROOM_OF[name]), name)

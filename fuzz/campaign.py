@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-import contextlib
 import itertools
 import time as clock
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TYPE_CHECKING, TypeVar
+from typing import Final, TypeVar
 
-from fuzz.cases import Case, Outcome, run_case, stopped
-from fuzz.workers import Job, outcomes_of
-
-if TYPE_CHECKING:
-    from distributed import Future
+from exactpt.workers.cluster import results_on
+from exactpt.workers.processes import results_of
+from exactpt.workers.work import Work
+from fuzz.cases import Case, Outcome, left_by, run_case
 
 __all__ = ["Campaign", "Summary", "cases", "run"]
 
 T = TypeVar("T")
+
+STARTING: Final = 60.0
+"""Seconds in which a worker starts and makes its scene."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,19 +121,20 @@ def run(
     """
     summary = Summary()
     began = clock.monotonic()
-    job: Job = partial(
+    job = partial(
         run_case,
         witnesses=campaign.witnesses,
         shrink_seconds=campaign.shrink_seconds,
         ends=None if campaign.seconds is None else clock.time() + campaign.seconds,
     )
+    work = Work(job, left_by, starting=STARTING)
     todo = _until(cases(campaign), campaign.seconds)
     if scheduler is not None:
-        outcomes = _on_cluster(job, todo, scheduler, campaign.seconds)
+        outcomes = results_on(scheduler, work, todo, campaign.seconds)
     elif jobs == 1:
-        outcomes = (job(case, lambda _: None) for case in todo)
+        outcomes = map(job, todo)
     else:
-        outcomes = outcomes_of(job, todo, jobs, campaign.seconds)
+        outcomes = results_of(work, todo, jobs, campaign.seconds)
     try:
         for outcome in outcomes:
             if not outcome.complete and not outcome.failures:
@@ -154,38 +156,3 @@ def _until(items: Iterable[T], seconds: float | None) -> Iterator[T]:
         if deadline is not None and clock.monotonic() > deadline:
             return
         yield item
-
-
-def _on_cluster(
-    job: Job, todo: Iterator[Case], scheduler: str, seconds: float | None
-) -> Iterator[Outcome]:
-    """As `outcomes_of`, on a Dask cluster, which repeats the cases of a lost worker elsewhere."""
-    from distributed import Client, as_completed
-
-    left = None if seconds is None else 1.03 * seconds
-    with Client(scheduler) as client:
-        ahead = 4 * max(1, sum(client.nthreads().values()))
-        case_of = {}
-
-        def submitted() -> Iterator[object]:
-            for case in todo:
-                future = client.submit(job, case, pure=False)
-                case_of[future.key] = case
-                yield future
-
-        waiting = submitted()
-        running = as_completed(list(itertools.islice(waiting, ahead)), timeout=left)
-        with contextlib.suppress(TimeoutError):
-            for future in running:
-                yield _result(future, case_of.pop(future.key))
-                for following in itertools.islice(waiting, 1):
-                    running.add(following)
-
-
-def _result(future: Future, case: Case) -> Outcome:
-    """The outcome of a case; a case that has ended several workers is a failure."""
-    try:
-        outcome: Outcome = future.result()
-    except Exception as error:  # of the cluster: a job raises nothing
-        return stopped(case, None, f"ends its workers ({type(error).__name__})")
-    return outcome

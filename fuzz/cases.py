@@ -14,11 +14,22 @@ from exactpt.errors import InputError
 from exactpt.scene.format import loads, to_json
 from exactpt.scene.scene import Scene
 from exactpt.testing.shrinking import shrink_data
+from exactpt.workers import work
 from fuzz.limits import HANGS, TimeIsUp, TooSlow, limit, patience_of
 from fuzz.subscene import scene_of
 from fuzz.witnesses import WITNESSES, Difference
 
-__all__ = ["Case", "Failure", "Outcome", "Step", "failure_of", "run_case", "shrunk", "stopped"]
+__all__ = [
+    "Case",
+    "Failure",
+    "Outcome",
+    "Step",
+    "failure_of",
+    "left_by",
+    "run_case",
+    "shrunk",
+    "stopped",
+]
 
 
 class Case(NamedTuple):
@@ -131,6 +142,14 @@ def stopped(case: Case, step: Step | None, what: str) -> Outcome:
     else:
         failure = Failure(step.witness, what, f"{what}, where no limit interrupts it", step.scene)
     return Outcome(case, {}, (failure,))
+
+
+def left_by(case: Case, step: work.Step | None, why: str) -> Outcome | None:
+    """What is left by a process that was stopped: None if its case only is not finished."""
+    last = step if isinstance(step, Step) else None
+    if why == work.UNFINISHED and (last is None or last.failure is None):
+        return None
+    return stopped(case, last, why)
 
 
 def failure_of(

@@ -61,7 +61,7 @@ class Block(NamedTuple):
         record_overlaps(self.contacts, over + self.first, self.spans.start[over])
         counts = o.vertex_count[i] * o.edge_count[j] + o.vertex_count[j] * o.edge_count[i]
         for k in near[~overlaps & (counts > LARGEST)].tolist():
-            search(self.contacts, self.first + k)
+            self._search(k)
         left = ~overlaps & (counts <= LARGEST)
         near, unclear = near[left], unclear[left]
         for first, last in ranges(counts[left], CHUNK):
@@ -116,14 +116,29 @@ class Block(NamedTuple):
         """Record one meeting for each of the pairs k."""
         o, second = self.outlines, hits.second == 1
         a, b = np.where(second, (self.j[k], self.i[k]), (self.i[k], self.j[k]))
-        precise = hits.exact(o, self.bodies.coefficients, a, b, len(cs))
-        low, high = sharpened(precise, cs, self.spans.start[k], low, high)
+        if self.is_rounded:
+            low, high = self.spans.at(k).times(low, high)
+        else:
+            precise = hits.exact(o, self.bodies.coefficients, a, b, len(cs))
+            low, high = sharpened(precise, cs, self.spans.start[k], low, high)
         vertex, edge = hits.vertex - o.first_vertex[a], hits.edge - o.first_edge[b]
         record_edges(self.contacts, k + self.first, low, high, hits.second, vertex, edge)
 
-    def _decide(self, k: int, candidates: list[tuple[int, int, int]], *, unclear: bool) -> None:
-        if self.motions.degree > 2:
+    @property
+    def is_rounded(self) -> bool:
+        """Whether the numbers of the bodies are the doubles nearest to the exact ones."""
+        return self.motions.edges is not None
+
+    def _search(self, k: int) -> None:
+        """Search pair k exactly; if its bodies are rounded, leave it open."""
+        if self.is_rounded:
+            self.contacts.exact[self.first + k] = True
+        else:
             search(self.contacts, self.first + k)
+
+    def _decide(self, k: int, candidates: list[tuple[int, int, int]], *, unclear: bool) -> None:
+        if self.is_rounded or self.motions.degree > 2:
+            self._search(k)
             return
         bodies = Translating(self.bodies, int(self.i[k])), Translating(self.bodies, int(self.j[k]))
         span = exact(float(self.spans.start[k])), exact(float(self.spans.end[k]))

@@ -45,10 +45,12 @@ class Candidates(NamedTuple):
         """
         e, v, pair = self.edge, self.vertex, self.pair
         ux, uy, length = o.ux[e], o.uy[e], None
+        off_u = None if motions.edges is None else motions.edges[pair]
         if o.points:
             point = o.edges.first[e] == o.edges.last[e]
             uy[point] = 1.0
             length = np.where(point, 0.0, 1.0)
+            off_u = None if off_u is None else off_u * length
         sign = np.where(self.second, -1.0, 1.0)
         wx, wy = o.x[v] - o.ax[e], o.y[v] - o.ay[e]
         c = motions.coefficients
@@ -60,7 +62,7 @@ class Candidates(NamedTuple):
             offs = [motions.off[:, n][pair] for n in range(count)]
             wx, wy, offs[0] = shifted(wx, wy, *moved[0], offs[0])
             off = tuple(offs)
-        return Relative(((ux, uy),), ((wx, wy), *moved[1:]), (None,), off, length)
+        return Relative(((ux, uy),), ((wx, wy), *moved[1:]), (off_u,), off, length)
 
     def exact(
         self, o: Outlines, coefficients: Floats, a: Indices, b: Indices, count: int

@@ -21,11 +21,14 @@ class Motions(NamedTuple):
         off: shape (m, d + 1), bounds on their absolute errors in x and in y.
         plain: whether the constant terms are 0 and the relative errors of all others at most U;
             then ``off`` is not needed.
+        edges: where vertices are rounded, bounds on the absolute errors of the differences of two
+            of a body, in x and in y; those of vertices are in ``off`` of the constant terms.
     """
 
     coefficients: Floats
     off: Floats
     plain: bool
+    edges: Floats | None = None
 
     @property
     def degree(self) -> int:
@@ -34,12 +37,19 @@ class Motions(NamedTuple):
 
     def take(self, index: Indices) -> Motions:
         """The entries at the given places."""
-        return Motions(self.coefficients[index], self.off[index], self.plain)
+        edges = None if self.edges is None else self.edges[index]
+        return Motions(self.coefficients[index], self.off[index], self.plain, edges)
 
 
 @np.errstate(all="ignore")
-def relative_motions(coefficients: Floats, i: Indices, j: Indices, spans: Spans) -> Motions:
+def relative_motions(
+    coefficients: Floats, i: Indices, j: Indices, spans: Spans, rounded: Floats | None = None
+) -> Motions:
     """The motions of the bodies i relative to the bodies j; d is at least 1.
+
+    Where ``rounded`` is given, coefficients are the doubles nearest to the exact ones, and it
+    bounds the errors of the vertices of each body. Then a difference of coefficients is off by
+    one more unit of the sum of their absolute values, and equal ones may differ.
 
     A difference of doubles has a relative error of at most U. The substitution t = start + s, by
     Horner's scheme with at most 2 d operations for each coefficient, adds at most 2 d + 1 units
@@ -49,14 +59,16 @@ def relative_motions(coefficients: Floats, i: Indices, j: Indices, spans: Spans)
     underflow larger than `TINY`: the bounds are infinite there, so nothing is decided.
     """
     c = coefficients[i] - coefficients[j]
-    while c.shape[2] > 2 and not c[:, :, -1].any():
-        c = c[:, :, :-1]
-    if c.shape[2] == 1:
-        c = np.concatenate((c, np.zeros_like(c)), axis=2)
-    d = c.shape[2] - 1
-    plain = not spans.shifted and not c[:, :, 0].any()
     size = np.abs(c)
-    moves = (c != 0.0).any(axis=1)
+    if rounded is not None:
+        size = np.abs(coefficients[i]) + np.abs(coefficients[j])
+    while c.shape[2] > 2 and not size[:, :, -1].any():
+        c, size = c[:, :, :-1], size[:, :, :-1]
+    if c.shape[2] == 1:
+        c, size = (np.concatenate((f, np.zeros_like(f)), axis=2) for f in (c, size))
+    d = c.shape[2] - 1
+    plain = rounded is None and not spans.shifted and not c[:, :, 0].any()
+    moves = (size != 0.0).any(axis=1)
     if spans.shifted:
         start = spans.start[:, None]
         for k in range(d):
@@ -64,7 +76,13 @@ def relative_motions(coefficients: Floats, i: Indices, j: Indices, spans: Spans)
                 c[:, :, n] += start * c[:, :, n + 1]
                 size[:, :, n] += np.abs(start) * size[:, :, n + 1]
         moves = np.logical_or.accumulate(moves[:, ::-1], axis=1)[:, ::-1]
-    off = np.where(moves, (2 * d + 3) * U * size.sum(axis=1) * SLACK + TINY, 0.0)
+    units = 2 * d + (3 if rounded is None else 4)
+    off = np.where(moves, units * U * size.sum(axis=1) * SLACK + TINY, 0.0)
+    edges = None
+    if rounded is not None:
+        both = (rounded[i] + rounded[j]) * SLACK
+        off[:, 0] += both
+        edges = 2.0 * both
     if d > 1:
         most = 2.0 ** (400 // d)
         times = np.maximum(np.abs(spans.start), spans.length.high)
@@ -72,7 +90,7 @@ def relative_motions(coefficients: Floats, i: Indices, j: Indices, spans: Spans)
         if immoderate.any():
             off[immoderate] = np.inf
             plain = False
-    return Motions(c, off, plain)
+    return Motions(c, off, plain, edges)
 
 
 def reaches(motions: Motions, length: Floats) -> tuple[Floats, Floats, Floats]:

@@ -52,30 +52,26 @@ def _meet(o: Outlines, i: Indices, j: Indices, motions: Motions) -> tuple[Flags,
     if not motions.plain:
         x, y = shift[owner].T
         px, py, error = shifted(px, py, -x, -y, motions.off[owner, 0])
-    apart, cross = segments_meet((o.ux[e], o.uy[e]), (o.ux[f], o.uy[f]), (px, py), error)
+    off = 0.0 if motions.edges is None else motions.edges[owner]
+    apart, cross = segments_meet((o.ux[e], o.uy[e]), (o.ux[f], o.uy[f]), (px, py), error, off)
     n = len(i)
     crossing = np.bincount(owner[cross], minlength=n) > 0
     unclear = np.bincount(owner[~(apart | cross)], minlength=n) > 0
     for a, b, sign in ((i, j, 1.0), (j, i, -1.0)):
         left = np.flatnonzero(~(unclear | crossing) & o.rings[b])
         if len(left):
-            contained, unsure = _first_inside(
-                o, a[left], b[left], sign * shift[left], motions.off[left, 0], motions.plain
-            )
+            contained, unsure = _first_inside(o, a[left], b[left], sign, motions.take(left))
             crossing[left] |= contained
             unclear[left] |= unsure
     return crossing & ~unclear, unclear
 
 
 def _first_inside(
-    o: Outlines,
-    a: Indices,
-    b: Indices,
-    shift: Floats,
-    off: Floats,
-    plain: bool,  # noqa: FBT001
+    o: Outlines, a: Indices, b: Indices, sign: float, motions: Motions
 ) -> tuple[Flags, Flags]:
     """Whether the first vertex p of body a is inside polygon b, if it is not on it; what is open.
+
+    ``sign`` times the motions are those of a relative to b.
 
     A ray from p to the right crosses the edges of which one end is above p and the other is not,
     and p is on the left of an upward edge, or on the right of a downward one. Without an error a
@@ -86,19 +82,22 @@ def _first_inside(
     v = o.first_vertex[a][owner]
     wx, wy = o.x[v] - o.ax[e], o.y[v] - o.ay[e]
     error: Floats | float = 0.0
+    off = 0.0 if motions.edges is None else motions.edges[owner]
+    plain = motions.plain
     if not plain:
-        x, y = shift[owner].T
-        wx, wy, error = shifted(wx, wy, x, y, off[owner])
+        x, y = sign * motions.coefficients[owner, :, 0].T
+        wx, wy, error = shifted(wx, wy, x, y, motions.off[owner, 0])
     start, end = -wy, o.uy[e] - wy
     margin = error
     if plain:
         end = o.y[o.edges.last[e]] - o.y[v]
     else:
-        margin = (error + 2.0 * U * (np.abs(o.uy[e]) + np.abs(wy))) * SLACK
+        margin = (error + off + 2.0 * U * (np.abs(o.uy[e]) + np.abs(wy))) * SLACK
     ux, uy = o.ux[e], o.uy[e]
     turn = ux * wy - uy * wx
     bound = 8.0 * U * (np.abs(ux * wy) + np.abs(uy * wx)) + TINY
-    bound += error * (np.abs(ux) + np.abs(uy)) * SLACK
+    bound += error * (np.abs(ux) + np.abs(uy) + 2.0 * off) * SLACK
+    bound += off * (np.abs(wx) + np.abs(wy)) * SLACK
     straddles = (start > 0.0) != (end > 0.0)
     crossed = straddles & ((turn > 0.0) == (end > 0.0))
     sure = straddles & (np.abs(turn) > bound) | ~straddles

@@ -12,6 +12,7 @@ from pathlib import Path
 import click
 
 from exactpt.cli.alarm import endings
+from exactpt.cli.batch import batch
 from exactpt.cli.bench import bench
 from exactpt.cli.files import convert, generate
 from exactpt.cli.options import SCENE_FILE
@@ -70,7 +71,8 @@ def cli() -> None:
 
 
 _COMMANDS = (
-    demo, collide, simulate, tile, check, draw, convert, generate, questions, oracle, judge, bench,
+    demo, collide, simulate, tile, check, draw, convert, generate, batch, questions, oracle,
+    judge, bench,
 )  # fmt: skip
 for _command in _COMMANDS:
     cli.add_command(_command)

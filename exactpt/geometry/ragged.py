@@ -76,6 +76,7 @@ def segments_meet(
     v: tuple[Floats, Floats],
     p: tuple[Floats, Floats],
     error: Floats | float,
+    off: Floats | float = 0.0,
 ) -> tuple[Flags, Flags]:
     """For pairs of closed segments ab and cd: whether they surely are disjoint, surely cross.
 
@@ -86,30 +87,36 @@ def segments_meet(
         v: d - c, likewise.
         p: c - a, each coordinate with a relative error of at most U and an absolute one.
         error: that absolute error.
+        off: absolute errors of the coordinates of u and v, beside the relative ones.
 
     With q = d - a the orientations are u x p, u x q of ab and c, d, and v x -p, v x (u - p) of cd
     and a, b. A computed coordinate of q is off by at most 3 U (|p| + |v|) + error, one of u - p
     likewise; with the product and the difference, the errors of the orientations are at most 6 U
     times the sum of the products of absolute values, and ``error`` times the sum of the
-    coordinates of u or v; two more units cover the rounding of the bound.
+    coordinates of u or v; two more units cover the rounding of the bound. ``off`` is added to the
+    errors of u, v, q and u - p; with those of the other factor, of which the absolute error is at
+    most ``error`` + ``off``, it adds at most ``off`` (|u| + |v| + |p| + 2 (``error`` + ``off``)).
     """
     (ux, uy), (vx, vy), (px, py) = u, v, p
     ax, ay, bx, by, cx, cy = (np.abs(x) for x in (ux, uy, vx, vy, px, py))
-    off_u = error * (ax + ay) * SLACK + TINY
-    off_v = error * (bx + by) * SLACK + TINY
+    more = off * (ax + ay + bx + by + cx + cy + 2.0 * (error + off))
+    off_u = (error * (ax + ay) + more) * SLACK + TINY
+    off_v = (error * (bx + by) + more) * SLACK + TINY
     c = _sign(ux * py - uy * px, K * (ax * cy + ay * cx) + off_u)
     d = _sign(ux * (py + vy) - uy * (px + vx), K * (ax * (cy + by) + ay * (cx + bx)) + off_u)
     a = _sign(vy * px - vx * py, K * (bx * cy + by * cx) + off_v)
     b = _sign(vx * (uy - py) - vy * (ux - px), K * (bx * (ay + cy) + by * (ax + cx)) + off_v)
     apart = (c * d > 0) | (a * b > 0)
-    apart |= _beside(ux, px, vx, error) | _beside(uy, py, vy, error)
+    beyond = error + 2.0 * off
+    apart |= _beside(ux, px, vx, beyond) | _beside(uy, py, vy, beyond)
     return apart, (c * d < 0) & (a * b < 0)
 
 
 def _beside(u: Floats, p: Floats, v: Floats, error: Floats | float) -> Flags:
     """Whether the interval from 0 to u and that from p to p + v surely are disjoint.
 
-    p + v is off by at most 3 U (|p| + |v|) + error, and u by U |u|.
+    p + v is off by at most 3 U (|p| + |v|) + error, and u by U |u|; ``error`` includes all
+    absolute errors.
     """
     q = p + v
     margin = (K * (np.abs(u) + np.abs(p) + np.abs(v)) + error) * SLACK + TINY
@@ -124,17 +131,22 @@ def _sign(value: Floats, error: Floats) -> NDArray[np.int8]:
 
 
 @np.errstate(all="ignore")
-def surely_simple(vertices: Floats, offsets: Indices, closed: Flags) -> Flags:
+def surely_simple(
+    vertices: Floats, offsets: Indices, closed: Flags, rounded: Floats | None = None
+) -> Flags:
     """For each body, whether it surely is a simple polygon or chain, at rest.
 
     Args:
         vertices: shape (N, 2).
         offsets: shape (n + 1,).
         closed: shape (n,).
+        rounded: shape (n,), if vertices are the doubles nearest to the exact ones: bounds on the
+            errors of their coordinates. Doubles that differ are nearest to numbers that do.
 
     A difference of doubles is 0 only if they are equal, and has the sign of the exact one. A
     polygon that turns the same way at every vertex, by less than a half turn, and whose edges
-    change from downward to upward once, turns by 2 pi: it is convex.
+    change from downward to upward once, turns by 2 pi: it is convex. So is each one of which the
+    vertices are that near, since all turns on the way to it have the same sign.
     """
     sizes = np.diff(offsets)
     edges = edges_of(offsets, closed)
@@ -143,7 +155,12 @@ def surely_simple(vertices: Floats, offsets: Indices, closed: Flags) -> Flags:
     before = np.arange(len(d)) - 1
     before[edges.offsets[:-1]] = edges.offsets[1:] - 1
     p, q = dx[before] * dy, dy[before] * dx
-    turn = _sign(p - q, K * (np.abs(p) + np.abs(q)) + TINY)
+    error = K * (np.abs(p) + np.abs(q)) + TINY
+    off = None if rounded is None else 2.0 * SLACK * rounded
+    if off is not None:
+        length, e = np.abs(dx) + np.abs(dy), np.repeat(off, np.diff(edges.offsets))
+        error += e * (length + length[before] + 2.0 * e) * SLACK
+    turn = _sign(p - q, error)
     upward = (dy > 0.0) | ((dy == 0.0) & (dx > 0.0))
     starts = edges.offsets[:-1]
     rings = closed & (sizes > 2)
@@ -160,14 +177,17 @@ def surely_simple(vertices: Floats, offsets: Indices, closed: Flags) -> Flags:
     counts = np.diff(edges.offsets)[candidates] ** 2
     for first, last in ranges(counts, _CHUNK):
         some = candidates[first:last]
-        simple[some] = _apart_from_itself(vertices, d, edges, some, rings[some])
+        simple[some] = _apart_from_itself(vertices, d, edges, some, rings[some], off)
     return simple
 
 
 def _apart_from_itself(
-    vertices: Floats, d: Floats, edges: Edges, some: Indices, rings: Flags
+    vertices: Floats, d: Floats, edges: Edges, some: Indices, rings: Flags, off: Floats | None
 ) -> Flags:
-    """Whether no two edges of a body meet that are not neighbours."""
+    """Whether no two edges of a body meet that are not neighbours.
+
+    ``off`` bounds the errors of the differences of two vertices of each body.
+    """
     sizes = edges.offsets[some + 1] - edges.offsets[some]
     owner, position = spread(sizes * sizes)
     i, j = np.divmod(position, sizes[owner])
@@ -175,6 +195,8 @@ def _apart_from_itself(
     owner, i, j = owner[~near], i[~near], j[~near]
     e, f = edges.offsets[some[owner]] + i, edges.offsets[some[owner]] + j
     p = vertices[edges.first[f]] - vertices[edges.first[e]]
-    apart, _ = segments_meet((d[e, 0], d[e, 1]), (d[f, 0], d[f, 1]), (p[:, 0], p[:, 1]), 0.0)
+    error = 0.0 if off is None else off[some[owner]]
+    u, v = (d[e, 0], d[e, 1]), (d[f, 0], d[f, 1])
+    apart, _ = segments_meet(u, v, (p[:, 0], p[:, 1]), error, error)
     simple: Flags = np.bincount(owner[~apart], minlength=len(some)) == 0
     return simple

@@ -105,14 +105,20 @@ class BodyArrays(Sequence[Body]):
         """The number of vertices of all bodies."""
         return len(self.vertices)
 
-    def doubtful(self, some: Indices | None = None) -> list[int]:
-        """The bodies, all or of some, that the filter does not find simple."""
+    def doubtful(self, some: Indices | None = None, rounded: Floats | None = None) -> list[int]:
+        """The bodies, all or of some, that the filter does not find simple.
+
+        If coordinates are the doubles nearest to the exact ones, ``rounded`` bounds the errors of
+        each body.
+        """
         if some is None:
-            return np.flatnonzero(~surely_simple(self.vertices, self.offsets, self.closed)).tolist()
+            simple = surely_simple(self.vertices, self.offsets, self.closed, rounded)
+            return np.flatnonzero(~simple).tolist()
         sizes = np.diff(self.offsets)[some]
         ends = np.concatenate(([0], np.cumsum(sizes)))
         at = np.arange(ends[-1]) + np.repeat(self.offsets[some] - ends[:-1], sizes)
-        simple = surely_simple(self.vertices[at], ends, self.closed[some])
+        off = None if rounded is None else rounded[some]
+        simple = surely_simple(self.vertices[at], ends, self.closed[some], off)
         return cast("list[int]", some[~simple].tolist())
 
     def __iter__(self) -> Iterator[Body]:

@@ -16,6 +16,7 @@ QUESTION = (
 FILES = {
     "questions.jsonl": QUESTION,
     "answers.jsonl": '{"id": "sliding:0:0", "time": 2}',
+    "scenes.jsonl": '{"exactpt": 1, "time": [0, 9], "bodies": []}',
     "countries.geojson": '{"type": "Point", "coordinates": [0.1, 2]}',
     "parcels.wkt": "POLYGON ((0 0, 1 0, 0 1, 0 0))",
     "drawing.svg": '<svg xmlns="http://www.w3.org/2000/svg"><circle id="c" r="3"/></svg>',
@@ -55,6 +56,10 @@ def test_an_example_runs(line, tmp_path, monkeypatch, request):
     monkeypatch.chdir(tmp_path)
     for name, text in FILES.items():
         (tmp_path / name).write_text(text)
+    if ".parquet" in line:
+        arrow = pytest.importorskip("pyarrow")
+        rows = arrow.table({"scene": [FILES["scenes.jsonl"]]})
+        pytest.importorskip("pyarrow.parquet").write_table(rows, tmp_path / "scenes.parquet")
     scene = (files("exactpt") / "data" / "demo.json").read_text(encoding="utf-8")
     (tmp_path / "scene.json").write_text(scene)
 

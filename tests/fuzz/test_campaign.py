@@ -15,13 +15,14 @@ import pytest
 from exactpt.errors import InputError
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
+from exactpt.workers.processes import results_of
+from exactpt.workers.work import Work
 from fuzz import corpus
 from fuzz.campaign import Campaign, Summary, cases, run
-from fuzz.cases import Case, Failure, Step, failure_of, run_case, stopped
+from fuzz.cases import Case, Failure, Step, failure_of, left_by, run_case, stopped
 from fuzz.limits import TooSlow, limit
 from fuzz.planted import PLANTED, hunt, table
 from fuzz.witnesses import WITNESSES
-from fuzz.workers import outcomes_of
 
 ROOT = Path(__file__).parents[2]
 FAMILIES = ("row", "grazing", "clamps")
@@ -178,10 +179,10 @@ def job_of(kind, folder):
 @pytest.mark.parametrize("kind", ["once", "deadly", "stuck"])
 def test_a_worker_that_is_killed_or_stuck_loses_no_case(tmp_path, monkeypatch, kind):
     monkeypatch.syspath_prepend(str(tmp_path))
-    monkeypatch.setattr("fuzz.workers.GRACE", 1.0)
+    monkeypatch.setattr("exactpt.workers.processes.GRACE", 1.0)
     todo = iter(Case(i, "row", i) for i in range(12))
 
-    outcomes = list(outcomes_of(job_of(kind, tmp_path), todo, 2))
+    outcomes = list(results_of(Work(job_of(kind, tmp_path), left_by), todo, 2))
 
     assert sorted(outcome.case.number for outcome in outcomes) == list(range(12))
     found = [f.signature for o in outcomes for f in o.failures]

@@ -1,0 +1,146 @@
+"""The answers for scenes: pairs of bodies that translate by arrays, the rest one by one."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from itertools import islice
+from typing import Final
+
+import numpy as np
+
+from exactpt.arrays.contacts import KINDS, Contacts
+from exactpt.arrays.screening import screened
+from exactpt.batch.linear import initial_contact, is_linear, linear_contact
+from exactpt.batch.question import Question
+from exactpt.batch.two_bodies import TwoBodies, read_two_bodies
+from exactpt.errors import BudgetExceeded, InputError
+from exactpt.kernel.budget import ask
+from exactpt.scene.body_arrays import BodyArrays
+from exactpt.scene.format import loads
+from exactpt.scene.scene import Scene
+
+__all__ = ["Answer", "answer", "answers", "answers_of"]
+
+TOGETHER: Final = 512
+"""Number of scenes that are taken together."""
+
+INITIAL: Final = KINDS.index("initial")
+
+Answer = dict[str, object]
+
+
+def answers(scenes: Iterable[str | bytes], question: Question | None = None) -> Iterator[Answer]:
+    """For each scene, a JSON text, its answer (docs/format.md) without the number of a line.
+
+    >>> two = '''{"exactpt": 1, "time": [0, 9], "bodies": [
+    ...     {"name": "ball", "vertices": [[0, 0]], "motion": {"x": [0, 1]}},
+    ...     {"name": "wall", "vertices": [[4, -1], [4, 2]]}]}'''
+    >>> first, second = answers([two, "{}"])
+    >>> first["contact"]["time"]["low"], second
+    ('4', {'error': 'scene: the key "exactpt" is missing'})
+
+    Args:
+        scenes: the texts; they are taken some hundred at a time.
+        question: what is asked; by default the first contact.
+    """
+    asked = question or Question()
+    contents = (text.encode(errors="replace") if isinstance(text, str) else text for text in scenes)
+    while some := list(islice(contents, TOGETHER)):
+        yield from answers_of(some, asked)
+
+
+def answers_of(contents: Sequence[bytes], question: Question) -> Iterator[Answer]:
+    """The answers for some scenes, all of which are taken together."""
+    known = _by_arrays(contents, question) if question.is_plain else {}
+    for k, content in enumerate(contents):
+        yield known[k] if k in known else answer(content, question)
+
+
+def answer(content: bytes, question: Question) -> Answer:
+    """The answer to a question about a scene as JSON; why there is none as ``{"error"}``."""
+    if len(content) > question.max_bytes:
+        return {"error": f"more than {question.max_bytes} bytes"}
+    try:
+        with question.budget():
+            return question.ask(_scene(content))
+    except (InputError, BudgetExceeded) as error:
+        return {"error": str(error)}
+    except MemoryError:
+        return {"error": "the memory is used up"}
+    except Exception as error:  # a bug: the other scenes are answered nevertheless
+        return {"error": f"an invariant broke: {type(error).__name__}: {error}"}
+
+
+def _scene(content: bytes) -> Scene:
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise InputError("not UTF-8") from None
+    return loads(text)
+
+
+def _by_arrays(contents: Sequence[bytes], question: Question) -> dict[int, Answer]:
+    """The answers that filters have found, by the index of the scene."""
+    try:
+        with question.budget(), _uncollected():
+            ask()
+            return _screened(_read(contents, question.max_bytes), contents)
+    except BudgetExceeded:  # each by itself, then
+        return {}
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Switch the garbage collector off: parsed scenes have no cycles, but are looked through."""
+    was = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was:
+            gc.enable()
+
+
+def _read(contents: Sequence[bytes], longest: int) -> dict[int, TwoBodies]:
+    read: dict[int, TwoBodies] = {}
+    for k, content in enumerate(contents):
+        scene = read_two_bodies(content) if len(content) <= longest else None
+        if scene is not None:
+            read[k] = scene
+    return read
+
+
+def _screened(read: dict[int, TwoBodies], contents: Sequence[bytes]) -> dict[int, Answer]:
+    if not read:
+        return {}
+    scenes, places = [*read.values()], [*read]
+    bodies = BodyArrays(
+        np.array([x for scene in scenes for x in scene.points]).reshape(-1, 2),
+        np.cumsum([0, *(len(body.vertices) for scene in scenes for body in scene.bodies)]),
+        coefficients=np.array([scene.coefficients for scene in scenes]).reshape(-1, 2, 3),
+        closed=[body.closed for scene in scenes for body in scene.bodies],
+    )
+    spans = np.array([scene.span for scene in scenes])
+    contacts = screened(bodies, spans, lambda i: _scene(contents[places[i]]))
+    found = {}
+    for k, (place, scene) in enumerate(read.items()):
+        known = _contact(scene, contacts, k)
+        if known is not None:
+            found[place] = known
+    return found
+
+
+def _contact(scene: TwoBodies, contacts: Contacts, k: int) -> Answer | None:
+    """The answer for a pair of bodies; None if arrays have not found it."""
+    if contacts.exact[k]:
+        return None
+    if not contacts.found[k]:
+        return {"contact": None}
+    if contacts.kind[k] == INITIAL:
+        return {"contact": initial_contact(scene)}
+    if not is_linear(scene):
+        return None
+    place = int(contacts.body[k]), int(contacts.vertex[k]), int(contacts.edge[k])
+    return {"contact": linear_contact(scene, *place)}

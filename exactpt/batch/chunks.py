@@ -1,0 +1,127 @@
+"""Answers for chunks of lines: what one worker does at a time."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable
+from functools import partial
+from typing import NamedTuple
+
+from exactpt.batch.answering import Answer, answer, answers_of
+from exactpt.batch.question import Question
+from exactpt.workers.processes import results_of
+from exactpt.workers.work import Step, Work
+
+__all__ = ["Answered", "Chunk", "Record", "answered", "one_by_one", "record_of"]
+
+
+class Chunk(NamedTuple):
+    """Some lines of the input, one after the other.
+
+    Attributes:
+        line: the number of the first, counted from 1.
+        start, stop: their place in the input, in bytes or rows.
+        digest: of their content.
+        text: the lines, separated by line breaks; cut where a line is too long.
+    """
+
+    line: int
+    start: int
+    stop: int
+    digest: str
+    text: bytes
+
+
+class Answered(NamedTuple):
+    """The answers for a chunk.
+
+    Attributes:
+        start, stop, digest: those of the chunk.
+        lines: the number of its lines.
+        scenes: the number of those that are not empty.
+        failures: the number of scenes that have an error for an answer.
+        first: the line and the error of the first of these.
+        text: a line of JSON for each scene.
+    """
+
+    start: int
+    stop: int
+    digest: str
+    lines: int
+    scenes: int
+    failures: int
+    first: str
+    text: bytes
+
+
+class Record(NamedTuple):
+    """A chunk that is answered.
+
+    Attributes:
+        start, stop, digest, lines, scenes, failures, first: as in `Answered`.
+        at, size: the place and the number of bytes of its answers.
+    """
+
+    start: int
+    stop: int
+    digest: str
+    lines: int
+    scenes: int
+    failures: int
+    first: str
+    at: int
+    size: int
+
+
+def record_of(answered: Answered, at: int) -> Record:
+    """The record of answers that are kept at a place."""
+    *about, text = answered
+    return Record._make([*about, at, len(text)])
+
+
+def answered(chunk: Chunk, _tell: Callable[[Step], None], question: Question) -> Answered:
+    """The answers for a chunk; empty lines have none."""
+    rows = _rows(chunk)
+    return _told(chunk, zip(rows, answers_of([*rows.values()], question), strict=True))
+
+
+def one_by_one(chunk: Chunk, _step: Step | None, _why: str, question: Question) -> Answered:
+    """The answers for a chunk that ends its workers, each scene by itself in a process."""
+    work = Work(partial(_answer, question=question), _no_answer)
+    found = dict(results_of(work, iter(_rows(chunk).items()), 1))
+    return _told(chunk, sorted(found.items()))
+
+
+def _rows(chunk: Chunk) -> dict[int, bytes]:
+    """The lines that are not empty, by their numbers."""
+    rows = enumerate(chunk.text.removesuffix(b"\n").split(b"\n"), chunk.line)
+    return {number: row for number, row in rows if row.strip()}
+
+
+def _answer(
+    row: tuple[int, bytes],
+    _tell: Callable[[Step], None],
+    question: Question,
+) -> tuple[int, Answer]:
+    return row[0], answer(row[1], question)
+
+
+def _no_answer(row: tuple[int, bytes], _step: Step | None, why: str) -> tuple[int, Answer]:
+    return row[0], {"error": f"the scene {why}"}
+
+
+def _told(chunk: Chunk, found: Iterable[tuple[int, Answer]]) -> Answered:
+    told = [(number, data) for number, data in found]
+    failures = [f"line {number}: {data['error']}" for number, data in told if "error" in data]
+    text = "".join(f"{json.dumps({'line': number, **data})}\n" for number, data in told)
+    lines = chunk.text.removesuffix(b"\n").count(b"\n") + 1
+    return Answered(
+        chunk.start,
+        chunk.stop,
+        chunk.digest,
+        lines,
+        len(told),
+        len(failures),
+        failures[0] if failures else "",
+        text.encode(),
+    )

@@ -1,0 +1,128 @@
+"""Files of scenes, one on each line, cut into chunks."""
+
+from __future__ import annotations
+
+import os
+import stat
+import sys
+from bisect import bisect_right
+from collections.abc import Iterator, Mapping
+from hashlib import blake2b
+from pathlib import Path
+from typing import BinaryIO, Final, Protocol
+
+from exactpt.batch.chunks import Chunk, Record
+from exactpt.errors import InputError
+
+__all__ = ["DIGEST", "Lines", "Source", "changed", "size_of"]
+
+LARGEST: Final = 1 << 18
+"""Most bytes of a chunk, unless it is one line."""
+SMALLEST: Final = 1 << 12
+PARTS: Final = 16
+"""Least number of chunks for each worker, if they are not smaller than `SMALLEST` then."""
+DIGEST: Final = 16
+"""Bytes of a digest."""
+
+
+class Source(Protocol):
+    """An input.
+
+    Attributes:
+        length: its length, in the unit of the places of chunks.
+        size: its number of bytes, about.
+    """
+
+    length: int
+    size: int
+
+    def chunks(self, done: Mapping[int, Record], most: int) -> Iterator[Chunk]:
+        """The chunks of about ``most`` bytes between those that are done, which are by start.
+
+        Raises:
+            InputError: if what is done is not the same as before.
+        """
+
+
+def size_of(total: int, workers: int) -> int:
+    """The size of chunks of an input of that many bytes."""
+    return min(LARGEST, max(SMALLEST, total // (PARTS * workers)))
+
+
+class Lines:
+    """A file of scenes, one on each line.
+
+    Attributes:
+        length: its size in bytes.
+        size: the same.
+
+    Args:
+        path: the file.
+        longest: most bytes of a line; of a longer one the rest is left out.
+
+    Raises:
+        InputError: if there is no such file.
+    """
+
+    def __init__(self, path: Path, longest: int) -> None:
+        self._path, self._longest = path, longest
+        with self._open() as file:
+            kind = os.fstat(file.fileno())
+        if not stat.S_ISREG(kind.st_mode):
+            raise InputError(f"{path}: not a file that can be read again")
+        self.length = self.size = kind.st_size
+
+    def chunks(self, done: Mapping[int, Record], most: int) -> Iterator[Chunk]:
+        """See `Source`."""
+        starts, line, start = sorted(done), 1, 0
+        with self._open() as file:
+            while True:
+                known = done.get(start)
+                if known is not None:
+                    if _digest_of_next(file, known.stop - start) != known.digest:
+                        raise changed(self._path)
+                    start, line = known.stop, line + known.lines
+                    continue
+                k = bisect_right(starts, start)
+                room = starts[k] - start if k < len(starts) else sys.maxsize
+                text, digest = self._next(file, min(most, room))
+                if not text:
+                    return
+                chunk = Chunk(line, start, file.tell(), digest, text)
+                yield chunk
+                line += text.removesuffix(b"\n").count(b"\n") + 1
+                start = chunk.stop
+
+    def _next(self, file: BinaryIO, most: int) -> tuple[bytes, str]:
+        """Whole lines of about ``most`` bytes, and their digest; the last is cut if too long."""
+        text = file.read(most)
+        digest = blake2b(text, digest_size=DIGEST)
+        last = len(text) - (text.rfind(b"\n") + 1)
+        while text and not text.endswith(b"\n") and (piece := file.readline(LARGEST)):
+            digest.update(piece)
+            if last <= self._longest:
+                text += piece
+                last += len(piece)
+            elif piece.endswith(b"\n"):
+                break
+        return text, digest.hexdigest()
+
+    def _open(self) -> BinaryIO:
+        try:
+            return self._path.open("rb")
+        except (OSError, ValueError) as error:
+            reason = error.strerror if isinstance(error, OSError) else error
+            raise InputError(f"{self._path}: cannot be read: {reason}") from None
+
+
+def changed(path: Path) -> InputError:
+    """The error that an input is another one than before."""
+    return InputError(f"{path}: it has changed since the batch began")
+
+
+def _digest_of_next(file: BinaryIO, count: int) -> str:
+    digest = blake2b(digest_size=DIGEST)
+    while count and (piece := file.read(min(count, 1 << 20))):
+        digest.update(piece)
+        count -= len(piece)
+    return digest.hexdigest()

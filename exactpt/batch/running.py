@@ -1,0 +1,127 @@
+"""A batch: all scenes of a file, on several cores or a cluster, resumable."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, nullcontext
+from functools import partial
+from pathlib import Path
+from typing import NamedTuple, final
+
+from exactpt.batch.chunks import Answered, Record, answered, one_by_one
+from exactpt.batch.journal import Journal
+from exactpt.batch.lines import Lines, Source, size_of
+from exactpt.batch.parquet import Rows, table
+from exactpt.batch.question import Question
+from exactpt.errors import InputError
+from exactpt.files import writing
+from exactpt.workers.cluster import results_on
+from exactpt.workers.processes import results_of
+from exactpt.workers.work import Work
+
+__all__ = ["Summary", "run"]
+
+PARQUET = ".parquet"
+ON_A_CLUSTER = 16
+"""Number of workers of a cluster for which an input is cut into enough chunks."""
+
+
+@final
+class Summary(NamedTuple):
+    """The result of a batch.
+
+    Attributes:
+        scenes: the number of answers.
+        failures: the number of those that are an error.
+        first: the line and the error of the first; empty if there is none.
+    """
+
+    scenes: int
+    failures: int
+    first: str
+
+
+def run(
+    scenes: str | Path,
+    answers: str | Path,
+    question: Question | None = None,
+    *,
+    jobs: int = 1,
+    scheduler: str | None = None,
+    report: Callable[[int, int], None] | None = None,
+) -> Summary:
+    """Answer a question about each scene of a file, as docs/scale.md explains.
+
+    If it is interrupted or killed, the same call goes on where it stopped: until all answers are
+    there, they are in two files beside the output. Its bytes do not depend on the number of
+    workers, nor on interruptions.
+
+    Args:
+        scenes: the file: a scene on each line, or Parquet (``.parquet``) with a column "scene".
+        answers: the file to write, which must not exist; Parquet if it ends in ``.parquet``.
+        question: what is asked; by default the first contact.
+        jobs: number of processes; one is this process. (More are started anew: a script that
+            asks for them must be importable, see `multiprocessing`.)
+        scheduler: the address of a Dask scheduler, instead.
+        report: called with how much of the input is done, and with all of it.
+
+    Raises:
+        InputError: if a file cannot be read or written, the output exists, or the input or the
+            question is not that of the batch that was interrupted.
+    """
+    question = question or Question()
+    source, target = _source(Path(scenes), question.max_bytes), Path(answers)
+    if target.exists():
+        raise InputError(f"{target}: it exists: remove it, or choose another name")
+    most = size_of(source.size, jobs if scheduler is None else ON_A_CLUSTER)
+    journal = Journal(target, question, source.length)
+    try:
+        todo = source.chunks(dict(journal.records), most)
+        done = sum(record.stop - record.start for record in journal.records.values())
+        work = Work(partial(answered, question=question), partial(one_by_one, question=question))
+        results: Iterator[Answered]
+        if scheduler is not None:
+            results = results_on(scheduler, work, todo)
+        elif jobs == 1:
+            results = (answered(chunk, lambda _: None, question) for chunk in todo)
+        else:
+            results = results_of(work, todo, jobs)
+        for result in results:
+            journal.add(result)
+            done += result.stop - result.start
+            if report is not None:
+                report(done, source.length)
+        records = _all(journal, source)
+        with writing(target) as write, _as_rows(target, write) as add:
+            journal.pass_on(add)
+        journal.remove()
+    finally:
+        journal.close()
+    return Summary(
+        sum(record.scenes for record in records),
+        sum(record.failures for record in records),
+        next((record.first for record in records if record.first), ""),
+    )
+
+
+def _source(path: Path, longest: int) -> Source:
+    return Rows(path) if path.suffix == PARQUET else Lines(path, longest)
+
+
+def _as_rows(
+    target: Path, write: Callable[[bytes], None]
+) -> AbstractContextManager[Callable[[bytes], None]]:
+    return table(write) if target.suffix == PARQUET else nullcontext(write)
+
+
+def _all(journal: Journal, source: Source) -> list[Record]:
+    """The records of all chunks, in the order of the input.
+
+    Raises:
+        InputError: if some are missing.
+    """
+    records = [journal.records[start] for start in sorted(journal.records)]
+    ends = [0, *(record.stop for record in records)]
+    if [record.start for record in records] != ends[:-1] or ends[-1] < source.length:
+        raise InputError("the workers are gone before all scenes were answered")
+    return records

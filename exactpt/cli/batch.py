@@ -1,0 +1,134 @@
+"""batch: one question about many scenes."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import click
+
+from exactpt.cli.naming import names_in, two_names
+from exactpt.cli.options import (
+    RATIONAL,
+    TILING,
+    bounded,
+    max_bytes,
+    max_memory,
+    output,
+)
+from exactpt.cli.progress import QUIET
+from exactpt.cli.terminal import is_terminal, tell
+from exactpt.errors import InputError
+from exactpt.files import MOST_BYTES
+from exactpt.kernel.numbers import QQ
+
+__all__ = ["batch"]
+
+
+@click.command()
+@click.argument("scenes", type=click.Path(path_type=Path), metavar="SCENES")
+@output("The file of answers, which must not exist.", required=True)
+@click.option("--jobs", type=click.IntRange(min=1), default=1, help="Number of processes.")
+@click.option("--scheduler", help="The address of a Dask scheduler, instead of --jobs.")
+@click.option("--all", "every", is_flag=True, help="Ask for all intervals in which bodies meet.")
+@click.option(
+    "--within",
+    "distance",
+    type=RATIONAL,
+    help="Ask for the first time at which two bodies are within this Euclidean distance.",
+)
+@click.option("--until", type=RATIONAL, help="Search up to this time.")
+@click.option("--since", type=RATIONAL, help="Search from this time on.")
+@TILING
+@click.option(
+    "--method",
+    default="auto",
+    show_default=True,
+    type=click.Choice(["kinetic", "pairs", "auto"]),
+    help="A tiling, or a search over pairs.",
+)
+@click.option("--ignore", multiple=True, metavar="NAME,NAME...", help="As of collide.")
+@click.option("--after-start", is_flag=True, help="As of collide.")
+@click.option("--between", multiple=True, metavar="NAME,NAME", help="As of collide.")
+@click.option("--exact-only", is_flag=True, help="Switch the float filters off.")
+@QUIET
+@bounded
+def batch(
+    scenes: Path,
+    output: Path,
+    jobs: int,
+    scheduler: str | None,
+    every: bool,
+    distance: QQ | None,
+    until: QQ | None,
+    since: QQ | None,
+    tiling: str,
+    method: str,
+    ignore: tuple[str, ...],
+    after_start: bool,
+    between: tuple[str, ...],
+    exact_only: bool,
+    quiet: bool,
+    max_seconds: float | None,
+) -> int:
+    """Answer one question about each scene of a file, by default for its first contact.
+
+    SCENES has a scene on each line, as JSON; or it is Parquet (.parquet) with a column "scene" of
+    such texts (needs: pip install 'exactpt[parquet]'). The answers are lines of JSON in the same
+    order, or a Parquet file; docs/format.md explains them. A scene that has no answer has the
+    key "error", and the exit code is 2 at the end. --max-seconds, --max-memory and --max-bytes
+    bound each scene.
+
+    --scheduler tcp://10.0.0.1:8786 asks the workers of a Dask cluster, which need exactpt.
+
+    If it is interrupted or killed, the same command goes on where it stopped. The bytes of the
+    answers do not depend on that, nor on the number of workers.
+
+    \b
+    Examples:
+      exactpt batch scenes.jsonl -o found.jsonl --jobs 2
+      exactpt batch scenes.jsonl -o meetings.jsonl --all --until 5
+      exactpt batch scenes.parquet -o near.parquet --within 1/2
+    """
+    from exactpt.batch import Question, run
+
+    most = max_bytes()
+    question = Question(
+        every=every,
+        distance=distance,
+        until=until,
+        since=since,
+        method=method,
+        tiling=tiling,
+        ignoring=tuple(tuple(names_in(text, "--ignore")) for text in ignore),
+        after_start=after_start,
+        between=tuple(two_names(text, "--between") for text in between) or None,
+        exact_only=exact_only,
+        max_seconds=max_seconds,
+        max_memory=max_memory(),
+        max_bytes=MOST_BYTES if most is None else most,
+    )
+    with _bar(quiet=quiet) as report:
+        done = run(scenes, output, question, jobs=jobs, scheduler=scheduler, report=report)
+    if not quiet:
+        tell(f"{done.scenes} scenes answered")
+    if done.failures:
+        raise InputError(f"{done.failures} of {done.scenes} scenes have no answer; {done.first}")
+    return 0
+
+
+@contextmanager
+def _bar(*, quiet: bool) -> Iterator[Callable[[int, int], None] | None]:
+    """Give the function to call with what is done, of how much; None if there is no terminal."""
+    if quiet or not is_terminal():
+        yield None
+        return
+    with click.progressbar(length=1, label="answering", file=sys.stderr) as bar:
+
+        def report(done: int, length: int) -> None:
+            bar.length = length
+            bar.update(done - bar.pos)
+
+        yield report

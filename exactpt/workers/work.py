@@ -1,0 +1,48 @@
+"""What is done with items, and what becomes of those that end their workers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass
+from typing import Generic, Protocol, TypeVar
+
+__all__ = ["ENDS", "HANGS", "MOST_TRIES", "UNFINISHED", "Item", "Result", "Step", "Work"]
+
+Item = TypeVar("Item", bound=Hashable)
+Result = TypeVar("Result")
+
+ENDS = "ends its process"
+HANGS = "hangs"
+UNFINISHED = "is not finished"
+
+MOST_TRIES = 2
+"""How often an item may end its worker before it is given up."""
+
+
+class Step(Protocol):
+    """What a job does next with its item.
+
+    Attributes:
+        seconds: the time that is allowed for it.
+    """
+
+    @property
+    def seconds(self) -> float:
+        """The time that is allowed for it."""
+
+
+@dataclass(frozen=True)
+class Work(Generic[Item, Result]):
+    """What is done with each item; jobs and items are pickled.
+
+    Attributes:
+        job: the result of an item; its second argument tells what it does next.
+        lost: the result of an item that is given up, whose last step is given, because it
+            `ENDS` its workers, `HANGS` for longer than its step allows, or is `UNFINISHED` when
+            the time of all is over; None for no result.
+        starting: the seconds in which a worker starts and a job tells its first step.
+    """
+
+    job: Callable[[Item, Callable[[Step], None]], Result]
+    lost: Callable[[Item, Step | None, str], Result | None]
+    starting: float = float("inf")

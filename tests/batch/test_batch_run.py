@@ -1,0 +1,421 @@
+"""Batches of files: the same bytes for any workers, interruptions and kills."""
+
+import json
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from scenes_of_two import generic_lines, nearly_degenerate
+
+from exactpt.batch import Question, answers, run
+from exactpt.batch.chunks import Chunk, answered, one_by_one
+from exactpt.batch.lines import Lines
+from exactpt.cli import main
+from exactpt.errors import InputError
+from exactpt.scene.generate import generate
+
+TURNING = [json.dumps(generate("turning", seed).to_json()) for seed in range(3)]
+MALFORMED = ["{", "[]", '{"exactpt": 2, "time": [0, 1], "bodies": []}', "\x00", '"', "nan"]
+SCENES = generic_lines(70, seed=5) + TURNING + nearly_degenerate(1, seed=4) + MALFORMED
+
+
+@pytest.fixture
+def scenes(tmp_path):
+    path = tmp_path / "scenes.jsonl"
+    path.write_text("\n".join(SCENES) + "\n")
+    return path
+
+
+def expected(lines, question=None):
+    found = enumerate(answers(lines, question), 1)
+    return "".join(f"{json.dumps({'line': number, **data})}\n" for number, data in found)
+
+
+EXPECTED = expected(SCENES)
+
+
+def left(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+@pytest.mark.parametrize("jobs", [1, 2, 3])
+def test_the_bytes_do_not_depend_on_the_workers(scenes, tmp_path, jobs):
+    out = tmp_path / "answers.jsonl"
+
+    summary = run(scenes, out, jobs=jobs)
+
+    assert out.read_text() == EXPECTED
+    assert (summary.scenes, summary.failures) == (len(SCENES), len(MALFORMED))
+    assert summary.first.startswith(f"line {len(SCENES) - len(MALFORMED) + 1}: not JSON")
+    assert left(tmp_path) == ["answers.jsonl", "scenes.jsonl"]
+
+
+def interrupted_after(chunks):
+    """What is called after each chunk, and interrupts after a number of them."""
+    seen = []
+
+    def report(done, length):
+        seen.append(done)
+        assert 0 < done <= length
+        if len(seen) == chunks:
+            raise KeyboardInterrupt
+
+    return report
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_an_interrupted_batch_goes_on(scenes, tmp_path, jobs, monkeypatch):
+    out = tmp_path / "answers.jsonl"
+    for chunks in (1, 3):
+        with pytest.raises(KeyboardInterrupt):
+            run(scenes, out, jobs=jobs, report=interrupted_after(chunks))
+        assert not out.exists()
+    assert left(tmp_path) == ["answers.jsonl.journal", "answers.jsonl.part", "scenes.jsonl"]
+    known = (tmp_path / "answers.jsonl.part").read_text().splitlines()
+    again = []
+
+    def count(chunk, tell, question):
+        again.append(chunk)
+        return answered(chunk, tell, question)
+
+    monkeypatch.setattr("exactpt.batch.running.answered", count)
+    summary = run(scenes, out)
+
+    assert out.read_text() == EXPECTED
+    assert summary.scenes == len(SCENES)
+    assert sum(len(chunk.text.splitlines()) for chunk in again) == len(SCENES) - len(known)
+    assert 0 < len(known) < len(SCENES)
+
+
+def stopped(scenes, out):
+    """A batch of which some chunks are answered."""
+    with pytest.raises(KeyboardInterrupt):
+        run(scenes, out, report=interrupted_after(2))
+    return out.with_name("answers.jsonl.part"), out.with_name("answers.jsonl.journal")
+
+
+@pytest.mark.parametrize("cut", [1, 10, 100])
+def test_what_was_half_written_is_written_again(scenes, tmp_path, cut):
+    out = tmp_path / "answers.jsonl"
+    part, journal = stopped(scenes, out)
+    part.write_bytes(part.read_bytes() + b'{"line": 99, "con')
+    journal.write_bytes(journal.read_bytes()[:-cut])
+
+    run(scenes, out)
+
+    assert out.read_text() == EXPECTED
+
+
+def test_a_journal_of_which_nothing_is_left(scenes, tmp_path):
+    out = tmp_path / "answers.jsonl"
+    _part, journal = stopped(scenes, out)
+    journal.write_bytes(journal.read_bytes()[:7])
+
+    run(scenes, out)
+
+    assert out.read_text() == EXPECTED
+
+
+def refusal(scenes, out, question=None):
+    with pytest.raises(InputError) as error:
+        run(scenes, out, question)
+    return str(error.value)
+
+
+def test_another_input_or_question_is_refused(scenes, tmp_path):
+    out = tmp_path / "answers.jsonl"
+    part, journal = stopped(scenes, out)
+    before = part.read_bytes(), journal.read_bytes()
+
+    other = "of another question or input"
+    assert other in refusal(scenes, out, Question(until=3))
+    text = scenes.read_text()
+    scenes.write_text(text.replace("0", "1", 1))
+    assert "has changed since the batch began" in refusal(scenes, out)
+    for shorter_or_longer in (text[:3000], text + "\n"):
+        scenes.write_text(shorter_or_longer)
+        assert other in refusal(scenes, out)
+    scenes.write_text(text)
+    assert (part.read_bytes(), journal.read_bytes()) == before
+    run(scenes, out, Question(method="auto"))
+    assert out.read_text() == EXPECTED
+
+
+def test_files_that_are_no_batch_are_refused(scenes, tmp_path):
+    out = tmp_path / "answers.jsonl"
+    _part, journal = stopped(scenes, out)
+    head = journal.read_bytes().split(b"\n")[0]
+    for wrong in (b"[1, 2]", b"{}", b"3", b'[0, 1, "x", 1, 1, 0, "", 0, "y"]'):
+        journal.write_bytes(head + b"\n" + wrong + b"\n")
+        assert "not the journal of a batch" in refusal(scenes, out)
+    journal.write_bytes(head + b'\n[0, 1, "x", 1, 1, 0, "", 0, 99999999]\n')
+    assert "answers are missing" in refusal(scenes, out)
+
+
+def test_an_output_that_exists_is_left_alone(scenes, tmp_path):
+    out = tmp_path / "answers.jsonl"
+    out.write_text("mine")
+
+    assert refusal(scenes, out) == f"{out}: it exists: remove it, or choose another name"
+    assert out.read_text() == "mine"
+    assert left(tmp_path) == ["answers.jsonl", "scenes.jsonl"]
+
+
+def test_two_batches_do_not_write_the_same_answers(scenes, tmp_path):
+    out = tmp_path / "answers.jsonl"
+    seen = []
+
+    def report(*_):
+        seen.append(refusal(scenes, out))
+
+    run(scenes, out, report=report)
+
+    assert set(seen) == {f"{out}.journal: another batch writes it"}
+    assert out.read_text() == EXPECTED
+
+
+def test_a_worker_that_is_killed_loses_no_scene(scenes, tmp_path):
+    out = tmp_path / "answers.jsonl"
+    killed = []
+
+    def report(*_):
+        if len(killed) < 2:
+            child = multiprocessing.active_children()[0]
+            killed.append(child.pid)
+            os.kill(child.pid, signal.SIGKILL)
+
+    run(scenes, out, jobs=2, report=report)
+
+    assert out.read_text() == EXPECTED
+    assert len(killed) == 2
+
+
+def test_scenes_of_a_chunk_that_ends_workers_are_answered_one_by_one():
+    text = "\n".join([*SCENES[:4], "", *SCENES[-2:]]).encode()
+    chunk = Chunk(7, 100, 100 + len(text), "digest", text)
+
+    alone = one_by_one(chunk, None, "ends", Question())
+
+    assert alone == answered(chunk, lambda _: None, Question())
+    assert (alone.lines, alone.scenes, alone.failures) == (7, 6, 2)
+    assert [json.loads(line)["line"] for line in alone.text.splitlines()] == [7, 8, 9, 10, 12, 13]
+
+
+def command(*arguments):
+    # What a shell runs in the background ignores Ctrl-C, and so do its children.
+    here = signal.signal(signal.SIGINT, signal.default_int_handler)
+    process = subprocess.Popen(
+        [sys.executable, "-m", "exactpt", "batch", *map(str, arguments)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    signal.signal(signal.SIGINT, here)
+    return process
+
+
+def chunks_in(journal):
+    return journal.read_bytes().count(b"\n") - 1 if journal.exists() else 0
+
+
+@pytest.mark.parametrize(
+    ("how", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -9)]
+)
+def test_a_batch_that_is_interrupted_or_killed_goes_on(tmp_path, how, code):
+    """It is hit when two of many chunks are answered, wherever it is then."""
+    scenes, out = tmp_path / "scenes.jsonl", tmp_path / "answers.jsonl"
+    lines = generic_lines(60, seed=8) + nearly_degenerate(20, seed=8)
+    scenes.write_text("\n".join(lines) + "\n")
+    process = command(scenes, "-o", out, "--jobs", 2)
+    journal = tmp_path / "answers.jsonl.journal"
+    while chunks_in(journal) < 2 and process.poll() is None:
+        time.sleep(0.002)
+    process.send_signal(how)
+    _, told = process.communicate(timeout=60)
+
+    assert process.returncode == code
+    assert "Traceback" not in told
+    assert not out.exists()
+    assert chunks_in(journal) >= 2
+    summary = run(scenes, out)
+    assert summary == (len(lines), 0, "")
+    assert out.read_text() == expected(lines)
+
+
+WRITTEN = {
+    "nothing": (b"", 0),
+    "a line break": (b"\n", 0),
+    "blank lines": (b"\n \n\n" + SCENES[0].encode() + b"\n\n\r\n", 1),
+    "no line break at the end": ("\n".join(SCENES[:2]).encode(), 2),
+    "line breaks of Windows": ("\r\n".join(SCENES[:2]).encode(), 2),
+    "a byte order mark": (b"\xef\xbb\xbf" + SCENES[0].encode(), 1),
+}
+
+
+@pytest.mark.parametrize("kind", WRITTEN)
+def test_lines_however_written(tmp_path, kind):
+    content, count = WRITTEN[kind]
+    scenes, out = tmp_path / "scenes.jsonl", tmp_path / "answers.jsonl"
+    scenes.write_bytes(content)
+
+    summary = run(scenes, out)
+
+    assert (summary.scenes, summary.failures) == (count, 0)
+    told = [json.loads(line) for line in out.read_text().splitlines()]
+    assert [data.pop("line") for data in told] == ([4] if kind == "blank lines" else [1, 2][:count])
+    assert told == list(answers(SCENES[:count]))
+
+
+def test_what_is_not_utf8_is_an_error_of_its_line(tmp_path):
+    scenes, out = tmp_path / "scenes.jsonl", tmp_path / "answers.jsonl"
+    scenes.write_bytes(b"\xff\xfe{}\n" + SCENES[0].encode())
+
+    assert run(scenes, out).first == "line 1: not UTF-8"
+    assert out.read_text().splitlines()[1] == EXPECTED.splitlines()[0].replace(
+        '{"line": 1', '{"line": 2'
+    )
+
+
+@pytest.mark.parametrize("most", [100, 700, 20_000])
+def test_a_line_that_is_too_long_is_an_error_of_its_own(tmp_path, most):
+    scenes, out = tmp_path / "scenes.jsonl", tmp_path / "answers.jsonl"
+    long = SCENES[0].replace(": [", ": [" + " " * 600_000, 1)
+    scenes.write_text("\n".join([SCENES[0], long, SCENES[1], long]))
+
+    summary = run(scenes, out, Question(max_bytes=most))
+
+    assert summary.scenes == 4
+    assert summary.failures == (4 if most == 100 else 2)
+    told = [json.loads(line) for line in out.read_text().splitlines()]
+    assert told[1] == {"line": 2, "error": f"more than {most} bytes"}
+    longest = max(len(chunk.text) for chunk in Lines(scenes, most).chunks({}, 4096))
+    assert longest < 300_000
+
+
+def test_a_chunk_begins_where_a_known_one_ends(scenes):
+    source = Lines(scenes, 10**8)
+    chunks = list(source.chunks({}, 4096))
+    whole = b"".join(chunk.text for chunk in chunks)
+
+    assert whole == scenes.read_bytes()
+    assert [c.start for c in chunks[1:]] == [c.stop for c in chunks[:-1]]
+    known = {c.start: record(c) for c in chunks[1::3]}
+    rest = list(source.chunks(known, 10**6))
+    assert {c.start for c in rest}.isdisjoint(known)
+    places = sorted([(c.start, c.stop) for c in rest] + [(r.start, r.stop) for r in known.values()])
+    assert [a for a, _ in places] == [0, *(b for _, b in places[:-1])]
+    numbers = {c.start: c.line for c in chunks}
+    assert all(numbers[c.start] == c.line for c in rest)
+
+
+def record(chunk):
+    from exactpt.batch.chunks import record_of
+
+    return record_of(answered(chunk, lambda _: None, Question(every=True)), 0)
+
+
+QUESTIONS = {
+    "--all": (Question(every=True), "intervals"),
+    "--within 1/2": (Question(distance="1/2"), "approach"),
+    "--until 3 --since 1": (Question(until=3, since=1), "contact"),
+    "--method kinetic --tiling lazy": (Question(method="kinetic", tiling="lazy"), "contact"),
+    "--ignore a,b": (Question(ignoring=(("a", "b"),)), "contact"),
+    "--after-start": (Question(after_start=True), "contact"),
+    "--between a,b": (Question(between=(("a", "b"),)), "contact"),
+    "--exact-only": (Question(exact_only=True), "contact"),
+}
+
+
+@pytest.mark.parametrize("options", QUESTIONS)
+def test_any_question_of_one_scene(tmp_path, options, monkeypatch, capsys):
+    question, key = QUESTIONS[options]
+    monkeypatch.chdir(tmp_path)
+    lines = generic_lines(6, seed=1)
+    (tmp_path / "scenes.jsonl").write_text("\n".join(lines))
+
+    with pytest.raises(SystemExit) as left:
+        main(["batch", "scenes.jsonl", "-o", "answers.jsonl", *options.split()])
+
+    assert left.value.code == 0
+    assert (tmp_path / "answers.jsonl").read_text() == expected(lines, question)
+    told = [json.loads(line)[key] for line in (tmp_path / "answers.jsonl").read_text().splitlines()]
+    (tmp_path / "one.json").write_text(lines[0])
+    if key != "approach":
+        asked = options.replace("--until 3 --since 1", "--since 1 --until 3").split()
+        with pytest.raises(SystemExit):
+            main(["collide", "one.json", "--json", *asked])
+        assert json.loads(capsys.readouterr().out)[key] == told[0]
+
+
+def test_the_command_counts_failures(scenes, tmp_path, capsys):
+    out = tmp_path / "answers.jsonl"
+
+    with pytest.raises(SystemExit) as left:
+        main(["batch", str(scenes), "-o", str(out), "--quiet"])
+
+    assert left.value.code == 2
+    assert out.read_text() == EXPECTED
+    (told,) = capsys.readouterr().err.splitlines()
+    assert told.startswith(
+        f"exactpt: {len(MALFORMED)} of {len(SCENES)} scenes have no answer; line"
+    )
+
+
+def test_a_budget_is_one_of_each_scene(tmp_path):
+    scenes, out = tmp_path / "scenes.jsonl", tmp_path / "answers.jsonl"
+    far = [
+        {"name": str(k), "vertices": [[7 * k, 0], [7 * k + 1, 0], [7 * k, 1]]} for k in range(20)
+    ]
+    one = json.dumps({"exactpt": 1, "time": [0, 1], "bodies": far})
+    scenes.write_text(f"{one}\n{SCENES[0]}\n")
+
+    summary = run(scenes, out, Question(max_memory=1))
+
+    assert summary.failures == 2
+    assert summary.first == "line 1: the memory is used up"
+
+
+@pytest.mark.parametrize("what", ["missing", "folder", "null"])
+def test_an_input_that_is_no_file_is_refused(tmp_path, what):
+    path = {"missing": tmp_path / "no.jsonl", "folder": tmp_path, "null": "/dev/null"}[what]
+
+    assert str(path) in refusal(path, tmp_path / "answers.jsonl")
+    assert left(tmp_path) == []
+
+
+def test_an_output_in_no_folder_is_refused(scenes, tmp_path):
+    assert "cannot be written" in refusal(scenes, tmp_path / "no" / "answers.jsonl")
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")
+def test_a_cluster_gives_the_same_bytes_and_loses_a_worker(scenes, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    out = tmp_path / "answers.jsonl"
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        pids = list(client.run(os.getpid).values())
+
+        def report(*_):
+            if pids:
+                os.kill(pids.pop(), signal.SIGKILL)
+                pids.clear()
+
+        run(scenes, out, scheduler=cluster.scheduler_address, report=report)
+
+    assert out.read_text() == EXPECTED
+
+
+@pytest.mark.filterwarnings("default")
+def test_a_scheduler_that_does_not_answer_is_refused(scenes, tmp_path):
+    pytest.importorskip("distributed")
+    with pytest.raises(InputError, match="no scheduler at"):
+        run(scenes, tmp_path / "answers.jsonl", scheduler="nonsense://nowhere")
