@@ -6,7 +6,7 @@ times by slot. Cancelled events are dropped when they reach the top.
 
 from __future__ import annotations
 
-import heapq
+from heapq import heappop, heappush
 from typing import Protocol, final
 
 from mypy_extensions import mypyc_attr
@@ -130,7 +130,7 @@ class EventQueue:
     def _push(self, slot: CertificateId, time: EventTime) -> None:
         self._notes += 1
         self._sequence += 1
-        heapq.heappush(self._heap, (time.low, self._sequence, slot, time))
+        heappush(self._heap, (time.low, self._sequence, slot, time))
 
     def _make_calendar(self) -> None:
         """Note all pending events anew, on days for about eight of them."""
@@ -167,7 +167,7 @@ class EventQueue:
         while True:
             heap = self._heap
             while heap and live.get(heap[0][2]) is not heap[0][3]:
-                heapq.heappop(heap)
+                heappop(heap)
             if heap and (heap[0][3].high - self._first) * self._per_day < self._next_day:
                 return True
             if self._next_day < len(self._days):
@@ -188,11 +188,11 @@ class EventQueue:
         if not self._find_first():
             return None
         heap, live = self._heap, self._live
-        _, _, slot, time = heapq.heappop(heap)
+        _, _, slot, time = heappop(heap)
         bound = time.high
         candidates: dict[CertificateId, EventTime] = {}  # a slot may be in the heap twice
         while heap and heap[0][0] <= bound:
-            _, _, other, its = heapq.heappop(heap)
+            _, _, other, its = heappop(heap)
             if live.get(other) is its:
                 candidates[other] = its
                 bound = min(bound, its.high)
@@ -254,7 +254,7 @@ class ExactQueue(EventQueue):
         self._live[slot] = time
         self._sequence += 1
         number = time.exact or self._resolver.resolve(time)
-        heapq.heappush(self._exact_heap, (number, self._sequence, slot, time))
+        heappush(self._exact_heap, (number, self._sequence, slot, time))
 
     def pop(self) -> tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None:
         """The earliest time and all slots with an event then; None if the queue is empty."""
@@ -270,7 +270,7 @@ class ExactQueue(EventQueue):
                 first = number
                 entries.append((slot, time))
                 del live[slot]
-            heapq.heappop(heap)
+            heappop(heap)
         if not entries:
             return None
         entries.sort()

@@ -51,10 +51,11 @@ class CertifiedMesh:
         self.table: CertificateTable = table
         self.batch: Batch = Batch()
         self.checks_rigid: bool = False
+        self._after: OneSided = OneSided(certifier, before=False)
 
     def after(self) -> OneSided:
-        """Predicates just after the current time."""
-        return OneSided(self.certifier, before=False)
+        """Predicates just after the current time, whichever that is."""
+        return self._after
 
     def certify_everything(self) -> int:
         """Certify the whole tiling; returns the number pending without those of the rules."""
