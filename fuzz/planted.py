@@ -11,6 +11,7 @@ import textwrap
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import count
 from typing import Any, Final
 from unittest.mock import patch
 
@@ -75,10 +76,11 @@ def _sign_at_a_root(right: Function) -> Function:
 
 def _events_dropped(right: Function) -> Function:
     """Every fiftieth event is lost."""
+    calls = count(1)
 
     def wrong(self: EventQueue, slot: CertificateId, time: object) -> None:
         right(self, slot, time)
-        if self._sequence % 50 == 0:
+        if next(calls) % 50 == 0:
             self.cancel(slot)
 
     return wrong

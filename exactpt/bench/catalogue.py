@@ -20,6 +20,7 @@ BENCHMARKS: Final[dict[str, str]] = {
     "arithmetic": "wrong signs, orders and structures by kind of number",
     "stability": "the same answer, and its cost, for extreme input",
     "scaling": "events, certificates, time and memory against the size of a scene",
+    "living": "bodies that bounce: contacts a second, audits, changes of plans",
     "points": "changes of the tilings of moving points beside the paper's bounds",
     "statics": "the greedy pseudo-triangulation of one instant against the vertices of a body",
     "skipping": "what is never computed, beside a run that computes all of it",

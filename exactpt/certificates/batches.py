@@ -28,8 +28,7 @@ def linear_orientations(
 
     Unsure unless the three trajectories of a triple are different, and linear.
     """
-    bodies = [min(end, body.horizon) for body in vertices.bodies]
-    horizons = np.array([bodies[v.body] for v in vertices.all])
+    horizons = np.array([min(end, v.horizon) for v in vertices.all])
     tracks = np.array([id(v.track) for v in vertices.all])
     is_linear = np.array([v.image.degree <= 1 and not v.image.ws for v in vertices.all])
     count = 3 * len(triples)

@@ -135,7 +135,7 @@ class Certifier:
         va, vb, vc = self.all[a], self.all[b], self.all[c]
         if self.exact_only or va.track is vb.track or vb.track is vc.track or va.track is vc.track:
             return self._exact_orientation(va, vb, vc)
-        horizon = min(self._horizon(va, vb), self._vertices.bodies[vc.body].horizon)
+        horizon = min(self._horizon(va, vb), vc.horizon)
         s, low, high = coefficients.orientation(
             va.image,
             vb.image,
@@ -184,9 +184,8 @@ class Certifier:
 
     def _horizon(self, a: Vertex, b: Vertex) -> float:
         """An upper bound of the time until which the motions of two vertices are known."""
-        bodies = self._vertices.bodies
         # The minimum of two compiles to a comparison, that of three to a call.
-        of_both = min(bodies[a.body].horizon, bodies[b.body].horizon)
+        of_both = min(a.horizon, b.horizon)
         return min(self._end_high, of_both)
 
     def _until(self, *vertices: Vertex) -> QQ:

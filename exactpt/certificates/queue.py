@@ -6,18 +6,22 @@ times by slot. Cancelled events are dropped when they reach the top.
 
 from __future__ import annotations
 
-import heapq
+from heapq import heappop, heappush
 from typing import Protocol, final
+
+from mypy_extensions import mypyc_attr
 
 from exactpt.indices import CertificateId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.integer_polynomial import IntPoly
+from exactpt.kernel.rounding import INFINITY
 
 __all__ = ["EventQueue", "EventTime", "ExactQueue", "Resolver", "earlier"]
 
 
 @final
+@mypyc_attr(acyclic=True)
 class EventTime:
     """An event time: a float enclosure, and the exact number on demand.
 
@@ -65,14 +69,30 @@ class Resolver(Protocol):
 
 
 class EventQueue:
-    """A queue of event times with at most one pending event per slot."""
+    """A queue of event times with at most one pending event per slot.
+
+    A calendar: a row of days of equal length. Most certificates are cancelled long before they
+    fail; so an event is only noted by its slot on its day, and what is still pending when its
+    day has come goes to a heap. The days cover the times that were pending when the calendar
+    was made; it is made anew at their end, and when most of its notes are of cancelled events.
+    The day of an event grows with ``low`` (each rounding is monotone), so the heap holds all
+    that begin before the next day.
+
+    Source: R. Brown, Calendar queues, Communications of the ACM 31 (1988), 1220-1227.
+    """
 
     def __init__(self, resolver: Resolver, counters: Counters) -> None:
         self._resolver = resolver
         self._counters: Counters = counters
-        self._heap: list[tuple[float, int, CertificateId, EventTime]] = []
         self._live: dict[CertificateId, EventTime] = {}
+        self._heap: list[tuple[float, int, CertificateId, EventTime]] = []
         self._sequence: int = 0
+        self._days: list[list[CertificateId]] = []
+        self._next_day: float = 0.0
+        self._first: float = 0.0
+        self._per_day: float = 0.0
+        self._notes: int = 0
+        self._has_more: bool = False
 
     def __len__(self) -> int:
         return len(self._live)
@@ -80,10 +100,9 @@ class EventQueue:
     def schedule(self, slot: CertificateId, time: EventTime) -> None:
         """Put an event into a slot, replacing the one there."""
         self._live[slot] = time
-        self._sequence += 1
-        heapq.heappush(self._heap, (time.low, self._sequence, slot, time))
-        if len(self._heap) > 4 * len(self._live) + 256:
-            self._compact()
+        self._note(slot, time)
+        if self._notes > 4 * len(self._live) + 256:
+            self._make_calendar()
 
     def cancel(self, slot: CertificateId) -> None:
         """Empty a slot."""
@@ -97,9 +116,66 @@ class EventQueue:
         """All slots with a pending event, in increasing order."""
         return sorted(self._live)
 
-    def _compact(self) -> None:
-        self._heap = [entry for entry in self._heap if self._live.get(entry[2]) is entry[3]]
-        heapq.heapify(self._heap)
+    def _note(self, slot: CertificateId, time: EventTime) -> None:
+        """Note an event on its day, or in the heap if that has come; none after the last day."""
+        day = (time.low - self._first) * self._per_day
+        if not day >= self._next_day:  # nor if it is not a number
+            self._push(slot, time)
+        elif day < len(self._days):
+            self._notes += 1
+            self._days[int(day)].append(slot)
+        else:
+            self._has_more = True
+
+    def _push(self, slot: CertificateId, time: EventTime) -> None:
+        self._notes += 1
+        self._sequence += 1
+        heappush(self._heap, (time.low, self._sequence, slot, time))
+
+    def _make_calendar(self) -> None:
+        """Note all pending events anew, on days for about eight of them."""
+        live = self._live
+        lows = [time.low for time in live.values()]
+        self._first = min(lows, default=0.0)
+        span, days = max(lows, default=0.0) - self._first, len(live) // 8 + 1
+        self._per_day = (days - 0.5) / span if 0.0 < span < INFINITY else 0.0
+        self._heap, self._days = [], [[] for _ in range(days)]
+        self._next_day, self._notes, self._has_more = 0.0, 0, False
+        for slot, time in live.items():
+            self._note(slot, time)
+
+    def _begin_day(self) -> None:
+        """Put what is pending on the next day into the heap.
+
+        The event of a slot may be of a later day by then, where it is noted.
+        """
+        today = int(self._next_day)
+        slots, self._days[today] = self._days[today], []
+        self._next_day += 1.0
+        for slot in dict.fromkeys(slots):
+            time = self._live.get(slot)
+            if time is not None:
+                self._note(slot, time)
+
+    def _find_first(self) -> bool:
+        """Have the first event, and all that begin within its enclosure, in the heap.
+
+        Returns:
+            Whether there is an event; then it is on top of the heap.
+        """
+        live = self._live
+        while True:
+            heap = self._heap
+            while heap and live.get(heap[0][2]) is not heap[0][3]:
+                heappop(heap)
+            if heap and (heap[0][3].high - self._first) * self._per_day < self._next_day:
+                return True
+            if self._next_day < len(self._days):
+                self._begin_day()
+            elif self._has_more:
+                self._make_calendar()
+            else:
+                return bool(heap)
 
     def pop(self) -> tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None:
         """The earliest time and all slots with an event then; None if the queue is empty.
@@ -109,29 +185,27 @@ class EventQueue:
         If the first enclosure ends before the next one begins, that decides. Otherwise all
         events that may be first are compared exactly.
         """
-        heap, live = self._heap, self._live
-        while heap and live.get(heap[0][2]) is not heap[0][3]:
-            heapq.heappop(heap)
-        if not heap:
+        if not self._find_first():
             return None
-        _, _, slot, time = heapq.heappop(heap)
+        heap, live = self._heap, self._live
+        _, _, slot, time = heappop(heap)
         bound = time.high
-        candidates: list[tuple[float, int, CertificateId, EventTime]] = []
+        candidates: dict[CertificateId, EventTime] = {}  # a slot may be in the heap twice
         while heap and heap[0][0] <= bound:
-            entry = heapq.heappop(heap)
-            if live.get(entry[2]) is entry[3]:
-                candidates.append(entry)
-                bound = min(bound, entry[3].high)
+            _, _, other, its = heappop(heap)
+            if live.get(other) is its:
+                candidates[other] = its
+                bound = min(bound, its.high)
         if not candidates:
             self._counters.filtered += 1
             del live[slot]
             return time, [(slot, time)]
-        return self._pop_exactly([(slot, time), *((e[2], e[3]) for e in candidates)])
+        candidates[slot] = time
+        return self._pop_exactly(sorted(candidates.items()))
 
     def _pop_exactly(
         self, entries: list[tuple[CertificateId, EventTime]]
     ) -> tuple[EventTime, list[tuple[CertificateId, EventTime]]]:
-        entries.sort()  # slots are distinct
         best: list[tuple[CertificateId, EventTime]] = []
         later: list[tuple[CertificateId, EventTime]] = []
         for slot, time in entries:
@@ -144,8 +218,7 @@ class EventQueue:
             else:
                 later.append((slot, time))
         for slot, time in later:
-            self._sequence += 1
-            heapq.heappush(self._heap, (time.low, self._sequence, slot, time))
+            self._push(slot, time)
         for slot, _ in best:
             del self._live[slot]
         return _simplest([time for _, time in best]), best
@@ -181,7 +254,7 @@ class ExactQueue(EventQueue):
         self._live[slot] = time
         self._sequence += 1
         number = time.exact or self._resolver.resolve(time)
-        heapq.heappush(self._exact_heap, (number, self._sequence, slot, time))
+        heappush(self._exact_heap, (number, self._sequence, slot, time))
 
     def pop(self) -> tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None:
         """The earliest time and all slots with an event then; None if the queue is empty."""
@@ -197,7 +270,7 @@ class ExactQueue(EventQueue):
                 first = number
                 entries.append((slot, time))
                 del live[slot]
-            heapq.heappop(heap)
+            heappop(heap)
         if not entries:
             return None
         entries.sort()

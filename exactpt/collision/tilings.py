@@ -6,6 +6,7 @@ from typing import Final, NamedTuple
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certifier import Certifier
+from exactpt.kernel.collection import collector_at_rest
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.mesh import Mesh
@@ -51,7 +52,8 @@ class TilingPlan(NamedTuple):
         """The kinetic tiling just after a time at which the bodies are disjoint."""
         certifier = Certifier(self.vertices, time, self.end, exact_only=exact_only)
         tiling = loading.make(self.entry, self.vertices, certifier, Stats())
-        tiling.begin(time)
+        with collector_at_rest():
+            tiling.begin(time)
         return tiling
 
     def mesh_at(self, time: QQ) -> Mesh:
@@ -82,7 +84,8 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
     Raises:
         InputError: if there is no such tiling, or it does not support these bodies.
     """
-    entry, vertices = loading.plan(name, scene.bodies, start, scene._end)
+    with collector_at_rest():
+        entry, vertices = loading.plan(name, scene.bodies, start, scene._end)
     return TilingPlan(entry, vertices, scene._end)
 
 

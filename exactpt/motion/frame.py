@@ -30,6 +30,7 @@ class Frame:
         center, scale, origin, time_scale: x' = (x - center[0]) / 2^scale[0], likewise y;
             t' = (t - origin) / 2^time_scale.
         is_identity: whether it changes nothing.
+        only_scales: whether it shifts nothing.
     """
 
     def __init__(
@@ -39,9 +40,8 @@ class Frame:
         self.scale = scale
         self.origin = origin
         self.time_scale = time_scale
-        self.is_identity: bool = (
-            center == (QQ(0), QQ(0)) and scale == (0, 0) and origin == 0 and time_scale == 0
-        )
+        self.only_scales: bool = center == (QQ(0), QQ(0)) and origin == 0
+        self.is_identity: bool = self.only_scales and scale == (0, 0) and time_scale == 0
 
     def point(self, position: tuple[QQ, QQ]) -> tuple[float, float]:
         """The doubles nearest to a normalised position."""
@@ -80,11 +80,18 @@ class Frame:
         """The exact normalised coefficients of a trajectory, up to a common factor."""
         if self.is_identity:
             return track.x, track.y, track.w  # type: ignore[return-value]
+        if self.only_scales:
+            sx, sy = self.scale
+            return self._scaled(track.x, sx), self._scaled(track.y, sy), self._scaled(track.w, 0)
         cx, cy = self.center
         x, y, w = ([QQ(c) for c in part] for part in (track.x, track.y, track.w))
         x = combined(x, w, -cx, power_of_two(-self.scale[0]))
         y = combined(y, w, -cy, power_of_two(-self.scale[1]))
         return self.in_time(x), self.in_time(y), self.in_time(w)
+
+    def _scaled(self, f: Sequence[int], scale: int) -> list[QQ]:
+        """A polynomial in the scene's time, over 2^scale, as one in normalised time."""
+        return [c * power_of_two(i * self.time_scale - scale) for i, c in enumerate(f)]
 
 
 def combined(f: list[QQ], g: list[QQ], a: QQ, factor: QQ) -> list[QQ]:

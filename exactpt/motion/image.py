@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import final
 
+from mypy_extensions import mypyc_attr
+
 __all__ = ["Arm", "Image"]
 
 
 @final
+@mypyc_attr(acyclic=True)
 class Arm:
     """A trajectory as that of a pivot and an arm that turns: p(t) + r(t) / w(t).
 
@@ -49,6 +52,7 @@ class Arm:
 
 
 @final
+@mypyc_attr(acyclic=True)
 class Image:
     """The doubles nearest to the normalised coefficients of a trajectory.
 
@@ -87,9 +91,9 @@ class Image:
     )
 
     def __init__(self, xs: list[float], ys: list[float], ws: list[float], motion: int) -> None:
-        self.xs = xs
-        self.ys = ys
-        self.ws = ws
+        # In this order, so that what a linear motion needs is in one place when compiled.
+        self.motion: int = motion
+        self.ws: list[float] = ws
         self.degree: int = len(xs) - 1
         self.x0: float = xs[0]
         self.y0: float = ys[0]
@@ -99,5 +103,6 @@ class Image:
         self.y2: float = ys[2] if len(ys) > 2 else 0.0
         self.x3: float = xs[3] if len(xs) > 3 else 0.0
         self.y3: float = ys[3] if len(ys) > 3 else 0.0
-        self.motion: int = motion
+        self.xs: list[float] = xs
+        self.ys: list[float] = ys
         self.arm: Arm | None = None

@@ -24,7 +24,7 @@ from exactpt.kernel.numbers import (
     show,
 )
 from exactpt.kernel.polynomial import ONE, ZERO, Polynomial, polynomial
-from exactpt.motion.track import Track, Turning, track
+from exactpt.motion.track import Track, Turning, track, translated
 
 __all__ = [
     "REST",
@@ -75,6 +75,16 @@ class _Given:
         return made, (type(self), *self._given())
 
 
+def _sum(f: Polynomial, g: Polynomial) -> tuple[QQ, ...]:
+    """The coefficients of f + g, without any object besides if f is a constant."""
+    a, b = f._coefficients, g._coefficients
+    if not a:
+        return b
+    if len(a) > 1 or len(b) < 2:
+        return (f + g)._coefficients
+    return (a[0] + b[0], *b[1:])
+
+
 class SimpleMotion(Protocol):
     """A motion given by one formula for all time."""
 
@@ -111,7 +121,8 @@ class Translation(_Given):
 
     def track(self, position: Position) -> Track:
         """The trajectory of the vertex with this position in the rest frame."""
-        return track(position[0] + self.x, position[1] + self.y, None, None)
+        x, y = position
+        return translated(_sum(x, self.x), _sum(y, self.y))
 
     def _at(self, t: QQ) -> tuple[QQ, QQ]:
         """The displacement at a time."""

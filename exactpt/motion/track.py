@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterable
 from fractions import Fraction
-from typing import NamedTuple, final
+from typing import Final, NamedTuple, final
 
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate
 from exactpt.kernel.numbers import QQ, ZZ, Rational, gcd, place, rational
 from exactpt.kernel.packed import coefficient_bits, pack
 from exactpt.kernel.polynomial import Polynomial
 
-__all__ = ["Track", "Turning", "track"]
+__all__ = ["Track", "Turning", "track", "translated"]
+
+_ONE: Final = ZZ(1)
 
 
 class Turning(NamedTuple):
@@ -86,24 +88,41 @@ class Track:
 def track(x: Polynomial, y: Polynomial, w: Polynomial | None, turning: Hashable) -> Track:
     """The trajectory (x / w, y / w) with integer coefficients; ``w`` None stands for 1.
 
-    ``turning`` identifies the motion of a vertex that turns; the motion of a vertex that
-    only translates is identified by its coefficients of t, t^2, ...
+    ``turning`` identifies the motion of a vertex that turns.
     """
     if w is None:
-        motion: Hashable = (x._coefficients[1:], y._coefficients[1:])
-        parts = [x._coefficients, y._coefficients]
-    else:
-        motion = turning
-        parts = [x._coefficients, y._coefficients, w._coefficients]
-    denominator = ZZ(1)
+        return translated(x._coefficients, y._coefficients)
+    parts = (x._coefficients, y._coefficients, w._coefficients)
+    denominator = _denominator(parts)
+    a, b, c = (_times(denominator, part) for part in parts)
+    return Track(a, b, c, turning)
+
+
+def translated(x: tuple[QQ, ...], y: tuple[QQ, ...]) -> Track:
+    """The trajectory of a vertex that only translates.
+
+    Its motion is identified by the coefficients of t, t^2, ...
+    """
+    denominator = _denominator((x, y))
+    motion = (x[1:], y[1:])
+    return Track(_times(denominator, x), _times(denominator, y), (denominator,), motion)
+
+
+def _denominator(parts: Iterable[tuple[QQ, ...]]) -> ZZ:
+    """The least common denominator of all coefficients."""
+    common = _ONE
     for part in parts:
         for c in part:
-            if denominator % c.denominator:
-                denominator = _lcm(denominator, ZZ(c.denominator))
-    scaled = [
-        tuple([ZZ(c.numerator) * (denominator // c.denominator) for c in part]) for part in parts
-    ]
-    return Track(scaled[0], scaled[1], scaled[2] if w is not None else (denominator,), motion)
+            d = c.denominator
+            if d != 1 and common % d:
+                common = _lcm(common, ZZ(d))
+    return common
+
+
+def _times(denominator: ZZ, part: tuple[QQ, ...]) -> IntPoly:
+    if denominator == 1:
+        return tuple([ZZ(c.numerator) for c in part])
+    return tuple([ZZ(c.numerator) * (denominator // c.denominator) for c in part])
 
 
 def _lcm(a: ZZ, b: ZZ) -> ZZ:

@@ -11,10 +11,13 @@ from collections.abc import Sequence
 from itertools import accumulate, count
 from typing import TYPE_CHECKING, Final, final
 
+from mypy_extensions import mypyc_attr
+
 from exactpt.geometry.polygon import is_counter_clockwise
 from exactpt.indices import NO_VERTEX, VertexId
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, ZZ
+from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.convexity import stays_convex
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import Frame, frame_for
@@ -32,6 +35,7 @@ _NO_IMAGE: Final = Image([0.0], [0.0], [], -1)
 
 
 @final
+@mypyc_attr(acyclic=True)
 class Vertex:
     """A vertex of a ring.
 
@@ -43,24 +47,26 @@ class Vertex:
         image: the float enclosure of the trajectory.
         offset: the direction of its infinitesimal displacement; None unless the body is
             degenerate.
+        horizon: a double at least ``until`` of its body, normalised; infinite if that is None.
         ahead, behind: the ids of its neighbours on the ring.
         x, y, error: its last computed position, normalised, and a bound on the errors of
             both; ``seen`` tells when (`exactpt.certificates.positions`).
     """
 
     __slots__ = (
-        "ahead", "behind", "body", "error", "id", "image", "index", "offset", "seen", "track",
-        "x", "y",
+        "ahead", "behind", "body", "error", "horizon", "id", "image", "index", "offset", "seen",
+        "track", "x", "y",
     )  # fmt: skip
 
     def __init__(
         self, vertex_id: VertexId, body: int, index: int, track: Track, image: Image
     ) -> None:
         self.id: VertexId = vertex_id
-        self.body: int = body
-        self.index: int = index
         self.track: Track = track
         self.image: Image = image
+        self.horizon: float = INFINITY
+        self.body: int = body
+        self.index: int = index
         self.offset: Direction | None = None
         self.ahead: VertexId = NO_VERTEX
         self.behind: VertexId = NO_VERTEX
@@ -78,21 +84,19 @@ class MovingBody:
         ring: vertex ids, counter-clockwise.
         until: the next rational time at which its trajectories, or the displacements of
             its copies, change; None if there is none.
-        horizon: a double at least ``until``, normalised; infinite for None.
         deforms: whether distances between its vertices may change, in the current piece.
         is_tiled: whether its interior is tiled: it deforms at some time, has a diagonal,
             and is not known to stay convex.
         since: the rational time at which it entered the piece.
     """
 
-    __slots__ = ("body", "deforms", "horizon", "is_tiled", "ring", "since", "until")
+    __slots__ = ("body", "deforms", "is_tiled", "ring", "since", "until")
 
     def __init__(self, body: Body) -> None:
         self.body = body
         self.ring: list[VertexId] = []
         self.since: QQ = QQ(0)
         self.until: QQ | None = None
-        self.horizon: float = float("inf")
         self.deforms: bool = False
         self.is_tiled: bool = False
 
@@ -238,7 +242,7 @@ class Vertices:
         moving = self.bodies[i]
         piece = moving.body._piece_after(t)
         moving.since = t
-        self._set_until(moving, piece.until)
+        moving.until = piece.until
         images = self.enclosures.images(piece.tracks)
         moving.deforms = _deforms(images)
         for vertex_id in moving.ring:
@@ -251,11 +255,10 @@ class Vertices:
             for vertex_id, offset in zip(moving.ring, moved.directions, strict=True):
                 self.all[vertex_id].offset = offset
             if moved.until is not None and moved.until < end:
-                self._set_until(moving, moved.until)
-
-    def _set_until(self, moving: MovingBody, until: QQ | None) -> None:
-        moving.until = until
-        moving.horizon = float("inf") if until is None else self.frame.time(until)[1]
+                moving.until = moved.until
+        horizon = INFINITY if moving.until is None else self.frame.time(moving.until)[1]
+        for vertex_id in moving.ring:
+            self.all[vertex_id].horizon = horizon
 
     def set_plan(self, i: int, body: Body, t: QQ, end: QQ) -> bool:
         """Replace a body by one with the same position at a rational time.

@@ -51,10 +51,11 @@ class CertifiedMesh:
         self.table: CertificateTable = table
         self.batch: Batch = Batch()
         self.checks_rigid: bool = False
+        self._after: OneSided = OneSided(certifier, before=False)
 
     def after(self) -> OneSided:
-        """Predicates just after the current time."""
-        return OneSided(self.certifier, before=False)
+        """Predicates just after the current time, whichever that is."""
+        return self._after
 
     def certify_everything(self) -> int:
         """Certify the whole tiling; returns the number pending without those of the rules."""
@@ -109,7 +110,7 @@ class CertifiedMesh:
 
     def _cannot_fail(self, h: HalfEdge, a: VertexId, p: VertexId, b: VertexId) -> bool:
         """Whether the angle of h, at p between a and b, needs no certificate of its own."""
-        return a == b or self.certifier.rigid(a, p, b) or self._shares_certificate(h)
+        return a == b or self._shares_certificate(h) or self.certifier.rigid(a, p, b)
 
     def _keep(self, h: HalfEdge, s: int, time: EventTime | None) -> None:
         """Schedule the failure of an angle, or record it as violated just after now."""
@@ -133,14 +134,18 @@ class CertifiedMesh:
 
     def recertify(self, half_edges: list[HalfEdge]) -> None:
         """Certify changed angles, and all angles of faces that are or were triangles."""
-        m = self.mesh.map
+        following = self.mesh.map.following
         self.batch.touch(half_edges)
         todo: dict[HalfEdge, None] = {}
         for h in half_edges:
             todo[h] = None
-            if m.following[m.following[m.following[m.following[h]]]] == h or self.is_triangle(h):
-                for g in m.face(h):
-                    todo[g] = None
+            second = following[h]
+            third = following[second]
+            fourth = following[third]
+            if fourth == h or following[fourth] == h:
+                todo[second] = todo[third] = None
+                if fourth != h:
+                    todo[fourth] = None
         for h in todo:
             self.certify(h)
         self.rules.changed(half_edges)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, TypeAlias, final
+from typing import TypeAlias, final
 
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
@@ -15,7 +15,8 @@ Edges: TypeAlias = "tuple[tuple[int, int], ...]"
 """Edges, as pairs of vertex ids."""
 
 
-class TilingEvent(NamedTuple):
+@final
+class TilingEvent:
     """A change of a tiling.
 
     Attributes:
@@ -24,10 +25,13 @@ class TilingEvent(NamedTuple):
         removed, added: the edges removed and added, as pairs of vertex ids.
     """
 
-    time: EventTime
-    kind: str
-    removed: tuple[tuple[int, int], ...]
-    added: tuple[tuple[int, int], ...]
+    __slots__ = ("added", "kind", "removed", "time")
+
+    def __init__(self, time: EventTime, kind: str, removed: Edges, added: Edges) -> None:
+        self.time: EventTime = time
+        self.kind: str = kind
+        self.removed: Edges = removed
+        self.added: Edges = added
 
 
 @final

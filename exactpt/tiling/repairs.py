@@ -66,9 +66,10 @@ class Repairs:
     def first_violated(self) -> HalfEdge:
         """The least violated angle; of copies of its triple, the first in the perturbed order."""
         certified, violated = self.certified, self.certified.table.angles
-        first = min(violated)
         if len(violated) == 1:
-            return first
+            for only in violated:
+                return only
+        first = min(violated)
         q = certified.vertices_of(first)
         triple = {(v.body, v.index) for v in q}
         for h in sorted(self._violated_at(triple) - {first}):

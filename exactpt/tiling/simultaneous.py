@@ -42,9 +42,11 @@ class Batch:
     def begin_repair(self) -> None:
         """Begin another repair, to which `touch` refers from now on; ask for the budget.
 
-        Repairs of a forged tiling may have no end.
+        Repairs of a forged tiling may have no end. For the first one at a time, whoever advanced
+        to it has asked.
         """
-        ask()
+        if self._repair > 0:
+            ask()
         self._repair += 1
 
     def touch(self, half_edges: list[HalfEdge]) -> None:

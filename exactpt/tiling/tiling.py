@@ -195,7 +195,8 @@ class Tiling(ABC):
         if popped is None:
             self.clock.move_to(until)
             return None
-        self._process(*popped)
+        time, entries = popped
+        self._process(time, entries)
         return self.log.take()
 
     def retreat(self, grid: QQ) -> QQ:
