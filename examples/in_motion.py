@@ -4,8 +4,8 @@
     exactpt draw pond.json -o pond.html
 
 Neighbours that share a border are in contact from the start; --shrink takes a margin off
-every polygon (by shapely), so that they have a way to go. Holes are filled; what lies in
-one, as Lesotho in South Africa, is to be left out.
+every polygon (by shapely), so that they have a way to go. Holes are filled, and what lies in
+one, as Lesotho in South Africa, is to be left out; unless they are kept (--holes keep).
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def shrunk(scene: Scene, margin: float) -> Scene:
         for name, geometry in scene.to_shapely(scene.start).items()
     }
     kept = {name: geometry for name, geometry in smaller.items() if not geometry.is_empty}
-    return Scene.from_shapely(kept, (0, SPAN))
+    return Scene.from_shapely(kept, (0, SPAN), parts="split")
 
 
 def middle(points: list[tuple[QQ, QQ]]) -> tuple[QQ, QQ]:
@@ -58,7 +58,7 @@ def moved(scene: Scene, how: str, rng: Random) -> Iterator[Body]:
             motion = Translation([0, drift[0][1] / 4], [0, speed, -speed / SPAN * 2])
         else:
             motion = Rigid([0, chance[2] / 4], pivot=(a, b), x=drift[0], y=drift[1])
-        yield Body(body.name, points, motion, closed=body.closed)
+        yield body.with_motion(motion)
 
 
 def main() -> None:
@@ -71,11 +71,12 @@ def main() -> None:
     parser.add_argument("--how", choices=["gather", "fall", "swirl"], default="gather")
     parser.add_argument("--shrink", type=float, default=0.0)
     parser.add_argument("--leave-out", nargs="*", default=[], metavar="NAME")
+    parser.add_argument("--holes", choices=["fill", "keep"], default="fill")
     parser.add_argument("--tolerance", type=float, default=0.1)
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
     scene = exactpt.read_shapes(
-        given.shapes, time=(0, SPAN), tolerance=given.tolerance, holes="fill"
+        given.shapes, time=(0, SPAN), tolerance=given.tolerance, holes=given.holes, parts="split"
     )
     scene = Scene([body for body in scene.bodies if body.name not in given.leave_out], (0, SPAN))
     if given.shrink:

@@ -17,7 +17,7 @@ from exactpt.collision.tilings import TILINGS
 from exactpt.errors import InputError
 from exactpt.files import write_atomically
 from exactpt.scene.generate import FAMILIES as BODIES
-from exactpt.scene.generate import POINTS, ROUNDED
+from exactpt.scene.generate import POINTS, RINGS, ROUNDED
 from fuzz import battery, corpus, planted, soak
 from fuzz.campaign import Campaign, run
 from fuzz.cases import Outcome
@@ -31,7 +31,7 @@ from fuzz.thin import SUFFIX
 from fuzz.witnesses import WITNESSES
 
 FAILED, INTERRUPTED = 1, 130
-FAMILIES = (*BODIES, *POINTS, *ROUNDED)
+FAMILIES = (*BODIES, *POINTS, *ROUNDED, *RINGS)
 
 
 IMPATIENT: Final = 3.0

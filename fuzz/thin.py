@@ -25,9 +25,10 @@ def thinned(scene: Scene, rng: Random) -> Scene:
 
 def _part(body: Body, rng: Random) -> Body:
     """Some consecutive vertices of a body, in the same motion, as an open chain or less."""
-    most = rng.choice([1, 2, body.size, body.size])
-    size, first = min(most, body.size), rng.randrange(body.size) if body.closed else 0
-    chosen = [(first + i) % body.size for i in range(size)]
+    ring = rng.choice(body.rings) if body.has_rings else range(body.size)
+    most = rng.choice([1, 2, len(ring), len(ring)])
+    size, first = min(most, len(ring)), rng.randrange(len(ring)) if body.closed else 0
+    chosen = [ring[(first + i) % len(ring)] for i in range(size)]
     if body.keyframes:
         frames = [(f.t, [f.vertices[i] for i in chosen]) for f in body.keyframes]
         return Body(

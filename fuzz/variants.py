@@ -27,6 +27,7 @@ from exactpt.motion.motions import (
     Translation,
 )
 from exactpt.scene.scene import Scene
+from fuzz.rings import parts_of
 
 __all__ = ["VARIANTS", "Variant", "difference", "expected_time"]
 
@@ -77,14 +78,15 @@ class Variant:
 
     def vertex(self, body: Body, i: int) -> int:
         """The new number of a vertex."""
-        n = body.size
+        ring = next(ring for ring in body.rings if i in ring)
+        n, k = len(ring), i - ring.start
         if self.renumber == "turned" and body.closed and n > 2:
-            return (i - n // 2) % n
-        return n - 1 - i if self.renumber == "reversed" else i
+            return ring[(k - n // 2) % n]
+        return ring[n - 1 - k] if self.renumber == "reversed" else i
 
     def edge(self, body: Body, i: int) -> int:
         """The new number of an edge."""
-        u, v = self.vertex(body, i), self.vertex(body, (i + 1) % body.size)
+        u, v = self.vertex(body, i), self.vertex(body, body.end_of_edge(i))
         return v if self.renumber == "reversed" else u
 
     def place(self, point: tuple[float, float], time: float) -> tuple[float, float]:
@@ -111,8 +113,10 @@ class Variant:
                 radius=self._length(body.radius),
             )  # fmt: skip
         vertices = [self._position(body.vertices[i]) for i in order]
-        radius = self._length(body.radius)
-        return Body(self.name(body.name), vertices, motion, closed=body.closed, radius=radius)
+        name, radius = self.name(body.name), self._length(body.radius)
+        if body.has_rings:
+            return Body(name, motion=motion, parts=parts_of(body, vertices), radius=radius)
+        return Body(name, vertices, motion, closed=body.closed, radius=radius)
 
     def _length(self, length: QQ) -> QQ:
         (a, _), (c, _) = self.matrix

@@ -45,7 +45,7 @@ class Difference(Exception):  # noqa: N818 - what was found, the purpose of it a
 def reference(scene: Scene, turn: int | None) -> None:  # noqa: ARG001 - always all
     """The first contact is the same however it is asked for, and by the all-pairs reference."""
     expected = first_contact_allpairs(scene)
-    others = ["exact"] if scene.is_rounded else tilings_of(scene)
+    others = tilings_of(scene) or ["exact"]
     for name in ("auto", "pairs", *others):
         found = contact_by(scene, name)
         if kind := contrast(expected, found):
@@ -154,8 +154,8 @@ WITNESSES: Final[dict[str, Witness]] = {
 
 
 def tilings_of(scene: Scene) -> list[str]:
-    """The tilings that must support a scene; none holds rounded bodies."""
-    return [] if scene.is_rounded else tilings_for(scene)
+    """The tilings that must support a scene, if there are any."""
+    return tilings_for(scene) if scene.is_tiled else []
 
 
 def _with_tilings(scene: Scene, check: Callable[[str], None], turn: int | None) -> None:

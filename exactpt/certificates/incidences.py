@@ -130,5 +130,5 @@ def _edges(
     size = body.size
     if size == 1 or (a.index == size - 1 and (size == 2 or not body.closed)):
         return []
-    other = chosen.get((a.body, (a.index + 1) % size))
+    other = chosen.get((a.body, body.end_of_edge(a.index)))
     return [] if other is None else [(a.index, other)]

@@ -48,10 +48,22 @@ _FEW = 3
 )
 @click.option(
     "--holes",
-    type=click.Choice(["refuse", "fill"]),
-    default="refuse",
+    type=click.Choice(["keep", "refuse", "fill"]),
+    default="keep",
     show_default=True,
     help="What to do with polygons that have holes.",
+)
+@click.option(
+    "--parts",
+    type=click.Choice(["keep", "split"]),
+    default="keep",
+    show_default=True,
+    help="Whether a MultiPolygon is one body, or a body for each part.",
+)
+@click.option(
+    "--repair",
+    is_flag=True,
+    help="Mend polygons that are not valid by shapely's make_valid, with a message for each.",
 )
 @click.option("--skip-invalid", is_flag=True, help="Leave out invalid shapes, with a message.")
 @QUIET
@@ -62,7 +74,9 @@ def convert(
     at: QQ | None,
     time: tuple[QQ, QQ],
     tolerance: float | None,
-    holes: Literal["refuse", "fill"],
+    holes: Literal["keep", "refuse", "fill"],
+    parts: Literal["keep", "split"],
+    repair: bool,
     skip_invalid: bool,
     quiet: bool,
     max_seconds: float | None,
@@ -71,8 +85,9 @@ def convert(
 
     The suffixes determine the formats: .geojson, .wkt (needs: pip install 'exactpt[shapely]'),
     .svg (needs: pip install 'exactpt[svg]'), and .json for a scene; a .json file that is read may
-    be GeoJSON too. Each part of a shape becomes a body, named by the property name or id, or by
-    the id in an SVG. A line that ends where it began becomes a polygon.
+    be GeoJSON too. A shape becomes a body, with its holes, or one for each part if these are not
+    the polygons of a MultiPolygon; it is named by the property name or id, or by the id in an
+    SVG. A line that ends where it began becomes a polygon.
 
     Numbers in GeoJSON and WKT are read as exact decimals. Points of an SVG are computed in
     doubles, which are taken at their exact value, and its y-axis is flipped to point up, as in a
@@ -82,16 +97,17 @@ def convert(
     Examples:
       exactpt convert countries.geojson scene.json --time 0 10
       exactpt convert drawing.svg scene.json --tolerance 0.01 --holes fill
-      exactpt convert parcels.wkt scene.json --skip-invalid
+      exactpt convert parcels.wkt scene.json --repair --skip-invalid
       exactpt convert scene.json then.geojson --at 5/2
     """
     from exactpt.exchange.files import holds_scene, read_shapes, write_shapes
 
     if time[0] >= time[1]:
         raise InputError(f"--time: the span from {show(time[0])} to {show(time[1])} is empty")
-    idle = _typed("time", "holes", "skip_invalid")
+    idle = _typed("time", "holes", "parts", "repair", "skip_invalid")
 
     left_out: list[str] = []
+    mended: list[str] = []
     with time_limit(max_seconds, max_memory()):
         if idle and holds_scene(source, max_bytes()):
             raise InputError(f"{idle[0]}: {source} is a scene, which is read as it is")
@@ -100,10 +116,12 @@ def convert(
             time=time,
             tolerance=0.1 if tolerance is None else tolerance,
             holes=holes,
+            parts=parts,
+            repaired=mended.append if repair else None,
             skipped=left_out.append if skip_invalid else None,
             max_bytes=max_bytes(),
         )
-        remarks = [f"left out: {line}" for line in left_out]
+        remarks = [*mended, *(f"left out: {line}" for line in left_out)]
         is_scene = target.suffix.lower() == ".json"
         if is_scene and not quiet:
             remarks += _what_touches(scene)
@@ -149,13 +167,14 @@ class _WithFamilies(click.Command):
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the families, grouped by the kind of bodies."""
         super().format_epilog(ctx, formatter)
-        from exactpt.scene.generate import CONVEX, POINTS, ROUNDED, SIMPLE
+        from exactpt.scene.generate import CONVEX, POINTS, RINGS, ROUNDED, SIMPLE
 
         rooms = {
             "Convex bodies": CONVEX,
             "Simple polygons": SIMPLE,
             "Points": POINTS,
             "Rounded bodies": ROUNDED,
+            "Bodies with holes and parts": RINGS,
         }
         for room, families in rooms.items():
             with formatter.section(room):
@@ -180,10 +199,10 @@ def generate(family: str, seed: int, output: Path | None) -> int:
       exactpt generate grids_passing --seed 7 -o grids.json
     """
     from exactpt.scene.format import save, to_json
-    from exactpt.scene.generate import FAMILIES, POINTS, ROUNDED
+    from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED
     from exactpt.scene.generate import generate as generated
 
-    names = FAMILIES | POINTS | ROUNDED
+    names = FAMILIES | POINTS | ROUNDED | RINGS
     if family not in names:
         near = get_close_matches(family, names, n=3) or ["convex"]
         raise InputError(f"no family {family!r}: perhaps {' or '.join(near)} (all: --help)")

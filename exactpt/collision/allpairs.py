@@ -7,7 +7,7 @@ only the kernel and the trajectories with the tilings. Where a body has a radius
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from exactpt.collision.contact import Contact, contact_of, tracks_before
@@ -17,6 +17,7 @@ from exactpt.collision.rounded_reference import (
     touches_at_distance,
 )
 from exactpt.geometry.polygon import contains, segments_meet
+from exactpt.geometry.predicates import Point
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
@@ -170,9 +171,23 @@ def _overlapping_at_start(scene: Scene) -> list[tuple[int, int]]:
                 for u, v in a.edges or [(0, 0)]
                 for x, y in b.edges or [(0, 0)]
             )
-            inside = (a.has_interior and contains(points[i], points[j][0])) or (
-                b.has_interior and contains(points[j], points[i][0])
-            )
-            if crossing or inside:
+            if (
+                crossing
+                or _is_inside(a, points[i], b, points[j])
+                or _is_inside(b, points[j], a, points[i])
+            ):
                 found.append((i, j))
     return sorted(found)
+
+
+def _is_inside(a: Body, p: Sequence[Point], b: Body, q: Sequence[Point]) -> bool:
+    """Whether a ring of a body is in a part of another one, if no edges cross.
+
+    It is then in the outline, and in none of the holes.
+    """
+    return b.has_interior and any(
+        contains([q[i] for i in outline], p[ring.start])
+        and not any(contains([q[i] for i in hole], p[ring.start]) for hole in holes)
+        for ring in a.rings
+        for outline, *holes in b.parts
+    )

@@ -199,7 +199,9 @@ def _details(
     involved = sorted({i for touch in touches for i in (touch.body, touch.other)})
     tracks = {i: tracks_just_before(scene.bodies[i], time, scene._start) for i in involved}
     number = _as_root(scene, time, tracks, touches)
-    pairs = tuple(_pair(scene, tracks, touch, number, outward[touch.other]) for touch in touches)
+    pairs = tuple(
+        _pair(scene, tracks, touch, number, _side(outward[touch.other], touch)) for touch in touches
+    )
     return number, pairs
 
 
@@ -216,19 +218,21 @@ def _as_root(
     v, other = tracks[touch.body][touch.vertex], tracks[touch.other]
     reach = scene.bodies[touch.body]._radius + scene.bodies[touch.other]._radius
     if reach:
-        f = excess(v, _ends(touch, other), reach * reach)
+        f = excess(v, _ends(scene, touch, other), reach * reach)
     elif touch.edge >= 0:
-        f = orientation(other[touch.edge], other[(touch.edge + 1) % len(other)], v)
+        f = orientation(v, *_ends(scene, touch, other))
     else:
         f = _coincidence(v, other[touch.other_vertex])
     return time._as_root_of(f) if f else time
 
 
-def _ends(touch: Touch, other: tuple[Track, ...]) -> tuple[Track, ...]:
+def _ends(
+    scene: Scene, touch: Touch, other: tuple[Track, ...]
+) -> tuple[Track] | tuple[Track, Track]:
     """The vertex that is touched, or the ends of the edge."""
     if touch.edge < 0:
         return (other[touch.other_vertex],)
-    return other[touch.edge], other[(touch.edge + 1) % len(other)]
+    return other[touch.edge], other[scene.bodies[touch.other].end_of_edge(touch.edge)]
 
 
 def _coincidence(v: Track, w: Track) -> IntPoly:
@@ -253,7 +257,7 @@ def _pair(
     time: AlgebraicNumber,
     outward: int,
 ) -> Pair:
-    v, ends = tracks[touch.body][touch.vertex], _ends(touch, tracks[touch.other])
+    v, ends = tracks[touch.body][touch.vertex], _ends(scene, touch, tracks[touch.other])
     normal = None
     x, y, w = v.x, v.y, v.w
     radii = scene.bodies[touch.body]._radius, scene.bodies[touch.other]._radius
@@ -274,12 +278,25 @@ def _pair(
     )
 
 
-def _outward(scene: Scene, i: int) -> int:
-    """The side of a body's edges on which its exterior lies: 1 right, -1 left, 0 both."""
+def _outward(scene: Scene, i: int) -> list[tuple[range, int]]:
+    """For each ring of a body, the side of its edges on which the exterior lies.
+
+    That is 1 for the right one, -1 for the left one, 0 for both.
+    """
     body = scene.bodies[i]
-    if not body.closed or body.size < 3:
-        return 0
-    return 1 if signed_area2(body._at(scene._start)) > 0 else -1
+    if not body.has_interior:
+        return [(range(body.size), 0)]
+    points = body._at(scene._start)
+    return [
+        (ring, 1 if (signed_area2(points[ring.start : ring.stop]) > 0) == (k == 0) else -1)
+        for rings in body.parts
+        for k, ring in enumerate(rings)
+    ]
+
+
+def _side(outward: Sequence[tuple[range, int]], touch: Touch) -> int:
+    """The side on which the exterior lies at the edge that is touched; 0 if it is a vertex."""
+    return next((side for ring, side in outward if touch.edge in ring), 0)
 
 
 def _normal(

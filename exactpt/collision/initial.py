@@ -7,11 +7,12 @@ from typing import Final, NamedTuple
 
 from exactpt.errors import InputError
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
-from exactpt.geometry.polygon import contains, segments_meet
+from exactpt.geometry.polygon import segments_meet
 from exactpt.geometry.predicates import Point, between, side
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.motion.incidence import Touch
+from exactpt.motion.inside import one_is_inside
 from exactpt.scene.scene import Scene
 
 __all__ = ["Edge", "incidences", "initial_touches"]
@@ -56,7 +57,8 @@ def initial_touches(
     for first, second in _chunks(points, near):
         for i, j in zip(first, second, strict=True):
             ask()
-            if (i, j) not in pairs and _one_is_inside(scene, i, j, points):
+            a, b = scene.bodies[i], scene.bodies[j]
+            if (i, j) not in pairs and one_is_inside(a, points[i], b, points[j]):
                 pairs.add((i, j))
                 _check_count(pairs)
     return sorted(touches), sorted(pairs)
@@ -140,11 +142,3 @@ def incidences(e: Edge, f: Edge) -> Iterator[Touch]:
                 yield Touch(e.body, v, f.body, -1, w)
         if not meeting and side(f.a, f.b, p) == 0 and between(f.a, f.b, p):
             yield Touch(e.body, v, f.body, f.number, -1)
-
-
-def _one_is_inside(scene: Scene, i: int, j: int, points: Mapping[int, Sequence[Point]]) -> bool:
-    """Whether one of two bodies with disjoint boundaries contains the other."""
-    a, b = scene.bodies[i], scene.bodies[j]
-    return (a.has_interior and contains(points[i], points[j][0])) or (
-        b.has_interior and contains(points[j], points[i][0])
-    )

@@ -113,7 +113,8 @@ class PairsSearch:
         Such a vertex is compared with all edges, and its edges with all vertices. The tiling
         has about three certificates for each vertex.
         """
-        if not self._scene.bodies or self._scene.is_rounded:
+        scene = self._scene
+        if not scene.bodies or not scene.is_tiled:
             return False
         all_vertices, ids = self._swept.vertices.all, self._swept.ids
         count = len(ids)

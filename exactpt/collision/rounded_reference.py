@@ -33,7 +33,7 @@ Vector: TypeAlias = "tuple[IntPoly, IntPoly, IntPoly]"
 def core_distance(a: Body, b: Body, t: QQ) -> QQ:
     """The squared distance of the cores of two bodies at a rational time."""
     p, q = a._at(t), b._at(t)
-    if (a.has_interior and _is_inside(q[0], p)) or (b.has_interior and _is_inside(p[0], q)):
+    if _is_in(b, q, a, p) or _is_in(a, p, b, q):
         return QQ(0)
     return min(
         _of_segments((p[i], p[j]), (q[k], q[l]))
@@ -41,10 +41,16 @@ def core_distance(a: Body, b: Body, t: QQ) -> QQ:
     )
 
 
-def _is_inside(v: Point, ring: Sequence[Point]) -> bool:
+def _is_in(a: Body, p: Sequence[Point], b: Body, q: Sequence[Point]) -> bool:
+    """Whether a ring of a body is inside of another body, if no edges cross."""
+    edges = [(q[i], q[j]) for i, j in b.edges]
+    return b.has_interior and any(_is_inside(p[ring.start], edges) for ring in a.rings)
+
+
+def _is_inside(v: Point, edges: Sequence[Segment]) -> bool:
     """By the crossings of the ray to the right; on the boundary it does not matter."""
     odd = False
-    for (ax, ay), (bx, by) in zip(ring, [*ring[1:], ring[0]], strict=True):
+    for (ax, ay), (bx, by) in edges:
         if (ay > v[1]) != (by > v[1]) and v[0] < ax + (v[1] - ay) * (bx - ax) / (by - ay):
             odd = not odd
     return odd

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from exactpt.errors import InputError
 from exactpt.exchange import geojson, svg, wkt
-from exactpt.exchange.shapes import Holes, Shape, scene_of, shapes_at
+from exactpt.exchange.shapes import Holes, Parts, Repair, Shape, scene_of, shapes_at
 from exactpt.files import read_text, write_atomically
 from exactpt.kernel.numbers import rational
 from exactpt.scene.format import loads, save
@@ -36,11 +36,15 @@ def read_shapes(
     *,
     time: Sequence[Rational] = (0, 1),
     tolerance: float = 0.1,
-    holes: Holes = "refuse",
+    holes: Holes = "keep",
+    parts: Parts = "keep",
+    repaired: Callable[[str], None] | None = None,
     skipped: Callable[[str], None] | None = None,
     max_bytes: int | None = None,
 ) -> Scene:
-    """The scene at rest of a GeoJSON, WKT or SVG file: one body for each part of a shape.
+    """The scene at rest of a GeoJSON, WKT or SVG file.
+
+    A MultiPolygon is one body; of other shapes, and in SVG, each part is.
 
     Decimals in GeoJSON and WKT are read exactly. In SVG, curves become chords, the y-axis is
     flipped to point up, and coordinates are the exact values of doubles.
@@ -49,7 +53,10 @@ def read_shapes(
         path: a file with a suffix in `ENDINGS`. A scene file is loaded unchanged.
         time: the start and the end of the time span.
         tolerance: maximum distance of a chord from its curve, in units of the SVG drawing.
-        holes: "refuse" polygons with holes, or "fill" them.
+        holes: "keep" the holes of polygons, "refuse" such polygons, or "fill" the holes.
+        parts: "keep" the parts of a MultiPolygon together as one body, or "split" them.
+        repaired: called with a message for each polygon that is not valid and is replaced by what
+            shapely's make_valid makes of it; if None, none is.
         skipped: called with a message for each shape that cannot be a body and is left out;
             if None, such a shape is an error.
         max_bytes: maximum size of the file, which is refused otherwise; by default 10^8.
@@ -57,22 +64,38 @@ def read_shapes(
     Raises:
         InputError: one line that names the file, the shape and what is wrong with it.
     """
-    if holes not in ("refuse", "fill"):
-        raise InputError(f"holes: either refuse or fill: {holes!r}")
+    if holes not in ("keep", "refuse", "fill"):
+        raise InputError(f"holes: either keep, refuse or fill: {holes!r}")
+    if parts not in ("keep", "split"):
+        raise InputError(f"parts: either keep or split: {parts!r}")
     file = Path(path)
     kind, text = _format(file), read_text(file, max_bytes)
 
-    def tell(line: str) -> None:
-        if skipped is not None:
-            skipped(f"{file}: {line}")
+    def telling(tell: Callable[[str], None] | None) -> Callable[[str], None] | None:
+        return None if tell is None else lambda line: tell(f"{file}: {line}")
 
     try:
         if kind == "scene" and not _is_geojson(text):
             return loads(text)
         shapes = _shapes_of(kind, text, tolerance)
-        return scene_of(shapes, time=time, holes=holes, skipped=skipped and tell)
+        return scene_of(
+            shapes,
+            time=time,
+            holes=holes,
+            parts=parts,
+            repair=_repair(telling(repaired)),
+            skipped=telling(skipped),
+        )
     except InputError as error:
         raise InputError(f"{file}: {error}") from None
+
+
+def _repair(told: Callable[[str], None] | None) -> Repair | None:
+    if told is None:
+        return None
+    from exactpt.exchange.shapely_adapter import mended
+
+    return lambda shape: mended(shape, told)
 
 
 def holds_scene(path: Path, max_bytes: int | None = None) -> bool:

@@ -7,11 +7,11 @@ The format is parsed here: a library would return coordinates as floats. A third
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Final
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from exactpt.errors import InputError
-from exactpt.exchange.shapes import DEEPEST, Kind, Shape, rounded, rounded_rings
+from exactpt.exchange.shapes import DEEPEST, Kind, Shape, rounded, rounded_rings, together
 from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.numbers import shorten
 from exactpt.scene.json_values import Json, Number, a_list, exact_number, parse_json, shown
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from exactpt.geometry.predicates import Point
 
 __all__ = ["TYPES", "geojson_of", "is_type", "shapes_of"]
+
+Place: TypeAlias = tuple[float, float]
 
 _PARTS: Final[dict[str, Kind]] = {"Point": "point", "LineString": "line", "Polygon": "polygon"}
 TYPES: Final = {
@@ -39,7 +41,9 @@ def is_type(word: Json) -> bool:
 
 
 def shapes_of(text: str) -> Iterator[Shape]:
-    """The shapes of a GeoJSON text: one for each part, named after its feature.
+    """The shapes of a GeoJSON text, named after their features.
+
+    The parts of a MultiPolygon are one shape, those of other geometries are one each.
 
     The name of a feature is its property ``name`` or ``id`` (in upper or lower case), else its
     own ``id``, else its number.
@@ -106,8 +110,11 @@ def _of_geometry(data: Json, where: str, name: str, depth: int = 0) -> Iterator[
     if single == kind:
         yield _part(_PARTS[kind], coordinates, where, name)
         return
-    for i, part in enumerate(a_list(coordinates, at)):
-        yield _part(_PARTS[single], part, f"{where}, part {i}", name)
+    parts = [
+        _part(_PARTS[single], part, f"{where}, part {i}", name)
+        for i, part in enumerate(a_list(coordinates, at))
+    ]
+    yield from together(parts)
 
 
 def _part(kind: Kind, data: Json, where: str, name: str) -> Shape:
@@ -139,7 +146,10 @@ def geojson_of(shapes: Iterable[Shape]) -> str:
         {
             "type": "Feature",
             "properties": {"name": shape.name},
-            "geometry": {"type": _TYPE_OF[shape.kind], "coordinates": _coordinates(shape)},
+            "geometry": {
+                "type": "MultiPolygon" if shape.more else _TYPE_OF[shape.kind],
+                "coordinates": _coordinates(shape),
+            },
         }
         for shape in shapes
     ]
@@ -151,8 +161,18 @@ def _coordinates(shape: Shape) -> object:
         return rounded(shape)[0]
     if shape.kind == "line":
         return rounded(shape)
-    outer, *holes = rounded_rings(shape)
-    rings = [outer if signed_area2(shape.points) >= 0 else outer[::-1]]
-    for ring, points in zip(holes, shape.holes, strict=True):
-        rings.append(ring if signed_area2(points) <= 0 else ring[::-1])
-    return [[*ring, ring[0]] for ring in rings]
+    polygons = [
+        [
+            _turned(ring, points, left=points is part.points)
+            for ring, points in zip(rings, (part.points, *part.holes), strict=True)
+        ]
+        for rings, part in zip(rounded_rings(shape), shape.parts, strict=True)
+    ]
+    return polygons if shape.more else polygons[0]
+
+
+def _turned(ring: list[Place], points: Sequence[Point], *, left: bool) -> list[Place]:
+    """A closed ring, counter-clockwise or clockwise as its exact points tell."""
+    area = signed_area2(points)
+    ring = ring if (area >= 0 if left else area <= 0) else ring[::-1]
+    return [*ring, ring[0]]

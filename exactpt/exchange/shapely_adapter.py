@@ -6,14 +6,25 @@ A coordinate of shapely is a double and is taken at its exact value.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import islice
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import combinations, islice
 from typing import TYPE_CHECKING, Final
 
 from numpy import errstate
 
 from exactpt.errors import InputError
-from exactpt.exchange.shapes import Holes, Kind, Shape, body_of, rounded, scene_of, shapes_at
+from exactpt.exchange.shapes import (
+    Holes,
+    Kind,
+    Parts,
+    Shape,
+    body_of,
+    rounded,
+    rounded_rings,
+    scene_of,
+    shapes_at,
+    together,
+)
 from exactpt.kernel.numbers import nearest_float, rational, shorten
 
 try:
@@ -33,6 +44,7 @@ __all__ = [
     "BaseGeometry",
     "body_from",
     "geometries_of",
+    "mended",
     "outlined",
     "read_wkt",
     "scene_from",
@@ -74,7 +86,9 @@ def read_wkt(text: str, where: str) -> tuple[BaseGeometry, int, int]:
 def shapes_of_geometry(
     geometry: object, where: str, name: str, points: Sequence[Point] | None = None
 ) -> Iterator[Shape]:
-    """The shapes of a geometry, one for each part; a collection may mix kinds.
+    """The shapes of a geometry; a collection may mix kinds.
+
+    The parts of a MultiPolygon are one shape, those of other geometries are one each.
 
     Args:
         geometry: a geometry of shapely.
@@ -92,29 +106,36 @@ def shapes_of_geometry(
         points = [
             (rational(float(x)), rational(float(y))) for x, y in shapely.get_coordinates(geometry)
         ]
-    left = iter(points)
-    for i, part in enumerate(_parts(geometry)):
-        at = where if part is geometry else f"{where}, part {i}"
-        rings = [part] if part.geom_type != "Polygon" else [part.exterior, *part.interiors]
-        taken = [list(islice(left, shapely.get_num_coordinates(ring))) for ring in rings]
-        yield Shape(at, name, _KINDS[part.geom_type], taken[0], taken[1:])
+    left, count = iter(points), 0
+    for unit in _units(geometry):
+        shapes: list[Shape] = []
+        for part in unit:
+            at = where if part is geometry else f"{where}, part {count}"
+            rings = [part] if part.geom_type != "Polygon" else [part.exterior, *part.interiors]
+            taken = [list(islice(left, shapely.get_num_coordinates(ring))) for ring in rings]
+            shapes.append(Shape(at, name, _KINDS[part.geom_type], taken[0], taken[1:]))
+            count += 1
+        yield from together(shapes)
 
 
-def _parts(geometry: BaseGeometry) -> Iterator[BaseGeometry]:
-    """The parts of a geometry, recursively, in the order of its coordinates."""
+def _units(geometry: BaseGeometry) -> Iterator[list[BaseGeometry]]:
+    """The parts of a geometry, recursively, in the order of its coordinates; polygons together."""
     if geometry.geom_type in _KINDS:
-        yield geometry
+        yield [geometry]
+    elif geometry.geom_type == "MultiPolygon":
+        yield list(shapely.get_parts(geometry))
     else:
         for part in shapely.get_parts(geometry):
-            yield from _parts(part)
+            yield from _units(part)
 
 
 def body_from(geometry: object, name: str, motion: Motion, holes: Holes, radius: Rational) -> Body:
-    """The body of a geometry with one part, see `Body.from_shapely`."""
+    """The body of a geometry, see `Body.from_shapely`."""
     shapes = list(shapes_of_geometry(geometry, "geometry", name))
     if len(shapes) != 1:
         raise InputError(
-            f"geometry {name!r} has {len(shapes)} parts, and a body has one: see Scene.from_shapely"
+            f"geometry {name!r} has {len(shapes)} parts, of which polygons alone can be one body: "
+            "see Scene.from_shapely"
         )
     return body_of(shapes[0], name, motion, holes=holes, radius=radius)
 
@@ -123,6 +144,7 @@ def scene_from(
     geometries: Iterable[object] | Mapping[str, object],
     time: Sequence[Rational],
     holes: Holes,
+    parts: Parts,
     radius: Rational,
 ) -> Scene:
     """The scene at rest of geometries, see `Scene.from_shapely`."""
@@ -135,7 +157,50 @@ def scene_from(
         for i, (name, geometry) in enumerate(named)
         for shape in shapes_of_geometry(geometry, f"geometry {i}", name)
     )
-    return scene_of(shapes, time=time, holes=holes, radius=radius)
+    return scene_of(shapes, time=time, holes=holes, parts=parts, radius=radius)
+
+
+def mended(shape: Shape, told: Callable[[str], None]) -> list[Shape]:
+    """The valid polygons that shapely's make_valid makes of a shape that is not one.
+
+    Lines and points that it leaves are dropped. Parts that still touch become shapes of their own,
+    since a body's parts are disjoint.
+
+    Args:
+        shape: the shape; its points are rounded to doubles.
+        told: called with a line that says what has changed.
+
+    Raises:
+        InputError: if it is no polygon, or nothing of it is left.
+    """
+    if shape.kind != "polygon":
+        raise InputError(f"{shape.where}: only polygons are repaired: {shorten(shape.name)}")
+    rings = [ring for part in shape.parts for ring in (part.points, *part.holes)]
+    if min(map(len, rings)) < 3:
+        raise InputError(f"{shape.where}: a ring of {shorten(shape.name)} has no area")
+    given = _core(shape)
+    valid = shapely.make_valid(given)
+    pieces = [part for unit in _units(valid) for part in unit if part.geom_type == "Polygon"]
+    if not pieces:
+        raise InputError(f"{shape.where}: nothing of {shorten(shape.name)} has an area")
+    whole = shapely.MultiPolygon(pieces) if len(pieces) > 1 else pieces[0]
+    found = list(shapes_of_geometry(whole, shape.where, shape.name))
+    apart = all(a.disjoint(b) for a, b in combinations(pieces, 2))
+    if not apart:
+        found = list(found[0].parts)
+    what = shapely.is_valid_reason(given)
+    told(
+        f"{shape.where}: repaired {shorten(shape.name)} ({what}): "
+        f"{_size(given)} became {_size(whole)}{'' if apart else ', which touch: bodies each'}"
+    )
+    return found
+
+
+def _size(geometry: BaseGeometry) -> str:
+    rings = sum(1 + len(p.interiors) for unit in _units(geometry) for p in unit)
+    count = int(shapely.get_num_coordinates(geometry)) - rings
+    parts = int(shapely.get_num_geometries(geometry))
+    return f"{parts} polygon{'s' * (parts > 1)} of {count} vertices"
 
 
 def geometries_of(scene: Scene, at: QQ, tolerance: float | None) -> dict[str, BaseGeometry]:
@@ -151,24 +216,30 @@ def outlined(shape: Shape, tolerance: float | None) -> Shape:
     """
     if not shape.radius:
         return shape
-    geometry = _geometry(shape, tolerance)
-    rings = [
-        [(rational(float(x)), rational(float(y))) for x, y in shapely.get_coordinates(ring)[:-1]]
-        for ring in (geometry.exterior, *geometry.interiors)
+    (whole,) = shapes_of_geometry(_geometry(shape, tolerance), shape.where, shape.name)
+    parts = [
+        part._replace(points=part.points[:-1], holes=[hole[:-1] for hole in part.holes])
+        for part in whole.parts
     ]
-    return shape._replace(kind="polygon", points=rings[0], holes=rings[1:], radius=0)
+    return together(parts)[0]
 
 
 def _geometry(shape: Shape, tolerance: float | None) -> BaseGeometry:
-    points = rounded(shape)
-    if shape.kind == "point":
-        core = shapely.Point(points[0])
-    else:
-        core = shapely.LineString(points) if shape.kind == "line" else shapely.Polygon(points)
+    core = _core(shape)
     if not shape.radius:
         return core
     radius = nearest_float(rational(shape.radius))
     return core.buffer(radius, quad_segs=_quarter(radius, tolerance))
+
+
+def _core(shape: Shape) -> BaseGeometry:
+    points = rounded(shape)
+    if shape.kind == "point":
+        return shapely.Point(points[0])
+    if shape.kind == "line":
+        return shapely.LineString(points)
+    polygons = [shapely.Polygon(outline, holes) for outline, *holes in rounded_rings(shape)]
+    return shapely.MultiPolygon(polygons) if shape.more else polygons[0]
 
 
 def _quarter(radius: float, tolerance: float | None) -> int:

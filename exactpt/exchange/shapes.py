@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Container, Iterable, Sequence
 from itertools import chain
-from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias, final
 
 import numpy as np
 
@@ -29,6 +29,8 @@ __all__ = [
     "DEEPEST",
     "Holes",
     "Kind",
+    "Parts",
+    "Repair",
     "Shape",
     "body_of",
     "nested",
@@ -36,6 +38,7 @@ __all__ = [
     "rounded_rings",
     "scene_of",
     "shapes_at",
+    "together",
 ]
 
 DEEPEST: Final = 100
@@ -45,7 +48,10 @@ _MOST_NESTED: Final = 10_000_000
 """Maximum number of pairs of rings of one outline with one box inside the other."""
 
 Kind: TypeAlias = Literal["point", "line", "polygon"]
-Holes: TypeAlias = Literal["refuse", "fill"]
+Holes: TypeAlias = Literal["keep", "refuse", "fill"]
+Parts: TypeAlias = Literal["keep", "split"]
+
+Repair: TypeAlias = "Callable[[Shape], Iterable[Shape]]"
 
 _NONE: Final[Indices] = np.empty(0, dtype=np.int64)
 _FEWEST: Final[dict[Kind, int]] = {"point": 1, "line": 2, "polygon": 3}
@@ -61,6 +67,7 @@ class Shape(NamedTuple):
         points: its points in order; the first may be repeated at the end.
         holes: rings inside a polygon that bound its holes.
         radius: all points within it belong to the shape: only of shapes to be written.
+        more: further polygons of the same shape, which have none themselves.
     """
 
     where: str
@@ -69,14 +76,29 @@ class Shape(NamedTuple):
     points: Sequence[Point]
     holes: Sequence[Sequence[Point]] = ()
     radius: QQ | int = 0
+    more: Sequence[Shape] = ()
+
+    @property
+    def parts(self) -> tuple[Shape, ...]:
+        """The parts, as shapes of one part each."""
+        return (self._replace(more=()), *self.more)
+
+
+def together(parts: Sequence[Shape]) -> list[Shape]:
+    """Polygons as one shape of several parts; other shapes as they are."""
+    if len(parts) > 1 and all(part.kind == "polygon" for part in parts):
+        return [parts[0]._replace(more=parts[1:])]
+    return list(parts)
 
 
 def scene_of(
     shapes: Iterable[Shape],
     *,
     time: Sequence[Rational] = (0, 1),
-    holes: Holes = "refuse",
+    holes: Holes = "keep",
+    parts: Parts = "keep",
     radius: Rational = 0,
+    repair: Repair | None = None,
     skipped: Callable[[str], None] | None = None,
 ) -> Scene:
     """The scene at rest of some shapes, in their order.
@@ -84,8 +106,10 @@ def scene_of(
     Args:
         shapes: the shapes, one for each body; a name that is taken gets a number.
         time: the start and the end of the time span.
-        holes: "refuse" polygons with holes, or "fill" them.
+        holes: "keep" the holes of polygons, "refuse" such polygons, or "fill" the holes.
+        parts: "keep" the parts of a shape together as one body, or "split" them into bodies.
         radius: the radius of each body.
+        repair: called with each shape that is not a valid body; the shapes to take instead.
         skipped: called with a message for each shape that cannot be a body and is left out;
             if None, such a shape is an error.
 
@@ -93,24 +117,73 @@ def scene_of(
         InputError: one line that names the shape and says what to do about it.
     """
     empty = Scene([], time)
-    bodies: dict[str, Body] = {}
-    last: dict[str, int] = {}
-    for shape in shapes:
-        try:
-            name = _free_name(shape.name, bodies, last)
-            body = body_of(shape, name, holes=holes, radius=radius)
-            _check_simple(shape, body, time)
-        except InputError as error:
+    found = _Bodies(time, holes, radius, repair)
+    for given in shapes:
+        for shape in given.parts if parts == "split" else (given,):
             if skipped is None:
+                found.add_or_mend(shape)
+            else:
+                found.add_what_is_valid(shape, skipped)
+    return empty.going_on(found.bodies.values(), empty._start)
+
+
+@final
+class _Bodies:
+    """The bodies of shapes, by name, see `scene_of`."""
+
+    def __init__(
+        self, time: Sequence[Rational], holes: Holes, radius: Rational, repair: Repair | None
+    ) -> None:
+        self._time, self._holes, self._radius, self._repair = time, holes, radius, repair
+        self._last: dict[str, int] = {}
+        self.bodies: dict[str, Body] = {}
+
+    def _valid(self, shape: Shape) -> Body:
+        name = _free_name(shape.name, self.bodies, self._last)
+        body = body_of(shape, name, holes=self._holes, radius=self._radius)
+        _check_simple(shape, body, self._time)
+        return body
+
+    def add_or_mend(self, shape: Shape) -> None:
+        """Add the body of a shape, or those that repair makes of it."""
+        try:
+            body = self._valid(shape)
+        except InputError:
+            if self._repair is None:
                 raise
-            skipped(str(error))
-            continue
-        bodies[body.name] = body
-    return empty.going_on(bodies.values(), empty._start)
+        else:
+            self.bodies[body.name] = body
+            return
+        for mended in self._repair(shape):
+            body = self._valid(mended)
+            self.bodies[body.name] = body
+
+    def add_what_is_valid(self, shape: Shape, skipped: Callable[[str], None]) -> None:
+        """Likewise, without the parts that are not valid on their own."""
+        try:
+            self.add_or_mend(shape)
+            return
+        except InputError as error:
+            faults = {i: self._fault(part) for i, part in enumerate(shape.parts)}
+            left = [part for i, part in enumerate(shape.parts) if faults[i] is None]
+            if len(left) == len(faults) or not shape.more:
+                skipped(str(error))
+                return
+        for fault in filter(None, faults.values()):
+            skipped(fault)
+        for rest in together(left):
+            self.add_what_is_valid(rest, skipped)
+
+    def _fault(self, part: Shape) -> str | None:
+        try:
+            self._valid(part)
+        except InputError as error:
+            return str(error)
+        return None
 
 
 def body_of(
-    shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "refuse", radius: Rational = 0
+    shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "keep", radius: Rational = 0
 ) -> Body:
     """The body that a shape becomes.
 
@@ -120,14 +193,27 @@ def body_of(
     Raises:
         InputError: if the shape has too few points, no area, or (``holes="refuse"``) holes.
     """
-    if shape.holes and holes == "refuse":
-        count = len(shape.holes)
+    count = sum(len(part.holes) for part in shape.parts)
+    if count and holes == "refuse":
         raise InputError(
-            f"{shape.where}: polygon {shorten(shape.name)} has {_counted(count, 'hole')}, "
-            "and a body has none: fill them (--holes fill, in Python holes='fill') "
-            "or cut the polygon open"
+            f"{shape.where}: polygon {shorten(shape.name)} has {_counted(count, 'hole')}: "
+            "keep or fill them (--holes, in Python holes=), or cut the polygon open"
         )
-    points = _distinct_neighbours(shape.points)
+    rings = [_rings_of(part, fill=holes == "fill") for part in shape.parts]
+    if len(rings) == len(rings[0]) == 1:
+        points, is_polygon = _ring_of(shape, shape.points)
+        return Body(name, points, motion, closed=is_polygon or len(points) < 3, radius=radius)
+    made = [{"vertices": outline, "holes": inner} for outline, *inner in rings]
+    return Body(name, motion=motion, parts=made, radius=radius)
+
+
+def _rings_of(part: Shape, *, fill: bool) -> list[list[Point]]:
+    return [_ring_of(part, ring)[0] for ring in (part.points, *(() if fill else part.holes))]
+
+
+def _ring_of(shape: Shape, ring: Sequence[Point]) -> tuple[list[Point], bool]:
+    """The points of a ring of a shape, each once, and whether it bounds a polygon."""
+    points = _distinct_neighbours(ring)
     closes = shape.kind != "point" and len(points) > 1 and points[0] == points[-1]
     if closes:
         points.pop()
@@ -139,7 +225,7 @@ def body_of(
             f"{shape.where}: {kind} {shorten(shape.name)} has no {lacks}: "
             "remove it, or leave such shapes out (--skip-invalid)"
         )
-    return Body(name, points, motion, closed=is_polygon or len(points) < 3, radius=radius)
+    return points, is_polygon
 
 
 def shapes_at(scene: Scene, at: QQ) -> list[Shape]:
@@ -151,15 +237,21 @@ def shapes_at(scene: Scene, at: QQ) -> list[Shape]:
     if not scene._start <= at <= scene._end:
         span = f"from {show(scene._start)} to {show(scene._end)}"
         raise InputError(f"t = {show(at)} is outside the time span {span}")
+    return [shape for body in scene.bodies for shape in together(_parts_at(body, at))]
+
+
+def _parts_at(body: Body, at: QQ) -> list[Shape]:
+    points = body._at(at)
     return [
         Shape(
             f"body {shorten(body.name)}",
             body.name,
             _kind(body),
-            body._at(at),
-            radius=body._radius,
+            points[outline.start : outline.stop],
+            [points[hole.start : hole.stop] for hole in holes],
+            body._radius,
         )
-        for body in scene.bodies
+        for outline, *holes in body.parts
     ]
 
 
@@ -178,9 +270,9 @@ def rounded(shape: Shape) -> list[tuple[float, float]]:
     return _rounded(shape, shape.points)
 
 
-def rounded_rings(shape: Shape) -> list[list[tuple[float, float]]]:
-    """The boundary of a polygon and those of its holes, likewise."""
-    return [_rounded(shape, ring) for ring in (shape.points, *shape.holes)]
+def rounded_rings(shape: Shape) -> list[list[list[tuple[float, float]]]]:
+    """For each part the boundary and those of its holes, likewise."""
+    return [[_rounded(shape, ring) for ring in (part.points, *part.holes)] for part in shape.parts]
 
 
 def _rounded(shape: Shape, ring: Sequence[Point]) -> list[tuple[float, float]]:
@@ -194,8 +286,10 @@ def _check_simple(shape: Shape, body: Body, time: Sequence[Rational]) -> None:
     try:
         Scene([body], time)
     except InputError as error:
+        split = "split it (--parts split), " if shape.more else ""
         raise InputError(
-            f"{shape.where}: {error}; mend it, or leave such outlines out (--skip-invalid)"
+            f"{shape.where}: {error}; {split}mend it (--repair), or leave such outlines out "
+            "(--skip-invalid)"
         ) from None
 
 

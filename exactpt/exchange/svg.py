@@ -164,7 +164,10 @@ def _chord_count(curve: svgelements.Curve, tolerance: float) -> int:
 def svg_of(shapes: Iterable[Shape]) -> str:
     """Shapes as a drawing of paths with ids; coordinates are the nearest doubles."""
     drawn = [
-        (shape, [[(x, 0.0 - y) for x, y in ring] for ring in rounded_rings(shape)])
+        (
+            shape,
+            [[(x, 0.0 - y) for x, y in ring] for rings in rounded_rings(shape) for ring in rings],
+        )
         for shape in shapes
     ]
     everything = [p for _, rings in drawn for ring in rings for p in ring]

@@ -56,10 +56,17 @@ def wkt_of(shapes: Iterable[Shape]) -> str:
 
 
 def _text(shape: Shape) -> str:
-    rings = [", ".join(f"{x!r} {y!r}" for x, y in ring) for ring in rounded_rings(shape)]
+    parts = [
+        [", ".join(f"{x!r} {y!r}" for x, y in ring) for ring in rings]
+        for rings in rounded_rings(shape)
+    ]
     if shape.kind == "point":
-        return f"POINT ({rings[0]})"
+        return f"POINT ({parts[0][0]})"
     if shape.kind == "line":
-        return f"LINESTRING ({rings[0]})"
-    closed = (f"({points}, {points.split(',')[0]})" for points in rings)
-    return f"POLYGON ({', '.join(closed)})"
+        return f"LINESTRING ({parts[0][0]})"
+    closed = [f"({', '.join(map(_closed, rings))})" for rings in parts]
+    return f"MULTIPOLYGON ({', '.join(closed)})" if shape.more else f"POLYGON {closed[0]}"
+
+
+def _closed(ring: str) -> str:
+    return f"({ring}, {ring.split(',', maxsplit=1)[0]})"

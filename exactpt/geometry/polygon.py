@@ -16,6 +16,7 @@ __all__ = [
     "contains",
     "edges",
     "first_self_touch",
+    "first_touch",
     "is_counter_clockwise",
     "segments_meet",
     "signed_area2",
@@ -72,7 +73,13 @@ def first_self_touch(points: Sequence[Point], *, closed: bool) -> tuple[int, int
 
     The polygon (or chain) is simple if and only if the result is None.
     """
-    pairs = edges(len(points), closed=closed)
+    return first_touch(points, edges(len(points), closed=closed))
+
+
+def first_touch(
+    points: Sequence[Point], pairs: Sequence[tuple[int, int]]
+) -> tuple[int, int] | None:
+    """As `first_self_touch`, of given edges as pairs of points."""
     for i, (u, v) in enumerate(pairs):
         if points[u] == points[v]:
             return i, i
@@ -97,10 +104,19 @@ def _touch(points: Sequence[Point], e: tuple[int, int], f: tuple[int, int]) -> b
     return side(a, points[v], b) == 0 and (between(points[v], a, b) or between(points[v], b, a))
 
 
-def contains(points: Sequence[Point], p: Point) -> bool:
-    """Whether the closed simple polygon, of either orientation, contains p."""
+def contains(
+    points: Sequence[Point], p: Point, pairs: Sequence[tuple[int, int]] | None = None
+) -> bool:
+    """Whether the closed simple polygon, of either orientation, contains p.
+
+    Args:
+        points: its vertices.
+        p: a point.
+        pairs: the edges of a polygon with holes or of several parts, as pairs of vertices.
+    """
     inside = False
-    for a, b in _cyclic_pairs(points):
+    sides = _cyclic_pairs(points) if pairs is None else [(points[i], points[j]) for i, j in pairs]
+    for a, b in sides:
         s = side(a, b, p)
         if s == 0 and between(a, b, p):
             return True

@@ -32,12 +32,13 @@ from exactpt.motion.motions import (
     Position,
     made,
 )
-from exactpt.motion.shape import Keyframe, Keyframes, Shape, VertexLike
+from exactpt.motion.rings import Outline, PartLike, Parts, parts_given, read_rings, ring_edges
+from exactpt.motion.shape import Keyframe, Keyframes, Shape, VertexLike, listed
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["Body", "is_text", "refuse_rounded"]
+__all__ = ["Body", "is_text", "refuse_untiled"]
 
 _PLAIN: Final = (int, float)
 _SHARP: Final = QQ(0)
@@ -51,16 +52,21 @@ def is_text(name: object) -> bool:
         return False
 
 
-def refuse_rounded(bodies: Iterable[Body]) -> None:
-    """Refuse rounded bodies where a tiling is kept, which would keep only their cores apart.
+def refuse_untiled(bodies: Iterable[Body]) -> None:
+    """Refuse bodies that no tiling holds: rounded ones, and those with holes or several parts.
 
     Raises:
-        InputError: if one of them is rounded.
+        InputError: if there is one.
     """
     for body in bodies:
-        if body._radius:
+        if body._radius or body.has_rings:
+            what, kind = (
+                ("a radius", "rounded bodies")
+                if body._radius
+                else ("holes or several parts", "such bodies")
+            )
             raise InputError(
-                f"body {shorten(body.name)} has a radius: no tiling holds rounded bodies; "
+                f"body {shorten(body.name)} has {what}: no tiling holds {kind}; "
                 "their contacts are found by pairs (first_contact, collide)"
             )
 
@@ -68,6 +74,10 @@ def refuse_rounded(bodies: Iterable[Body]) -> None:
 @final
 class Body:
     """A closed set that moves: a point, a segment, an open chain, or a simple polygon.
+
+    A polygon may have holes, and a body several parts that move together: then vertices and
+    edges are numbered through its rings, part by part, each outline before its holes. A hole is
+    open: a body may be in it, and touches at its edges.
 
     With a radius it is rounded: all points within the radius of that set, its core. So a point
     becomes a disc, a segment a capsule.
@@ -86,13 +96,17 @@ class Body:
         keyframes: instead of vertices, pairs (t, vertices) with increasing t; the shape is
             interpolated linearly between them, and rests before the first and after the
             last.
+        holes: the outlines of holes in the polygon: disjoint, and inside of it. Either
+            orientation is accepted.
+        parts: instead of vertices, the disjoint parts of the body: outlines, or mappings with
+            "vertices" and "holes".
         radius: a number >= 0.
 
     Raises:
         InputError: if the arguments do not describe a body, or the motion jumps.
     """
 
-    __slots__ = ("_course", "_radius", "_shape", "closed", "name")
+    __slots__ = ("_course", "_parts", "_radius", "_shape", "closed", "name")
 
     def __init__(
         self,
@@ -102,18 +116,26 @@ class Body:
         *,
         closed: bool = True,
         keyframes: Keyframes | None = None,
+        holes: Iterable[Outline] = (),
+        parts: Iterable[PartLike] | None = None,
         radius: Rational = 0,
     ) -> None:
         if not is_text(name):
             raise InputError(f"a body's name is a text that is not empty: {shorten(name)}")
         _check_motion(name, motion)
-        if (vertices is None) == (keyframes is None):
-            raise InputError(f"body {shorten(name)}: give either vertices or keyframes")
+        if sum(given is not None for given in (vertices, keyframes, parts)) != 1:
+            raise InputError(f"body {shorten(name)}: give either vertices or keyframes or parts")
         self.name = name
         self.closed = closed
         self._radius = _read_radius(name, radius)
         try:
-            self._shape = Shape(vertices, keyframes, ring=closed)
+            self._parts: Parts | None = None
+            inner = listed("holes", holes)
+            if parts is None and not inner:
+                self._shape = Shape(vertices, keyframes, ring=closed)
+            else:
+                _check_rings(vertices, inner, closed=closed)
+                self._shape, self._parts = read_rings(vertices, inner, parts)
             self._course = Course(self._shape, motion)
         except InputError as error:
             raise InputError(f"body {shorten(name)}: {error}") from None
@@ -125,20 +147,20 @@ class Body:
         name: str,
         motion: Motion = REST,
         *,
-        holes: Literal["refuse", "fill"] = "refuse",
+        holes: Literal["keep", "refuse", "fill"] = "keep",
         radius: Rational = 0,
     ) -> Body:
         """The body of a shapely point, line or polygon, with the exact values of its doubles.
 
         Args:
-            geometry: a geometry of one part; `Scene.from_shapely` takes several.
+            geometry: a geometry of one part, or a MultiPolygon; `Scene.from_shapely` takes all.
             name: the name of the body.
             motion: the motion of the shape; at rest if not given.
-            holes: "refuse" a polygon with holes, or "fill" them.
+            holes: "keep" the holes of a polygon, "refuse" it, or "fill" them.
             radius: the radius of the body.
 
         Raises:
-            InputError: if the geometry is not one part, or cannot be a body.
+            InputError: if the geometry cannot be a body.
         """
         body: Body = extension("body from shapely")(geometry, name, motion, holes, radius)
         return body
@@ -184,6 +206,7 @@ class Body:
         other = Body.__new__(Body)
         other.name, other.closed = self.name, self.closed
         other._shape, other._radius = self._shape, self._radius
+        other._parts = self._parts  # noqa: SLF001
         try:
             other._course = Course(self._shape, motion)  # noqa: SLF001
         except InputError as error:
@@ -213,7 +236,30 @@ class Body:
     @property
     def edges(self) -> list[tuple[int, int]]:
         """The edges as pairs of vertices; edge i starts at vertex i, and a point has none."""
+        if self._parts is not None:
+            return ring_edges(self._parts)
         return edges(self.size, closed=self.closed)
+
+    def end_of_edge(self, edge: int) -> int:
+        """The vertex at which an edge ends."""
+        if self._parts is not None:
+            return next(r.start + (edge + 1 - r.start) % len(r) for r in self.rings if edge in r)
+        return edge + 1 if edge + 1 < self.size else 0
+
+    @property
+    def parts(self) -> Parts:
+        """For each part, the numbers of the vertices of its rings, the outline first."""
+        return ((range(self.size),),) if self._parts is None else self._parts
+
+    @property
+    def rings(self) -> tuple[range, ...]:
+        """The numbers of the vertices of each ring."""
+        return tuple(ring for rings in self.parts for ring in rings)
+
+    @property
+    def has_rings(self) -> bool:
+        """Whether the body has more than one ring: holes, or several parts."""
+        return self._parts is not None
 
     @property
     def has_interior(self) -> bool:
@@ -277,7 +323,7 @@ class Body:
             return NotImplemented
         return (
             (self.name, self.closed, self.size) == (other.name, other.closed, other.size)
-            and self._radius == other._radius
+            and (self._radius, self._parts) == (other._radius, other._parts)
             and self.vertices == other.vertices
             and self._shape.keyframes == other._shape.keyframes
             and self.motion == other.motion
@@ -290,12 +336,17 @@ class Body:
         options: dict[str, object] = {"motion": self.motion, "closed": self.closed}
         if self._radius:
             options["radius"] = str(self._radius)
-        return made, (Body, (self.name,), self._shape.given() | options)
+        given = self._shape.given()
+        if self._parts is not None:
+            options |= parts_given(self._parts, given["vertices"])
+            return made, (Body, (self.name,), options)
+        return made, (Body, (self.name,), given | options)
 
     def __repr__(self) -> str:
         what = {1: "point", 2: "segment"}.get(self.size, "polygon" if self.closed else "chain")
         rounded = f", radius {show(self._radius)}" if self._radius else ""
-        return f"<Body {self.name!r}: {what} of {self.size} vertices{rounded}>"
+        rings = f" in {len(self.rings)} rings" if self.has_rings else ""
+        return f"<Body {self.name!r}: {what} of {self.size} vertices{rings}{rounded}>"
 
 
 def _read_radius(name: str, radius: Rational) -> QQ:
@@ -308,6 +359,15 @@ def _read_radius(name: str, radius: Rational) -> QQ:
     if exact < 0:
         raise InputError(f"body {shorten(name)}: radius: it is negative: {show(exact)}")
     return exact
+
+
+def _check_rings(
+    vertices: Iterable[VertexLike] | None, holes: Sequence[object], *, closed: bool
+) -> None:
+    if not closed:
+        raise InputError("an open chain has neither holes nor parts")
+    if holes and vertices is None:
+        raise InputError("holes are for a body of vertices; a part has holes of its own")
 
 
 def _check_motion(name: str, motion: object) -> None:

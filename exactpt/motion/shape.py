@@ -13,7 +13,7 @@ from exactpt.kernel.numbers import QQ, Rational, as_doubles, rational, shorten, 
 from exactpt.kernel.polynomial import Polynomial, polynomial
 from exactpt.motion.motions import Coefficients, Position
 
-__all__ = ["Keyframe", "Keyframes", "Shape", "VertexLike"]
+__all__ = ["Keyframe", "Keyframes", "Shape", "VertexLike", "listed"]
 
 VertexLike: TypeAlias = (
     "Sequence[Rational] | Mapping[str, Coefficients] | tuple[Polynomial, Polynomial]"
@@ -70,7 +70,7 @@ class Shape:
             self._positions = ()
             self.size = len(frames[0].vertices)
         else:
-            given = _listed("vertices", vertices)
+            given = listed("vertices", vertices)
             self.doubles = _read_doubles(given)
             if self.doubles is None:
                 self._positions = tuple(_read_vertex(i, v) for i, v in enumerate(given))
@@ -113,7 +113,7 @@ class Shape:
             return self.positions
         return self._pieces[bisect_right(self.keyframes, t, key=lambda frame: frame.t)]
 
-    def given(self) -> dict[str, object]:
+    def given(self) -> dict[str, tuple[object, ...]]:
         """The keyword arguments from which a body of this shape can be made."""
         if self.keyframes:
             return {"keyframes": tuple(
@@ -133,7 +133,12 @@ def _given(vertex: Position) -> tuple[object, object]:
     return str(x), str(y)
 
 
-def _listed(what: str, values: object) -> list[Any]:
+def listed(what: str, values: object) -> list[Any]:
+    """The entries of an iterable that is neither a text nor a mapping.
+
+    Raises:
+        InputError: if it is not one.
+    """
     if isinstance(values, Iterable) and not isinstance(values, (str, Mapping)):
         return list(values)
     raise InputError(f"{what}: not a list: {shorten(values)}")
@@ -172,7 +177,7 @@ def _read_vertex(index: int, vertex: VertexLike) -> Position:
 
 def _read_keyframes(keyframes: Keyframes) -> tuple[Keyframe, ...]:
     frames: list[Keyframe] = []
-    for i, keyframe in enumerate(_listed("keyframes", keyframes)):
+    for i, keyframe in enumerate(listed("keyframes", keyframes)):
         if not isinstance(keyframe, Sequence) or len(keyframe) != 2:
             raise InputError(f"keyframe {i}: not (t, vertices): {shorten(keyframe)}")
         frame = _read_keyframe(i, *keyframe)
@@ -190,7 +195,7 @@ def _read_keyframes(keyframes: Keyframes) -> tuple[Keyframe, ...]:
 
 
 def _read_keyframe(i: int, t: Rational, vertices: object) -> Keyframe:
-    pairs = map(_pair, _listed(f"keyframe {i}", vertices))
+    pairs = map(_pair, listed(f"keyframe {i}", vertices))
     try:
         points = tuple((rational(x), rational(y)) for x, y in pairs)
         return Keyframe(rational(t), points)

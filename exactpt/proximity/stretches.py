@@ -7,11 +7,12 @@ from typing import NamedTuple
 
 from exactpt.errors import InputError
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
-from exactpt.geometry.polygon import contains, segments_meet
+from exactpt.geometry.polygon import segments_meet
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
+from exactpt.motion.inside import one_is_inside
 from exactpt.motion.track import Track
 from exactpt.scene.scene import Scene
 
@@ -61,11 +62,7 @@ def segments_of(body: Body) -> list[tuple[int, int]]:
 def meet(a: Body, b: Body, t: QQ) -> bool:
     """Whether the cores of two bodies have a point in common at a rational time."""
     p, q = a._at(t), b._at(t)
-    return (
-        _boundaries_meet(p, segments_of(a), q, segments_of(b))
-        or (a.has_interior and contains(p, q[0]))
-        or (b.has_interior and contains(q, p[0]))
-    )
+    return _boundaries_meet(p, segments_of(a), q, segments_of(b)) or one_is_inside(a, p, b, q)
 
 
 def _boundaries_meet(

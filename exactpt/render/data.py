@@ -99,8 +99,12 @@ def _body(
         tracks = [[[_integer(c) for c in f] for f in (t.x, t.y, t.w)] for t in piece.tracks]
         time = piece.until
         pieces.append([None if time is None else _integer(fixed(time, time_bits)), tracks])
-    radius = [_in_units(body._radius, length_unit)] if body._radius else []
-    return [body.name, colour, body.closed, pieces, *radius]
+    more: list[object] = []
+    if body._radius or body.has_rings:
+        more.append(_in_units(body._radius, length_unit))
+    if body.has_rings:
+        more.append([ring.start for ring in body.rings])
+    return [body.name, colour, body.closed, pieces, *more]
 
 
 def _in_units(length: QQ, unit: int) -> float:
@@ -131,13 +135,13 @@ def _contact(contact: Contact, scene: Scene, length_unit: int) -> dict[str, obje
     for body in scene.bodies:
         first[body.name] = count
         count += body.size
-    sizes = {body.name: body.size for body in scene.bodies}
     pairs = []
     for pair in contact.pairs:
         start = first[pair.other]
         edge, other = None, None
         if pair.edge is not None:
-            edge = [start + pair.edge, start + (pair.edge + 1) % sizes[pair.other]]
+            end = scene.body(pair.other).end_of_edge(pair.edge)
+            edge = [start + pair.edge, start + end]
         if pair.other_vertex is not None:
             other = start + pair.other_vertex
         radius = scene.body(pair.body)._radius

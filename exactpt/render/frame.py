@@ -13,8 +13,10 @@ from exactpt.render.words import contact_in_words, time_in_words
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Pair
+    from exactpt.motion.body import Body
     from exactpt.pseudotriangulation.snapshot import Face, Snapshot
     from exactpt.render.still import Still
+    from exactpt.scene.scene import Scene
 
 __all__ = ["Frame", "Line", "Mark", "Pixel", "Shape", "Tile", "frame_of", "tints"]
 
@@ -32,7 +34,8 @@ class Shape:
     """A body: one point, two, a polygon (``closed``) or an open chain, in pixels.
 
     Its name is centred at the pixel ``label``; None if there are too many bodies for labels.
-    With a ``radius``, all pixels within it belong to the body.
+    With a ``radius``, all pixels within it belong to the body. ``rings`` has the numbers of the
+    pixels of each ring.
     """
 
     name: str
@@ -40,6 +43,7 @@ class Shape:
     pixels: tuple[Pixel, ...]
     closed: bool
     label: Pixel | None
+    rings: tuple[range, ...]
     radius: float = 0.0
 
 
@@ -124,7 +128,8 @@ def frame_of(still: Still) -> Frame:
             body_colour(i),
             pixels[body.name],
             body.closed,
-            _label(pixels[body.name], closed=body.closed, thin=not body._radius) if named else None,
+            _label(pixels[body.name], body) if named else None,
+            body.rings,
             nearest_float(body._radius * window.scale),
         )
         for i, body in enumerate(scene.bodies)
@@ -144,31 +149,32 @@ def frame_of(still: Still) -> Frame:
         news = both if len(both) * _LETTER < window.width else one
         rounded = {body.name for body in scene.bodies if body._radius}
         marks = tuple(
-            _mark(pair, pixels, window, touches=rounded.isdisjoint((pair.body, pair.other)))
+            _mark(pair, scene, pixels, window, touches=rounded.isdisjoint((pair.body, pair.other)))
             for pair in still.contact.pairs
         )
     return Frame(window, caption, news, note, tiles, shapes, lines, marks)
 
 
-def _label(pixels: Sequence[Pixel], *, closed: bool, thin: bool) -> Pixel:
+def _label(pixels: Sequence[Pixel], body: Body) -> Pixel:
     """The position of a name: in the middle of a body; of a non-convex one, where it is widest."""
     x, y = (sum(c) / len(pixels) for c in zip(*pixels, strict=True))
-    if len(pixels) < 3 or not closed:
-        return x, y - 13.0 * thin
-    if any(left < x < right for left, right in _inside_at(pixels, y)):
+    if not body.has_interior:
+        return x, y - (0.0 if body._radius else 13.0)
+    sides = [(pixels[i], pixels[j]) for i, j in body.edges]
+    if any(left < x < right for left, right in _inside_at(sides, y)):
         return x, y
     low, high = min(q for _, q in pixels), max(q for _, q in pixels)
     rows = [low + (high - low) * k / 16 for k in range(1, 16)]
-    spans = [(right - left, left, row) for row in rows for left, right in _inside_at(pixels, row)]
+    spans = [(right - left, left, row) for row in rows for left, right in _inside_at(sides, row)]
     width, left, row = max(spans, default=(0.0, x, y))
     return left + width / 2, row
 
 
-def _inside_at(pixels: Sequence[Pixel], y: float) -> list[tuple[float, float]]:
+def _inside_at(sides: Sequence[tuple[Pixel, Pixel]], y: float) -> list[tuple[float, float]]:
     """The intervals in which the horizontal line at height y is inside a polygon."""
     crossings = sorted(
         px + (y - py) * (qx - px) / (qy - py)
-        for (px, py), (qx, qy) in zip(pixels, [*pixels[1:], pixels[0]], strict=True)
+        for (px, py), (qx, qy) in sides
         if (py <= y) != (qy <= y)
     )
     return list(zip(crossings[::2], crossings[1::2], strict=True))
@@ -211,13 +217,18 @@ def tints(faces: Sequence[Face]) -> list[int]:
 
 
 def _mark(
-    pair: Pair, pixels: dict[str, tuple[Pixel, ...]], window: Window, *, touches: bool
+    pair: Pair,
+    scene: Scene,
+    pixels: dict[str, tuple[Pixel, ...]],
+    window: Window,
+    *,
+    touches: bool,
 ) -> Mark:
     """The mark of an incidence; ``touches`` unless a body is rounded, and so not the cores do."""
     other = pixels[pair.other]
     edge = None
     if pair.edge is not None:
-        edge = (other[pair.edge], other[(pair.edge + 1) % len(other)])
+        edge = (other[pair.edge], other[scene.body(pair.other).end_of_edge(pair.edge)])
     normal = None if pair.normal in (None, (0.0, 0.0)) else (pair.normal[0], -pair.normal[1])
     if touches:
         return Mark(pixels[pair.body][pair.vertex], normal, edge)

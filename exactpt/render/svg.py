@@ -116,18 +116,31 @@ def _shape(shape: Shape) -> str:
             f'<polyline class="thin" style="stroke:{shape.colour}" '
             f'points="{_points(shape.pixels)}">{title}</polyline>'
         )
-    return f'<polygon fill="{shape.colour}" points="{_points(shape.pixels)}">{title}</polygon>'
+    name, drawn = _core(shape)
+    return f'<{name} fill="{shape.colour}" {drawn}>{title}</{name}>'
+
+
+def _core(shape: Shape) -> tuple[str, str]:
+    """The name of the element that draws a polygon, and its outline as attributes."""
+    if len(shape.rings) == 1:
+        return "polygon", f'points="{_points(shape.pixels)}"'
+    rings = ((_pair(shape.pixels[i]) for i in ring) for ring in shape.rings)
+    path = "".join(f"M{'L'.join(ring)}Z" for ring in rings)
+    return "path", f'fill-rule="evenodd" d="{path}"'
 
 
 def _rounded(shape: Shape) -> Iterator[str]:
     """The core, drawn twice with a pen as wide as the body: a little wider for the outline."""
-    core = "polygon" if shape.closed and len(shape.pixels) > 2 else "polyline"
-    points = _points(shape.pixels if len(shape.pixels) > 1 else shape.pixels * 2)
+    if shape.closed and len(shape.pixels) > 2:
+        core, drawn = _core(shape)
+    else:
+        points = _points(shape.pixels if len(shape.pixels) > 1 else shape.pixels * 2)
+        core, drawn = "polyline", f'points="{points}"'
     pen = "stroke-linejoin:round;stroke-linecap:round;vector-effect:none"
     for paint, more in (("", 2.4), (f";stroke:{shape.colour}", 0.0)):
-        fill = shape.colour if paint and core == "polygon" else "none"
+        fill = shape.colour if paint and core != "polyline" else "none"
         style = f"fill:{fill};stroke-width:{_number(2.0 * shape.radius + more)}px;{pen}{paint}"
-        yield f'<{core} style="{style}" points="{points}"/>'
+        yield f'<{core} style="{style}" {drawn}/>'
 
 
 def _line(line: Line) -> str:

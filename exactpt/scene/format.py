@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Final
 
@@ -96,13 +96,15 @@ def _body(data: Json, index: int) -> Body:
     where = f"body {index}"
     if isinstance(data, dict) and isinstance(data.get("name"), str):
         where = f"body {shorten(str(data['name']))}"
-    allowed = {"vertices", "motion", "closed", "keyframes", "radius"}
+    allowed = {"vertices", "motion", "closed", "keyframes", "radius", "holes", "parts"}
     body = an_object(data, where, required=["name"], optional=allowed)
     name = body["name"]
     if not isinstance(name, str) or isinstance(name, Number) or not is_text(name):
         raise InputError(f'{where}: "name": not a text: {shown(name)}')
-    if ("vertices" in body) == ("keyframes" in body):
-        raise InputError(f'{where}: needs either "vertices" or "keyframes"')
+    if sum(key in body for key in ("vertices", "keyframes", "parts")) != 1:
+        raise InputError(f'{where}: needs either "vertices" or "keyframes" or "parts"')
+    if "holes" in body and "vertices" not in body:
+        raise InputError(f'{where}: "holes" belong to "vertices"')
     closed = body.get("closed", True)
     if not isinstance(closed, bool):
         raise InputError(f'{where}: "closed": not true or false: {shown(closed)}')
@@ -111,13 +113,34 @@ def _body(data: Json, index: int) -> Body:
     if "keyframes" in body:
         frames = _keyframes(body["keyframes"], f'{where}: "keyframes"')
         return Body(name, motion=motion, closed=closed, keyframes=frames, radius=radius)
-    rows = a_list(body["vertices"], f'{where}: "vertices"')
+    if "parts" in body:
+        rows = a_list(body["parts"], f'{where}: "parts"')
+        parts = [_part(row, f"{where}: part {i}") for i, row in enumerate(rows)]
+        return Body(name, None, motion, closed=closed, parts=parts, radius=radius)
+    vertices = _ring(body["vertices"], f'{where}: "vertices"', where, closed=closed)
+    holes = _holes(body, where)
+    return Body(name, vertices, motion, closed=closed, holes=holes, radius=radius)
+
+
+def _part(data: Json, where: str) -> dict[str, object]:
+    part = an_object(data, where, required=["vertices"], optional={"holes"})
+    vertices = _ring(part["vertices"], f'{where}: "vertices"', where)
+    return {"vertices": vertices, "holes": _holes(part, where)}
+
+
+def _holes(data: dict[str, Json], where: str) -> list[list[Position]]:
+    rows = a_list(data.get("holes", []), f'{where}: "holes"')
+    return [_ring(row, f"{where}: hole {i}", f"{where}: hole {i}") for i, row in enumerate(rows)]
+
+
+def _ring(data: Json, where: str, of: str, *, closed: bool = True) -> list[Position]:
+    """The vertices of a ring, named ``where``; each is a vertex ``of`` something."""
+    rows = a_list(data, where)
     if not rows:
-        raise InputError(f'{where}: "vertices": at least one is needed')
+        raise InputError(f"{where}: at least one is needed")
     if closed and len(rows) > 3 and rows[0] == rows[-1]:
-        raise InputError(f'{where}: "vertices": the last repeats the first: {shown(rows[-1])}')
-    vertices = [_vertex(row, f"{where}: vertex {i}") for i, row in enumerate(rows)]
-    return Body(name, vertices, motion, closed=closed, radius=radius)
+        raise InputError(f"{where}: the last repeats the first: {shown(rows[-1])}")
+    return [_vertex(row, f"{of}: vertex {i}") for i, row in enumerate(rows)]
 
 
 def _radius(data: Json, where: str) -> QQ:
@@ -267,16 +290,25 @@ def _body_to_json(body: Body) -> dict[str, object]:
             {"t": _text(f.t), "vertices": [[_text(x), _text(y)] for x, y in f.vertices]}
             for f in body._shape.keyframes
         ]
+    elif len(body.parts) > 1:
+        data["parts"] = [_part_to_json(body, rings) for rings in body.parts]
     else:
-        data["vertices"] = [
-            [_text(x._at(QQ(0))), _text(y._at(QQ(0)))]
-            if x.degree <= 0 and y.degree <= 0
-            else {"x": _coefficients(x), "y": _coefficients(y)}
-            for x, y in body.vertices
-        ]
+        data |= _part_to_json(body, body.parts[0])
     if body.motion != REST:
         data["motion"] = _motion_to_json(body.motion)
     return data
+
+
+def _part_to_json(body: Body, rings: Sequence[range]) -> dict[str, object]:
+    outline, *holes = ([_vertex_to_json(body.vertices[i]) for i in ring] for ring in rings)
+    return {"vertices": outline, "holes": holes} if holes else {"vertices": outline}
+
+
+def _vertex_to_json(vertex: Position) -> object:
+    x, y = vertex
+    if x.degree <= 0 and y.degree <= 0:
+        return [_text(x._at(QQ(0))), _text(y._at(QQ(0)))]
+    return {"x": _coefficients(x), "y": _coefficients(y)}
 
 
 def _motion_to_json(motion: Motion) -> dict[str, object]:

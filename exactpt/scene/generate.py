@@ -6,10 +6,10 @@ from collections.abc import Callable
 from random import Random
 from typing import Final, TypeAlias
 
-from exactpt.scene.families import convex, degenerate, grid, points, rounded, simple
+from exactpt.scene.families import convex, degenerate, grid, points, rings, rounded, simple
 from exactpt.scene.scene import Scene
 
-__all__ = ["CONVEX", "FAMILIES", "POINTS", "ROUNDED", "SIMPLE", "Family", "generate"]
+__all__ = ["CONVEX", "FAMILIES", "POINTS", "RINGS", "ROUNDED", "SIMPLE", "Family", "generate"]
 
 Family: TypeAlias = Callable[[Random], Scene]
 
@@ -81,6 +81,13 @@ ROUNDED: Final[dict[str, Family]] = {
 """Families with rounded bodies, which no tiling holds."""
 
 
+RINGS: Final[dict[str, Family]] = {
+    "lakes": rings.lakes,
+    "frames": rings.frames,
+}
+"""Families of bodies with holes and several parts."""
+
+
 def generate(family: str, seed: int) -> Scene:
     """The scene of a family with this seed."""
-    return {**FAMILIES, **POINTS, **ROUNDED}[family](Random(f"{family}:{seed}"))
+    return {**FAMILIES, **POINTS, **ROUNDED, **RINGS}[family](Random(f"{family}:{seed}"))

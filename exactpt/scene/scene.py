@@ -201,21 +201,25 @@ class Scene:
         geometries: Iterable[BaseGeometry] | Mapping[str, BaseGeometry],
         time: Sequence[Rational] = (0, 1),
         *,
-        holes: Literal["refuse", "fill"] = "refuse",
+        holes: Literal["keep", "refuse", "fill"] = "keep",
+        parts: Literal["keep", "split"] = "keep",
         radius: Rational = 0,
     ) -> Scene:
-        """The scene of shapely geometries, at rest: one body for each part of each.
+        """The scene of shapely geometries, at rest.
+
+        A MultiPolygon is one body; of other geometries, each part is.
 
         Args:
             geometries: by name, or in order; the exact values of their doubles are taken.
             time: the start and the end of the scene.
-            holes: "refuse" polygons with holes, or "fill" them.
+            holes: "keep" the holes of polygons, "refuse" such polygons, or "fill" the holes.
+            parts: "keep" the parts of a MultiPolygon together as one body, or "split" them.
             radius: the radius of each body.
 
         Raises:
             InputError: if a geometry cannot be a body (see `exactpt.read_shapes`).
         """
-        scene: Scene = extension("scene from shapely")(geometries, time, holes, radius)
+        scene: Scene = extension("scene from shapely")(geometries, time, holes, parts, radius)
         return scene
 
     def to_shapely(self, t: Rational, *, tolerance: float | None = None) -> dict[str, BaseGeometry]:
@@ -282,6 +286,18 @@ class Scene:
         if isinstance(self.bodies, BodyArrays):
             return bool(self.bodies.radii.any())
         return any(body._radius for body in self.bodies)
+
+    @property
+    def has_rings(self) -> bool:
+        """Whether a body has holes, or several parts."""
+        if isinstance(self.bodies, BodyArrays):
+            return False
+        return any(body.has_rings for body in self.bodies)
+
+    @property
+    def is_tiled(self) -> bool:
+        """Whether there is a tiling for its bodies: none is rounded, or has several rings."""
+        return not (self.is_rounded or self.has_rings)
 
     def __eq__(self, other: object) -> bool:
         """Whether the bodies, in order, and the time spans are equal."""

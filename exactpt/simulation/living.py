@@ -12,7 +12,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import QQ, shorten, show
-from exactpt.motion.body import Body, refuse_rounded
+from exactpt.motion.body import Body, refuse_untiled
 from exactpt.motion.motions import Motion
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
@@ -165,7 +165,7 @@ class LivingScene:
         t = self.rational_now()
         if body.name in self._number:
             raise InputError(f"body {body.name!r}: the name is taken by another body")
-        refuse_rounded([body])
+        refuse_untiled([body])
         alone = Scene([body], (t, self._end._end))  # checks its shape
         events = self.kinetic.add_body(body, t)
         if events is None:

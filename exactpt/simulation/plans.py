@@ -42,7 +42,7 @@ def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
     """
     if isinstance(plan, Body):
         new = plan
-        if (new.name, new.size, new.closed) != (body.name, body.size, body.closed):
+        if (new.name, new.closed, new.parts) != (body.name, body.closed, body.parts):
             raise InputError(f"body {body.name!r}: {new!r} is no plan for {body!r}")
     else:
         new = body.with_motion(plan)

@@ -256,6 +256,8 @@ def _moving(body: Body) -> Moving:
     motion = body.motion
     if body.keyframes or not isinstance(motion, Translation):
         raise InputError(f"body {body.name}: it does more than translate")
+    if body.has_rings:
+        raise InputError(f"body {body.name}: it has holes or several parts")
     vertices = []
     for position in body.vertices:
         if any(f.degree > 0 for f in position):

@@ -78,7 +78,8 @@ def _size(data: Data) -> tuple[int, int, int, int]:
     """Size by which scenes are compared: bodies, vertices, weight of numbers, length of text."""
     bodies = data["bodies"]
     vertices = sum(
-        len(body.get("vertices", ())) + sum(len(f["vertices"]) for f in body.get("keyframes", ()))
+        sum(len(_at(body, ring)) for ring in _rings(body))
+        + sum(len(f["vertices"]) for f in body.get("keyframes", ()))
         for body in bodies
     )
     numbers = sum(_weight(_at(data, path)) for path in _numbers(data))
@@ -127,14 +128,36 @@ def _shorter_span(data: Data) -> Iterator[Data]:
 
 def _fewer_vertices(data: Data) -> Iterator[Data]:
     for i, body in enumerate(data["bodies"]):
-        if "vertices" in body:
-            for vertices in _without(body["vertices"]):
-                yield _changed(data, ("bodies", i, "vertices"), vertices)
-        elif "keyframes" in body:
+        for ring in _rings(body):
+            for vertices in _without(_at(body, ring)):
+                yield _changed(data, ("bodies", i, *ring), vertices)
+        if "keyframes" in body:
             frames = body["keyframes"]
             for kept in _without(range(len(frames[0]["vertices"]))):
                 thinner = [{**f, "vertices": [f["vertices"][v] for v in kept]} for f in frames]
                 yield _changed(data, ("bodies", i, "keyframes"), thinner)
+
+
+def _rings(body: Data) -> Iterator[Path]:
+    """The paths of the rings of vertices in a body."""
+    parts: list[Path] = [("parts", k) for k in range(len(body.get("parts", ())))]
+    for path in parts or ([()] if "vertices" in body else []):
+        part = _at(body, path)
+        yield (*path, "vertices")
+        yield from ((*path, "holes", k) for k in range(len(part.get("holes", ()))))
+
+
+def _fewer_rings(data: Data) -> Iterator[Data]:
+    for i, body in enumerate(data["bodies"]):
+        rest = {key: value for key, value in body.items() if key != "parts"}
+        for part in body.get("parts", ()):
+            yield _changed(data, ("bodies", i), {**rest, **part})
+        for parts in _without(body.get("parts", ())):
+            yield _changed(data, ("bodies", i, "parts"), parts)
+        for ring in _rings(body):
+            if ring[-1] == "vertices" and "holes" in _at(body, ring[:-1]):
+                for holes in _without(_at(body, ring[:-1])["holes"]):
+                    yield _changed(data, ("bodies", i, *ring[:-1], "holes"), holes)
 
 
 def _simpler_motions(data: Data) -> Iterator[Data]:
@@ -174,7 +197,7 @@ def _lower_degrees(data: Data) -> Iterator[Data]:
         value = _at(data, path)
         if isinstance(value, list) and len(value) > 1 and isinstance(value[0], str):
             yield _changed(data, path, value[:-1])
-        if isinstance(value, dict) and set(value) == {"x", "y"} and path[-2] == "vertices":
+        if isinstance(value, dict) and set(value) == {"x", "y"} and isinstance(path[-1], int):
             yield _changed(data, path, [value["x"][0], value["y"][0]])
 
 
@@ -210,6 +233,7 @@ def _simpler_names(data: Data) -> Iterator[Data]:
 _STEPS: Final = (
     _fewer_bodies,
     _shorter_span,
+    _fewer_rings,
     _fewer_vertices,
     _simpler_motions,
     _coarser_numbers,

@@ -12,7 +12,7 @@ from exactpt.certificates.convex_bodies import all_stay_convex
 from exactpt.errors import AuditError, InputError
 from exactpt.indices import VertexId
 from exactpt.kernel.counters import Counters
-from exactpt.motion.body import refuse_rounded
+from exactpt.motion.body import refuse_untiled
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling import catalogue
 from exactpt.tiling.catalogue import Bodies, Entry
@@ -35,9 +35,9 @@ def plan(name: str, bodies: Sequence[Body], start: QQ, end: QQ) -> tuple[Entry, 
 
     Raises:
         InputError: if there is no such tiling, it is for points and a body is not one, or a body
-            is rounded.
+            is rounded or has holes or several parts.
     """
-    refuse_rounded(bodies)
+    refuse_untiled(bodies)
     made: list[Vertices] = []
 
     def vertices() -> Vertices:

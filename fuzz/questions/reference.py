@@ -5,7 +5,7 @@ It shares nothing with `exactpt.proximity` but the kernel, the trajectories and 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from functools import cmp_to_key
 from itertools import combinations, pairwise, product
 from typing import Protocol, TypeAlias
@@ -88,10 +88,15 @@ def segments_meet(t: Instant, a: Track, b: Track, c: Track, d: Track) -> bool:
     )
 
 
-def contains(t: Instant, ring: Sequence[Track], v: Track) -> bool:
+def has_inside(t: Instant, body: Body, p: Tracks, other: Body, q: Tracks) -> bool:
+    """Whether a ring of another body is in a polygon whose edges it does not meet."""
+    return body.has_interior and any(contains(t, body, p, q[ring.start]) for ring in other.rings)
+
+
+def contains(t: Instant, body: Body, p: Tracks, v: Track) -> bool:
     """By the crossings of a ray to the right; v is on no edge."""
     inside = False
-    for a, b in zip(ring, [*ring[1:], ring[0]], strict=True):
+    for a, b in ((p[i], p[j]) for i, j in body.edges):
         above = [t.sign_of(difference(v.y, v.w, p.y, p.w)) > 0 for p in (a, b)]
         if above[0] != above[1]:
             left = t.sign_of(orientation(a, b, v)) > 0
@@ -106,8 +111,8 @@ def meet_at(t: Instant, a: Body, b: Body, p: Tracks, q: Tracks) -> bool:
             segments_meet(t, p[i], p[j], q[k], q[l])
             for (i, j), (k, l) in product(edges_of(a), edges_of(b))
         )
-        or (a.has_interior and contains(t, p, q[0]))
-        or (b.has_interior and contains(t, q, p[0]))
+        or has_inside(t, a, p, b, q)
+        or has_inside(t, b, q, a, p)
     )
 
 

@@ -22,6 +22,7 @@ from exactpt.scene.scene import Scene
 from fuzz.questions import reference
 from fuzz.questions.reference import Interval, Tracks
 from fuzz.questions.tiny import pair_scene
+from fuzz.rings import parts_of
 
 __all__ = ["intervals_within", "rounded_pair", "wrong_answer"]
 
@@ -32,6 +33,10 @@ def rounded_pair(random: Random) -> Scene:
     radii = random.choice([("0", "1"), ("1", "1"), ("1/2", "2"), ("1", "0"), ("2", "3/2")])
     bodies = []
     for body, radius in zip(scene.bodies, radii, strict=True):
+        if body.has_rings:
+            parts = parts_of(body, body.vertices)
+            bodies.append(Body(body.name, motion=body.motion, parts=parts, radius=radius))
+            continue
         vertices = None if body.keyframes else body.vertices
         keyframes = body.keyframes or None
         bodies.append(

@@ -8,6 +8,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion, Pieces, Rigid, Translation
 from exactpt.scene.scene import Scene
 from fuzz.questions.tiny import pair_scene, touching_scene
+from fuzz.rings import parts_of
 
 __all__ = ["crowded_scene", "distant_scene", "meeting_scene"]
 
@@ -35,7 +36,9 @@ def crowded_scene(random: Random) -> Scene:
         return touching_scene(random)
     scenes = [distant_scene(random), distant_scene(random)]
     bodies = [
-        Body(f"{body.name}{i}", body.vertices, body.motion, closed=body.closed)
+        Body(f"{body.name}{i}", motion=body.motion, parts=parts_of(body, body.vertices))
+        if body.has_rings
+        else Body(f"{body.name}{i}", body.vertices, body.motion, closed=body.closed)
         for i, scene in enumerate(scenes)
         for body in scene.bodies[: 2 - i]
     ]

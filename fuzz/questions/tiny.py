@@ -18,6 +18,20 @@ SHAPES: Final = (
     [(0, 0), (2, 0), (0, 2)],
     [(0, 0), (2, 0), (2, 2), (1, 1)],
 )
+RINGED: Final = (
+    [[[(-1, -1), (5, -1), (-1, 5)], [(0, 0), (2, 0), (0, 2)]]],
+    [[[(-2, -2), (2, -2), (2, 2), (-2, 2)], [(-1, -1), (-1, 1), (1, 0)]]],
+    [[[(0, 0), (2, 0), (0, 2)]], [[(2, 2), (1, 2), (2, 1)]]],
+)
+"""For each body its parts; for each of these its rings."""
+
+FRAME: Final = [(-4, -4), (6, -4), (6, 7), (-4, 7)]
+WINDOWS: Final = (
+    [(-3, -3), (5, -3), (5, 5), (-3, 5)],
+    [(0, 0), (4, 0), (4, 4), (0, 4)],
+    [(0, 0), (2, 0), (2, 2), (0, 2)],
+)
+"""A frame around other bodies, and holes in it in which they may be, or be stuck."""
 
 
 def pair_scene(random: Random) -> Scene:
@@ -25,7 +39,9 @@ def pair_scene(random: Random) -> Scene:
     bodies = []
     for name in ("a", "b"):
         dx, dy = random.randint(-3, 3), random.randint(-3, 3)
-        shape = [(x + dx, y + dy) for x, y in random.choice(SHAPES)]
+        parts = [
+            [[(x + dx, y + dy) for x, y in ring] for ring in rings] for rings in _parts(random)
+        ]
         motions: list[Motion] = [
             Translation([0]),
             Translation([0, random.randint(-2, 2)], [0, random.randint(-2, 2)]),
@@ -36,8 +52,18 @@ def pair_scene(random: Random) -> Scene:
             Pieces([(1, Translation([0, 1])), (None, Translation([0, 1], [-1, 1]))]),
             Pieces([(2, Translation([0])), (None, Translation([0], [2, -1]))]),
         ]
-        bodies.append(Body(name, shape, random.choice(motions), closed=random.random() < 0.6))
+        motion, closed = random.choice(motions), random.random() < 0.6
+        if len(parts) == len(parts[0]) == 1:
+            bodies.append(Body(name, parts[0][0], motion, closed=closed))
+        else:
+            made = [{"vertices": outline, "holes": holes} for outline, *holes in parts]
+            bodies.append(Body(name, motion=motion, parts=made))
     return Scene(bodies, time=(0, 4))
+
+
+def _parts(random: Random) -> list[list[list[tuple[int, int]]]]:
+    """The rings of each part of a tiny shape."""
+    return random.choice(RINGED) if random.random() < 0.2 else [[random.choice(SHAPES)]]
 
 
 def touching_scene(random: Random) -> Scene:
@@ -49,6 +75,8 @@ def touching_scene(random: Random) -> Scene:
             Body(f"b{i}", shape, _motion(random), closed=random.random() < 0.8)
             for i, shape in enumerate(shapes)
         ]
+        if random.random() < 0.2:
+            bodies.append(Body("frame", FRAME, _motion(random), holes=[random.choice(WINDOWS)]))
         start = random.choice([0, 0, 0, 1])  # 1: a breakpoint is at the start
         try:
             return Scene(bodies, time=(start, start + 3))

@@ -56,14 +56,15 @@ def test_the_default_is_a_hundredth_of_the_radius():
 def test_files_hold_the_outlines(tmp_path, ending):
     path = tmp_path / f"shapes.{ending}"
     write_shapes(SCENE, path, 1, tolerance=0.01)
-    back = read_shapes(path, holes="fill")
-    found = back.to_shapely(0).values()
+    found = read_shapes(path).to_shapely(0).values()
+    filled = read_shapes(path, holes="fill").to_shapely(0).values()
 
-    for geometry, expected in zip(found, SCENE.to_shapely(1, tolerance=0.01).values(), strict=True):
-        filled = shapely.Polygon(expected.exterior)
-        assert geometry.symmetric_difference(filled).area < 1e-9
+    expected = SCENE.to_shapely(1, tolerance=0.01).values()
+    for geometry, full, whole in zip(found, filled, expected, strict=True):
+        assert geometry.symmetric_difference(whole).area < 1e-9
+        assert full.symmetric_difference(shapely.Polygon(whole.exterior)).area < 1e-9
     with pytest.raises(InputError, match="hole"):
-        read_shapes(path)
+        read_shapes(path, holes="refuse")
 
 
 def test_holes_run_clockwise_in_geojson(tmp_path):

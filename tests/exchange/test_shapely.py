@@ -30,7 +30,8 @@ def test_a_scene_from_geometries_and_back():
     given = {"ring": ring, "dots": shapely.MultiPoint([(5, 5), (7, 7)])}
 
     with pytest.raises(exactpt.InputError, match="geometry 0: polygon 'ring' has 1 hole"):
-        exactpt.Scene.from_shapely(given)
+        exactpt.Scene.from_shapely(given, holes="refuse")
+    assert exactpt.Scene.from_shapely(given).to_shapely(0)["ring"].equals(ring)
     scene = exactpt.Scene.from_shapely(given, time=(0, 5), holes="fill")
     back = scene.to_shapely(4)
 

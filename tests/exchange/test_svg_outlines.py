@@ -139,7 +139,8 @@ def test_subpaths_inside_are_holes_and_islands():
 
     assert [len(shape.holes) for shape in found] == [1, 0, 0]
     with pytest.raises(InputError, match=r"outline 0 \(id o\): polygon 'o' has 1 hole"):
-        scene_of(found)
+        scene_of(found, holes="refuse")
+    assert [len(body.rings) for body in scene_of(found).bodies] == [2, 1, 1]
     assert [body.name for body in scene_of(found, holes="fill").bodies] == ["o", "o 2", "o 3"]
 
 

@@ -45,24 +45,27 @@ def test_several_geometries_of_all_kinds():
     assert [(body.name, body.size, body.closed) for body in bodies] == [
         ("body 0", 1, True),
         ("body 1", 3, False),
-        ("body 2", 3, True),
-        ("body 2 2", 3, True),
+        ("body 2", 6, True),
         ("body 3", 1, True),
         ("body 3 2", 2, True),
     ]
     assert bodies[1].at(0) == [(0, 5), (1, 6), (2, QQ(1, 2))]
-    assert bodies[5].at(0) == [(31, 0), (32, 0)]
+    assert bodies[4].at(0) == [(31, 0), (32, 0)]
 
 
 def test_holes_keep_their_own_points():
     text = "MULTIPOLYGON (((0 0, 9 0, 9 9, 0 0), (5 1, 6 1, 6 2, 5 1)), ((20 0, 21 0, 20 1, 20 0)))"
-    first, second = shapes_of(text)
+    (whole,) = shapes_of(text)
+    first, second = whole.parts
 
     assert first.holes == [[(5, 1), (6, 1), (6, 2), (5, 1)]]
     assert second.points[0] == (20, 0)
     with pytest.raises(InputError, match="geometry 0, part 0: polygon 'body 0' has 1 hole"):
-        scene(text)
-    assert [body.size for body in scene(text, holes="fill").bodies] == [3, 3]
+        scene(text, holes="refuse")
+    assert [body.parts for body in scene(text).bodies] == [
+        ((range(3), range(3, 6)), (range(6, 9),))
+    ]
+    assert [body.size for body in scene(text, holes="fill", parts="split").bodies] == [3, 3]
 
 
 @pytest.mark.parametrize(

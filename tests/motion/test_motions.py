@@ -263,7 +263,7 @@ def test_motions_that_are_none_are_refused(make, words):
     "arguments, words",
     [
         ({"name": "", "vertices": [(0, 0)]}, "a text that is not empty"),
-        ({"name": "a"}, "'a': give either vertices or keyframes"),
+        ({"name": "a"}, "'a': give either vertices or keyframes or parts"),
         ({"name": "a", "vertices": [(0, 0)], "keyframes": []}, "'a': give either"),
         ({"name": "a", "vertices": []}, "'a': at least one vertex"),
         ({"name": "a", "vertices": [(0, 0), (1,)]}, "'a': vertex 1: a vertex has two"),

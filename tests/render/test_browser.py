@@ -9,6 +9,7 @@ from itertools import accumulate
 import pytest
 from render_scenes import demo
 
+from exactpt import Body, Scene
 from exactpt.certificates.one_sided import OneSided
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
 from exactpt.proximity.clearance import clearance
@@ -17,6 +18,7 @@ from exactpt.render.film import film_of
 from exactpt.render.fixed import near
 from exactpt.render.frame import frame_of
 from exactpt.render.page import page_of
+from exactpt.render.palette import body_colour
 from exactpt.render.still import still
 from exactpt.scene.generate import generate
 from exactpt.simulation.simulation import Simulation
@@ -373,4 +375,19 @@ def test_the_plot_of_a_clearance_follows_the_time(browser, tmp_path):
     )
     assert plot["left"] == pytest.approx(ruler["left"], abs=2)
     assert plot["bottom"] < ruler["top"]
+    assert browser.get_log("browser") == []
+
+
+def test_a_hole_is_not_filled(browser, tmp_path):
+    """In the hole there is the colour of the paper, and no body under the pointer."""
+    hole = [(1, 1), (9, 1), (9, 9), (1, 9)]
+    frame = Body("frame", [(0, 0), (10, 0), (10, 10), (0, 10)], holes=[hole])
+    path = tmp_path / "frame.html"
+    path.write_text(page_of(film_of(Scene([frame])), title="frame"), encoding="utf-8")
+    browser.get(path.as_uri())
+    browser.execute_script("document.getElementById('layer-names').click()")
+    corners = state(browser)["pixels"]
+    middles = [[(corners[u][k] + corners[v][k]) / 2 for k in (0, 1)] for u, v in ((0, 2), (0, 4))]
+    in_hole, in_body = (colour(browser, *middle) for middle in middles)
+    assert in_body == body_colour(0) != in_hole
     assert browser.get_log("browser") == []

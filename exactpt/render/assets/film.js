@@ -101,12 +101,13 @@ class Film {
   }
 }
 
-function readBody([name, colour, closed, pieces, radius = 0]) {
+/** A body; `starts` has the number of the first vertex of each ring. */
+function readBody([name, colour, closed, pieces, radius = 0, starts = [0]]) {
   const tracks = pieces.map(([until, rows]) => ({
     until: until === null ? null : BigInt(until),
     rows: rows.map((row) => row.map((f) => f.map(BigInt))),
   }));
-  return { name, colour, closed, radius, size: tracks[0].rows.length, pieces: tracks };
+  return { name, colour, closed, radius, starts, size: tracks[0].rows.length, pieces: tracks };
 }
 
 /** An integer polynomial, constant term first, as a formula. */

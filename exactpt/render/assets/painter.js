@@ -91,9 +91,9 @@ class Painter {
       if (body.radius) this.rounded(body);
       if (body.radius || !body.closed || body.size < 3) continue;
       context.beginPath();
-      pen.polygon(ring(body));
+      for (const ring of rings(body)) pen.polygon(ring);
       context.fillStyle = body.colour;
-      context.fill();
+      context.fill("evenodd");
     }
   }
 
@@ -102,14 +102,14 @@ class Painter {
     const { colours, context, pen } = this;
     const width = 2 * body.radius * pen.camera.scale;
     context.beginPath();
-    if (body.closed && body.size > 2) pen.polygon(ring(body));
+    if (body.closed && body.size > 2) for (const ring of rings(body)) pen.polygon(ring);
     else if (body.size > 1) this.around(body);
     else pen.segment(body.first, body.first);
     this.stroke(colours.outline, width + 2.4);
     this.stroke(body.colour, width);
     if (body.closed && body.size > 2) {
       context.fillStyle = body.colour;
-      context.fill();
+      context.fill("evenodd");
     }
   }
 
@@ -137,9 +137,9 @@ class Painter {
   }
 
   around(body) {
-    const last = body.closed && body.size > 2 ? body.size : body.size - 1;
-    for (let i = 0; i < last; i += 1) {
-      this.pen.segment(body.first + i, body.first + ((i + 1) % body.size));
+    for (const ring of rings(body)) {
+      const last = body.closed && body.size > 2 ? ring.length : ring.length - 1;
+      for (let i = 0; i < last; i += 1) this.pen.segment(ring[i], ring[(i + 1) % ring.length]);
     }
   }
 
@@ -242,7 +242,7 @@ class Painter {
     context.strokeStyle = colours.paper;
     context.fillStyle = colours.ink;
     for (const body of this.film.bodies) {
-      const pixels = ring(body).map((v) => this.pen.pixel(v));
+      const pixels = rings(body).map((ring) => ring.map((v) => this.pen.pixel(v)));
       const [x, y] = label(pixels, body.closed, body.radius ? 0 : 13);
       if (Math.abs(x) > NEAR || Math.abs(y) > NEAR) continue;
       context.strokeText(body.name, x, y + 4);
@@ -287,22 +287,26 @@ class Painter {
   }
 }
 
-/** The vertices of a body. */
-function ring(body) {
-  return Array.from({ length: body.size }, (_, i) => body.first + i);
+/** The vertices of each ring of a body. */
+function rings({ first, starts, size }) {
+  return starts.map((start, k) => {
+    const end = starts[k + 1] ?? size;
+    return Array.from({ length: end - start }, (_, i) => first + start + i);
+  });
 }
 
 /** The position of a name: in the middle of a body; of a non-convex one, where it is widest. */
-function label(pixels, isClosed, above) {
+function label(outlines, isClosed, above) {
+  const pixels = outlines.flat();
   const [x, y] = [0, 1].map((i) => pixels.reduce((sum, p) => sum + p[i], 0) / pixels.length);
   if (pixels.length < 3 || !isClosed) return [x, y - above];
-  if (insideAt(pixels, y).some(([left, right]) => left < x && x < right)) return [x, y];
+  if (insideAt(outlines, y).some(([left, right]) => left < x && x < right)) return [x, y];
   const heights = pixels.map((p) => p[1]);
   const [low, high] = [Math.min(...heights), Math.max(...heights)];
   let [best, place] = [0, [x, y]];
   for (let k = 1; k < 16; k += 1) {
     const row = low + ((high - low) * k) / 16;
-    for (const [left, right] of insideAt(pixels, row)) {
+    for (const [left, right] of insideAt(outlines, row)) {
       if (right - left > best) [best, place] = [right - left, [(left + right) / 2, row]];
     }
   }
@@ -310,11 +314,11 @@ function label(pixels, isClosed, above) {
 }
 
 /** The intervals in which a horizontal line is inside a polygon. */
-function insideAt(pixels, y) {
-  const crossings = pixels.flatMap(([px, py], i) => {
+function insideAt(outlines, y) {
+  const crossings = outlines.flatMap((pixels) => pixels.flatMap(([px, py], i) => {
     const [qx, qy] = pixels[(i + 1) % pixels.length];
     return py <= y !== qy <= y ? [px + ((y - py) * (qx - px)) / (qy - py)] : [];
-  }).sort((a, b) => a - b);
+  })).sort((a, b) => a - b);
   return crossings.flatMap((left, i) => (i % 2 ? [] : [[left, crossings[i + 1]]]));
 }
 

@@ -18,7 +18,8 @@ function pick(pen, film, step, x, y, layers) {
       .reduce((best, next) => (next[1] < best[1] ? next : best), [null, REACHES.edge]);
     if (found[0]) return { edge: found[0] };
   }
-  const body = film.bodies.findIndex((b) => contains(pen.cut(ring(b)), px, py));
+  const body = film.bodies.findIndex((b) =>
+    rings(b).filter((ring) => contains(pen.cut(ring), px, py)).length % 2);
   const inside = tiles.find((tile) => (tile.inside || body < 0)
     && contains(pen.cut(tile.nodes), px, py));
   if (layers.tiles && inside) return { tile: inside };

@@ -1,0 +1,144 @@
+"""Holes and MultiPolygons in GeoJSON, WKT, SVG and shapely: in as they are, out again; repairs."""
+
+import json
+
+import pytest
+import shapely
+
+from exactpt import Body, Scene, Translation, read_shapes, write_shapes
+from exactpt.cli import main
+from exactpt.errors import InputError
+from exactpt.scene.generate import RINGS, generate
+
+LAND = [(0, 0), (9, 0), (9, 9), (0, 9)]
+LAKE = [(1, 1), (8, 1), (8, 8), (1, 8)]
+ISLE = [(3, 3), (5, 3), (3, 5)]
+FAR = [(20, 0), (22, 0), (20, 2)]
+WHOLE = Body("land", parts=[{"vertices": LAND, "holes": [LAKE]}, ISLE, FAR])
+TIE = "POLYGON ((0 0, 2 2, 2 0, 0 2, 0 0))"
+
+
+def run(*arguments):
+    with pytest.raises(SystemExit) as end:
+        main([*map(str, arguments)])
+    return end.value.code or 0
+
+
+def places(body):
+    """The rings of each part as sets of vertices, in doubles."""
+    at = [(float(x), float(y)) for x, y in body.at(0)]
+    return [[{at[i] for i in ring} for ring in rings] for rings in body.parts]
+
+
+@pytest.mark.parametrize("ending", ["geojson", "wkt"])
+@pytest.mark.parametrize("family", sorted(RINGS))
+def test_what_is_written_is_read_back(tmp_path, family, ending):
+    """In the same order and to the last digit."""
+    for seed in range(8):
+        scene = generate(family, seed)
+        first, second = tmp_path / f"a.{ending}", tmp_path / f"b.{ending}"
+        rounded = Scene(
+            [Body.from_shapely(g, name) for name, g in scene.to_shapely(0).items()],
+            (scene.start, scene.end),
+        )
+        write_shapes(rounded, first)
+        back = read_shapes(first, time=(scene.start, scene.end))
+        assert list(map(places, back.bodies)) == list(map(places, rounded.bodies))
+        write_shapes(back, second)
+        if ending == "wkt":
+            assert second.read_text() == first.read_text()
+        else:
+            assert json.loads(second.read_text()) == json.loads(first.read_text())
+
+
+def test_geojson_has_the_kinds_and_orientations_of_the_standard(tmp_path):
+    path = tmp_path / "land.geojson"
+    write_shapes(Scene([WHOLE, Body("plain", [(50, 0), (51, 0), (50, 1)])]), path)
+    first, second = json.loads(path.read_text())["features"]
+    assert (first["geometry"]["type"], second["geometry"]["type"]) == ("MultiPolygon", "Polygon")
+    for outer, *holes in first["geometry"]["coordinates"]:
+        assert shapely.LinearRing(outer).is_ccw
+        assert not any(shapely.LinearRing(hole).is_ccw for hole in holes)
+
+
+def test_a_drawing_has_one_path_with_all_rings(tmp_path):
+    path = tmp_path / "land.svg"
+    write_shapes(Scene([WHOLE]), path)
+    assert path.read_text().count("<path") == 1
+    assert path.read_text().count("evenodd") == 1
+    back = read_shapes(path)
+    assert [len(body.rings) for body in back.bodies] == [2, 1, 1]
+
+
+def test_shapely_and_back_at_a_time():
+    scene = Scene([WHOLE.with_motion(Translation([0, 2]))], (0, 4))
+    moved = scene.to_shapely(3)["land"]
+    assert moved.geom_type == "MultiPolygon"
+    assert moved.is_valid
+    assert moved.area == 81 - 49 + 2 + 2
+    assert moved.bounds == (6, 0, 28, 9)
+    assert Scene.from_shapely({"land": moved}).to_shapely(0)["land"].equals(moved)
+    assert Body.from_shapely(moved, "land").parts == WHOLE.parts
+
+
+def test_parts_are_bodies_of_their_own_on_demand():
+    whole = Scene([WHOLE]).to_shapely(0)
+    split = Scene.from_shapely(whole, parts="split")
+    assert [body.name for body in split.bodies] == ["land", "land 2", "land 3"]
+    assert [len(body.rings) for body in split.bodies] == [2, 1, 1]
+
+
+@pytest.mark.parametrize("given", [{"holes": "drop"}, {"parts": "drop"}])
+def test_other_words_are_refused(tmp_path, given):
+    path = tmp_path / "tie.wkt"
+    path.write_text(TIE)
+    with pytest.raises(InputError, match=r"either keep"):
+        read_shapes(path, **given)
+
+
+def test_parts_that_touch_are_refused_with_what_to_do(tmp_path):
+    path = tmp_path / "touching.wkt"
+    path.write_text("MULTIPOLYGON (((0 0, 1 0, 1 1, 0 0)), ((1 1, 2 1, 2 2, 1 1)))")
+    with pytest.raises(InputError, match=r"meets edge .*split it \(--parts split\), mend it"):
+        read_shapes(path)
+    assert len(read_shapes(path, parts="split").bodies) == 2
+
+
+def test_repair_says_what_it_changes(tmp_path, capsys):
+    source, target = tmp_path / "a.wkt", tmp_path / "a.json"
+    source.write_text(
+        "POLYGON ((30 0, 40 0, 40 9, 30 9, 30 0), (32 1, 36 1, 36 8, 32 8, 32 1), "
+        f"(35 3, 38 3, 38 5, 35 5, 35 3))\n{TIE}\nPOLYGON ((60 0, 61 0, 60 1, 60 0))"
+    )
+    assert run("convert", source, target) == 2
+    assert run("convert", source, target, "--repair") == 0
+    told = [line for line in capsys.readouterr().err.splitlines() if "repaired" in line]
+    assert len(told) == 2
+    assert "geometry 0: repaired 'body 0' (Self-intersection" in told[0]
+    assert "1 polygon of 12 vertices became 2 polygons of 16 vertices, which touch" in told[0]
+    assert "geometry 1: repaired 'body 1' (Self-intersection" in told[1]
+    assert "1 polygon of 4 vertices became 2 polygons of 6 vertices, which touch" in told[1]
+    bodies = Scene.load(target).bodies
+    names = ["body 0", "body 0 2", "body 1", "body 1 2", "body 2"]
+    assert [body.name for body in bodies] == names
+    assert sorted(len(body.rings) for body in bodies) == [1, 1, 1, 1, 2]
+
+
+def test_what_has_no_area_is_not_repaired(tmp_path, capsys):
+    source, target = tmp_path / "a.wkt", tmp_path / "a.json"
+    source.write_text("POLYGON ((0 0, 1 1, 2 2, 0 0))")
+    assert run("convert", source, target, "--repair") == 2
+    assert "nothing of 'body 0' has an area" in capsys.readouterr().err
+    source.write_text("LINESTRING (0 0, 2 0, 1 1, 1 -1)")
+    assert run("convert", source, target, "--repair") == 2
+    assert "only polygons are repaired" in capsys.readouterr().err
+
+
+def test_the_command_has_the_choices(tmp_path):
+    source, target = tmp_path / "a.geojson", tmp_path / "a.json"
+    write_shapes(Scene([WHOLE]), source)
+    assert run("convert", source, target, "--quiet") == 0
+    assert len(Scene.load(target).bodies[0].rings) == 4
+    assert run("convert", source, target, "--quiet", "--holes", "fill", "--parts", "split") == 0
+    assert [len(b.rings) for b in Scene.load(target).bodies] == [1, 1, 1]
+    assert run("convert", source, target, "--quiet", "--holes", "refuse") == 2
