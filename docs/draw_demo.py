@@ -3,25 +3,33 @@
     python docs/draw_demo.py           # with exactpt installed; `make pictures` does it
 
 Positions are exact at the times of the keys, and rounded to a tenth of a pixel; a viewer
-moves everything straight in between. One that cannot shows the start.
+moves everything straight in between. One that cannot shows the start,
+and one that is asked for reduced motion the contact.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from importlib.resources import files
 from itertools import accumulate
 from pathlib import Path
+from typing import TypeAlias
 
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.render.film import Film, film_of
-from exactpt.render.palette import LIGHT, body_colour
+from exactpt.render.palette import DARK, LIGHT, TINTS, body_colour
 from exactpt.scene.format import loads
 
 KEYS = 60
 SECONDS, PAUSE = 12, 3
 WIDTH, MARGIN = 800, 24
+RULER = 32
 LEVELS = (0.16, 0.28, 0.4)
+SPOKEN = 'role="img" aria-labelledby="title"'
+TITLE = "The demo's tiling flexes up to its first contact; below, the times of its events"
+
+Shaped: TypeAlias = Callable[[str, tuple[int, ...], int, int | None], str]
 
 
 class Picture:
@@ -88,43 +96,78 @@ class Picture:
         return [self.pixel(*p) for body in self.film.scene.bodies for p in body.at(t)]
 
     def svg(self) -> str:
-        """The picture."""
-        film, colours = self.film, LIGHT
-        bodies = film.scene.bodies
-        ring = list(accumulate((body.size for body in bodies), initial=0))
+        """The picture: it moves, or shows the contact to whoever prefers reduced motion."""
+        height = self.height + RULER
         parts = [
-            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {self.height}">',
-            f'<rect width="100%" height="100%" fill="{colours["paper"]}"/>',
-            '<g stroke-linejoin="round" stroke-linecap="round">',
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" {SPOKEN}>',
+            f'<title id="title">{TITLE}</title>',
+            f"<style>{_style()}</style>",
+            '<rect class="paper" width="100%" height="100%"/>',
+            '<g class="moves" stroke-linejoin="round" stroke-linecap="round">',
+            *self.parts(self.moving),
+            self.contact(moving=True),
+            "</g>",
+            '<g class="rests" stroke-linejoin="round" stroke-linecap="round">',
+            *self.parts(self.resting),
+            self.contact(moving=False),
+            "</g>",
+            *self.ruler(),
+            "</svg>",
         ]
+        return "\n".join([*filter(None, parts), ""])
+
+    def resting(self, kind: str, nodes: tuple[int, ...], first: int, last: int | None) -> str:
+        """As `moving`, at the end."""
+        if last is not None or self.time_of(first) >= self.time_of(None):
+            return ""
+        row = self.at_key[-1]
+        return f'<{kind} points="{" ".join(row[v] for v in nodes)}"/>'
+
+    def parts(self, shape: Shaped) -> Iterator[str]:
+        """Tiles, bodies and edges."""
+        film = self.film
         for tile in film.tiles:
-            if not tile.inside:
-                fill = f'fill="{colours[f"tint{tile.tint}"]}"'
-                if tile.place.body >= 0:
-                    strength = LEVELS[tile.place.level % len(LEVELS)]
-                    fill = f'fill="{body_colour(tile.place.body)}" fill-opacity="{strength}"'
-                shape = self.moving("polygon", tile.nodes, tile.first, tile.last)
-                parts.append(f"<g {fill}>{shape}</g>" if shape else "")
-        for i, body in enumerate(bodies):
+            drawn = "" if tile.inside else shape("polygon", tile.nodes, tile.first, tile.last)
+            if drawn and tile.place.body >= 0:
+                strength = LEVELS[tile.place.level % len(LEVELS)]
+                fill = f'fill="{body_colour(tile.place.body)}" fill-opacity="{strength}"'
+                yield f"<g {fill}>{drawn}</g>"
+            elif drawn:
+                yield f'<g class="tint{tile.tint}">{drawn}</g>'
+        ring = list(accumulate((body.size for body in film.scene.bodies), initial=0))
+        for i, body in enumerate(film.scene.bodies):
             nodes = tuple(range(ring[i], ring[i + 1]))
-            look = f'fill="{body_colour(i)}" stroke="{colours["outline"]}" stroke-width="1.2"'
+            look = f'class="body" fill="{body_colour(i)}" stroke-width="1.2"'
             if body.size < 3:
                 width, nodes = (9, nodes * 2) if body.size == 1 else (4, nodes)
                 look = f'fill="none" stroke="{body_colour(i)}" stroke-width="{width}"'
-            parts.append(f"<g {look}>{self.moving('polygon', nodes, 0, None)}</g>")
+            yield f"<g {look}>{shape('polygon', nodes, 0, None)}</g>"
         for kind, width in (("diagonal", 1.1), ("hull", 1.8), ("rim", 1.8)):
-            colour = colours["diagonal" if kind == "diagonal" else "hull"]
-            parts.append(f'<g fill="none" stroke="{colour}" stroke-width="{width}">')
-            parts += [
-                self.moving("polyline", (edge.u, edge.v), edge.first, edge.last)
-                for edge in film.edges
-                if edge.kind == kind
-            ]
-            parts.append("</g>")
-        return "\n".join([*filter(None, parts), self.contact(), "</g></svg>", ""])
+            name = "diagonal" if kind == "diagonal" else "hull"
+            yield f'<g class="{name}" fill="none" stroke-width="{width}">'
+            for edge in film.edges:
+                if edge.kind == kind:
+                    yield shape("polyline", (edge.u, edge.v), edge.first, edge.last)
+            yield "</g>"
 
-    def contact(self) -> str:
-        """A ring around what touches, while the picture stands still."""
+    def ruler(self) -> Iterator[str]:
+        """The times of the events as ticks, and where the picture is."""
+        y, width = self.height + RULER // 2, WIDTH - 2 * MARGIN
+        share = [
+            (self.time_of(k + 1) - self.start) / self.span for k in range(len(self.film.steps))
+        ]
+        ticks = "".join(f"M{MARGIN + float(x) * width:.1f} {y - 5}v10" for x in share[:-1])
+        yield f'<path class="ticks" d="M{MARGIN} {y}h{width}{ticks}"/>'
+        yield f'<path class="touch" stroke-width="2.6" d="M{WIDTH - MARGIN} {y - 8}v16"/>'
+        rest = SECONDS / (SECONDS + PAUSE)
+        move = (
+            f'<animate attributeName="cx" values="{MARGIN};{WIDTH - MARGIN};{WIDTH - MARGIN}" '
+            f'keyTimes="0;{rest};1" dur="{SECONDS + PAUSE}s" repeatCount="indefinite"/>'
+        )
+        yield f'<circle class="now moves" cx="{MARGIN}" cy="{y}" r="5">{move}</circle>'
+
+    def contact(self, *, moving: bool) -> str:
+        """A ring around what touches; if all else moves, while the picture stands still."""
         contact, share = self.film.contact, SECONDS / (SECONDS + PAUSE)
         if contact is None:
             return ""
@@ -132,11 +175,34 @@ class Picture:
         for pair in contact.pairs:
             x, y = self.pixel(*map(QQ, pair.point)).split(",")
             rings.append(f'<circle cx="{x}" cy="{y}" r="11"/>')
+        look = 'class="touch" fill="none" stroke-width="2.6"'
+        if not moving:
+            return f"<g {look}>{''.join(rings)}</g>"
         loop = f'dur="{SECONDS + PAUSE}s" repeatCount="indefinite" calcMode="discrete"'
         seen = f'values="hidden;visible" keyTimes="0;{share}" {loop}'
         show = f'<animate attributeName="visibility" {seen}/>'
-        look = f'fill="none" stroke="{LIGHT["contact"]}" stroke-width="2.6" visibility="hidden"'
-        return f"<g {look}>{''.join(rings)}{show}</g>"
+        return f'<g {look} visibility="hidden">{"".join(rings)}{show}</g>'
+
+
+def _style() -> str:
+    dark, calm = "(prefers-color-scheme:dark)", "(prefers-reduced-motion:reduce)"
+    return (
+        f".rests{{display:none}}{_rules(LIGHT)}@media {dark}{{{_rules(DARK)}}}"
+        f"@media {calm}{{.moves{{display:none}}.rests{{display:inline}}}}"
+    )
+
+
+def _rules(colours: dict[str, str]) -> str:
+    fills = {"paper": "paper", "now": "accent"} | {f"tint{i}": f"tint{i}" for i in range(TINTS)}
+    strokes = {
+        "body": "outline", "diagonal": "diagonal", "hull": "hull", "ticks": "soft",
+        "touch": "contact",
+    }  # fmt: skip
+    return "".join(
+        f".{name}{{{what}:{colours[colour]}}}"
+        for what, names in (("fill", fills), ("stroke", strokes))
+        for name, colour in names.items()
+    )
 
 
 def drawn() -> str:

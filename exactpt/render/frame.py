@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, TypeAlias, final
 
 from exactpt.kernel.numbers import nearest_float, rational
+from exactpt.render.labels import Named, labels
 from exactpt.render.palette import TINTS, body_colour
 from exactpt.render.window import Window, window_of
 from exactpt.render.words import contact_in_words, time_in_words
@@ -33,7 +34,7 @@ _LETTER: Final = 8.0
 class Shape:
     """A body: one point, two, a polygon (``closed``) or an open chain, in pixels.
 
-    Its name is centred at the pixel ``label``; None if there are too many bodies for labels.
+    Its name is centred at the pixel ``label``; None if it has no place (`exactpt.render.labels`).
     With a ``radius``, all pixels within it belong to the body. ``rings`` has the numbers of the
     pixels of each ring.
     """
@@ -121,18 +122,28 @@ def frame_of(still: Still) -> Frame:
         ]
     )
     pixels = {name: tuple(window.pixel(x, y) for x, y in body) for name, body in places.items()}
-    named = len(scene.bodies) <= NAMED
+    names = [
+        Named(
+            body.name,
+            pixels[body.name],
+            body.edges,
+            body.has_interior,
+            nearest_float(body._radius * window.scale),
+        )
+        for body in scene.bodies
+    ]
+    spots = labels(names) if len(names) <= NAMED else [None] * len(names)
     shapes = tuple(
         Shape(
             body.name,
             body_colour(i),
             pixels[body.name],
             body.closed,
-            _label(pixels[body.name], body) if named else None,
+            label,
             body.rings,
-            nearest_float(body._radius * window.scale),
+            named.radius,
         )
-        for i, body in enumerate(scene.bodies)
+        for i, (body, named, label) in enumerate(zip(scene.bodies, names, spots, strict=True))
     )
     tiles: tuple[Tile, ...] = ()
     lines: tuple[Line, ...] = ()
@@ -153,31 +164,6 @@ def frame_of(still: Still) -> Frame:
             for pair in still.contact.pairs
         )
     return Frame(window, caption, news, note, tiles, shapes, lines, marks)
-
-
-def _label(pixels: Sequence[Pixel], body: Body) -> Pixel:
-    """The position of a name: in the middle of a body; of a non-convex one, where it is widest."""
-    x, y = (sum(c) / len(pixels) for c in zip(*pixels, strict=True))
-    if not body.has_interior:
-        return x, y - (0.0 if body._radius else 13.0)
-    sides = [(pixels[i], pixels[j]) for i, j in body.edges]
-    if any(left < x < right for left, right in _inside_at(sides, y)):
-        return x, y
-    low, high = min(q for _, q in pixels), max(q for _, q in pixels)
-    rows = [low + (high - low) * k / 16 for k in range(1, 16)]
-    spans = [(right - left, left, row) for row in rows for left, right in _inside_at(sides, row)]
-    width, left, row = max(spans, default=(0.0, x, y))
-    return left + width / 2, row
-
-
-def _inside_at(sides: Sequence[tuple[Pixel, Pixel]], y: float) -> list[tuple[float, float]]:
-    """The intervals in which the horizontal line at height y is inside a polygon."""
-    crossings = sorted(
-        px + (y - py) * (qx - px) / (qy - py)
-        for (px, py), (qx, qy) in sides
-        if (py <= y) != (qy <= y)
-    )
-    return list(zip(crossings[::2], crossings[1::2], strict=True))
 
 
 def _tiling(

@@ -28,6 +28,7 @@ SCRIPTS: Final = (
     "pen",
     "shadow",
     "painter",
+    "certificates",
     "picker",
     "player",
     "panel",

@@ -5,13 +5,16 @@ import shutil
 import time
 import warnings
 from itertools import accumulate
+from pathlib import Path
 
 import pytest
 from render_scenes import demo
 
-from exactpt import Body, Scene
 from exactpt.certificates.one_sided import OneSided
-from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ, ZZ, nearest_float, power_of_two
+from exactpt.kernel.roots import roots_after
+from exactpt.motion.body import Body
 from exactpt.proximity.clearance import clearance
 from exactpt.pseudotriangulation.flip import shadow
 from exactpt.render.film import film_of
@@ -21,6 +24,7 @@ from exactpt.render.page import page_of
 from exactpt.render.palette import body_colour
 from exactpt.render.still import still
 from exactpt.scene.generate import generate
+from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 
 pytestmark = pytest.mark.browser
@@ -391,3 +395,124 @@ def test_a_hole_is_not_filled(browser, tmp_path):
     in_hole, in_body = (colour(browser, *middle) for middle in middles)
     assert in_body == body_colour(0) != in_hole
     assert browser.get_log("browser") == []
+
+
+def test_a_disc_is_drawn_and_told_of(browser, tmp_path):
+    scene = Scene(
+        [Body("disc", [(0, 0)], radius=2), Body("bar", [(5, 0), (9, 0)], radius=1)], (0, 1)
+    )
+    path = tmp_path / "disc.html"
+    path.write_text(page_of(film_of(scene)), encoding="utf-8")
+    browser.get(path.as_uri())
+    x, y = state(browser)["pixels"][0]
+    assert colour(browser, x + 20, y) == body_colour(0)
+    hover(browser, x + 20, y + 20)
+    assert browser.find_element("id", "tip").text.splitlines() == ["disc", "point, rounded"]
+    assert browser.get_log("browser") == []
+
+
+def hover(page, x, y):
+    canvas = page.find_element("id", "canvas")
+    size = canvas.size
+    webdriver.ActionChains(page).move_to_element_with_offset(
+        canvas, round(x - size["width"] / 2), round(y - size["height"] / 2)
+    ).perform()
+
+
+@pytest.mark.parametrize("at", [QQ(0), QQ(4), QQ(31, 7)])
+def test_the_certificates_of_a_tile_have_the_roots_of_the_engine(page, at):
+    """The polynomials computed again from the positions, and their roots by `roots_between`."""
+    page.execute_script("exactpt.seek(arguments[0])", str(at))
+    tiles = state(page)["tiles"]
+    scene = demo()
+    owner = [(body, i) for body in scene.bodies for i in range(body.size)]
+    seen = 0
+    for index in range(len(tiles)):
+        told = page.execute_script("return exactpt.certificates(arguments[0])", index)
+        roots = [QQ(c["root"]) for c in told if c["root"] is not None]
+        assert roots == sorted(roots)
+        for certificate in told:
+            f = [int(c) for c in certificate["polynomial"]]
+            for t in (at, at + QQ(1, 1000)):
+                (ax, ay), (bx, by), (cx, cy) = (
+                    body.at(t)[i] for body, i in (owner[v] for v in certificate["nodes"])
+                )
+                turn = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+                value = sum(c * t**k for k, c in enumerate(f))
+                assert (turn > 0) - (turn < 0) == (value > 0) - (value < 0)
+            piece = min(
+                (p for v in certificate["nodes"]
+                 if (p := owner[v][0]._piece_after(at).until) is not None),
+                default=scene.end,
+            )  # fmt: skip
+            end = min(QQ(piece), near(page_end(), QQ(10)))
+            expected = first_root(f, at, end)
+            if expected is None:
+                assert certificate["root"] is None
+            else:
+                assert float(certificate["root"]) == pytest.approx(float(expected), rel=1e-15)
+                seen += 1
+    assert seen > 10
+
+
+def first_root(f, start, end):
+    integers = tuple(map(ZZ, f))
+    found = roots_after(integers, AlgebraicNumber(start), end)
+    return next((r.time for r in found if r.time.compare_rational(end) < 0), None)
+
+
+def page_end():
+    return film_of(demo()).end
+
+
+def test_a_tile_shows_its_proof(page):
+    page.execute_script("exactpt.seek('4')")
+    shown = state(page)
+    nodes = next(n for n in shown["tiles"] if len(n) == 3 and len({*n}) == 3)
+    hover(page, *(sum(shown["pixels"][v][k] for v in nodes) / 3 for k in (0, 1)))
+    text = page.find_element("id", "tip").text
+    assert "corners" in text
+    assert " ≠ 0" in text or "no certificate of it can fail" in text
+
+
+def test_no_name_covers_more_than_its_body(page):
+    """Names vanish from bodies that are too small on the screen, and come back by zooming in."""
+    whole = page.execute_script("return exactpt.labels().map((l) => l.text)")
+    page.execute_script("exactpt.look(['0', '0'], 1 / 8); exactpt.state()")
+    small = page.execute_script("return exactpt.labels().map((l) => l.text)")
+    assert set(small) <= {"spark", "needle"}  # which have no room inside, and are named above
+    assert {"harbour", "wheel"} <= set(whole)
+
+
+def test_what_lies_over_the_picture_has_solid_ground(page):
+    for theme in ("light", "dark"):
+        page.execute_script("document.documentElement.dataset.theme = arguments[0]", theme)
+        grounds = [ground(page, name) for name in (".clock", ".ruler", "#layer-tiles", "#follow")]
+        assert all(g.startswith("rgb(") for g in grounds)  # without an alpha below one
+        assert grounds[2] != grounds[3]  # pressed, and not
+
+
+def ground(page, selector):
+    return page.execute_script(
+        "return getComputedStyle(document.querySelector(arguments[0])).backgroundColor", selector
+    )
+
+
+@pytest.mark.parametrize("calm", [False, True])
+def test_the_moving_picture_of_the_readme(browser, calm):
+    value = "reduce" if calm else "no-preference"
+    features = [{"name": "prefers-reduced-motion", "value": value},
+                {"name": "prefers-color-scheme", "value": "dark"}]  # fmt: skip
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+    browser.get((Path(__file__).parents[2] / "docs" / "demo.svg").as_uri())
+    shown = [
+        browser.execute_script(
+            "return getComputedStyle(document.querySelector(arguments[0])).display", name
+        )
+        for name in (".moves", ".rests")
+    ]
+    fill = browser.execute_script("return getComputedStyle(document.querySelector('.paper')).fill")
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+    assert [name == "none" for name in shown] == [calm, not calm]
+    assert fill == "rgb(14, 18, 24)"
+    assert browser.title.startswith("The demo's tiling flexes")

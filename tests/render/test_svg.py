@@ -10,10 +10,12 @@ from render_scenes import apart, demo, overlapping, small
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
 from exactpt.render.draw import draw
 from exactpt.render.frame import frame_of
 from exactpt.render.still import still
 from exactpt.render.svg import svg_of
+from exactpt.scene.scene import Scene
 from exactpt.simulation.tile import tile_at
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -64,9 +66,23 @@ def test_bodies_and_tiles_are_where_they_are(scene, tiling, at):
 def test_everything_is_inside_the_picture():
     frame, _ = drawn(demo(), QQ(7))
     for shape in frame.shapes:
-        for x, y in (*shape.pixels, shape.label):
+        for x, y in (*shape.pixels, *([shape.label] if shape.label else [])):
             assert 0 < x < frame.window.width
             assert 0 < y < frame.window.height
+
+
+def test_no_name_is_larger_than_its_body():
+    """Squares of 26 and of 13 pixels: names of three letters fit into the former at most."""
+    squares = [
+        Body(name, [(x, 0), (x + side, 0), (x + side, side), (x, side)])
+        for name, x, side in (("s00", 0, 26), ("longer", 60, 26), ("m00", 120, 10))
+    ]
+    points = [Body("over", [(200, 2)]), Body("lone", [(300, 0)]), Body("beside", [(205, 10)])]
+    frame, root = drawn(Scene([*squares, *points, Body("end", [(760, 0)])], (0, 1)), QQ(0))
+
+    shown = {shape.name for shape in frame.shapes if shape.label is not None}
+    assert shown == {"s00", "lone", "beside", "end"}
+    assert {text.text for text in group(root, "names")} == shown
 
 
 def test_a_name_stands_on_its_body():

@@ -1,7 +1,7 @@
 // The camera: the exact point at the centre of the picture, and the scale in pixels per unit.
 
 /** Height in pixels of the clock above the picture. */
-const CLOCK = 64;
+const CLOCK = 76;
 
 class Camera {
   constructor(film) {

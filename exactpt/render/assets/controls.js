@@ -178,7 +178,8 @@ class Controls {
     const { film, player } = this;
     if (film.isContact(player.step, player.time)) return `first contact: ${film.contact.words}`;
     if (!count) return "no events";
-    if (player.step === 0) return `before the first of ${count} event times`;
+    if (player.step === 0) return count === 1 ? "before the only event time"
+      : `before the first of ${count} event times`;
     const kinds = [...new Set(film.steps[player.step - 1].changes.map(([kind]) => kind))];
     return `${isAtStep ? "at" : "after"} ${player.step} of ${count}: ${kinds.join(", ")}`;
   }

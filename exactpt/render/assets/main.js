@@ -90,6 +90,17 @@ window.exactpt = {
     return pen.visible(u, v)
       .map(([x, y]) => [stage.camera.width / 2 + x, stage.camera.height / 2 - y]);
   },
+  /** The names that are shown, with their places in pixels. */
+  labels() {
+    return stage.painter.labels();
+  },
+  /** The certificates of a tile that is shown, by its index in `state().tiles`, as text. */
+  certificates(i) {
+    return certificatesOf(film, film.after(player.step).tiles[i], player.time)
+      .map(({ nodes, f, root }) => ({
+        nodes, polynomial: f.map(String), root: root && film.timeText(root, 20),
+      }));
+  },
   /** The ends of the shadow of an edge; null if it has none. */
   shadow(u, v) {
     const edge = film.after(player.step).edges.find((e) => e.u === u && e.v === v);

@@ -101,16 +101,30 @@ class Painter {
   rounded(body) {
     const { colours, context, pen } = this;
     const width = 2 * body.radius * pen.camera.scale;
+    if (body.size === 1) {
+      this.disc(body, width / 2);
+      return;
+    }
     context.beginPath();
     if (body.closed && body.size > 2) for (const ring of rings(body)) pen.polygon(ring);
-    else if (body.size > 1) this.around(body);
-    else pen.segment(body.first, body.first);
+    else this.around(body);
     this.stroke(colours.outline, width + 2.4);
     this.stroke(body.colour, width);
     if (body.closed && body.size > 2) {
       context.fillStyle = body.colour;
       context.fill("evenodd");
     }
+  }
+
+  /** A disc: a canvas strokes no segment of length zero. */
+  disc(body, radius) {
+    const { colours, context, pen } = this;
+    if (!pen.isNear(body.first)) return;
+    context.beginPath();
+    context.arc(...pen.pixel(body.first), radius, 0, 2 * Math.PI);
+    context.fillStyle = body.colour;
+    context.fill();
+    this.stroke(colours.outline, 1.2);
   }
 
   outlines() {
@@ -241,13 +255,38 @@ class Painter {
     context.lineWidth = 3;
     context.strokeStyle = colours.paper;
     context.fillStyle = colours.ink;
-    for (const body of this.film.bodies) {
-      const pixels = rings(body).map((ring) => ring.map((v) => this.pen.pixel(v)));
-      const [x, y] = label(pixels, body.closed, body.radius ? 0 : 13);
-      if (Math.abs(x) > NEAR || Math.abs(y) > NEAR) continue;
-      context.strokeText(body.name, x, y + 4);
-      context.fillText(body.name, x, y + 4);
+    for (const { text, x, y } of this.labels()) {
+      context.strokeText(text, x, y + 4);
+      context.fillText(text, x, y + 4);
     }
+  }
+
+  /** The names that fit: into their body; those of points and lines beside all other bodies. */
+  labels() {
+    const boxes = this.film.bodies.map((body) => this.box(body));
+    const taken = [];
+    return this.film.bodies.flatMap((body, i) => {
+      const pixels = rings(body).map((ring) => ring.map((v) => this.pen.pixel(v)));
+      const isThin = !body.radius && (body.size < 3 || !body.closed);
+      const [x, y] = label(pixels, body.closed, isThin ? 13 : 0);
+      if (Math.abs(x) > NEAR || Math.abs(y) > NEAR) return [];
+      const half = this.context.measureText(body.name).width / 2;
+      const place = [x - half, y - 7, x + half, y + 7];
+      const fits = isThin ? !boxes.some((box, k) => k !== i && meet(box, place))
+        : covers(boxes[i], place);
+      if (!fits || taken.some((other) => meet(other, place))) return [];
+      taken.push(place);
+      return [{ text: body.name, x, y }];
+    });
+  }
+
+  /** The bounding box of a body, in pixels. */
+  box(body) {
+    const pixels = rings(body).flat().map((v) => this.pen.pixel(v));
+    const [xs, ys] = [0, 1].map((i) => pixels.map((p) => p[i]));
+    const radius = body.radius * this.pen.camera.scale;
+    return [Math.min(...xs) - radius, Math.min(...ys) - radius,
+      Math.max(...xs) + radius, Math.max(...ys) + radius];
   }
 
   contact(pulse) {
@@ -293,6 +332,14 @@ function rings({ first, starts, size }) {
     const end = starts[k + 1] ?? size;
     return Array.from({ length: end - start }, (_, i) => first + start + i);
   });
+}
+
+function meet(a, b) {
+  return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+}
+
+function covers(a, b) {
+  return a[0] <= b[0] && a[1] <= b[1] && b[2] <= a[2] && b[3] <= a[3];
 }
 
 /** The position of a name: in the middle of a body; of a non-convex one, where it is widest. */

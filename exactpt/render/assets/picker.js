@@ -19,11 +19,19 @@ function pick(pen, film, step, x, y, layers) {
     if (found[0]) return { edge: found[0] };
   }
   const body = film.bodies.findIndex((b) =>
-    rings(b).filter((ring) => contains(pen.cut(ring), px, py)).length % 2);
+    rings(b).filter((ring) => contains(pen.cut(ring), px, py)).length % 2
+      || (b.radius && isWithin(pen, b, px, py)));
   const inside = tiles.find((tile) => (tile.inside || body < 0)
     && contains(pen.cut(tile.nodes), px, py));
   if (layers.tiles && inside) return { tile: inside };
   return body >= 0 ? { body } : null;
+}
+
+/** Whether a pixel is within the radius of a rounded body's core. */
+function isWithin(pen, body, x, y) {
+  const radius = body.radius * pen.camera.scale;
+  return rings(body).some((ring) => ring.some((v, i) =>
+    awayFrom(pen.visible(v, ring[(i + 1) % ring.length]), x, y) < radius));
 }
 
 function awayFrom(points, x, y) {
@@ -65,12 +73,31 @@ function described(film, chart, picked, time, digits) {
       ...(body < 0 ? [] : [`inside the relative hull of ${film.bodies[body].name}, level ${level}`]),
       `corners ${corners.map((v) => film.name(v)).join(", ")}`,
       ...lifetime(film, from, until),
+      ...proof(film, picked.tile, time),
     ];
   }
   const body = film.bodies[picked.body];
-  const what = body.size === 1 ? "point" : body.size === 2 ? "segment"
+  const core = body.size === 1 ? "point" : body.size === 2 ? "segment"
     : `${body.closed ? "polygon" : "chain"} of ${body.size} vertices`;
-  return [body.name, what];
+  return [body.name, body.radius ? `${core}, rounded` : core];
+}
+
+/** The longest polynomial, in characters, that is shown. */
+const LONG = 160;
+
+/** The certificates of a tile that can fail: how many, and the one with the earliest next root. */
+function proof(film, tile, time) {
+  const all = certificatesOf(film, tile, time);
+  if (!all.length) return ["no certificate of it can fail"];
+  const [{ nodes, f, root }] = all;
+  const text = polynomialText(f);
+  return [
+    `${all.length} certificate${all.length > 1 ? "s" : ""} can fail; first ${
+      nodes.map((v) => film.name(v)).join(", ")}:`,
+    text.length > LONG ? `a polynomial of degree ${f.length - 1}` : `${text} ≠ 0`,
+    root === null ? "no root until a motion or the film ends"
+      : `next root t ≈ ${film.timeText(root, 12)}`,
+  ];
 }
 
 function lifetime(film, from, until) {
