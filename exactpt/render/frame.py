@@ -14,7 +14,6 @@ from exactpt.render.words import contact_in_words, time_in_words
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Pair
-    from exactpt.motion.body import Body
     from exactpt.pseudotriangulation.snapshot import Face, Snapshot
     from exactpt.render.still import Still
     from exactpt.scene.scene import Scene
