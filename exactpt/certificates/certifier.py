@@ -132,6 +132,7 @@ class Certifier:
         infinitesimal copies: it may be a contact (`exactpt.certificates.incidences`).
         """
         self.made += 1
+        a, b, c = least_first(a, b, c)
         va, vb, vc = self.all[a], self.all[b], self.all[c]
         if self.exact_only or va.track is vb.track or vb.track is vc.track or va.track is vc.track:
             return self._exact_orientation(va, vb, vc)
@@ -156,6 +157,7 @@ class Certifier:
     def orientations(self, triples: Sequence[Triple]) -> list[tuple[int, EventTime | None]]:
         """The `orientation` of each triple, in numpy for those in linear motion."""
         answers: list[tuple[int, EventTime | None]] = []
+        triples = [least_first(*triple) for triple in triples]
         if len(triples) < BATCH or self.exact_only or self.roots_now:
             for a, b, c in triples:
                 ask()
@@ -297,3 +299,15 @@ class Certifier:
             else self._event_time(root.time, (a.id, b.id, X_ORDER), crossing=root.crossing)
         )
         return s or now.sign_after(f), time
+
+
+def least_first(a: VertexId, b: VertexId, c: VertexId) -> Triple:
+    """Three vertices rotated, which keeps their orientation, so that the least is the first.
+
+    So a filter gives the same enclosure for a zero of whatever certificates have the three.
+    """
+    if b < a and b < c:
+        return b, c, a
+    if c < a and c < b:
+        return c, a, b
+    return a, b, c

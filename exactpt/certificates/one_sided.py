@@ -38,23 +38,32 @@ class OneSided(Predicates):
             if s:
                 certifier.counters.filtered += 1
                 return s
-        copies = va.track is vb.track or vb.track is vc.track or va.track is vc.track
-        vanishes = certifier.vanishes_now(a, b, c)
-        if not (certifier.exact_only or copies or (vanishes and self._before)):
-            s, _, _ = coefficients.orientation(
-                va.image,
-                vb.image,
-                vc.image,
-                certifier.errors,
-                certifier.now_low,
-                certifier.now_high,
-                self._horizon(),
-                vanishes,
-            )
+            s = self._filtered_sign(a, b, c)
             if s:
                 certifier.counters.filtered += 1
                 return s
         return self._exact(orientation(va, vb, vc), va, vb, vc)
+
+    def _filtered_sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
+        """The sign of the orientation, one that vanishes now included; 0 if it is not certain."""
+        certifier, v = self._certifier, self._all
+        va, vb, vc = v[a], v[b], v[c]
+        if va.track is vb.track or vb.track is vc.track or va.track is vc.track:
+            return 0
+        vanishes = certifier.vanishes_now(a, b, c)
+        if vanishes and self._before:
+            return 0
+        s, _, _ = coefficients.orientation(
+            va.image,
+            vb.image,
+            vc.image,
+            certifier.errors,
+            certifier.now_low,
+            certifier.now_high,
+            self._horizon(),
+            vanishes,
+        )
+        return s
 
     def left_of(self, a: VertexId, b: VertexId) -> bool:
         """Whether a is left of b."""
@@ -88,11 +97,27 @@ class OneSided(Predicates):
         v = self._all
         p, q, r, t = v[a], v[b], v[c], v[d]
         if not certifier.exact_only:
-            s = certifier.positions.turn(p, q, r, t)
+            s = certifier.positions.turn(p, q, r, t) or self._turn_at_end(a, b, c, d)
             if s:
                 certifier.counters.filtered += 1
                 return s
         return self._exact(cross(p.track, q.track, r.track, t.track), p, q, r, t)
+
+    def _turn_at_end(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
+        """The turn of two segments that share an end; 0 if they do not, or it is not certain.
+
+        (b - a) x (d - c) is an orientation of the three vertices then. It vanishes at each event
+        at which a diagonal passes its shadow.
+        """
+        if a == c:
+            return self._filtered_sign(a, b, d)
+        if b == d:
+            return self._filtered_sign(b, a, c)
+        if a == d:
+            return self._filtered_sign(a, c, b)
+        if b == c:
+            return self._filtered_sign(a, b, d)
+        return 0
 
     def nearer(self, p: VertexId, a: VertexId, b: VertexId) -> bool:
         """Whether a is nearer to p than b is, for a and b in the same direction from p."""

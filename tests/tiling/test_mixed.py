@@ -227,3 +227,14 @@ def test_an_event_takes_few_certificates():
         rates.append((stats["certificates"] - before) / stats["events"])
 
     assert rates[1] < 3 * rates[0]
+
+
+def test_certificates_that_fail_together_are_not_compared_exactly(request):
+    """Of convex bodies in lanes: the angle at a diagonal, and the tangency of its shadow."""
+    if request.config.getoption("--exact-only"):
+        pytest.skip("is about what the filters decide")
+    simulation = Simulation(lanes("decimals", 1, bodies=100), tiling="mixed")
+    list(simulation.run())
+
+    assert simulation.stats["batches"] > 50
+    assert simulation.stats["exact"] < 5
