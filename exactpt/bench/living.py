@@ -27,7 +27,7 @@ from exactpt.simulation.responses import Bounce
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["FULL", "QUICK", "Sizes", "box", "run"]
+__all__ = ["FULL", "QUICK", "Living", "Sizes", "audit", "box", "run"]
 
 WIDTH: Final = 10
 """Width of the cell of a body at the start."""
@@ -111,12 +111,15 @@ class Living:
         scene: bodies between `WALLS`.
         tiling: the tiling to keep.
         sizes: how many contacts, audits and changes.
+
+    Attributes:
+        simulation: the run.
     """
 
     def __init__(self, scene: Scene, tiling: str, sizes: Sizes) -> None:
         self._sizes = sizes
         self._bounce = Bounce(WALLS, fastest=2 * SPEED)
-        self._simulation = Simulation(scene, tiling=tiling)
+        self.simulation = Simulation(scene, tiling=tiling)
         self._contacts = 0
         self._look_every = max(1, sizes.contacts // LOOKS)
         self._audits: list[float] = []
@@ -124,7 +127,7 @@ class Living:
 
     def measured(self, seed: int) -> Row:
         """The figures of the run, by name of the column."""
-        simulation, clock = self._simulation, self._clock
+        simulation, clock = self.simulation, self._clock
         gc.collect()
         clock.append(process_time())
         for _ in simulation.run(on_contact=self._respond):
@@ -148,14 +151,14 @@ class Living:
         self._contacts += 1
         if self._contacts % self._sizes.audit_every == 0:
             began = process_time()
-            _audit(simulation)
+            audit(simulation)
             self._audits.append(process_time() - began)
         if self._contacts % self._look_every == 0:
             self._clock.append(process_time() - sum(self._audits))
 
     def _change_plans(self, rng: Random) -> float:
         """Seconds for a change of one body's velocity, at the current time."""
-        simulation = self._simulation
+        simulation = self.simulation
         now, names = simulation.now._low, [b.name for b in simulation.scene.bodies[: -len(WALLS)]]
         plans = []
         for name in rng.choices(names, k=self._sizes.plans):
@@ -167,7 +170,7 @@ class Living:
         return (process_time() - began) / len(plans)
 
 
-def _audit(simulation: Simulation) -> None:
+def audit(simulation: Simulation) -> None:
     """Check all angles of the tiling just after now, and that no two bodies touch.
 
     Raises:

@@ -7,7 +7,7 @@ times by slot. Cancelled events are dropped when they reach the top.
 from __future__ import annotations
 
 from heapq import heappop, heappush
-from typing import Protocol, final
+from typing import Final, Protocol, final
 
 from mypy_extensions import mypyc_attr
 
@@ -18,6 +18,10 @@ from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.rounding import INFINITY
 
 __all__ = ["EventQueue", "EventTime", "ExactQueue", "Resolver", "earlier"]
+
+
+SAMPLE: Final = 64
+"""Number of events that tell the reach of a calendar."""
 
 
 @final
@@ -73,8 +77,8 @@ class EventQueue:
 
     A calendar: a row of days of equal length. Most certificates are cancelled long before they
     fail; so an event is only noted by its slot on its day, and what is still pending when its
-    day has come goes to a heap. The days cover the times that were pending when the calendar
-    was made; it is made anew at their end, and when most of its notes are of cancelled events.
+    day has come goes to a heap. What is later than the last day is not noted: the calendar is
+    made anew at its end, and when most of its notes are of cancelled events.
     The day of an event grows with ``low`` (each rounding is monotone), so the heap holds all
     that begin before the next day.
 
@@ -133,11 +137,16 @@ class EventQueue:
         heappush(self._heap, (time.low, self._sequence, slot, time))
 
     def _make_calendar(self) -> None:
-        """Note all pending events anew, on days for about eight of them."""
-        live = self._live
+        """Note anew the first three quarters of the pending events, and what the first meets.
+
+        Few may be far later than all others, so a sample tells how far the days reach; about
+        six events are noted on each.
+        """
+        live, reach = self._live, self._heap[0][3].high if self._heap else -INFINITY
         lows = [time.low for time in live.values()]
         self._first = min(lows, default=0.0)
-        span, days = max(lows, default=0.0) - self._first, len(live) // 8 + 1
+        sample, days = sorted(lows[:: len(lows) // SAMPLE + 1]), len(live) // 8 + 1
+        span = max(reach, sample[3 * len(sample) // 4] if sample else 0.0) - self._first
         self._per_day = (days - 0.5) / span if 0.0 < span < INFINITY else 0.0
         self._heap, self._days = [], [[] for _ in range(days)]
         self._next_day, self._notes, self._has_more = 0.0, 0, False

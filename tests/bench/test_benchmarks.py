@@ -3,6 +3,7 @@
 import sys
 from collections import Counter
 from functools import partial
+from random import Random
 from types import SimpleNamespace
 
 import pytest
@@ -16,6 +17,7 @@ from exactpt.bench import (
     cliffs,
     first_contact,
     kernel,
+    living,
     points,
     proofs,
     scaling,
@@ -404,3 +406,27 @@ def test_a_proof_that_is_rejected_is_an_error(results, monkeypatch):
     monkeypatch.setattr("exactpt.proof.lines.Lines.none", lambda *_: iter([wrong]))
     with pytest.raises(AuditError, match="rejected: line"):
         proofs.run(results.output, proofs.Sizes(10, 16, 2), 0)
+
+
+TINY = living.Sizes((12,), ("lazy", "greedy"), 30, 10, 5)
+
+
+def test_living(results, alone):
+    living.run(results.output, TINY, 0)
+    rows = results.rows("living")
+    assert [row["tiling"] for row in rows] == ["lazy", "greedy"]
+    assert all(row["contacts"] == "30" for row in rows)
+    figures = ("contacts a second", "last third / first", "ms an audit", "us a change of plan")
+    assert all(float(row[figure]) > 0 for row in rows for figure in figures)
+
+
+def test_an_audit_of_what_lives_sees_a_wrong_mark():
+    run = living.Living(living.box(12, Random(0)), "lazy", TINY)
+    mesh = run.simulation.kinetic.mesh_after()
+    living.audit(run.simulation)
+    face = next(iter(mesh.faces()))
+    marks = [mesh.corner[h] for h in face]
+    for h, mark in zip(face, marks[1:] + marks[:1], strict=True):
+        mesh.corner[h] = mark  # three corners still
+    with pytest.raises(AuditError):
+        living.audit(run.simulation)

@@ -1,6 +1,7 @@
 """The event queue: laws against the simplest model, a sorted list of exact times."""
 
 from itertools import pairwise
+from random import Random
 
 import pytest
 from hypothesis import given
@@ -10,7 +11,7 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, 
 from exactpt.certificates.queue import EventQueue, EventTime, ExactQueue
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, enclosing_floats
 
 # The square root of 2 by two polynomials, the double next to it, thirds, nearly a third.
 NUMBERS = [
@@ -107,6 +108,57 @@ def test_many_replaced_events_are_dropped():
     assert len(queue) == 3
     assert len(queue._heap) + sum(map(len, queue._days)) < 300
     assert queue.slots() == [0, 1, 2]
+
+
+class Rationals:
+    """Knows the rational time of each key."""
+
+    def __init__(self):
+        self.times = []
+
+    def event(self, t, width):
+        self.times.append(t)
+        low, high = enclosing_floats(t)
+        return EventTime(low - width, high + width, len(self.times) - 1, -1, -1)
+
+    def resolve(self, time):
+        time.exact = AlgebraicNumber(self.times[time.a])
+        time.low, time.high = time.exact.enclosure()
+        return time.exact
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("far", [0, 3, 30, 300])
+def test_a_calendar_of_many_days_is_in_order(far, seed):
+    """Times that spread over up to 300 powers of ten; ties; enclosures as wide as many days."""
+    rng, rationals = Random(f"{far} {seed}"), Rationals()
+    queue, model, now = EventQueue(rationals, Counters()), {}, QQ(0)
+
+    def schedule(slot):
+        later = QQ(rng.randint(1, 99), 7) * QQ(10) ** rng.randint(-far // 2, far // 2)
+        tie = model and rng.random() < 0.02
+        model[slot] = rng.choice(list(model.values())) if tie else now + later
+        width = rng.choice([0.0] * 19 + [float(later) * rng.random() * 3])
+        queue.schedule(slot, rationals.event(model[slot], width))
+
+    for slot in range(400):
+        schedule(slot)
+    most_days = 0
+    for _ in range(400):
+        _, entries = queue.pop()
+        most_days = max(most_days, len(queue._days))
+        now = min(model.values())
+        expected = sorted(slot for slot, t in model.items() if t == now)
+        assert [slot for slot, _ in entries] == expected
+        for slot in expected:
+            del model[slot]
+        for slot in rng.sample(range(400), 4):
+            schedule(slot)
+        gone = rng.randrange(400)
+        queue.cancel(gone)
+        model.pop(gone, None)
+        assert len(queue) == len(model)
+    assert most_days > 20
 
 
 class QueueMachine(RuleBasedStateMachine):
