@@ -25,6 +25,7 @@ BENCHMARKS: Final[dict[str, str]] = {
     "statics": "the greedy pseudo-triangulation of one instant against the vertices of a body",
     "skipping": "what is never computed, beside a run that computes all of it",
     "arrays": "many small questions at once, beside one by one, ipctk and Box2D",
+    "engines": "wrong answers of other engines to hard questions, with reproducers",
     "proofs": "size and cost of proofs of first contacts, beside the run alone",
     "kernel": "first roots and their order, beside python-flint, SymPy and mpmath",
 }

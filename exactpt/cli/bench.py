@@ -21,12 +21,15 @@ _NAMES = "\n".join(f"      {name:14} {shows}" for name, shows in BENCHMARKS.item
     \b
 {_NAMES}
 
-    Other programs are compared if they are installed: pip install 'exactpt[bench]'.
+    Other programs are compared if they are installed: pip install 'exactpt[bench]'; for engines,
+    pip install 'exactpt[engines]', and npm packages in a folder node_modules at or above the
+    current one, or in the one that EXACTPT_NODE_MODULES names.
 
     \b
     Examples:
       exactpt bench --quick
       exactpt bench wrong-answers kernel -o results
+      exactpt bench engines -o docs/engines
     """
 )
 @click.argument("names", nargs=-1, type=click.Choice(list(BENCHMARKS)), metavar="[NAME]...")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import pprint
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -10,11 +9,10 @@ from typing import Final, TypeAlias, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational
-from exactpt.scene.format import from_json, to_json
 from exactpt.testing.comparing import TOLERANCE, VERDICTS, bound, shown_time, verdict
 from exactpt.testing.families import FAMILIES, make_question
 from exactpt.testing.questions import Question
-from exactpt.testing.shrinking import shrink_data
+from exactpt.testing.shrinking import shrink_question
 from exactpt.testing.table import Table
 from exactpt.testing.truth import Truth, truth_of, truths
 
@@ -172,31 +170,12 @@ def _judged(toi: Toi, question: Question, truth: Truth, tolerance: QQ) -> tuple[
 
 
 def _shrunken(toi: Toi, found: str, question: Question, tolerance: QQ) -> Counterexample:
-    """The smallest question found that is wrong in the same way.
-
-    A polygon stays one, and the kind of the true contact stays, too: otherwise most shrink to two
-    points that touch at the start, which is another fault.
-    """
-    kept = _polygons(question), truth_of(question).kind
-
-    def fails(data: dict[str, object]) -> bool:
-        try:
-            smaller = Question.from_scene(from_json(data))
-            if _polygons(smaller) != kept[0]:
-                return False
-            truth = truth_of(smaller)
-        except InputError:
-            return False
-        return truth.kind == kept[1] and _judged(toi, smaller, truth, tolerance)[0] == found
-
-    data = shrink_data(to_json(question.scene), fails, math.inf)
-    smallest = Question.from_scene(from_json(data), question.name)
+    """The smallest question found that is wrong in the same way."""
+    smallest = shrink_question(
+        question, lambda smaller, truth: _judged(toi, smaller, truth, tolerance)[0] == found
+    )
     truth = truth_of(smallest)
     return Counterexample(found, smallest, _judged(toi, smallest, truth, tolerance)[1], truth)
-
-
-def _polygons(question: Question) -> list[bool]:
-    return [body.closed and len(body.vertices) > 2 for body in (question.a, question.b)]
 
 
 def _one_line(text: str) -> str:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import copy
 import json
+import math
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
@@ -19,8 +20,10 @@ from typing import Any, Final, TypeAlias
 from exactpt.errors import InputError
 from exactpt.scene.format import from_json, to_json
 from exactpt.scene.scene import Scene
+from exactpt.testing.questions import Question
+from exactpt.testing.truth import Truth, truth_of
 
-__all__ = ["shrink", "shrink_data"]
+__all__ = ["shrink", "shrink_data", "shrink_question"]
 
 Data: TypeAlias = Any
 """A scene as JSON data. Candidates may be invalid scenes; ``fails`` must be false for these."""
@@ -53,6 +56,39 @@ def shrink(scene: Scene, fails: Callable[[Scene], bool], *, seconds: float = 60.
         return fails(smaller)
 
     return from_json(shrink_data(to_json(scene), fails_as_data, seconds))
+
+
+def shrink_question(
+    question: Question, fails: Callable[[Question, Truth], bool], *, seconds: float = math.inf
+) -> Question:
+    """The smallest question found for which something still fails.
+
+    A polygon stays one, and the kind of the true contact stays, too: otherwise most shrink to two
+    points that touch at the start, which is another fault.
+
+    Args:
+        question: a question for which ``fails`` is true.
+        fails: whether a question, with its truth, fails.
+        seconds: time limit; the search ends by itself, too.
+    """
+    kept = _polygons(question), truth_of(question).kind
+
+    def fails_as_data(data: Data) -> bool:
+        try:
+            smaller = Question.from_scene(from_json(data))
+            if _polygons(smaller) != kept[0]:
+                return False
+            truth = truth_of(smaller)
+        except InputError:
+            return False
+        return truth.kind == kept[1] and fails(smaller, truth)
+
+    data = shrink_data(to_json(question.scene), fails_as_data, seconds)
+    return Question.from_scene(from_json(data), question.name)
+
+
+def _polygons(question: Question) -> list[bool]:
+    return [body.closed and len(body.vertices) > 2 for body in (question.a, question.b)]
 
 
 def shrink_data(data: Data, fails: Callable[[Data], bool], seconds: float) -> Data:

@@ -6,6 +6,7 @@ from exactpt.bench.output import Output
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid, Translation
 from exactpt.scene.scene import Scene
+from exactpt.testing import Moving
 
 
 class Results:
@@ -26,6 +27,12 @@ class Results:
 
 def box(x, y, size=2):
     return [(x, y), (x + size, y), (x + size, y + size), (x, y + size)]
+
+
+def square(left, low, size=1.0, **motion):
+    """A square of a question, with its translation."""
+    corners = ((left, low), (left + size, low), (left + size, low + size), (left, low + size))
+    return Moving(corners, **motion)
 
 
 def meeting(gap=6, speed=2):

@@ -1,0 +1,71 @@
+"""pymunk (Munk2D, formerly Chipmunk): a space with two bodies, in 1000 steps."""
+
+from __future__ import annotations
+
+from typing import Any
+
+ABOUT: dict[str, Any] = {
+    "name": "pymunk",
+    "package": "pymunk",
+    "module": "pymunk",
+    "install": "pip install pymunk",
+    "asked": "A space without gravity, each body with its velocity, 1000 steps; the time of the "
+    "step in which `begin` is called. Vertices are given about the middle of their body, as the "
+    "documentation asks. It detects collisions at the end of a step, and knows no time between; "
+    "each step rounds the places of bodies once.",
+    "promises": [
+        ["begin: Two shapes just started touching for the first time this step.",
+         "docstring of pymunk.Space.on_collision"],
+        ["Multiple calls with a smaller dt creates a more stable and accurate simulation.",
+         "docstring of pymunk.Space.step"],
+        ["another is to limit the velocity which is useful to prevent tunneling",
+         "docstring of pymunk.Body.velocity_func"],
+    ],
+    "takes": {"shapes": ["convex", "segment", "point"], "motion": "linear"},
+    "ways": {
+        "": {
+            "asked": "",
+            "allows": {"of_coordinates": 2.0**-42, "late": 1 / 999, "brief": 1 / 999},
+        },
+    },
+}  # fmt: skip
+
+STEPS = 1000
+
+
+def answer(question: dict[str, Any], way: str) -> float | None:  # noqa: ARG001
+    """The end of the step in which the shapes begin to touch."""
+    import pymunk
+
+    space = pymunk.Space()
+    for key in "ab":
+        space.add(*shape_of(question[key]))
+    begun: list[bool] = []
+    space.on_collision(1, 1, begin=lambda *_: begun.append(True))
+    for step in range(1, STEPS + 1):
+        space.step(question["span"] / STEPS)
+        if begun:
+            time: float = question["span"] * step / STEPS
+            return time
+    return None
+
+
+def shape_of(body: dict[str, Any]) -> tuple[Any, Any]:
+    """A body that does not turn, and its shape."""
+    import pymunk
+
+    vertices = body["vertices"]
+    middle = [sum(v[k] for v in vertices) / len(vertices) for k in (0, 1)]
+    local = [(x - middle[0], y - middle[1]) for x, y in vertices]
+    moving = pymunk.Body(1.0, float("inf"))
+    moving.position = (middle[0], middle[1])
+    moving.velocity = (body["x"][1], body["y"][1])
+    shape: pymunk.Shape
+    if len(local) == 1:
+        shape = pymunk.Circle(moving, 0.0)
+    elif len(local) == 2:
+        shape = pymunk.Segment(moving, local[0], local[1], 0.0)
+    else:
+        shape = pymunk.Poly(moving, local)
+    shape.collision_type = 1
+    return moving, shape

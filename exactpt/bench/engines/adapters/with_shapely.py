@@ -1,0 +1,71 @@
+"""Shapely (GEOS): whether two geometries intersect, asked at 1001 times of the span."""
+
+from __future__ import annotations
+
+from typing import Any
+
+ABOUT: dict[str, Any] = {
+    "name": "shapely",
+    "package": "shapely",
+    "module": "shapely",
+    "install": "pip install shapely",
+    "asked": "`shapely.intersects` of the two geometries, moved in doubles to 1001 equally spaced "
+    "times. Shapely knows no motion: what a step skips is the asker's choice, not its fault.",
+    "promises": [
+        ["Return True if A and B share any portion of space.", "docstring of shapely.intersects"],
+    ],
+    "takes": {"shapes": ["convex", "simple", "chain", "segment", "point"], "motion": "polynomial"},
+    "ways": {
+        "steps": {
+            "asked": "The first of these times at which they intersect.",
+            "allows": {"of_coordinates": 2.0**-48, "late": 1 / 1000, "brief": 1 / 1000},
+        },
+        "bisection": {
+            "asked": "The step before it is halved until two doubles are next to each other.",
+            "allows": {"of_coordinates": 2.0**-48, "brief": 1 / 1000},
+        },
+    },
+}
+
+STEPS = 1000
+
+
+def answer(question: dict[str, Any], way: str) -> float | None:
+    """The first time at which the bodies intersect."""
+    import numpy as np
+
+    times = np.linspace(0.0, question["span"], STEPS + 1)
+    hits = np.flatnonzero(meeting(question, times))
+    if len(hits) == 0:
+        return None
+    high = float(times[hits[0]])
+    if way == "steps" or hits[0] == 0:
+        return high
+    low = float(times[hits[0] - 1])
+    while low < (middle := 0.5 * (low + high)) < high:
+        if meeting(question, np.array([middle]))[0]:
+            high = middle
+        else:
+            low = middle
+    return high
+
+
+def meeting(question: dict[str, Any], times: Any) -> Any:  # noqa: ANN401 - arrays
+    """Whether the bodies intersect at each of some times."""
+    import shapely
+
+    return shapely.intersects(geometries(question["a"], times), geometries(question["b"], times))
+
+
+def geometries(body: dict[str, Any], times: Any) -> Any:  # noqa: ANN401 - arrays
+    """The geometries of a body at some times."""
+    import numpy as np
+    import shapely
+
+    path = np.stack([np.polyval(body[axis][::-1], times) for axis in "xy"], axis=-1)
+    at = path[:, None, :] + np.array(body["vertices"])[None, :, :]
+    if at.shape[1] == 1:
+        return shapely.points(at[:, 0])
+    if at.shape[1] == 2 or not body["closed"]:
+        return shapely.linestrings(at)
+    return shapely.polygons(at)
