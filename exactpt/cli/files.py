@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import click
-from click.core import ParameterSource
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import RATIONAL, bounded, max_bytes, max_memory, output
+from exactpt.cli.options import RATIONAL, bounded, max_bytes, max_memory, output, typed
 from exactpt.cli.progress import QUIET
 from exactpt.cli.terminal import say, tell
 from exactpt.cli.words import name_in_words
@@ -104,7 +103,7 @@ def convert(
 
     if time[0] >= time[1]:
         raise InputError(f"--time: the span from {show(time[0])} to {show(time[1])} is empty")
-    idle = _typed("time", "holes", "parts", "repair", "skip_invalid")
+    idle = typed("time", "holes", "parts", "repair", "skip_invalid")
 
     left_out: list[str] = []
     mended: list[str] = []
@@ -125,7 +124,7 @@ def convert(
         is_scene = target.suffix.lower() == ".json"
         if is_scene and not quiet:
             remarks += _what_touches(scene)
-        if _typed("tolerance") and not scene.is_rounded and holds_scene(source, max_bytes()):
+        if typed("tolerance") and not scene.is_rounded and holds_scene(source, max_bytes()):
             raise InputError(f"--tolerance: {source} is a scene, which is read as it is")
         write_shapes(scene, target, at, tolerance=tolerance)
     if not quiet:
@@ -134,13 +133,6 @@ def convert(
         if is_scene:
             say(f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices: {target}")
     return 0
-
-
-def _typed(*names: str) -> list[str]:
-    """The options among these that were given on the command line."""
-    source = click.get_current_context().get_parameter_source
-    given = [name for name in names if source(name) is ParameterSource.COMMANDLINE]
-    return [f"--{name.replace('_', '-')}" for name in given]
 
 
 def _what_touches(scene: Scene) -> list[str]:

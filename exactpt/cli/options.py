@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal
 
 import click
+from click.core import ParameterSource
 
 from exactpt.errors import InputError, TimeRangeError
 from exactpt.files import MOST_BYTES
@@ -37,6 +38,7 @@ __all__ = [
     "max_memory",
     "naming_at",
     "output",
+    "typed",
 ]
 
 
@@ -158,6 +160,15 @@ def output(
     if default is None:
         return click.option(*names, type=kind, help=words, required=required)
     return click.option(*names, type=kind, help=words, default=default, show_default=True)
+
+
+def typed(*names: str) -> list[str]:
+    """The options of these parameters that were given on the command line, as they are written."""
+    context = click.get_current_context()
+    source = context.get_parameter_source
+    written = {param.name: max(param.opts, key=len) for param in context.command.params}
+    given = [name for name in names if source(name) is ParameterSource.COMMANDLINE]
+    return [written[name] for name in given]
 
 
 def load(path: Path, until: QQ | None = None, since: QQ | None = None) -> Scene:

@@ -17,7 +17,7 @@ from exactpt.kernel.numbers import QQ, rational
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.testing.questions import Asked, Moving, Question
 
-__all__ = ["Truth", "truth_of", "truths"]
+__all__ = ["Truth", "root_between", "truth_of", "truths"]
 
 
 class Truth(NamedTuple):
@@ -116,21 +116,33 @@ def _pair(contacts: Contacts, k: int) -> dict[str, object] | None:
 def _time(question: Question, contacts: Contacts, k: int) -> AlgebraicNumber | None:
     """The time as the one root of the first incidence's polynomial in the enclosure of arrays.
 
-    None if it is not clear that there is one. A quadratic has exactly one root between two
-    places where its signs are opposite, and one root in all if its discriminant is 0.
+    None if it is not clear that there is one.
     """
     low, high = rational(float(contacts.low[k])), rational(float(contacts.high[k]))
     if low == high:
         return AlgebraicNumber(low)
     mover, other = (question.a, question.b)[:: 1 if contacts.body[k] == 0 else -1]
-    f = _incidence(mover, other, contacts, k)._integer()  # noqa: SLF001
+    return root_between(_incidence(mover, other, contacts, k)._integer(), low, high)  # noqa: SLF001
+
+
+def root_between(f: Sequence[int], low: QQ, high: QQ) -> AlgebraicNumber | None:
+    """The one root between two bounds of an integer polynomial, the constant first.
+
+    There is at least one. None if it is not clear that there is one only: a quadratic has exactly
+    one root between two places where its signs are opposite, and one in all if its discriminant
+    is 0; of a higher degree it is never clear.
+    """
+    while f and not f[-1]:
+        f = f[:-1]
     if len(f) == 2:
         return AlgebraicNumber(QQ(-f[0], f[1]))
     if len(f) != 3:
         return None
     if f[1] * f[1] == 4 * f[0] * f[2]:
         return AlgebraicNumber(QQ(-f[1], 2 * f[2]))
-    if sign_at(f, low) * sign_at(f, high) >= 0:
+    if low == high:
+        return AlgebraicNumber(low)
+    if sign_at(tuple(f), low) * sign_at(tuple(f), high) >= 0:
         return None
     return AlgebraicNumber.root(f, low, high)
 
