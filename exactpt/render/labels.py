@@ -76,7 +76,7 @@ def _middle(body: Named) -> Pixel:
     pixels = body.pixels
     x, y = (sum(c) / len(pixels) for c in zip(*pixels, strict=True))
     if len(pixels) < 3 or not body.closed:
-        return x, y - (_ABOVE if body.is_thin else 0.0)
+        return x, min(q for _, q in pixels) - _ABOVE if body.is_thin else y
     if any(left < x < right for left, right in _inside_at(pixels, y)):
         return x, y
     low, high = min(q for _, q in pixels), max(q for _, q in pixels)
