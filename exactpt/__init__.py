@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from exactpt.query.space import FreeSpace
     from exactpt.scene.scene import Scene
     from exactpt.simulation.event import Event
+    from exactpt.simulation.history import History
     from exactpt.simulation.plans import onward
     from exactpt.simulation.responses import Bounce, stop
     from exactpt.simulation.simulation import Simulation
@@ -55,6 +56,7 @@ __all__ = [
     "Event",
     "ExactPTError",
     "FreeSpace",
+    "History",
     "Hit",
     "InputError",
     "Pair",
@@ -146,6 +148,7 @@ _ROOMS: Final = {
     "exactpt.query.space": ("FreeSpace",),
     "exactpt.scene.scene": ("Scene",),
     "exactpt.simulation.event": ("Event",),
+    "exactpt.simulation.history": ("History",),
     "exactpt.simulation.plans": ("onward",),
     "exactpt.simulation.responses": (
         "Bounce",
@@ -163,6 +166,10 @@ for _name, _place in {
     "scene to shapely": "exactpt.exchange.shapely_adapter:geometries_of",
     "picture of a scene": "exactpt.render.notebook:scene_svg",
     "picture of a simulation": "exactpt.render.notebook:simulation_svg",
+    "player of a scene": "exactpt.render.notebook:scene_player",
+    "player of a simulation": "exactpt.render.notebook:simulation_player",
+    "drawing of a scene": "exactpt.render.draw:draw",
+    "drawing of a simulation": "exactpt.render.draw:draw_run",
     "search that writes a proof": "exactpt.proof.written:ProvedSearch",
     "proofs of a simulation": "exactpt.proof.living:ProofFolder",
     "table of a contact": "exactpt.render.notebook:contact_html",

@@ -21,7 +21,10 @@ __all__ = ["demo", "draw"]
 
 @click.command()
 @SCENE
-@output("The file: .svg or .png for a picture, .html for an animation.", required=True)
+@output(
+    "The file: .svg or .png for a picture, .html for an animation, .gif or .mp4 for a film.",
+    required=True,
+)
 @click.option(
     "--at",
     type=MOMENT,
@@ -57,7 +60,8 @@ def draw(
     """Draw a scene: a picture of it and its tiling at a time, or an animation.
 
     An animation runs from the start to the first contact or the end, and is one file that
-    opens in any browser; with --at it begins there. PNG needs: pip install 'exactpt[draw]'.
+    opens in any browser; with --at it begins there. PNG needs: pip install 'exactpt[draw]';
+    GIF and MP4: pip install 'exactpt[film]'.
 
     \b
     Examples:
@@ -65,6 +69,7 @@ def draw(
       exactpt draw scene.json --at 5/2 -o then.png --theme dark
       exactpt draw scene.json --at contact -o contact.svg
       exactpt draw scene.json -o film.html
+      exactpt draw scene.json -o film.gif
       exactpt draw scene.json -o film.html --clearance ball,wheel
     """
     from exactpt.render.draw import draw as draw_scene

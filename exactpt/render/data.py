@@ -17,7 +17,6 @@ from exactpt.render.words import contact_in_words, pair_in_words, short
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact
     from exactpt.kernel.algebraic import AlgebraicNumber
-    from exactpt.motion.body import Body
     from exactpt.render.film import Film, Step
     from exactpt.scene.scene import Scene
 
@@ -45,10 +44,7 @@ def data_of(film: Film, *, at: AlgebraicNumber | QQ | None = None) -> dict[str, 
         "startText": str(scene._start),
         "endText": str(scene._end),
         "origin": [_integer(fixed(c, BITS - length_unit)) for c in origin],
-        "bodies": [
-            _body(body, body_colour(i), scene, end, time_bits, length_unit)
-            for i, body in enumerate(scene.bodies)
-        ],
+        "bodies": [_body(i, film, time_bits, length_unit) for i in range(len(scene.bodies))],
         "steps": [_step(step, time_bits) for step in film.steps],
         "edges": [list(edge) for edge in sorted(film.edges, key=lambda e: (e.first, e.u, e.v))],
         "tiles": [
@@ -75,7 +71,8 @@ def _extent(film: Film) -> tuple[int, tuple[QQ, QQ]]:
         for values in zip(
             *(
                 (x + s, y + s)
-                for body in scene.bodies
+                for i, body in enumerate(scene.bodies)
+                if film.is_there(i, t)
                 for x, y in body._at(t)
                 for s in ((body._radius, -body._radius) if body._radius else (0,))
             ),
@@ -89,9 +86,9 @@ def _extent(film: Film) -> tuple[int, tuple[QQ, QQ]]:
     return exponent_above(extent), ((left + right) / 2, (bottom + top) / 2)
 
 
-def _body(
-    body: Body, colour: str, scene: Scene, end: AlgebraicNumber, time_bits: int, length_unit: int
-) -> list[object]:
+def _body(index: int, film: Film, time_bits: int, length_unit: int) -> list[object]:
+    scene, end = film.scene, film.end
+    body = scene.bodies[index]
     pieces: list[object] = []
     time: QQ | None = scene._start
     while time is not None and end.compare_rational(time) >= 0:
@@ -100,11 +97,14 @@ def _body(
         time = piece.until
         pieces.append([None if time is None else _integer(fixed(time, time_bits)), tracks])
     more: list[object] = []
-    if body._radius or body.has_rings:
+    if body._radius or body.has_rings or film.spans:
         more.append(_in_units(body._radius, length_unit))
-    if body.has_rings:
+    if body.has_rings or film.spans:
         more.append([ring.start for ring in body.rings])
-    return [body.name, colour, body.closed, pieces, *more]
+    if film.spans:
+        since, until = (_integer(fixed(t, time_bits)) for t in film.spans[index])
+        more += [since, None if film.spans[index][1] == scene._end else until]
+    return [body.name, body_colour(index), body.closed, pieces, *more]
 
 
 def _in_units(length: QQ, unit: int) -> float:
@@ -116,7 +116,13 @@ def _step(step: Step, time_bits: int) -> dict[str, object]:
     data: dict[str, object] = {
         "time": _integer(fixed(number, time_bits)),
         "changes": [
-            [c.kind, [list(e) for e in c.removed], [list(e) for e in c.added]] for c in step.changes
+            [
+                c.kind,
+                [list(e) for e in c.removed],
+                [list(e) for e in c.added],
+                *([c.words] if c.words else []),
+            ]
+            for c in step.changes
         ],
         "certificate": list(step.certificate),
     }

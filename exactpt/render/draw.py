@@ -1,4 +1,4 @@
-"""Drawings: a picture (SVG, PNG) or an animation (HTML), by the suffix of the file."""
+"""Drawings: a picture (SVG, PNG), an animation (HTML) or a film (GIF, MP4), by the suffix."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ from exactpt.kernel.numbers import show
 from exactpt.proximity.clearance import clearance
 from exactpt.render.film import film_of
 from exactpt.render.frame import frame_of
+from exactpt.render.marked import film_of_run
+from exactpt.render.movie import write_movie
 from exactpt.render.page import page_of
 from exactpt.render.plot import plot_of, svg_of_plot
 from exactpt.render.png import png_of
-from exactpt.render.still import still
+from exactpt.render.still import still, still_of
 from exactpt.render.svg import svg_of
 
 if TYPE_CHECKING:
@@ -24,10 +26,12 @@ if TYPE_CHECKING:
     from exactpt.kernel.numbers import QQ
     from exactpt.render.film import Film
     from exactpt.scene.scene import Scene
+    from exactpt.simulation.simulation import Simulation
 
-__all__ = ["ENDINGS", "draw"]
+__all__ = ["ENDINGS", "draw", "draw_run"]
 
-ENDINGS: Final = (".svg", ".png", ".html")
+ENDINGS: Final = (".svg", ".png", ".html", ".gif", ".mp4")
+MOVIES: Final = (".gif", ".mp4")
 
 
 def draw(
@@ -42,14 +46,14 @@ def draw(
     max_seconds: float | None = None,
     reached: Callable[[AlgebraicNumber], None] | None = None,
 ) -> None:
-    """Draw a scene into a file, as a picture or an animation by the suffix of the file.
+    """Draw a scene into a file, as a picture, an animation or a film by the suffix of the file.
 
     Args:
         scene: the bodies, their motions and the time span.
         path: the file, with a suffix in `ENDINGS`; it is complete or not there.
         at: the time, by default the start; an animation shows that time first.
         tiling: the name of the tiling, or "auto".
-        theme: "light", "dark" or "auto" (the reader's preference; PNG: light).
+        theme: "light", "dark" or "auto" (the reader's preference; PNG, films: light).
         gap: names of two bodies, whose distance over time is plotted beside the animation; a
             picture is of this plot alone.
         max_events: see `Simulation`.
@@ -62,10 +66,10 @@ def draw(
         TimeRangeError: if there is nothing to draw at that time.
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
-    ending = path.suffix.lower()
-    if ending not in ENDINGS:
-        raise InputError(f"{path}: a drawing ends in one of {', '.join(ENDINGS)}")
-    if ending == ".html":
+    ending = _ending(path)
+    if ending in MOVIES and (at is not None or gap is not None):
+        raise InputError(f"{path}: a film has all times, and no plot")
+    if ending == ".html" or ending in MOVIES:
         film = film_of(
             scene,
             tiling=tiling,
@@ -73,18 +77,46 @@ def draw(
             max_seconds=max_seconds,
             reached=reached,
         )
+        if ending in MOVIES:
+            write_movie(film, path, theme=_paper(theme))
+            return
         first = _shown_first(film, at)
         distance = None if gap is None else clearance(_shown(film), *gap)
         page = page_of(film, title=path.stem, at=first, theme=theme, gap=distance)
         write_atomically(path, page)
         return
-    light = "light" if theme == "auto" and ending == ".png" else theme
+    light = _paper(theme) if ending == ".png" else theme
     if gap is not None:
         _write_picture(path, svg_of_plot(plot_of(clearance(scene, *gap)), theme=light))
         return
     then = None if at == "contact" else scene._start if at is None else at
     picture = still(scene, then, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
     _write_picture(path, svg_of(frame_of(picture), theme=light))
+
+
+def draw_run(simulation: Simulation, path: Path, *, theme: str = "auto") -> None:
+    """Draw a simulation into a file, see `Simulation.draw`."""
+    ending = _ending(path)
+    if ending == ".html":
+        page = page_of(film_of_run(simulation.history()), title=path.stem, theme=theme)
+        write_atomically(path, page)
+    elif ending in MOVIES:
+        write_movie(film_of_run(simulation.history()), path, theme=_paper(theme))
+    else:
+        light = _paper(theme) if ending == ".png" else theme
+        _write_picture(path, svg_of(frame_of(still_of(simulation)), theme=light))
+
+
+def _ending(path: Path) -> str:
+    ending = path.suffix.lower()
+    if ending not in ENDINGS:
+        raise InputError(f"{path}: a drawing ends in one of {', '.join(ENDINGS)}")
+    return ending
+
+
+def _paper(theme: str) -> str:
+    """The theme of a picture that cannot ask for the reader's preference."""
+    return "light" if theme == "auto" else theme
 
 
 def _write_picture(path: Path, svg: str) -> None:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from exactpt.certificates.queue import EventTime
     from exactpt.collision.contact import Contact
+    from exactpt.kernel.numbers import QQ
     from exactpt.scene.scene import Scene
     from exactpt.simulation.event import Event
 
@@ -25,11 +26,12 @@ Pairs: TypeAlias = "tuple[tuple[int, int], ...]"
 
 
 class Change(NamedTuple):
-    """One event: its kind, and the edges of the tiling that were removed and added."""
+    """An event: its kind, the edges of the tiling that were removed and added; or words for it."""
 
     kind: str
     removed: Pairs
     added: Pairs
+    words: str = ""
 
 
 class Step(NamedTuple):
@@ -59,6 +61,7 @@ class Film:
         edges: the edges of the tiling, each with its first and last step.
         tiles: the tiles, likewise.
         contact: the first contact, at the last step; None if there is none.
+        spans: for each body the time span in which it is there; empty if that is always.
     """
 
     scene: Scene
@@ -67,6 +70,14 @@ class Film:
     edges: tuple[EdgeSpan, ...]
     tiles: tuple[TileSpan, ...]
     contact: Contact | None
+    spans: tuple[tuple[QQ, QQ], ...] = ()
+
+    def is_there(self, body: int, t: QQ) -> bool:
+        """Whether a body, by its index, is there at a time."""
+        if not self.spans:
+            return True
+        since, until = self.spans[body]
+        return since <= t and (t < until or until == self.scene._end)
 
     @property
     def end(self) -> AlgebraicNumber:

@@ -13,12 +13,12 @@ from exactpt.render.window import Window, window_of
 from exactpt.render.words import contact_in_words, time_in_words
 
 if TYPE_CHECKING:
-    from exactpt.collision.contact import Pair
+    from exactpt.collision.contact import Contact, Pair
     from exactpt.pseudotriangulation.snapshot import Face, Snapshot
     from exactpt.render.still import Still
     from exactpt.scene.scene import Scene
 
-__all__ = ["Frame", "Line", "Mark", "Pixel", "Shape", "Tile", "frame_of", "tints"]
+__all__ = ["Frame", "Line", "Mark", "Pixel", "Shape", "Tile", "frame_of", "marks_of", "tints"]
 
 Pixel: TypeAlias = tuple[float, float]
 
@@ -157,11 +157,7 @@ def frame_of(still: Still) -> Frame:
         caption = f"first contact at {time_in_words(still.contact.time)}"
         both, one = (contact_in_words(still.contact, limit=n) for n in (2, 1))
         news = both if len(both) * _LETTER < window.width else one
-        rounded = {body.name for body in scene.bodies if body._radius}
-        marks = tuple(
-            _mark(pair, scene, pixels, window, touches=rounded.isdisjoint((pair.body, pair.other)))
-            for pair in still.contact.pairs
-        )
+        marks = marks_of(scene, still.contact, pixels, window)
     return Frame(window, caption, news, note, tiles, shapes, lines, marks)
 
 
@@ -199,6 +195,17 @@ def tints(faces: Sequence[Face]) -> list[int]:
         free = [tint for tint in range(TINTS) if tint not in taken]
         chosen.append(free[i % len(free)] if free else i % TINTS)
     return chosen
+
+
+def marks_of(
+    scene: Scene, contact: Contact, pixels: dict[str, tuple[Pixel, ...]], window: Window
+) -> tuple[Mark, ...]:
+    """The marks of a contact; ``pixels`` are those of the bodies, by name."""
+    rounded = {body.name for body in scene.bodies if body._radius}
+    return tuple(
+        _mark(pair, scene, pixels, window, touches=rounded.isdisjoint((pair.body, pair.other)))
+        for pair in contact.pairs
+    )
 
 
 def _mark(

@@ -77,7 +77,7 @@ def _middle(body: Named) -> Pixel:
     pixels = body.pixels
     x, y = (sum(c) / len(pixels) for c in zip(*pixels, strict=True))
     if not body.has_interior:
-        return x, y - (_ABOVE if body.is_thin else 0.0)
+        return x, min(q for _, q in pixels) - _ABOVE if body.is_thin else y
     sides = [(pixels[i], pixels[j]) for i, j in body.edges]
     if any(left < x < right for left, right in _inside_at(sides, y)):
         return x, y

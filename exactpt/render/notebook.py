@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
+from exactpt.errors import BudgetExceeded
+from exactpt.render.film import film_of
 from exactpt.render.frame import frame_of
+from exactpt.render.marked import film_of_run
+from exactpt.render.page import page_of
 from exactpt.render.still import Still, still_of
 from exactpt.render.svg import svg_of
 from exactpt.render.words import clean, incidences_in_words, polynomial_in_words, time_in_words
@@ -15,7 +19,11 @@ if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
     from exactpt.simulation.simulation import Simulation
 
-__all__ = ["contact_html", "scene_svg", "simulation_svg"]
+__all__ = ["contact_html", "scene_player", "scene_svg", "simulation_player", "simulation_svg"]
+
+MOST_EVENTS: Final = 2000
+MOST_SECONDS: Final = 5.0
+"""Bounds on the run of a scene that a notebook shows."""
 
 
 def scene_svg(scene: Scene) -> str:
@@ -26,6 +34,28 @@ def scene_svg(scene: Scene) -> str:
 def simulation_svg(simulation: Simulation) -> str:
     """An SVG picture of the bodies and the tiling at the current time, or of the contact."""
     return svg_of(frame_of(still_of(simulation)))
+
+
+def scene_player(scene: Scene) -> str | None:
+    """The animation of a scene in a frame of its own; None if its run takes long."""
+    try:
+        film = film_of(scene, max_events=MOST_EVENTS, max_seconds=MOST_SECONDS)
+    except BudgetExceeded:
+        return None
+    return _framed(page_of(film, title="scene"))
+
+
+def simulation_player(simulation: Simulation) -> str | None:
+    """The animation of a remembered run; None if no time has passed."""
+    history = simulation.history()
+    if history.start == history.end:
+        return None
+    return _framed(page_of(film_of_run(history), title="simulation"))
+
+
+def _framed(page: str) -> str:
+    look = "width:100%;height:640px;border:0"
+    return f'<iframe sandbox="allow-scripts" style="{look}" srcdoc="{escape(page)}"></iframe>'
 
 
 def contact_html(contact: Contact) -> str:

@@ -311,6 +311,43 @@ class Scene:
     def __reduce__(self) -> tuple[object, ...]:
         return _valid_scene, (self.bodies, str(self._start), str(self._end))
 
+    def draw(
+        self,
+        path: str | Path,
+        *,
+        at: Rational | Literal["contact"] | None = None,
+        tiling: str = "auto",
+        theme: str = "auto",
+        gap: tuple[str, str] | None = None,
+    ) -> None:
+        """Draw the scene: a picture (.svg, .png), an animation (.html) or a film (.gif, .mp4).
+
+        An animation or film runs from the start to the first contact, or to the end.
+
+        Args:
+            path: the file; it is complete or not there.
+            at: the time, rational or "contact"; by default the start. An animation shows that
+                time first, a film has all times.
+            tiling: the tiling to show: "auto" or one of `TILINGS`.
+            theme: "light", "dark" or "auto" (the reader's preference; PNG and films: light).
+            gap: names of two bodies, whose distance over time is plotted beside an animation; a
+                picture is of this plot alone.
+
+        Raises:
+            InputError: if the suffix is another one, a library is missing, or there is no contact
+                or body to draw.
+            TimeRangeError: if there is nothing to draw at that time.
+        """
+        when = at if at is None or at == "contact" else rational(at)
+        extension("drawing of a scene")(
+            self, Path(path), at=when, tiling=tiling, theme=theme, gap=gap
+        )
+
+    def _repr_html_(self) -> str | None:
+        """The animation up to the first contact, for notebooks; None if that would take long."""
+        player: str | None = extension("player of a scene")(self)
+        return player
+
     def _repr_svg_(self) -> str:
         """The bodies at the start as SVG, for notebooks."""
         return str(extension("picture of a scene")(self))

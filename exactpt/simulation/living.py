@@ -113,6 +113,11 @@ class LivingScene:
             self._scene = self._end.going_on(self._bodies, self._since)
         return self._scene
 
+    @property
+    def bodies(self) -> Sequence[Body]:
+        """The bodies with their current motions."""
+        return self._bodies
+
     def body(self, name: str) -> Body:
         """The body of a given name, with its current motion.
 

@@ -17,6 +17,7 @@ from exactpt.kernel.numbers import QQ, Rational, fraction, power_of_two, rationa
 from exactpt.scene.scene import Scene
 from exactpt.simulation.budget import Budget
 from exactpt.simulation.event import Event
+from exactpt.simulation.history import Log
 from exactpt.simulation.living import Choice, LivingScene
 from exactpt.simulation.met import Met, met
 from exactpt.simulation.recording import Recorder
@@ -40,6 +41,7 @@ class Run:
         contacts: number of contacts so far.
         met: the last contact with a response.
         recorder: what records the run, or None.
+        log: what remembers the run, or None.
     """
 
     def __init__(self, living: LivingScene, budget: Budget) -> None:
@@ -50,6 +52,7 @@ class Run:
         self.contacts = 0
         self.met: Met | None = None
         self.recorder: Recorder | None = None
+        self.log: Log | None = None
         self._budget = budget
         self._is_broken = False
         self._proved: QQ = living.scene._start
@@ -207,6 +210,8 @@ class Run:
 
     def _report(self, contact: Contact) -> None:
         self.contacts += 1
+        if self.log is not None:
+            self.log.met(contact)
         self.pending.append(Event(contact.time, "contact"))
 
     # Changes, and how far it is
@@ -226,6 +231,8 @@ class Run:
         with self._guarded():
             self.pending.extend(how(self.living))
         self._proved = self.living.now._low
+        if self.log is not None:
+            self.log.changed(self._proved, self.living.bodies)
         if self.recorder is not None:
             self.recorder.change(self._proved)
 
@@ -265,6 +272,7 @@ def begin(
     *,
     exact_only: bool,
     recorder: Recorder | None = None,
+    log: Log | None = None,
 ) -> Run:
     """The run of a scene from its start, see `exactpt.Simulation`."""
     with carrying(lambda: scene), budget.held():
@@ -273,6 +281,7 @@ def begin(
         touches, overlaps = initial_touches(scene)
         if overlaps:
             run = Run(LivingScene(scene, None, choice), budget)
+            run.log = log
             run.end_with(contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps))
             if recorder is not None:
                 recorder.touching(scene)
@@ -283,7 +292,7 @@ def begin(
             spent.reached = scene.start
             raise
         run = Run(LivingScene(scene, kinetic, choice), budget)
-        run.recorder = recorder
+        run.recorder, run.log = recorder, log
         return run
 
 

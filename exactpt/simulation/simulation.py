@@ -20,6 +20,7 @@ from exactpt.scene.format import to_json as scene_to_json
 from exactpt.scene.scene import Scene
 from exactpt.simulation.budget import Budget
 from exactpt.simulation.event import Event
+from exactpt.simulation.history import History, Log
 from exactpt.simulation.recording import Recorder
 from exactpt.simulation.running import begin
 from exactpt.simulation.spaces import SpaceCache
@@ -68,6 +69,9 @@ class Simulation:
             changes of plans, ``1.proof`` with ``1.scene.json``, and so on. The last part ends
             with a contact, at the end of the time span, or by `end_proof`. A copy, or a
             restored simulation, writes none.
+        record: whether the run is remembered, for `history` and `draw`. Each change of plans then
+            takes time linear in the number of bodies. A copy, or a restored simulation, remembers
+            nothing.
 
     Raises:
         BudgetExceeded: if the time or memory is used up before the run begins.
@@ -85,12 +89,14 @@ class Simulation:
         max_seconds: float | None = None,
         max_memory: int | None = None,
         proof: str | Path | None = None,
+        record: bool = False,
     ) -> None:
         budget = Budget(max_events, max_seconds, max_memory)
         recorder: Recorder | None = None
         if proof is not None:
             recorder = extension("proofs of a simulation")(proof)
-        self._run = begin(scene, tiling, budget, exact_only=exact_only, recorder=recorder)
+        log = Log(scene) if record else None
+        self._run = begin(scene, tiling, budget, exact_only=exact_only, recorder=recorder, log=log)
         self._spaces = SpaceCache()
 
     @property
@@ -326,6 +332,38 @@ class Simulation:
     def neighbours(self, body: str) -> list[str]:
         """The bodies connected to a body by a diagonal now, see `FreeSpace.neighbours`."""
         return self.space().neighbours(body)
+
+    # The past
+
+    def history(self) -> History:
+        """The whole run so far; ``history().scene()`` is it as one exact scene.
+
+        Raises:
+            InputError: if the run is not remembered (``record=True``).
+        """
+        if self._run.log is None:
+            raise InputError("the run is not remembered: Simulation(..., record=True) does that")
+        return self._run.log.history(self.now, self.contact)
+
+    def draw(self, path: str | Path, *, theme: str = "auto") -> None:
+        """Draw the simulation into a file: now (.svg, .png), or the whole run so far.
+
+        An animation (.html) or film (.gif, .mp4) of the run, which must be remembered
+        (``record=True``), has the contacts, new plans, comings and goings on its ruler.
+
+        Args:
+            path: the file; it is complete or not there.
+            theme: "light", "dark" or "auto" (the reader's preference; PNG and films: light).
+
+        Raises:
+            InputError: if the suffix is another one, a library is missing, the run is not
+                remembered, or no time has passed.
+        """
+        extension("drawing of a simulation")(self, Path(path), theme=theme)
+
+    def _repr_html_(self) -> str | None:
+        """The animation of a remembered run, for notebooks; None: there is a picture instead."""
+        return None if self._run.log is None else extension("player of a simulation")(self)
 
     def _repr_svg_(self) -> str:
         """A picture of the tiling at the current time, or of the contact, for notebooks."""

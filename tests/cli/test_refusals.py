@@ -104,7 +104,7 @@ def test_every_command_refuses_it_alike(tmp_path, monkeypatch, capsys, name):
         ("draw scene.json -o x.svg --at contact", "no contact to draw from t = 0 to t = 10"),
         ("draw scene.json -o x.html --at contact", "no contact to draw from t = 0 to t = 10"),
         ("draw scene.json -o x.html --at 11", "--at: nothing to show at t = 11: the animation"),
-        ("draw scene.json -o x.gif", ".gif"),
+        ("draw scene.json -o x.jpg", ".jpg"),
         ("tile scene.json --at one", "--at"),
         ("tile scene.json --tiling round", "--tiling"),
         ("simulate scene.json --tiling incremental", "incremental"),

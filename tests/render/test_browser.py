@@ -8,13 +8,14 @@ from itertools import accumulate
 from pathlib import Path
 
 import pytest
-from render_scenes import demo
+from render_scenes import demo, small
 
 from exactpt.certificates.one_sided import OneSided
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, ZZ, nearest_float, power_of_two
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
 from exactpt.proximity.clearance import clearance
 from exactpt.pseudotriangulation.flip import shadow
 from exactpt.render.film import film_of
@@ -25,6 +26,7 @@ from exactpt.render.palette import body_colour
 from exactpt.render.still import still
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
+from exactpt.simulation.responses import Bounce
 from exactpt.simulation.simulation import Simulation
 
 pytestmark = pytest.mark.browser
@@ -516,3 +518,47 @@ def test_the_moving_picture_of_the_readme(browser, calm):
     assert [name == "none" for name in shown] == [calm, not calm]
     assert fill == "rgb(14, 18, 24)"
     assert browser.title.startswith("The demo's tiling flexes")
+
+
+def test_a_run_that_goes_on(browser, tmp_path):
+    """Its contacts, plans, comings and goings are events; bodies are there in their time only."""
+    ball = Body("ball", [(0, 0), (1, 0), (0, 1)], Translation([0, 2]))
+    scene = Scene([ball, Body("wall", [(6, -9), (6, 9)])], (0, 8))
+    simulation = Simulation(scene, record=True)
+    bounce = Bounce(fixed=["wall"])
+    list(simulation.run(4, on_contact=bounce))
+    simulation.add(Body("guest", [(2, 3), (4, 3), (4, 5), (2, 5)]))
+    list(simulation.run(6, on_contact=bounce))
+    simulation.remove("guest")
+    list(simulation.run(on_contact=bounce))
+    simulation.draw(tmp_path / "run.html")
+    browser.get((tmp_path / "run.html").as_uri())
+
+    names = []
+    for at in ("3", "5", "7"):
+        browser.execute_script("exactpt.seek(arguments[0])", at)
+        x, y = (sum(p[k] for p in state(browser)["pixels"][5:9]) / 4 for k in (0, 1))
+        names.append(
+            (
+                "guest" in browser.execute_script("return exactpt.labels().map((l) => l.text)"),
+                colour(browser, x + 20, y + 20) == body_colour(2),
+            )
+        )
+    rows = [row.text for row in browser.find_elements("class name", "row")]
+
+    assert names == [(False, False), (True, True), (False, False)]
+    assert [row.splitlines()[0] for row in rows] == ["plan", "contact", "arrival", "departure"]
+    assert "ball and wall come into contact" in rows[1]
+    assert browser.get_log("browser") == []
+
+
+def test_notebooks_play(browser, tmp_path):
+    """The player works in a frame that may run scripts and nothing else."""
+    (tmp_path / "cell.html").write_text(small()._repr_html_(), encoding="utf-8")
+    browser.get((tmp_path / "cell.html").as_uri())
+    browser.switch_to.frame(browser.find_element("tag name", "iframe"))
+    browser.find_element("id", "next").click()
+    shown = browser.execute_script("return exactpt.state().step")
+    browser.switch_to.default_content()
+    assert shown == 1
+    assert browser.get_log("browser") == []

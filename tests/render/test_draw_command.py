@@ -49,7 +49,7 @@ def test_draw(scene, at, ending):
 @pytest.mark.parametrize(
     "arguments, message",
     [
-        (["-o", "x.gif"], "ends in one of .svg, .png, .html"),
+        (["-o", "x.jpg"], "ends in one of .svg, .png, .html, .gif, .mp4"),
         (["-o", "x.svg", "--at", "4"], "the first contact is at t = 3.0"),
         (["-o", "x.html", "--at", "4"], "the animation runs from t = 0 to t = 3.0"),
         (["-o", "x.svg", "--at", "soon"], "not a number: 'soon'"),

@@ -184,7 +184,7 @@ def test_the_picture_in_the_docs_is_that_of_the_demo():
 
 def test_endings(tmp_path):
     with pytest.raises(InputError, match="ends in one of"):
-        draw(small(), tmp_path / "picture.gif")
+        draw(small(), tmp_path / "picture.jpg")
     draw(small(), tmp_path / "picture.SVG", at="contact")
     assert ET.parse(tmp_path / "picture.SVG").getroot().tag == f"{SVG}svg"
     assert [p.name for p in tmp_path.iterdir()] == ["picture.SVG"]

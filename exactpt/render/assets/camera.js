@@ -59,13 +59,15 @@ function boxOf(chart) {
   const box = [Infinity, Infinity, -Infinity, -Infinity];
   chart.x.forEach((x, v) => {
     const y = chart.y[v];
-    const { radius } = chart.film.bodies[chart.film.nodes[v].body];
+    const body = chart.film.bodies[chart.film.nodes[v].body];
+    if (!chart.film.isThere(body, chart.shown)) return;
+    const { radius } = body;
     box[0] = Math.min(box[0], x - radius);
     box[1] = Math.min(box[1], y - radius);
     box[2] = Math.max(box[2], x + radius);
     box[3] = Math.max(box[3], y + radius);
   });
-  return chart.x.length ? box : [0, 0, 1, 1];
+  return box[0] <= box[2] ? box : [0, 0, 1, 1];
 }
 
 function union(a, b) {

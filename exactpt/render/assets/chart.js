@@ -71,6 +71,7 @@ class Chart {
       const piece = pieceAt(body, time);
       if (piece !== this.piece[b]) this.enter(b, piece);
     });
+    this.shown = time;
     this.s = toDouble(time - this.time, -BITS);
     for (let v = 0; v < this.rows.length; v += 1) {
       const row = this.rows[v];

@@ -1,5 +1,8 @@
 // The controls: buttons, the scrubber, the keyboard, the theme, and their displays.
 
+/** The colours on the ruler of what happens to bodies; what comes first is seen first. */
+const MARKS = { contact: "contact", arrival: "added", departure: "removed", plan: "accent" };
+
 class Controls {
   /** @param changed called when the picture is to be painted again */
   constructor(film, player, stage, panel, changed) {
@@ -214,14 +217,13 @@ class Controls {
     const { film, stage } = this;
     const span = film.end - film.start;
     if (span === 0n) return;
-    context.globalAlpha = Math.max(0.12, Math.min(0.6, 90 / film.steps.length));
+    const faint = Math.max(0.12, Math.min(0.6, 90 / film.steps.length));
     for (const { time, changes } of film.steps) {
       const x = toDouble(((time - film.start) << 40n) / span, -40) * (canvas.width - 2 * ratio);
-      const isContact = changes[0][0] === "contact";
-      if (isContact) context.globalAlpha = 1;
-      context.fillStyle = stage.painter.colours[isContact ? "contact" : "soft"];
-      context.fillRect(x, isContact ? 0 : canvas.height * 0.3, (isContact ? 2 : 1) * ratio,
-        canvas.height);
+      const kind = Object.keys(MARKS).find((mark) => changes.some(([k]) => k === mark));
+      context.globalAlpha = kind ? 1 : faint;
+      context.fillStyle = stage.painter.colours[MARKS[kind] ?? "soft"];
+      context.fillRect(x, kind ? 0 : canvas.height * 0.3, (kind ? 2 : 1) * ratio, canvas.height);
     }
   }
 }

@@ -62,6 +62,16 @@ class Film {
     return state.leftOf;
   }
 
+  /** Whether a body is there at a time. */
+  isThere({ since, until }, time) {
+    return (since === null || since <= time) && (until === null || time < until);
+  }
+
+  /** The bodies that are there at a time. */
+  present(time) {
+    return this.bodies.filter((body) => this.isThere(body, time));
+  }
+
   /** Whether an edge of the tiling joins two bodies. */
   isBridge({ u, v, kind }) {
     return kind !== "rim" && this.nodes[u].body !== this.nodes[v].body;
@@ -102,12 +112,15 @@ class Film {
 }
 
 /** A body; `starts` has the number of the first vertex of each ring. */
-function readBody([name, colour, closed, pieces, radius = 0, starts = [0]]) {
+function readBody([name, colour, closed, pieces, radius = 0, starts = [0], since = null,
+  until = null]) {
   const tracks = pieces.map(([until, rows]) => ({
     until: until === null ? null : BigInt(until),
     rows: rows.map((row) => row.map((f) => f.map(BigInt))),
   }));
-  return { name, colour, closed, radius, starts, size: tracks[0].rows.length, pieces: tracks };
+  const [from, to] = [since, until].map((time) => (time === null ? null : BigInt(time)));
+  return { name, colour, closed, radius, starts, since: from, until: to,
+    size: tracks[0].rows.length, pieces: tracks };
 }
 
 /** An integer polynomial, constant term first, as a formula. */

@@ -9,6 +9,7 @@ class Painter {
     this.context = canvas.getContext("2d");
     this.pen = new Pen(this.context);
     this.film = film;
+    this.shown = film.bodies;
     this.colours = {};
   }
 
@@ -45,6 +46,7 @@ class Painter {
     context.lineJoin = "round";
     context.lineCap = "round";
     pen.aim(chart, camera);
+    this.shown = film.present(view.time);
     const { tiles, edges } = film.after(view.step);
     if (view.layers.tiles) this.tiles(tiles.filter((tile) => !tile.inside), 1);
     this.bodies();
@@ -87,7 +89,7 @@ class Painter {
 
   bodies() {
     const { context, pen } = this;
-    for (const body of this.film.bodies) {
+    for (const body of this.shown) {
       if (body.radius) this.rounded(body);
       if (body.radius || !body.closed || body.size < 3) continue;
       context.beginPath();
@@ -130,11 +132,11 @@ class Painter {
   outlines() {
     const { context, colours, pen } = this;
     context.beginPath();
-    for (const body of this.film.bodies) {
+    for (const body of this.shown) {
       if (!body.radius && body.closed && body.size > 2) this.around(body);
     }
     this.stroke(colours.outline, 1.2);
-    for (const body of this.film.bodies) {
+    for (const body of this.shown) {
       if (body.radius || (body.closed && body.size > 2)) continue;
       context.beginPath();
       if (body.size > 1) this.around(body);
@@ -263,9 +265,9 @@ class Painter {
 
   /** The names that fit: into their body; those of points and lines beside all other bodies. */
   labels() {
-    const boxes = this.film.bodies.map((body) => this.box(body));
+    const boxes = this.shown.map((body) => this.box(body));
     const taken = [];
-    return this.film.bodies.flatMap((body, i) => {
+    return this.shown.flatMap((body, i) => {
       const pixels = rings(body).map((ring) => ring.map((v) => this.pen.pixel(v)));
       const isThin = !body.radius && (body.size < 3 || !body.closed);
       const [x, y] = label(pixels, body.closed, isThin ? 13 : 0);
@@ -346,7 +348,9 @@ function covers(a, b) {
 function label(outlines, isClosed, above) {
   const pixels = outlines.flat();
   const [x, y] = [0, 1].map((i) => pixels.reduce((sum, p) => sum + p[i], 0) / pixels.length);
-  if (pixels.length < 3 || !isClosed) return [x, y - above];
+  if (pixels.length < 3 || !isClosed) {
+    return [x, above ? Math.min(...pixels.map((p) => p[1])) - above : y];
+  }
   if (insideAt(outlines, y).some(([left, right]) => left < x && x < right)) return [x, y];
   const heights = pixels.map((p) => p[1]);
   const [low, high] = [Math.min(...heights), Math.max(...heights)];

@@ -25,7 +25,9 @@ class Panel {
     const { film } = this;
     const card = byId("contact");
     if (film.contact === null) {
-      card.append(made("h2", "First contact"), made("p", `None up to t = ${film.endText}`));
+      const { length } = film.rows.filter(({ change: [kind] }) => kind === "contact");
+      if (length) card.append(made("h2", "Contacts"), made("p", `${length}, each with an answer`));
+      else card.append(made("h2", "First contact"), made("p", `None up to t = ${film.endText}`));
       return;
     }
     card.classList.add("hit");
@@ -68,8 +70,8 @@ class Panel {
   writeUpcoming() {
     const { film, step } = this;
     const card = byId("upcoming");
-    card.replaceChildren(made("h2", "Fails next"));
     const next = film.steps[step];
+    card.replaceChildren(made("h2", next && !next.certificate.length ? "Next" : "Fails next"));
     if (!next) {
       card.append(made("p", film.contact ? "Nothing: the bodies touch." : "Nothing until the end."));
       return;
@@ -104,7 +106,7 @@ class Panel {
   }
 
   row(i) {
-    const { step, change: [kind, removed, added] } = this.film.rows[i];
+    const { step, change: [kind, removed, added, words] } = this.film.rows[i];
     const row = made("div", "", "row");
     row.id = `row-${i}`;
     row.dataset.step = step;
@@ -117,7 +119,7 @@ class Panel {
     row.title = `${this.film.stepText(step)}\n${this.film.exactText(step).slice(0, 600)}`;
     row.append(made("i", "", `kind-${kind}`), made("span", kind, "kind"),
       made("span", this.film.timeText(this.film.timeOf(step), 7), "when"),
-      made("span", this.change(kind, removed, added), "what"));
+      made("span", words ?? this.change(kind, removed, added), "what"));
     if (step === this.step) this.list.setAttribute("aria-activedescendant", row.id);
     return row;
   }

@@ -6,7 +6,9 @@ const REACHES = { node: 11, edge: 6 };
 function pick(pen, film, step, x, y, layers) {
   const [px, py] = [x - pen.camera.width / 2, pen.camera.height / 2 - y];
   let [node, nearest] = [undefined, REACHES.node];
+  const isThere = (b) => film.isThere(b, pen.chart.shown);
   for (let v = 0; v < pen.x.length; v += 1) {
+    if (!isThere(film.bodies[film.nodes[v].body])) continue;
     const distance = Math.hypot(pen.x[v] - px, pen.y[v] - py);
     if (distance < nearest) [node, nearest] = [v, distance];
   }
@@ -18,9 +20,9 @@ function pick(pen, film, step, x, y, layers) {
       .reduce((best, next) => (next[1] < best[1] ? next : best), [null, REACHES.edge]);
     if (found[0]) return { edge: found[0] };
   }
-  const body = film.bodies.findIndex((b) =>
-    rings(b).filter((ring) => contains(pen.cut(ring), px, py)).length % 2
-      || (b.radius && isWithin(pen, b, px, py)));
+  const body = film.bodies.findIndex((b) => isThere(b)
+    && (rings(b).filter((ring) => contains(pen.cut(ring), px, py)).length % 2
+      || (b.radius && isWithin(pen, b, px, py))));
   const inside = tiles.find((tile) => (tile.inside || body < 0)
     && contains(pen.cut(tile.nodes), px, py));
   if (layers.tiles && inside) return { tile: inside };

@@ -1,0 +1,125 @@
+"""Films of runs that go on, and films as GIF and MP4."""
+
+import pytest
+from render_scenes import small
+
+from exactpt import Body, Bounce, InputError, Scene, Simulation, Translation
+from exactpt.kernel.numbers import QQ
+from exactpt.render import draw as draw_module
+from exactpt.render import movie
+from exactpt.render.data import data_of
+from exactpt.render.film import film_of
+from exactpt.render.marked import film_of_run
+from exactpt.render.movie import frames_of
+
+
+def run(*, guest):
+    ball = Body("ball", [(0, 0), (1, 0), (0, 1)], Translation([0, 2], [0, "1/3"]))
+    walls = [Body("left", [(-1, -9), (-1, 9)]), Body("right", [(6, -9), (6, 9)])]
+    simulation = Simulation(Scene([ball, *walls], time=(0, 9)), record=True)
+    bounce = Bounce(fixed=["left", "right"])
+    list(simulation.run(4, on_contact=bounce))
+    if guest:
+        simulation.add(Body("guest", [(3, 7), (4, 7), (4, 8)]))
+        list(simulation.run(6, on_contact=bounce))
+        simulation.remove("guest")
+    list(simulation.run(on_contact=bounce))
+    return simulation
+
+
+def test_the_film_of_a_run_goes_on_after_contacts():
+    simulation = run(guest=False)
+    film = film_of_run(simulation.history())
+    plain = film_of(simulation.history().scene())
+
+    assert film.end == 9
+    assert film.contact is None
+    times = [step.time for step in film.steps]
+    assert times == sorted(set(times))
+    told = [c.words for step in film.steps for c in step.changes if c.words]
+    assert told.count("a new motion for ball") == told.count("ball and right come into contact") + (
+        told.count("ball and left come into contact")
+    )
+    # The same edges and tiles are there at the same times.
+    for mine, its in ((film.edges, plain.edges), (film.tiles, plain.tiles)):
+        assert [when(film, s) for s in mine] == [when(plain, s) for s in its]
+    assert film.edges
+
+
+def when(film, span):
+    number = [None, *(step.time for step in film.steps)]
+    return number[span.first], None if span.last is None else number[span.last]
+
+
+def test_bodies_that_come_and_go_are_there_in_between():
+    film = film_of_run(run(guest=True).history())
+    data = data_of(film)
+
+    assert [film.is_there(3, t) for t in (QQ(3), QQ(4), QQ(5), QQ(6))] == [False, True, True, False]
+    assert [film.is_there(0, t) for t in (QQ(0), QQ(9))] == [True, True]
+    assert data["bodies"][3][0] == "guest"
+    assert None not in data["bodies"][3][5:]
+    assert data["bodies"][0][6] is None
+    frames = list(frames_of(film, 9))
+    assert [len(frame.shapes) for frame in frames] == [3, 3, 3, 3, 4, 4, 3, 3, 3, 3]
+
+
+def test_frames_are_those_of_the_film():
+    film = film_of(small())
+    *before, last = frames_of(film, 10)
+
+    assert len(before) == 10
+    assert {frame.window for frame in before} == {last.window}
+    assert last.marks
+    assert not any(frame.marks for frame in before)
+    assert all(frame.tiles and frame.lines for frame in before)
+
+
+@pytest.mark.parametrize("ending, start", [(".gif", b"GIF89a"), (".mp4", b"ftyp")])
+def test_a_film_as_a_file(tmp_path, monkeypatch, ending, start):
+    pytest.importorskip("resvg_py")
+    iio = pytest.importorskip("imageio.v3")
+    ffmpeg = pytest.importorskip("imageio_ffmpeg")
+    monkeypatch.setattr(movie, "SECONDS", 1)
+    path = tmp_path / f"film{ending}"
+
+    small().draw(path)
+
+    data = path.read_bytes()
+    assert data.startswith(start) or data[4:8] == start
+    if ending == ".gif":
+        frames = iio.imread(path)
+        assert len(frames) == movie.RATE + 1  # the last one is shown for longer
+        assert (frames[0] != frames[movie.RATE]).any()
+    else:
+        assert ffmpeg.count_frames_and_secs(path) == (movie.RATE + movie.REST, 2.0)
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_run_as_a_page_and_as_a_picture(tmp_path):
+    simulation = run(guest=True)
+    simulation.draw(tmp_path / "run.html")
+    simulation.draw(tmp_path / "now.svg")
+
+    assert "ball and right come into contact" in (tmp_path / "run.html").read_text(encoding="utf-8")
+    assert "guest" not in (tmp_path / "now.svg").read_text(encoding="utf-8")
+    with pytest.raises(InputError, match="ends in one of"):
+        simulation.draw(tmp_path / "run.txt")
+    with pytest.raises(InputError, match="record=True"):
+        Simulation(small()).draw(tmp_path / "other.html")
+
+
+def test_without_imageio(tmp_path, monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "imageio.v2", None)
+    with pytest.raises(InputError, match=r"pip install 'exactpt\[film\]'"):
+        small().draw(tmp_path / "film.gif")
+    with pytest.raises(InputError, match="a film has all times"):
+        draw_module.draw(small(), tmp_path / "film.gif", at=QQ(0))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_notebooks_get_the_player():
+    assert 'srcdoc="&lt;!DOCTYPE html' in small()._repr_html_()
+    assert "new motion for ball" in run(guest=False)._repr_html_()
+    assert Simulation(small())._repr_html_() is None
+    assert Simulation(small(), record=True)._repr_html_() is None
