@@ -22,15 +22,18 @@ def time_text(time: AlgebraicNumber, names: Iterable[tuple[int, ...]], nodes: No
     Args:
         time: within the time span.
         names: triples or pairs of vertices whose orientation or difference of abscissas may
-            vanish then; if none does, the coefficients of a polynomial are written.
+            vanish then, each written with its least vertex first; if none does, the coefficients
+            of a polynomial are written.
         nodes: the vertices of the scene.
     """
     time.simplified()
     if time.is_rational:
         return f"{time._low} {time._low}"
-    for name in names:
-        if len(name) not in (2, 3) or len(set(name)) < len(name):
+    for given in names:
+        if len(given) not in (2, 3) or len(set(given)) < len(given):
             continue
+        least = given.index(min(given))
+        name = given[least:] + given[:least]
         piece = max(nodes.last_break(nodes.body_of[v], time) for v in name)
         f = nodes.vanishing(name, piece)
         if f and time.sign_of(f) == 0:

@@ -58,8 +58,8 @@ def test_bodies_that_come_and_go_are_there_in_between():
     assert [film.is_there(3, t) for t in (QQ(3), QQ(4), QQ(5), QQ(6))] == [False, True, True, False]
     assert [film.is_there(0, t) for t in (QQ(0), QQ(9))] == [True, True]
     assert data["bodies"][3][0] == "guest"
-    assert None not in data["bodies"][3][5:]
-    assert data["bodies"][0][6] is None
+    assert None not in data["bodies"][3][6:]
+    assert data["bodies"][0][7] is None
     frames = list(frames_of(film, 9))
     assert [len(frame.shapes) for frame in frames] == [3, 3, 3, 3, 4, 4, 3, 3, 3, 3]
 
