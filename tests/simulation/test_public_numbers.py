@@ -28,13 +28,15 @@ from exactpt.collision.pairs import PairsSearch
 from exactpt.errors import BudgetExceeded
 from exactpt.pseudotriangulation.snapshot import Snapshot
 
-PLAIN = {int, float, bool, str, bytes, type(None), Fraction}
+PLAIN = {int, float, bool, str, bytes, type(None), Fraction, range}
 
 ARGUMENTS = {
     "Spin.of_pieces": ([(0, Rigid(0)), (1, Rigid(0)), (None, Rigid(0))], 0, 1),
     "at": ("1/3",),
     "body": ("box",),
     "canonical_interval": (),
+    "end_of_edge": (0,),
+    "halted": ("1/3",),
     "compare": (AlgebraicNumber(1),),
     "compare_rational": (Fraction(1, 3),),
     "first_contact": ([(0, 0)], Translation([0, "1/3"])),
