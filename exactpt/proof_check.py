@@ -26,7 +26,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from functools import cmp_to_key, lru_cache
-from itertools import pairwise, zip_longest
+from itertools import accumulate, pairwise, zip_longest
 from math import floor, gcd, inf, lcm
 from typing import Any, TextIO
 
@@ -274,23 +274,31 @@ def meet(time: Time, a: Track, b: Track, c: Track, d: Track) -> bool:
     return (p * q < 0 and r * s < 0) or ends or is_on(time, a, c, d) or is_on(time, b, c, d)
 
 
-def is_simple(time: Time, ring: Sequence[Track]) -> bool:
-    """Whether the edges of a polygon meet where they are joined, and nowhere else."""
-    n = len(ring)
-    x = [Fraction(*f.scaled(time.low)) / Fraction(*w.scaled(time.low)) for f, _, w in ring]
-    spans = sorted((min(x[i - 1], x[i]), max(x[i - 1], x[i]), i) for i in range(n))
-    for k, (_, right, i) in enumerate(spans):
-        for left, _, j in spans[k + 1 :]:
+def is_simple(time: Time, tracks: dict[int, Track], edges: Iterable[Dart]) -> bool:
+    """Whether the edges around polygons meet where they are joined, and nowhere else."""
+    at = time.low
+    x = {v: Fraction(*f.scaled(at)) / Fraction(*w.scaled(at)) for v, (f, _, w) in tracks.items()}
+    spans = sorted((min(x[u], x[v]), max(x[u], x[v]), u, v) for u, v in edges)
+    for k, (_, right, *e) in enumerate(spans):
+        for left, _, *f in spans[k + 1 :]:
             if left > right:
                 break
-            if (i - j) % n in (1, n - 1):  # one of them ends at vertex e, where the other begins
-                e = i if (j - i) % n == 1 else j
-                a, v, b = ring[e - 1], ring[e], ring[(e + 1) % n]
+            if e[1] == f[0] or f[1] == e[0]:  # one of them ends where the other begins
+                a, v, b = (tracks[u] for u in ((*e, f[1]) if e[1] == f[0] else (*f, e[1])))
                 if not time.sign_of(orientation_of(a, v, b)) and time.sign_of(dot_of(a, v, b)) >= 0:
                     return False
-            elif meet(time, ring[i - 1], ring[i], ring[j - 1], ring[j]):
+            elif meet(time, *(tracks[u] for u in (*e, *f))):
                 return False
     return True
+
+
+def surrounds(ring: Sequence[Point], p: Point) -> bool:
+    """Whether a ray from p to the right crosses a polygon an odd number of times."""
+    odd = False
+    for a, b in pairwise([*ring, *ring[:1]]):
+        if (a[1] > p[1]) != (b[1] > p[1]):
+            odd ^= a[0] + (p[1] - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > p[0]
+    return odd
 
 
 def comes_before(d: Point, e: Point) -> bool:
@@ -348,21 +356,40 @@ class Body:
         breaks: the times at which formulas change; piece k ends at breaks[k], the last never.
         vertices: the numbers of its vertices in the scene, from ``first`` on.
         closed: whether it is a polygon with its inside.
+        rings: the numbers of the vertices of each ring, and whether it bounds a hole.
     """
 
     def __init__(self, data: Json, first: int) -> None:
-        body = keys(data, "name", "vertices", "motion", "closed", "keyframes")
-        need(("vertices" in body) != ("keyframes" in body), "vertices or keyframes:", data)
+        shape = "vertices", "keyframes", "parts"
+        body = keys(data, "name", "motion", "closed", "holes", *shape)
+        need(sum(key in body for key in shape) == 1, "vertices or keyframes or parts:", data)
+        need("holes" not in body or "vertices" in body, "holes without vertices:", data)
         self.name, closed = body.get("name"), body.get("closed", True)
         need(isinstance(self.name, str) and isinstance(closed, bool), "name or closed:", data)
-        self.shapes = keyframes(body["keyframes"]) if "keyframes" in body else resting(body)
+        parts = [keys(part, "vertices", "holes") for part in entries(body.get("parts", []))]
+        rings = [
+            (entries(ring), k > 0)
+            for part in (parts or [body])
+            for k, ring in enumerate([part.get("vertices", []), *entries(part.get("holes", []))])
+        ]
+        several = "parts" in body or len(rings) > 1
+        need(not several or (closed and min(len(r) for r, _ in rings) > 2), "rings:", data)
+        flat = [vertex for ring, _ in rings for vertex in ring]
+        self.shapes = keyframes(body["keyframes"]) if "keyframes" in body else resting(flat)
         self.motions = motions(body.get("motion", {}))
         self.first, self.size = first, len(self.shapes[0][1])
         need(self.size, "no vertices:", self.name)
         self.vertices, self.closed = range(first, first + self.size), closed and self.size > 2
         ends = {t for t, _ in self.shapes} | {t for t, _ in self.motions}
         self.breaks = sorted(t for t in ends if isinstance(t, Fraction))
-        self.edges = [*pairwise(self.vertices), *[(self.vertices[-1], first)][: self.closed]]
+        ends_at = [*accumulate(len(ring) for ring, _ in rings)] if several else [self.size]
+        spans = pairwise([0, *ends_at])
+        self.rings = [(self.vertices[i:j], rings[k][1]) for k, (i, j) in enumerate(spans)]
+        self.edges = [
+            edge
+            for ring, _ in self.rings
+            for edge in [*pairwise(ring), *[(ring[-1], ring[0])][: self.closed]]
+        ]
         self.tracks: dict[tuple[int, int], Track] = {}
 
     def track(self, i: int, piece: int) -> Track:
@@ -375,10 +402,10 @@ class Body:
         return self.tracks[i, piece]
 
 
-def resting(body: dict[str, Json]) -> list[tuple[Until, Shape]]:
+def resting(vertices: list[Json]) -> list[tuple[Until, Shape]]:
     """One shape for ever: a vertex is two numbers, or an object with polynomials x and y."""
     shape: Shape = []
-    for data in entries(body["vertices"]):
+    for data in vertices:
         given = keys(data, "x", "y") if isinstance(data, dict) else None
         x, y = (
             ([c] for c in entries(data, 2)) if given is None else (given.get(k, []) for k in "xy")
@@ -535,12 +562,13 @@ class PlanarMap:
     """Half-edges with their order around faces, and so around vertices. No coordinates.
 
     ``after`` is the next one of each half-edge around its face; ``out`` has the vertices to which
-    each vertex has an edge.
+    each vertex has an edge; ``component`` is the number, from 1 on, of the component of each.
     """
 
     def __init__(self, vertices: int) -> None:
         self.after: dict[Dart, Dart] = {}
         self.out: list[set[int]] = [set() for _ in range(vertices)]
+        self.component, self.components = [0] * vertices, 0
         self.faces, self.face_of = set[Face](), dict[Dart, Face]()
 
     def begin(self, cycles: list[list[int]]) -> None:
@@ -556,12 +584,13 @@ class PlanarMap:
             require((v, u) in self.after, f"the edge {u} {v} has a face on one side alone")
         for v, around in enumerate(self.out):
             require(len(self.clockwise(v)) == len(around), f"vertex {v} has more than one fan")
-        reached, todo = {0}, [0]
-        while todo:
-            new = self.out[todo.pop()] - reached
-            reached |= new
-            todo += new
-        require(len(reached) == len(self.out), "the map is not connected")
+        for first in range(len(self.out)):
+            todo = [first] * (not self.component[first])
+            self.components += len(todo)
+            while todo:
+                v = todo.pop()
+                self.component[v] = self.components
+                todo += [u for u in self.out[v] if not self.component[u]]
         if len(self.out) == 1:
             self.faces = {()}  # around a single vertex
         self.make_faces(set(self.after))
@@ -588,6 +617,8 @@ class PlanarMap:
         places: list[tuple[int, int, int]] = []  # at a vertex, the new one stands before another
         for u, v, w, x in added:
             require(u != v and v not in self.out[u], f"the edge {u} {v} is there, or no edge")
+            one = self.component[u] == self.component[v]
+            require(one, f"the edge {u} {v} joins two components of the map")
             self.out[u].add(v)
             self.out[v].add(u)
             places += [(v, u, w), (u, v, x)]
@@ -636,7 +667,8 @@ class PlanarMap:
             self.face_of.update(dict.fromkeys(face, tuple(face)))
         self.faces = (self.faces - old) | new
         v, e, f = len(self.out), len(self.after) // 2, len(self.faces)
-        require(v - e + f == 2, f"{v} vertices, {e} edges, {f} faces: V - E + F is not 2")
+        euler = 2 * self.components
+        require(v - e + f == euler, f"{v} vertices, {e} edges, {f} faces: V - E + F is not {euler}")
         return new
 
 
@@ -670,8 +702,9 @@ class Checker:
         self.now = Time(scene.start)
         self.map = PlanarMap(len(scene.body_of))
         self.body_darts = {d for b in scene.bodies for u, v in b.edges for d in ((u, v), (v, u))}
-        self.rings: list[list[int]] = []  # of rigid closed bodies
-        self.ahead: dict[int, int] = {}  # on the ring of a closed body, counter-clockwise
+        self.rings: list[list[int]] = []  # of rigid closed bodies, which are on their left
+        self.holes: list[int] = []  # a vertex of each of those that bound holes
+        self.ahead: dict[int, int] = {}  # on a ring of a closed body, which is on the left
         self.rigid: list[bool] = []
         self.solid: set[Dart] = set()
         self.life: dict[Dart, Life] = {}
@@ -756,17 +789,25 @@ class Checker:
         self.rigid.append(self.scene.is_rigid(body, self.end))
         if not body.closed:
             return
-        places = [self.scene.at(v, start.low) for v in vertices]
-        area = sum(p[0] * q[1] - p[1] * q[0] for p, q in pairwise([*places, places[0]]))
-        require(area, f"{body.name} has no area at the start")
-        ring = vertices if area > 0 else vertices[::-1]
-        edges = [*pairwise([*ring, ring[0]])]
-        self.ahead.update(edges)
-        if self.rigid[-1]:
-            tracks = [self.scene.track(v, start.low) for v in vertices]
-            require(is_simple(start, tracks), f"{body.name} is not simple at the start")
-            self.rings.append(ring)
-            self.solid.update(edges)
+        places = [[self.scene.at(v, start.low) for v in ring] for ring, _ in body.rings]
+        for i, (ring, is_hole) in enumerate(body.rings):
+            turns = pairwise([*places[i], places[i][0]])
+            area = sum(p[0] * q[1] - p[1] * q[0] for p, q in turns)
+            require(area, f"{body.name} has no area at the start")
+            cycle = [*ring] if (area > 0) != is_hole else [*ring[::-1]]
+            edges = [*pairwise([*cycle, cycle[0]])]
+            self.ahead.update(edges)
+            if self.rigid[-1]:
+                self.rings.append(cycle)
+                self.holes += cycle[:1] if is_hole else []
+                self.solid.update(edges)
+            # Rings are disjoint: nested, they are outlines and holes in turn.
+            around = sum(surrounds(other, places[i][0]) for j, other in enumerate(places) if j != i)
+            require(around % 2 == is_hole, f"{body.name}: a hole or part is where none can be")
+        if self.rigid[-1] or len(places) > 1:
+            tracks = {v: self.scene.track(v, start.low) for v in vertices}
+            simple = is_simple(start, tracks, body.edges)
+            require(simple, f"{body.name} is not simple at the start")
 
     # Step 2: the map, and its changes.
 
@@ -775,6 +816,11 @@ class Checker:
         self.map.begin([*cycles, *self.rings])
         for u, v in self.body_darts:
             require((u, v) in self.map.after, f"the body edge {u} {v} is missing")
+        # Each component is in a hole of its own of a rigid body, but for one.
+        inner = {self.map.component[v] for v in self.holes}
+        apart = len(inner) == len(self.holes) == self.map.components - 1
+        require(apart, "the map is not connected: a component is not alone in a hole")
+        self.outermost = set(self.map.component) - inner
         self.check_insides(self.ahead)
         self.new_faces = self.map.faces.copy()
         self.begin_lives((u, v, w) for (u, v), (_, w) in self.map.after.items())
@@ -872,6 +918,8 @@ class Checker:
         convex = kinds.count(CONVEX)
         shown = " ".join(str(u) for u, _ in face)
         if convex == 0:
+            within = any(self.map.component[v] not in self.outermost for v, _ in face)
+            require(not within, f"the face {shown} of a hole has no convex angle")
             self.outer.add(face)
             return
         require(convex >= 3, f"the face {shown} has {convex} convex angles")
@@ -971,13 +1019,11 @@ class Checker:
             there = edges <= self.body_darts and v[0] not in v[1:] and is_on(time, *p)
         elif kind == "edge edge":
             there = at_start and edges <= self.body_darts and meet(time, *p)
-        else:  # a ray to the right leaves the polygon an odd number of times
-            (x, y), *ring = (scene.at(u, scene.start) for u in v)
-            there = False
-            for a, b in pairwise([*ring, ring[0]]):
-                if (a[1] > y) != (b[1] > y):
-                    there ^= a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) > x
-            there = there and at_start and other.closed
+        else:
+            place = {u: scene.at(u, scene.start) for u in v}
+            rings = [[place[u] for u in ring] for ring, _ in other.rings]
+            inside = sum(surrounds(ring, place[v[0]]) for ring in rings) % 2
+            there = bool(inside and at_start and other.closed)
         require(there, f"there is no such contact at t = {time}: {' '.join(words)}")
         names = [f"{scene.of(u).name} vertex {u - scene.of(u).first}" for u in v]
         one = f"the edge {names[0]} - {names[1]}" if kind == "edge edge" else names[0]

@@ -14,7 +14,9 @@ def all_stay_convex(instant: PredicatesAt) -> bool:
     bend later.
     """
     v, bodies = instant.vertices.all, instant.vertices.bodies
-    if any(b.is_tiled or (b.body.size > 2 and not b.body.closed) for b in bodies):
+    if any(
+        b.is_tiled or b.body.has_rings or (b.body.size > 2 and not b.body.closed) for b in bodies
+    ):
         return False
     triples = [(v[p].ahead, p, v[p].behind) for body in bodies for p in body.ring]
     return all(s <= 0 for s in instant.signs(triples))

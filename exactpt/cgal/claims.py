@@ -10,6 +10,7 @@ from exactpt.errors import InputError
 from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, ZZ, Rational, rational, shorten
+from exactpt.motion.body import refuse_rings
 from exactpt.scene.scene import Scene
 
 __all__ = ["BodyShape", "IsolatedRoot", "RootClaim", "Signs", "Tile", "Verdict", "exactly"]
@@ -36,7 +37,12 @@ class BodyShape(NamedTuple):
 
     @classmethod
     def of_scene(cls, scene: Scene) -> list[BodyShape]:
-        """The shapes of all bodies, with the orientation at the start, which never changes."""
+        """The shapes of all bodies, with the orientation at the start, which never changes.
+
+        Raises:
+            InputError: if a body has holes or several parts.
+        """
+        refuse_rings(scene.bodies, "no tiling of such bodies is verified; a proof of the answer is")
         return [
             cls(body.name, body.size, body.closed, signed_area2(body._at(scene._start)) < 0)
             for body in scene.bodies

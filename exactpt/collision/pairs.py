@@ -114,7 +114,7 @@ class PairsSearch:
         has about three certificates for each vertex.
         """
         scene = self._scene
-        if not scene.bodies or not scene.is_tiled:
+        if not scene.bodies or scene.is_rounded:
             return False
         all_vertices, ids = self._swept.vertices.all, self._swept.ids
         count = len(ids)

@@ -14,7 +14,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import GRACE, within
 from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import fraction
-from exactpt.motion.body import refuse_untiled
+from exactpt.motion.body import refuse_rounded
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.report import report
@@ -52,7 +52,7 @@ class TilingSearch:
         max_events: int | None = None,
         max_seconds: float | None = None,
     ) -> None:
-        refuse_untiled(scene.bodies)
+        refuse_rounded(scene.bodies)
         self.name: str = tiling_for_contact(scene, tiling)
         self._scene = scene
         self._exact_only = exact_only

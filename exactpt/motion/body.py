@@ -38,7 +38,7 @@ from exactpt.motion.shape import Keyframe, Keyframes, Shape, VertexLike, listed
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["Body", "is_text", "refuse_untiled"]
+__all__ = ["Body", "is_text", "refuse_rings", "refuse_rounded"]
 
 _PLAIN: Final = (int, float)
 _SHARP: Final = QQ(0)
@@ -52,23 +52,29 @@ def is_text(name: object) -> bool:
         return False
 
 
-def refuse_untiled(bodies: Iterable[Body]) -> None:
-    """Refuse bodies that no tiling holds: rounded ones, and those with holes or several parts.
+def refuse_rounded(bodies: Iterable[Body]) -> None:
+    """Refuse rounded bodies where a tiling is kept, which would keep only their cores apart.
+
+    Raises:
+        InputError: if one of them is rounded.
+    """
+    for body in bodies:
+        if body._radius:
+            raise InputError(
+                f"body {shorten(body.name)} has a radius: no tiling holds rounded bodies; "
+                "their contacts are found by pairs (first_contact, collide)"
+            )
+
+
+def refuse_rings(bodies: Iterable[Body], why: str) -> None:
+    """Refuse bodies with holes or several parts, and say why.
 
     Raises:
         InputError: if there is one.
     """
     for body in bodies:
-        if body._radius or body.has_rings:
-            what, kind = (
-                ("a radius", "rounded bodies")
-                if body._radius
-                else ("holes or several parts", "such bodies")
-            )
-            raise InputError(
-                f"body {shorten(body.name)} has {what}: no tiling holds {kind}; "
-                "their contacts are found by pairs (first_contact, collide)"
-            )
+        if body.has_rings:
+            raise InputError(f"body {shorten(body.name)} has holes or several parts: {why}")
 
 
 @final
@@ -212,6 +218,14 @@ class Body:
         except InputError as error:
             raise InputError(f"body {shorten(self.name)}: {error}") from None
         return other
+
+    def halted(self, t: Rational) -> Body:
+        """A body of the same name and kind at rest, as this one is at a rational time."""
+        points = self._at(rational(t))
+        if self._parts is None:
+            return Body(self.name, points, closed=self.closed, radius=str(self._radius))
+        given = parts_given(self._parts, points)
+        return Body(self.name, radius=str(self._radius), **given)  # type: ignore[arg-type]
 
     @property
     def motion(self) -> Motion:

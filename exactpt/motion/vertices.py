@@ -81,7 +81,8 @@ class MovingBody:
     """A body as a ring of vertices, with its current piece of motion.
 
     Attributes:
-        ring: vertex ids, counter-clockwise.
+        ring: vertex ids, counter-clockwise; of a body with holes or several parts those of all
+            rings, one after the other, each with the body on its left.
         until: the next rational time at which its trajectories, or the displacements of
             its copies, change; None if there is none.
         deforms: whether distances between its vertices may change, in the current piece.
@@ -198,9 +199,10 @@ class Vertices:
             vertex = self.all[vertex_id]
             vertex.body, vertex.index = i, index
             moving.ring.append(vertex_id)
-        for behind, here in zip(moving.ring, [*moving.ring[1:], moving.ring[0]], strict=True):
-            self.all[behind].ahead = here
-            self.all[here].behind = behind
+        for part in _rings_of(body, moving.ring):
+            for behind, here in zip(part, [*part[1:], part[0]], strict=True):
+                self.all[behind].ahead = here
+                self.all[here].behind = behind
         self.enter_piece(i, t)
 
     @property
@@ -220,6 +222,8 @@ class Vertices:
     def _may_pinch(self, i: int, start: QQ, end: QQ) -> bool:
         """Whether the interior of a body must be tiled from a time on."""
         body, ring = self.bodies[i].body, self.bodies[i].ring
+        if body.has_rings:
+            return self._ever_deforms(i, start)
         return (
             body.size > 3
             and body.closed
@@ -297,5 +301,24 @@ def _ring_indices(body: Body, positions: list[tuple[QQ, QQ]], *, plain: bool = F
         return list(range(body.size))
     if not body.has_interior:
         return ring_of_copies(body.size)
+    if body.has_rings:
+        return [i for rings in body.parts for ring in _turned(rings, positions) for i in ring]
     ring = list(range(body.size))
     return ring if is_counter_clockwise(positions) else ring[::-1]
+
+
+def _rings_of(body: Body, ring: list[VertexId]) -> list[list[VertexId]]:
+    """The ids of each ring of a body, given those of all."""
+    if not body.has_rings:
+        return [ring]
+    return [ring[part.start : part.stop] for part in body.rings]
+
+
+def _turned(rings: Sequence[range], positions: list[tuple[QQ, QQ]]) -> list[list[int]]:
+    """The rings of a part, the outline counter-clockwise, holes clockwise."""
+    turned = []
+    for k, ring in enumerate(rings):
+        turns_left = is_counter_clockwise([positions[i] for i in ring])
+        indices = list(ring)
+        turned.append(indices if turns_left == (k == 0) else indices[::-1])
+    return turned

@@ -11,7 +11,7 @@ from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import check_tiling, start_tiling, tiling_for_contact
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.motion.body import refuse_untiled
+from exactpt.motion.body import refuse_rounded
 from exactpt.proof.lines import Lines, header
 from exactpt.proof.nodes import Nodes
 from exactpt.proof.watch import Watch
@@ -60,7 +60,7 @@ class ProofRun:
         max_events: int | None = None,
     ) -> None:
         self._scene = scene
-        refuse_untiled(scene.bodies)
+        refuse_rounded(scene.bodies)
         check_tiling(tiling)
         self.tiling: str = tiling_for_contact(scene, tiling)
         self._options = exact_only, max_events

@@ -6,8 +6,9 @@ import hashlib
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, final
 
-from exactpt.geometry.polygon import contains, segments_meet
+from exactpt.geometry.polygon import segments_meet
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.motion.inside import covers
 from exactpt.proof.changes import Angle, Angles, DirectedEdge, change, followers
 from exactpt.proof.times import time_text
 
@@ -116,7 +117,10 @@ class Lines:
         i = self._nodes.body_of[u]
         if self._nodes.body_of[v] != i:
             return False
-        body = self._nodes.scene.bodies[i]
+        body, first = self._nodes.scene.bodies[i], self._nodes.first[i]
+        if body.has_rings:
+            ends = u - first, v - first
+            return body.end_of_edge(ends[0]) == ends[1] or body.end_of_edge(ends[1]) == ends[0]
         apart = abs(u - v)
         return apart == 1 or (body.closed and apart == body.size - 1)
 
@@ -128,8 +132,8 @@ class Lines:
         return v, *self._edge(touch.other, touch.edge)
 
     def _edge(self, i: int, edge: int) -> tuple[int, int]:
-        first, size = self._nodes.first[i], self._nodes.scene.bodies[i].size
-        return first + edge, first + (edge + 1) % size
+        first = self._nodes.first[i]
+        return first + edge, first + self._nodes.scene.bodies[i].end_of_edge(edge)
 
     def _touch(self, touch: Touch) -> str:
         v, *others = self._name(touch)
@@ -145,9 +149,14 @@ class Lines:
                 if segments_meet(p[a], p[b], q[c], q[d]):
                     ends = (*self._edge(i, k), *self._edge(j, m))
                     return "edge {} {} edge {} {}".format(*ends)
-        if bodies[0].has_interior and contains(p, q[0]):
-            return f"vertex {self._nodes.first[j]} inside {i}"
-        return f"vertex {self._nodes.first[i]} inside {j}"
+        inside = (
+            (other, ring.start, one)
+            for one, other, points, of_other in ((i, j, p, q), (j, i, q, p))
+            for ring in self._nodes.scene.bodies[other].rings
+            if covers(self._nodes.scene.bodies[one], points, of_other[ring.start])
+        )
+        other, vertex, one = next(inside)
+        return f"vertex {self._nodes.first[other] + vertex} inside {one}"
 
 
 def _angles(

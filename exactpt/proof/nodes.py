@@ -48,14 +48,18 @@ class Nodes:
         ]
 
     def solid_faces(self) -> list[list[int]]:
-        """The rings of the rigid closed bodies, counter-clockwise."""
-        rings = []
+        """The rings of the rigid closed bodies, each with the body on its left."""
+        faces = []
         for first, body, rigid in zip(self.first, self.scene.bodies, self.rigid, strict=False):
-            if rigid and body.has_interior:
-                ring = list(range(first, first + body.size))
-                turns_left = is_counter_clockwise(body._at(self.scene._start))
-                rings.append(ring if turns_left else ring[::-1])
-        return rings
+            if not (rigid and body.has_interior):
+                continue
+            points = body._at(self.scene._start)
+            for rings in body.parts:
+                for k, ring in enumerate(rings):
+                    nodes = [first + i for i in ring]
+                    turns_left = is_counter_clockwise(points[ring.start : ring.stop])
+                    faces.append(nodes if turns_left == (k == 0) else nodes[::-1])
+        return faces
 
     def track(self, v: int, after: QQ) -> Track:
         """The trajectory of a vertex just after a rational time."""

@@ -21,6 +21,7 @@ from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
 from exactpt.indices import VertexId
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
+from exactpt.motion.body import refuse_rings
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.query.answers import Hit, Path, Place, VertexName
@@ -50,6 +51,8 @@ class FreeSpace:
 
     Attributes:
         snapshot: the tiling at that time; `Place.tile` is an index into its faces.
+
+    Queries raise an `InputError` if a body has holes or several parts.
     """
 
     def __init__(self, kinetic: Tiling, at: QQ) -> None:
@@ -80,6 +83,8 @@ class FreeSpace:
 
     @cached_property
     def _plane(self) -> Subdivision:
+        bodies = [moving.body for moving in self._vertices.bodies]
+        refuse_rings(bodies, "queries about the free space are not for such bodies")
         return Subdivision(self.snapshot, self._hidden)
 
     # Places and rays

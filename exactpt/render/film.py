@@ -107,7 +107,7 @@ def film_of(
     Raises:
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
-    if not scene.is_tiled:
+    if scene.is_rounded:
         return _without_tiling(
             scene, "no", first_contact(scene, tiling=tiling, max_seconds=max_seconds)
         )

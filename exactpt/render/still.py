@@ -29,7 +29,7 @@ class Still:
         scene: the scene.
         at: the time; a rational just before it if the time is irrational.
         tiling: the tiling at that time (at a contact: the one just before); None if the bodies
-            touch at the start, or a tiling cannot hold them.
+            touch at the start, or one is rounded, and there is no tiling.
         contact: the contact, if this is its time.
     """
 
@@ -60,7 +60,7 @@ def still(
             f"from {show(scene._start)} to {show(scene._end)}"
         )
     simulation: Simulation | None = None
-    if not scene.is_tiled:
+    if scene.is_rounded:
         contact = first_contact(scene, tiling=tiling, max_seconds=max_seconds)
     else:
         simulation = Simulation(

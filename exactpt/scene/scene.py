@@ -294,11 +294,6 @@ class Scene:
             return False
         return any(body.has_rings for body in self.bodies)
 
-    @property
-    def is_tiled(self) -> bool:
-        """Whether there is a tiling for its bodies: none is rounded, or has several rings."""
-        return not (self.is_rounded or self.has_rings)
-
     def __eq__(self, other: object) -> bool:
         """Whether the bodies, in order, and the time spans are equal."""
         if not isinstance(other, Scene):

@@ -12,7 +12,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import QQ, shorten, show
-from exactpt.motion.body import Body, refuse_untiled
+from exactpt.motion.body import Body, refuse_rounded
 from exactpt.motion.motions import Motion
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
@@ -158,7 +158,9 @@ class LivingScene:
         bodies = self._bodies[:]
         for i, body in new.items():
             bodies[i] = body
-        events = self.kinetic.change_plans(new, t)
+        # A tiling of bodies with holes or several parts begins to tile no inside.
+        rings = any(body.has_rings for body in new.values())
+        events = None if rings else self.kinetic.change_plans(new, t)
         if events is None:
             return self._restart(bodies, t, len(new))
         self._bodies, self._since, self._scene = bodies, t, None
@@ -170,11 +172,12 @@ class LivingScene:
         t = self.rational_now()
         if body.name in self._number:
             raise InputError(f"body {body.name!r}: the name is taken by another body")
-        refuse_untiled([body])
+        refuse_rounded([body])
         alone = Scene([body], (t, self._end._end))  # checks its shape
-        events = self.kinetic.add_body(body, t)
+        bodies = [*self._bodies, body]
+        rings = any(body.has_rings for body in bodies)
+        events = None if rings else self.kinetic.add_body(body, t)
         if events is None:
-            bodies = [*self._bodies, body]
             for i, j in initial_touches(alone.going_on(bodies, t))[1]:
                 names = bodies[i].name, bodies[j].name
                 raise InputError(f"body {names[1]!r} touches body {names[0]!r} at t = {show(t)}")
@@ -190,6 +193,7 @@ class LivingScene:
         """Removes a body, see `Simulation.remove`; returns the events caused at once."""
         t = self.rational_now()
         i, kinetic = self._index(name), self.kinetic
+        rings = any(body.has_rings for body in self._bodies)
         last = self._bodies.pop()
         if i < len(self._bodies):
             self._bodies[i] = last
@@ -197,7 +201,7 @@ class LivingScene:
         del self._number[name]
         for v in kinetic.vertices.bodies[i].ring:
             self.teller.name(v)  # to be known once it is removed
-        events = kinetic.remove_body(i, t)
+        events = None if rings else kinetic.remove_body(i, t)
         if events is None:
             return self._restart(self._bodies, t, 1)
         self._since, self._scene = t, None

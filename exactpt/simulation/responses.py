@@ -34,11 +34,7 @@ def stop(simulation: Simulation, contact: Contact) -> None:
     """Stop all bodies of a contact, in their current position and shape."""
     t = simulation.now._low
     names = sorted({name for pair in contact.pairs for name in (pair.body, pair.other)})
-    plans = {}
-    for name in names:
-        body = simulation.body(name)
-        plans[name] = Body(name, body._at(t), closed=body.closed)
-    simulation.set_motions(plans)
+    simulation.set_motions({name: simulation.body(name).halted(t) for name in names})
 
 
 @final

@@ -34,6 +34,7 @@ def test_first_contacts_are_those_of_the_reference(family):
         assert told(first_contact(scene)) == told(truth), seed
         assert told(first_contact(scene, method="pairs")) == told(truth), seed
         assert told(first_contact(scene, method="pairs", exact_only=True)) == told(truth), seed
+        assert told(first_contact(scene, method="kinetic")) == told(truth), seed
     assert {None, "vertex-edge"} < kinds
 
 
@@ -136,10 +137,11 @@ def test_planners_answer_as_first_contacts(family):
         assert told(found) == told(search.run_to_contact()), seed
 
 
-@pytest.mark.parametrize("kinetic", [{"method": "kinetic"}, {"tiling": "lazy"}])
-def test_tilings_refuse_them_in_one_line(kinetic):
-    with pytest.raises(InputError, match=r"body 'frame' has holes or several parts: no tiling"):
-        first_contact(Scene([frame()], (0, 1)), **kinetic)
+@pytest.mark.parametrize("tiling", ["greedy", "mixed", "incremental"])
+def test_other_tilings_refuse_them_in_one_line(tiling):
+    told = f"body 'frame' has holes or several parts: the {tiling} tiling holds no such .* lazy$"
+    with pytest.raises(InputError, match=told):
+        first_contact(Scene([frame()], (0, 1)), tiling=tiling)
 
 
 def test_coefficients_out_of_the_range_of_doubles_are_no_reason_for_a_tiling():

@@ -63,6 +63,12 @@ def test_the_animation_knows_the_first_vertex_of_each_ring():
     assert data["contact"]["pairs"][0]["edge"] == [5, 6]
 
 
-def test_a_tiling_that_is_named_is_refused():
-    with pytest.raises(InputError, match="body 'frame' has holes or several parts: no tiling"):
-        film_of(Scene(SCENE.bodies[:2]), tiling="lazy")
+def test_the_lazy_tiling_is_drawn_in_the_hole_too():
+    scene = Scene(SCENE.bodies[:2], (0, 10))
+    film = film_of(scene)
+    assert film.tiling == "lazy"
+    assert any({4, 11} <= {*tile.nodes} or {5, 12} <= {*tile.nodes} for tile in film.tiles)
+    picture = svg_of(frame_of(still(scene, QQ(1))))
+    assert picture.count('class="diagonal"') > 4
+    with pytest.raises(InputError, match=r"body 'frame' .* the mixed tiling holds no such bodies"):
+        film_of(scene, tiling="mixed")

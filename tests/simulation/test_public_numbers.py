@@ -35,6 +35,8 @@ ARGUMENTS = {
     "at": ("1/3",),
     "body": ("box",),
     "canonical_interval": (),
+    "end_of_edge": (0,),
+    "halted": ("1/3",),
     "compare": (AlgebraicNumber(1),),
     "compare_rational": (Fraction(1, 3),),
     "end_of_edge": (0,),
