@@ -28,7 +28,7 @@ class Sizes(NamedTuple):
 
 
 QUICK: Final = Sizes(5, 2.0)
-FULL: Final = Sizes(50, 30.0)
+FULL: Final = Sizes(50, 15.0)
 
 
 def run(output: Output, sizes: Sizes, seed: int, folder: Path = ADAPTERS) -> None:

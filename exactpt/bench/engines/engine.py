@@ -28,7 +28,7 @@ __all__ = ["ADAPTERS", "Crash", "Engine", "Missing", "Reply", "adapters", "node_
 
 HERE: Final = Path(__file__).parent
 ADAPTERS: Final = HERE / "adapters"
-PATIENCE: Final = 10.0
+PATIENCE: Final = 60.0
 """Seconds after which a process that does not answer is taken for crashed."""
 LOADING: Final = 60.0
 """Seconds in which a process loads its engine."""

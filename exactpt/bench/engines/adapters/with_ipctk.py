@@ -27,10 +27,10 @@ ABOUT: dict[str, Any] = {
                   "estimate of the TOI is sufficient to avoid penetrations."),
                  "tutorial of the IPC Toolkit, nonlinear CCD"],
             ],
-            "asked": "TightInclusionCCD(tolerance=1e-6, max_iterations=10**6, "
+            "asked": "TightInclusionCCD(tolerance=1e-6, max_iterations=10**5, "
             "conservative_rescaling=1 - 1e-6): early is what it promises, late or missed is not. A "
-            "distance of 1e-4 is taken as kept, for the limit of iterations widens the tolerance.",
-            "allows": {"distance": 1e-4, "of_extent": 2e-6, "of_coordinates": 2.0**-48},
+            "distance of 1e-3 is taken as kept, for the limit of iterations widens the tolerance.",
+            "allows": {"distance": 1e-3, "of_extent": 2e-6, "of_coordinates": 2.0**-48},
         },
         "additive": {
             "promises": [
@@ -55,7 +55,7 @@ def answer(question: dict[str, Any], way: str) -> float | None:
     import ipctk
 
     method = (
-        ipctk.TightInclusionCCD(1e-6, 10**6, 1 - 1e-6)
+        ipctk.TightInclusionCCD(1e-6, 10**5, 1 - 1e-6)
         if way == "tight inclusion"
         else ipctk.AdditiveCCD(10**6, 0.9999)
     )
