@@ -12,7 +12,7 @@ LOWEST := $(VENV)/lowest
 COMPILED_TESTS := $(addprefix tests/,kernel certificates motion planar pseudotriangulation tiling collision simulation)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser compiled plain test-compiled coverage lint quick pictures docs package check-cgal clean
+.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser compiled plain test-compiled coverage lint quick pictures docs package wheels check-cgal clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -78,6 +78,11 @@ docs: $(VENV)/developing ## the API pages, from the docstrings, in docs/api
 package: $(VENV)/developing ## build the wheel and the sdist in dist, and try them in an empty environment
 	$(BIN)/python -m build
 	$(BIN)/python -m pytest -m slow tests/packaging
+
+wheels: $(VENV)/developing ## manylinux wheels and the sdist in dist, by cibuildwheel (needs Docker; on macOS and Windows theirs)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[release]'
+	$(BIN)/python -m cibuildwheel --output-dir dist
+	$(BIN)/python -m build --sdist
 
 check-cgal: cgal_check/build/cgal_check ## build the independent witness
 

@@ -6,12 +6,17 @@ well, slower. An editable install stays plain, so that what is edited is what ru
 
 Not compiled is what computes with the integers of GMP: for the type checker they are
 ``int``, which mypyc would take at its word.
+
+A wheel has the C++ sources of cgal_check too, in exactpt/cgal/sources: `exactpt check --build`.
 """
 
+import shutil
 import sys
 from glob import glob
+from pathlib import Path
 
 from setuptools import Extension, setup
+from setuptools.command.build_py import build_py
 
 ROOMS = [
     "exactpt/certificates/*.py",
@@ -58,4 +63,16 @@ def extensions() -> list[Extension]:
     return compiled
 
 
-setup(ext_modules=extensions())
+class BuildWithSources(build_py):
+    """The package, with the sources of cgal_check as data."""
+
+    def run(self) -> None:
+        """Copy both into the wheel."""
+        super().run()
+        if not self.editable_mode and Path("cgal_check").is_dir():
+            into = Path(self.build_lib, "exactpt", "cgal", "sources")
+            leave = shutil.ignore_patterns("build")
+            shutil.copytree("cgal_check", into, ignore=leave, dirs_exist_ok=True)
+
+
+setup(ext_modules=extensions(), cmdclass={"build_py": BuildWithSources})

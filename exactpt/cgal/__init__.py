@@ -6,6 +6,7 @@ the verdicts; it decides nothing itself. Tilings are given as the ``tile`` dicti
 docs/format.md. Proofs are verified by a call of their own (`proofs`).
 """
 
+from exactpt.cgal.build import build_program
 from exactpt.cgal.claims import BodyShape, IsolatedRoot, RootClaim, Signs, Tile, Verdict
 from exactpt.cgal.client import CgalCheck, find_program
 from exactpt.cgal.proofs import ProofVerdict, check_proof
@@ -19,6 +20,7 @@ __all__ = [
     "Signs",
     "Tile",
     "Verdict",
+    "build_program",
     "check_proof",
     "find_program",
 ]

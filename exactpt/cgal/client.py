@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import IO, Final, Self, final
 
+from exactpt.cgal.build import PACKAGES
 from exactpt.cgal.claims import BodyShape, IsolatedRoot, RootClaim, Signs, Tile, Verdict
 from exactpt.cgal.requests import point_words, polynomial_words, root_words, tiling_request
 from exactpt.errors import AuditError, InputError
@@ -47,10 +48,25 @@ def find_program() -> Path:
     if on_path := shutil.which("cgal_check"):
         return Path(on_path)
     raise InputError(
-        "the program cgal_check is missing; build it in the checkout (it needs CGAL 5.5 and "
-        "nlohmann-json 3.11, Debian's libcgal-dev and nlohmann-json3-dev): "
-        "cmake -S cgal_check -B cgal_check/build -DCMAKE_BUILD_TYPE=Release "
-        f"&& cmake --build cgal_check/build, or let {_VARIABLE} name it"
+        "the program cgal_check is missing; build it: exactpt check --build FOLDER "
+        f"(it needs CGAL 5.5 and nlohmann-json 3.11; on Debian: apt-get install {PACKAGES}), "
+        f"and let {_VARIABLE} name it"
+    )
+
+
+def recognise(program: Path) -> None:
+    """Check that a program is cgal_check: it answers the greeting of its protocol.
+
+    Raises:
+        InputError: if it is another one.
+    """
+    with CgalCheck(program) as witness:
+        witness.orientations([])
+
+
+def _another(program: Path, said: str) -> InputError:
+    return InputError(
+        f"{str(program)!r} is not cgal_check, it does not speak {_GREETING!r}: {said}"
     )
 
 
@@ -222,10 +238,13 @@ class CgalCheck:
         except OSError as error:
             self.close()
             raise InputError(f"cannot start {str(self.program)!r}: {error.strerror}") from None
-        greeting = self._ask(_GREETING + "\n")
+        try:
+            greeting = self._ask(_GREETING + "\n")
+        except (AuditError, InputError) as error:
+            raise _another(self.program, str(error)) from None
         if not greeting.startswith(f"{_GREETING} cgal "):
             self._kill()
-            raise InputError(f"{str(self.program)!r} does not speak {_GREETING!r}: {greeting!r}")
+            raise _another(self.program, greeting)
         return self._process
 
     def _kill(self) -> None:

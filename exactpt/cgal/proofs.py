@@ -6,7 +6,7 @@ import subprocess
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from exactpt.cgal.client import find_program
+from exactpt.cgal.client import find_program, recognise
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 
 __all__ = ["ProofVerdict", "check_proof"]
@@ -46,7 +46,8 @@ def check_proof(
         max_seconds: maximum duration in seconds; None for no limit.
 
     Raises:
-        InputError: if there is no program, or the file is no proof of this scene.
+        InputError: if there is no program or it is another one, or the file is no proof of this
+            scene.
         BudgetExceeded: if ``max_seconds`` is exceeded.
         AuditError: if the program itself fails.
     """
@@ -63,6 +64,7 @@ def check_proof(
         return ProofVerdict(accepted=True, line=line)
     if done.returncode == _REJECTED and line.startswith("rejected: "):
         return ProofVerdict(accepted=False, line=line)
+    recognise(path)
     if done.returncode == _NO_PROOF:
         raise InputError(f"cgal_check: {line}")
     said = done.stderr[-2000:].decode("utf-8", "replace").strip()

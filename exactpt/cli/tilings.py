@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from pathlib import Path
 
 import click
@@ -10,7 +11,7 @@ import click
 from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, max_memory, naming_at, output
 from exactpt.cli.progress import QUIET, progress
-from exactpt.cli.terminal import say
+from exactpt.cli.terminal import say, tell
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.numbers import QQ, rational
 
@@ -65,8 +66,29 @@ def tile(
     return 0
 
 
+def _build(ctx: click.Context, _parameter: click.Parameter, folder: Path | None) -> None:
+    """Build the program and end, before a scene is asked for."""
+    if folder is None or ctx.resilient_parsing:
+        return
+    from exactpt.cgal import build_program
+
+    tell(f"building cgal_check in {folder}, which takes a minute")
+    program = build_program(folder)
+    say(f"export EXACTPT_CGAL_CHECK={shlex.quote(str(program.resolve()))}")
+    ctx.exit()
+
+
 @click.command()
 @SCENE
+@click.option(
+    "--build",
+    metavar="DIR",
+    type=click.Path(path_type=Path, file_okay=False),
+    is_eager=True,
+    expose_value=False,
+    callback=_build,
+    help="Build cgal_check in this folder instead, and say how to have it found.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
 @QUIET
 @TILING
@@ -86,8 +108,12 @@ def check(
       exactpt check scene.json
       exactpt check scene.json --json
       exactpt check scene.json --quiet && echo "CGAL agrees"
+      eval "$(exactpt check --build ~/.cache/exactpt/cgal_check)"
 
-    This needs the program cgal_check; in a checkout `make test` builds it, with CGAL.
+    This needs the program cgal_check: the one that EXACTPT_CGAL_CHECK names, that of the
+    checkout (make test builds it), or one on PATH. --build builds it from the sources that
+    come with the package; on Debian and Ubuntu, after
+    apt-get install g++ cmake make libcgal-dev nlohmann-json3-dev.
     """
     from exactpt.check import check_scene
 

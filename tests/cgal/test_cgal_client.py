@@ -2,6 +2,7 @@
 
 import json
 import random
+import shutil
 import sys
 from fractions import Fraction
 
@@ -9,7 +10,17 @@ import pytest
 from cgal_tilings import as_tile, cyclic_pairs, random_map, random_tiling
 
 from exactpt import cgal
-from exactpt.cgal import BodyShape, CgalCheck, IsolatedRoot, client, find_program
+from exactpt.cgal import (
+    BodyShape,
+    CgalCheck,
+    IsolatedRoot,
+    build_program,
+    check_proof,
+    client,
+    find_program,
+)
+from exactpt.cgal.build import sources
+from exactpt.cgal.client import recognise
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -292,7 +303,7 @@ def test_the_program_on_path_and_no_program(monkeypatch, tmp_path, program):
     monkeypatch.delenv("EXACTPT_CGAL_CHECK", raising=False)
     monkeypatch.setattr(client, "__file__", str(tmp_path / "exactpt" / "cgal" / "client.py"))
     monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(InputError, match="cmake -S cgal_check -B cgal_check/build"):
+    with pytest.raises(InputError, match=r"exactpt check --build .* libcgal-dev"):
         find_program()
 
     (tmp_path / "cgal_check").symlink_to(program)
@@ -310,8 +321,8 @@ def script(tmp_path, text):
 @pytest.mark.parametrize(
     "text, error, message",
     [
-        ("import sys; sys.exit('boom')", AuditError, "ended with 1: .*boom"),
-        ("print('hello', flush=True); input(); input()", AuditError, "ended with -9: hello"),
+        ("import sys; sys.exit('boom')", InputError, "is not cgal_check.*ended with 1: .*boom"),
+        ("print('hello', flush=True); input(); input()", InputError, "is not cgal_check.*hello"),
         ("input(); print('exactpt-check 2 cgal 7')", InputError, "does not speak"),
         (
             "input(); print('exactpt-check 1 cgal 5', flush=True); input(); import os; os.abort()",
@@ -349,3 +360,31 @@ def test_faces_are_accepted_from_any_start_and_corners_in_any_order(witness, pai
         i = cycle.index(start)
         tile["faces"][0] |= {"vertices": cycle[i:] + cycle[:i], "corners": cycle[::-1]}
         assert witness.check_tiling(tile, shapes).ok
+
+
+@pytest.mark.parametrize("text", ["", "print('accepted')", "import sys; sys.exit(2)", "input()"])
+def test_another_program_is_no_witness_of_a_proof(tmp_path, text):
+    """Whatever its exit code: neither a verdict nor a bug of exactpt."""
+    with pytest.raises(InputError, match="is not cgal_check"):
+        check_proof(tmp_path / "scene.json", tmp_path / "proof", program=script(tmp_path, text))
+
+
+def test_the_sources_are_those_of_the_checkout():
+    assert (sources() / "main.cpp").is_file()
+
+
+def test_a_build_that_fails_names_the_packages(monkeypatch, tmp_path):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(InputError, match=r"cannot start cmake.*apt-get install g\+\+ cmake"):
+        build_program(tmp_path / "build")
+    cmake = script(tmp_path, "import sys; sys.exit('CMake Error: could not find CGAL')")
+    cmake.rename(tmp_path / "cmake")
+    with pytest.raises(InputError, match=r"could not find CGAL; on Debian .* libcgal-dev"):
+        build_program(tmp_path / "build")
+
+
+@pytest.mark.slow
+def test_the_program_builds_and_answers(tmp_path):
+    if shutil.which("cmake") is None:
+        pytest.skip("cmake is not installed")
+    recognise(build_program(tmp_path / "build"))

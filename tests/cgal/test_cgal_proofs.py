@@ -325,7 +325,7 @@ def test_client(program, proved, tmp_path):
         check_proof(scene, path, program=program)
     with pytest.raises(InputError, match="cannot start"):
         check_proof(scene, path, program=tmp_path / "none")
-    with pytest.raises(AuditError, match="ended with 1"):
+    with pytest.raises(InputError, match="is not cgal_check"):
         check_proof(scene, path, program="/bin/false")
 
 

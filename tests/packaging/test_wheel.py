@@ -1,6 +1,8 @@
 """The wheel and the sdist: built, installed into an empty environment, and used there."""
 
+import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -23,10 +25,13 @@ ROOT = Path(__file__).parents[2]
 def built(tmp_path_factory):
     """The wheel and the sdist of this checkout, and the files of the package."""
     source = tmp_path_factory.mktemp("source")
-    for name in ("pyproject.toml", "setup.py", "README.md", "LICENSE"):
+    for name in ("pyproject.toml", "setup.py", "README.md", "LICENSE", "MANIFEST.in"):
         shutil.copy(ROOT / name, source)
     leave = shutil.ignore_patterns("__pycache__", "*.so")
     shutil.copytree(ROOT / "exactpt", source / "exactpt", ignore=leave)
+    shutil.copytree(
+        ROOT / "cgal_check", source / "cgal_check", ignore=shutil.ignore_patterns("build")
+    )
     files = {
         path.relative_to(source).as_posix()
         for path in (source / "exactpt").rglob("*")
@@ -50,6 +55,28 @@ def test_nothing_is_left_out(built):
     assert files - inside == set()
     assert files - names == set()
     assert not any(name.startswith("fuzz/") for name in inside)
+    shipped = {
+        path.relative_to(ROOT / "cgal_check").as_posix()
+        for path in (ROOT / "cgal_check").rglob("*")
+        if path.suffix in {".cpp", ".hpp", ".txt"} and "build" not in path.parts
+    }
+    assert "proof/verify.cpp" in shipped
+    assert {f"exactpt/cgal/sources/{name}" for name in shipped} - inside == set()
+    assert {f"cgal_check/{name}" for name in shipped} - names == set()
+
+
+def test_the_verdict_of_auditwheel(built):
+    """The wheel needs nothing newer than what a manylinux tag promises, and no other library."""
+    if sys.platform != "linux" or built[0].name.endswith("none-any.whl"):
+        pytest.skip("no compiled wheel for Linux")
+    if importlib.util.find_spec("auditwheel") is None:
+        pytest.skip("auditwheel is not installed: pip install 'exactpt[release]'")
+    command = [sys.executable, "-m", "auditwheel", "show", built[0]]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    said = " ".join(done.stdout.split())
+
+    assert re.search(r'consistent with the following platform tag: "manylinux_2_(\d+)_', said), said
+    assert "requires no external shared libraries" in said
 
 
 @pytest.fixture(scope="module")
@@ -97,6 +124,7 @@ def test_it_runs_in_an_empty_environment(empty, line, says):
         ("exactpt draw row.json -o row.png", "draw"),
         ("exactpt convert dot.wkt dot.json", "shapely"),
         ("exactpt convert dot.svg dot.json", "svg"),
+        ("exactpt draw row.json -o row.gif", "film"),
     ],
 )
 def test_what_is_missing_is_named(empty, line, extra):
@@ -108,6 +136,16 @@ def test_what_is_missing_is_named(empty, line, extra):
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
     assert f"pip install 'exactpt[{extra}]'" in done.stderr
+
+
+def test_the_missing_checker_is_explained_and_its_sources_are_there(empty):
+    done = empty("exactpt", "check", "row.json")
+    where = empty("python", "-c", "from exactpt.cgal.build import sources; print(sources())")
+
+    assert done.returncode == 2
+    assert "exactpt check --build" in done.stderr
+    assert "apt-get install g++ cmake make libcgal-dev nlohmann-json3-dev" in done.stderr
+    assert where.stdout.strip().endswith("site-packages/exactpt/cgal/sources")
 
 
 def test_everything_but_the_optional_can_be_imported(empty):
