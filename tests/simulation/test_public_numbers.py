@@ -39,7 +39,6 @@ ARGUMENTS = {
     "halted": ("1/3",),
     "compare": (AlgebraicNumber(1),),
     "compare_rational": (Fraction(1, 3),),
-    "end_of_edge": (0,),
     "first_contact": ([(0, 0)], Translation([0, "1/3"])),
     "first_contacts": ([(0, 0)], [Translation([0, "1/3"])]),
     "hull": (),
