@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final, TypeVar
 
+from exactpt.kernel.numbers import rational
 from exactpt.render.film import Change, Film, Step, film_of
 from exactpt.render.tracker import EdgeSpan, TileSpan
 from exactpt.render.words import clean, short
@@ -41,8 +42,8 @@ def film_of_run(history: History, *, tiling: str = "auto") -> Film:
     if history.is_scene:
         return _marked(film_of(history.scene(), tiling=tiling), history.marks)
     lives = history.lives
-    scene = scene_of([life.body for life in lives], history.start, history.end)
-    spans = tuple((life.since, life.until) for life in lives)
+    scene = scene_of([life.body for life in lives], rational(history.start), rational(history.end))
+    spans = tuple((rational(life.since), rational(life.until)) for life in lives)
     contact = history.contact
     steps = () if contact is None else (Step(contact.time, [Change("contact", (), ())], ()),)
     return _marked(Film(scene, "no", steps, (), (), contact, spans), history.marks)

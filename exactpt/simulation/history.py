@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import NamedTuple, final
 
 from exactpt.collision.contact import Contact
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, show
+from exactpt.kernel.numbers import QQ, fraction, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, SimpleMotion
 from exactpt.scene.scene import Scene
@@ -38,8 +39,8 @@ class Life(NamedTuple):
     """
 
     body: Body
-    since: QQ
-    until: QQ
+    since: Fraction
+    until: Fraction
 
 
 @final
@@ -55,8 +56,8 @@ class History:
         contact: the contact that has ended the run, or None.
     """
 
-    start: QQ
-    end: QQ
+    start: Fraction
+    end: Fraction
     lives: tuple[Life, ...]
     marks: tuple[Mark, ...]
     contact: Contact | None
@@ -142,7 +143,7 @@ class Log:
         here = [_life(plans, end) for plans in self._plans.values()]
         lives = sorted([*self._gone, *here], key=lambda life: life.since)
         marks = sorted(self._marks, key=lambda mark: mark.time)
-        return History(self._start, end, tuple(lives), tuple(marks), contact)
+        return History(fraction(self._start), fraction(end), tuple(lives), tuple(marks), contact)
 
 
 def _is_same_shape(a: Body, b: Body) -> bool:
@@ -153,14 +154,14 @@ def _life(plans: list[tuple[QQ, Body]], until: QQ) -> Life:
     """The life of a body with these plans, each with the time of its beginning."""
     since, body = plans[0]
     if len(plans) == 1:
-        return Life(body, since, until)
+        return Life(body, fraction(since), fraction(until))
     ends = [*(begin for begin, _ in plans[1:]), None]
     pieces = [
         piece
         for (begin, plan), end in zip(plans, ends, strict=True)
         for piece in _pieces(plan, begin, end)
     ]
-    return Life(body.with_motion(Pieces(pieces)), since, until)
+    return Life(body.with_motion(Pieces(pieces)), fraction(since), fraction(until))
 
 
 def _pieces(plan: Body, begin: QQ, end: QQ | None) -> Iterator[tuple[QQ | None, SimpleMotion]]:

@@ -68,6 +68,8 @@ ELSEWHERE = {
     "add", "remove", "set_motion", "set_motions", "run", "run_to_contact", "step",  # below
     "from_shapely", "to_shapely", "from_sympy", "to_sympy",  # numbers of other libraries
     "from_arrays", "launched",  # class methods
+    "history",  # below
+    "draw",  # writes a file
     "roots",  # of any polynomial but 0: algebraic numbers
     "as_integer_ratio",  # of irrational numbers refused, see `tests/kernel/test_numbers.py`
     "load", "save", "restore", "root", "surd", "going_on", "copy", "from_json",  # as these
@@ -230,12 +232,21 @@ def test_bug_an_interval_with_ends_of_a_callers_integers_stays_exact():
     assert root.low**3 < 2 < root.high**3
 
 
+def test_numbers_of_a_history_are_pythons_own():
+    simulation = Simulation(scene_of_every_kind(), record=True)
+    for _ in simulation.run("2/5", on_contact=exactpt.Bounce()):
+        pass
+    simulation.set_motion("dot", exactpt.onward(simulation.body("dot"), "2/5", ("1/3", 0)))
+
+    assert no_leaks(history=simulation.history()) > 20
+
+
 def test_every_public_name_is_walked_through():
     """A class that is new in the package has to be reached by the scenes above, or named here."""
     reached = {
-        "Affine", "AlgebraicNumber", "Body", "Bounce", "Contact", "Event", "FreeSpace", "Hit",
-        "Pair", "Path", "Pieces", "Place", "Planner", "Polynomial", "Rigid", "Scene", "Simulation",
-        "Spin", "Translation", "BudgetExceeded", "first_contact", "first_within", "onward",
+        "Affine", "AlgebraicNumber", "Body", "Bounce", "Contact", "Event", "FreeSpace", "History",
+        "Hit", "Pair", "Path", "Pieces", "Place", "Planner", "Polynomial", "Rigid", "Scene",
+        "Simulation", "Spin", "Translation", "BudgetExceeded", "first_contact", "first_within", "onward",
         "Clearance", "ContactInterval", "Distance", "clearance", "contact_intervals", "contacts",
         "distance", "Approach", "Velocity", "in_local_time", "spline",
     }  # fmt: skip
