@@ -212,9 +212,17 @@ class Time:
         return g.sign_at(self.low)
 
     def __str__(self) -> str:
-        near = Decimal(self.low.numerator) / self.low.denominator
-        between = f"{near:.12g} (between {self.low} and {self.high})"
-        return str(self.low) if self.low == self.high else between
+        if self.low == self.high:
+            return str(self.low)
+        between = f"(between {self.low} and {self.high})"
+        while (near := twelve_digits(self.low)) != twelve_digits(self.high):
+            self.refine()
+        return f"{near} {between}"
+
+
+def twelve_digits(x: Fraction) -> str:
+    """A number rounded to twelve digits."""
+    return f"{Decimal(x.numerator) / x.denominator:.12g}"
 
 
 def between(a: Time, b: Time) -> Fraction:

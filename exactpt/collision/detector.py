@@ -70,7 +70,7 @@ def first_contact(
         raise InputError(f"no method {method!r}; there are: {', '.join(METHODS)}")
     catalogue.choose(tiling, points=True, convex=lambda: True)  # refuses unknown names
     with _budget(max_seconds, max_memory), carrying(lambda: scene):
-        groups = list(ignoring)
+        groups = ignoring if isinstance(ignoring, str) else list(ignoring)
         if since is not None:
             scene = scene.since(since)
         question = Question(

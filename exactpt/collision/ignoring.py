@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 
 from exactpt.errors import InputError
+from exactpt.kernel.numbers import shorten
 from exactpt.scene.scene import Scene
 
 __all__ = ["groups_of"]
@@ -14,11 +15,15 @@ def groups_of(scene: Scene, ignoring: Iterable[Collection[str]]) -> list[int]:
     """The group number of each body; a body in no group has a number of its own.
 
     Raises:
-        InputError: if there is no body of a name, or it is in two groups.
+        InputError: if there is no body of a name, or it is in two groups, or a group is a text.
     """
+    if isinstance(ignoring, str):
+        raise InputError(f"ignoring: groups of names, not the text {shorten(ignoring)}")
     number = {body.name: i for i, body in enumerate(scene.bodies)}
     group = list(range(len(number)))
     for k, names in enumerate(ignoring, start=len(group)):
+        if isinstance(names, str):
+            raise InputError(f"ignoring: a group of names, not the text {shorten(names)}")
         for name in names:
             if name not in number:
                 raise InputError(f"there is no body {name!r} to ignore others")

@@ -81,6 +81,8 @@ class Planner:
         if any(body.name == at_rest.name for body in self._scene.bodies):
             raise InputError(f"body {shorten(at_rest.name)}: the name is taken by an obstacle")
         outline = rest_outline(at_rest)
+        if not isinstance(motions, Iterable):
+            raise InputError(f"motions: a list of them is needed, not {shorten(motions)}")
         return [self._first(at_rest.with_motion(motion), outline) for motion in motions]
 
     def _first(self, body: Body, outline: Outline | None) -> Contact | None:

@@ -78,7 +78,8 @@ def _of_feature(data: Json, where: str) -> Iterator[Shape]:
     if name != where:
         where = f"{where} ({shorten(name)[1:-1]})"
     if data.get("geometry") is None:
-        raise InputError(f"{where}: it has no geometry: remove it")
+        yield Shape(where, name, "point", ())
+        return
     yield from _of_geometry(data["geometry"], where, name)
 
 
@@ -119,7 +120,7 @@ def _of_geometry(data: Json, where: str, name: str, depth: int = 0) -> Iterator[
 
 def _part(kind: Kind, data: Json, where: str, name: str) -> Shape:
     if kind == "point":
-        return Shape(where, name, kind, [_point(data, where)])
+        return Shape(where, name, kind, [_point(data, where)] if data != [] else ())
     if kind == "line":
         return Shape(where, name, kind, _points(data, where))
     rings = [_points(ring, f"{where}, ring {i}") for i, ring in enumerate(a_list(data, f"{where}"))]

@@ -114,3 +114,13 @@ def test_on_the_command_line(tmp_path):
     result = CliRunner().invoke(cli, [*arguments, "--ignore", "fast,near"])
 
     assert "first contact at t = 6.0" in result.output
+
+
+@pytest.mark.parametrize("ignoring", ["ab", ["ab"], ["a", "b"]])
+def test_bug_a_text_is_no_group(ignoring):
+    """``["ab"]`` was read as the group of a and b, and their contact was lost."""
+    triangle = [(0, 0), (1, 0), (0, 1)]
+    touching = Scene([Body("a", triangle), Body("b", triangle)])
+
+    with pytest.raises(InputError, match="not the text"):
+        first_contact(touching, ignoring=ignoring)

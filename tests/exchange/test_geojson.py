@@ -127,7 +127,7 @@ def test_holes_are_refused_or_filled_on_demand():
         (text("Polygon", [[[0, 0], None]]), "ring 0, position 1: not a list"),
         (text("Circle", [0, 0]), "not a geometry"),
         (text("Feature", [0, 0]), "a Feature is inside of a geometry"),
-        ('{"type": "Feature", "geometry": null}', "it has no geometry"),
+        ('{"type": "Feature", "geometry": null}', "has no position"),
         ('{"type": "FeatureCollection", "features": [{"type": "Point"}]}', "not a feature"),
         ('{"type": "FeatureCollection"}', '"features": not a list'),
         ('{"type": "Topology"}', "not GeoJSON"),

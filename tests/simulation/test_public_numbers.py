@@ -246,7 +246,8 @@ def test_every_public_name_is_walked_through():
     reached = {
         "Affine", "AlgebraicNumber", "Body", "Bounce", "Contact", "Event", "FreeSpace", "History",
         "Hit", "Pair", "Path", "Pieces", "Place", "Planner", "Polynomial", "Rigid", "Scene",
-        "Simulation", "Spin", "Translation", "BudgetExceeded", "first_contact", "first_within", "onward",
+        "Simulation", "Spin", "Translation", "BudgetExceeded", "first_contact", "first_within",
+        "onward",
         "Clearance", "ContactInterval", "Distance", "clearance", "contact_intervals", "contacts",
         "distance", "Approach", "Velocity", "in_local_time", "spline",
     }  # fmt: skip
