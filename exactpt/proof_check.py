@@ -215,9 +215,11 @@ class Time:
         if self.low == self.high:
             return str(self.low)
         between = f"(between {self.low} and {self.high})"
-        while (near := twelve_digits(self.low)) != twelve_digits(self.high):
+        for _ in range(99):  # they may stay apart: on both sides of 0, or of a digit
+            if twelve_digits(self.low) == twelve_digits(self.high):
+                break
             self.refine()
-        return f"{near} {between}"
+        return f"{twelve_digits(self.low)} {between}"
 
 
 def twelve_digits(x: Fraction) -> str:
