@@ -6,7 +6,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PACKAGES := g++ cmake libcgal-dev nlohmann-json3-dev
-JOBS ?= 2
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DATE ?= $(shell date -u +%F)
 LOWEST := $(VENV)/lowest
 COMPILED_TESTS := $(addprefix tests/,kernel certificates motion planar pseudotriangulation tiling collision simulation)
@@ -65,11 +65,12 @@ lint: $(VENV)/developing ## formatting, rules, types, imports
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
-pictures: $(VENV)/developing ## draw the pictures of the README and of docs/gallery.md anew
+pictures: $(VENV)/developing ## draw the pictures of the README, the gallery and the examples anew
 	$(BIN)/exactpt draw exactpt/data/demo.json --at contact -o docs/first-contact.svg
 	$(BIN)/python docs/draw_demo.py
 	$(BIN)/python docs/draw_proof.py
 	$(BIN)/python docs/draw_gallery.py
+	$(BIN)/python docs/draw_examples.py
 
 docs: $(VENV)/developing ## the API pages, from the docstrings, in docs/api
 	$(BIN)/python -W ignore -m pdoc --docformat google --output-directory docs/api exactpt

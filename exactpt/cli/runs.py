@@ -21,7 +21,9 @@ from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import QQ, rational
 
 if TYPE_CHECKING:
+    from exactpt.collision.contact import Contact
     from exactpt.collision.search import Search
+    from exactpt.collision.searches import Question
     from exactpt.scene.scene import Scene
     from exactpt.simulation.event import Event
     from exactpt.simulation.simulation import Simulation
@@ -108,34 +110,51 @@ def collide(
         return collide_all(
             scene, until, as_json=as_json, exit_code=exit_code, max_seconds=max_seconds
         )
-    from exactpt.collision.searches import Question, search_for
+    from exactpt.collision.searches import Question
+
+    if proof is not None and since is not None:
+        raise InputError("--since: a proof is about the scene file, from its start on")
+    question = Question(
+        method,
+        tiling,
+        exact_only=exact_only,
+        ignoring=[names_in(text, "--ignore") for text in ignore],
+        after_start=after_start,
+        between=[two_names(text, "--between") for text in between] or None,
+        proof=proof,
+        max_events=max_events,
+        max_seconds=max_seconds,
+    )
+    contact = _first_contact(scene, until, since, question, as_json=as_json, stats=stats)
+    return 1 if exit_code and contact is not None else 0
+
+
+def _first_contact(
+    path: Path,
+    until: QQ | None,
+    since: QQ | None,
+    question: Question,
+    *,
+    as_json: bool,
+    stats: bool,
+) -> Contact | None:
+    """Find the first contact, and print it."""
+    from exactpt.collision.searches import search_for
 
     given: Scene | None = None
     search: Search | None = None
     answer: dict[str, object] = {"contact": None}
     try:
-        with time_limit(max_seconds, max_memory()):
-            given = load(scene, until, since)
-            if proof is not None and since is not None:
-                raise InputError("--since: a proof is about the scene file, from its start on")
-            answer |= {"until": str(given._end), "tiling": tiling}
-            question = Question(
-                method,
-                tiling,
-                exact_only=exact_only,
-                ignoring=[names_in(text, "--ignore") for text in ignore],
-                after_start=after_start,
-                between=[two_names(text, "--between") for text in between] or None,
-                proof=proof,
-                scene_file=scene.read_bytes() if proof is not None else None,
-                max_events=max_events,
-                max_seconds=max_seconds,
-            )
+        with time_limit(question.max_seconds, max_memory()):
+            given = load(path, until, since)
+            answer |= {"until": str(given._end), "tiling": question.tiling}
+            if question.proof is not None:
+                question = question._replace(scene_file=path.read_bytes())
             search = search_for(given, question)
             answer["tiling"] = search.name
             contact = search.run_to_contact()
             stated = contact and contact.to_json()
-            told = answer_in_words(given, contact, "new " if after_start else "")
+            told = answer_in_words(given, contact, "new " if question.after_start else "")
     except BudgetExceeded as spent:
         _tell_how_far(spent, search)
         reached = None if spent.reached is None else str(rational(spent.reached))
@@ -152,7 +171,7 @@ def collide(
         say(*told)
         if stats:
             say(*stats_in_words(search.stats))
-    return 1 if exit_code and contact is not None else 0
+    return contact
 
 
 @click.command()

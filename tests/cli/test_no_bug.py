@@ -1,6 +1,5 @@
 """What once was told as a broken invariant (exit code 3), or by a wrong exit code."""
 
-import io
 import os
 import subprocess
 import sys
@@ -8,6 +7,7 @@ import threading
 from pathlib import Path
 
 import pytest
+from terminals import Bar, Terminal
 
 from exactpt.cli import cli, main
 from exactpt.motion.body import Body
@@ -15,11 +15,6 @@ from exactpt.motion.motions import Translation
 from exactpt.scene.scene import Scene
 
 needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
-
-
-class Terminal(io.StringIO):
-    def isatty(self):
-        return True
 
 
 def write_scene(folder, span):
@@ -39,22 +34,8 @@ def test_the_bar_of_spans_beyond_doubles(tmp_path, monkeypatch, command, span):
     write_scene(tmp_path, span)
     monkeypatch.chdir(tmp_path)
     screen, shown = Terminal(), []
-
-    class Bar:
-        pos = 0
-
-        def __enter__(self):
-            return self
-
-        def __exit__(self, *_):
-            return None
-
-        def update(self, steps):
-            self.pos += steps
-            shown.append(self.pos)
-
     monkeypatch.setattr("exactpt.cli.terminal.sys.stderr", screen)
-    monkeypatch.setattr("exactpt.cli.progress.click.progressbar", lambda **_: Bar())
+    monkeypatch.setattr("exactpt.cli.progress.click.progressbar", lambda **_: Bar(shown))
     more = ["-o", "film.html"] if command == "draw" else []
 
     assert cli.main([command, "scene.json", *more], standalone_mode=False) == 0

@@ -1,9 +1,8 @@
 """What commands say while they run: events in words, silence, a bar on terminals alone."""
 
-import io
-
 import pytest
 from click.testing import CliRunner
+from terminals import Bar, Terminal
 
 from exactpt.cli import cli
 from exactpt.cli.progress import progress
@@ -54,11 +53,6 @@ def test_no_bar_where_nobody_looks_on(scene):
     assert run("simulate", scene).stderr == ""
 
 
-class Terminal(io.StringIO):
-    def isatty(self):
-        return True
-
-
 def test_a_bar_on_a_terminal(scene, monkeypatch):
     """It follows the time: a quarter of it is done at a quarter of the span."""
     screen = Terminal()
@@ -77,22 +71,8 @@ def test_a_bar_on_a_terminal(scene, monkeypatch):
 def test_the_runs_tell_the_bar(scene, monkeypatch, command):
     screen = Terminal()
     told = []
-
-    class Bar:
-        pos = 0
-
-        def __enter__(self):
-            return self
-
-        def __exit__(self, *_):
-            return None
-
-        def update(self, steps):
-            self.pos += steps
-            told.append(self.pos)
-
     monkeypatch.setattr("exactpt.cli.progress.sys.stderr", screen)
-    monkeypatch.setattr("exactpt.cli.progress.click.progressbar", lambda **_: Bar())
+    monkeypatch.setattr("exactpt.cli.progress.click.progressbar", lambda **_: Bar(told))
     more = ["-o", str(scene.with_name("film.html"))] if command == "draw" else []
 
     cli.main([command, str(scene), *more], standalone_mode=False)
