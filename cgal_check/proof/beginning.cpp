@@ -1,5 +1,6 @@
 // The map at the start.
 #include <algorithm>
+#include <set>
 
 #include "checker.hpp"
 #include "faults.hpp"
@@ -25,21 +26,43 @@ void Checker::begin() {
   faces.insert(faces.end(), solid.begin(), solid.end());
   map_.emplace(scene_.size(), faces);
   check_body_edges();
-  if (!map_->is_connected()) throw Rejected("the map is not connected");
-  if (count + faces.size() != map_->edges() + 2) throw Rejected("V - E + F is not 2");
+  check_components();
+  if (count + faces.size() != map_->edges() + 2 * components_)
+    throw Rejected("V - E + F is not " + std::to_string(2 * components_));
   begin_angles(solid);
   check_insides(fresh_);
 }
 
-// The insides of rigid polygons, counter-clockwise.
+// Each component is in a hole of its own of a rigid body, but for the outermost one.
+void Checker::check_components() {
+  component_ = map_->components();
+  std::set<int> all(component_.begin(), component_.end()), inner;
+  std::size_t holes = 0;
+  for (const Body& body : scene_.bodies()) {
+    for (const Ring& ring : body.rings) {
+      if (!body.is_rigid || !ring.is_hole) continue;
+      inner.insert(component(ring.first));
+      ++holes;
+    }
+  }
+  if (inner.size() != holes || all.size() != holes + 1)
+    throw Rejected("the map is not connected: a component is not alone in a hole");
+  components_ = all.size();
+  for (const int c : all)
+    if (inner.count(c) == 0) outermost_ = c;
+}
+
+// The insides of rigid polygons, a cycle for each ring.
 std::vector<FaceText> Checker::solid_faces() const {
   std::vector<FaceText> result;
   for (const Body& body : scene_.bodies()) {
     if (!body.is_polygon || !body.is_rigid) continue;
-    FaceText face{line_, {}};
-    for (int i = 0; i < body.size; ++i) face.vertices.push_back(body.first + i);
-    if (!body.is_counter_clockwise) std::reverse(face.vertices.begin(), face.vertices.end());
-    result.push_back(std::move(face));
+    for (const Ring& ring : body.rings) {
+      FaceText face{line_, {}};
+      for (int i = 0; i < ring.size; ++i) face.vertices.push_back(ring.first + i);
+      if (!ring.has_body_on_left) std::reverse(face.vertices.begin(), face.vertices.end());
+      result.push_back(std::move(face));
+    }
   }
   return result;
 }
@@ -47,7 +70,7 @@ std::vector<FaceText> Checker::solid_faces() const {
 void Checker::check_body_edges() const {
   for (const Body& body : scene_.bodies())
     for (int i = 0; i < body.edges(); ++i)
-      if (map_->find(body.first + i, body.first + (i + 1) % body.size) == -1)
+      if (map_->find(body.first + i, body.next(body.first + i)) == -1)
         throw Rejected("an edge of the body " + body.name + " is not there");
 }
 

@@ -68,6 +68,10 @@ void Checker::check_items(const EventText& event) const {
     check_vertices({w, x});
   }
   if (!map_) throw Rejected("there is nothing to change");
+  for (const auto& [u, v, w, x] : event.added)
+    if (component(u) != component(v))
+      throw Rejected("the edge " + std::to_string(u) + " " + std::to_string(v) +
+                     " joins two components of the map");
   for (const auto& [u, v] : event.renewed) {
     check_vertices({u, v});
     const int h = map_->find(u, v);
@@ -98,7 +102,8 @@ void Checker::change(const EventText& event) {
   face_.resize(angles_.size(), -1);
   renew(std::move(changed), event.renewed);
   const auto count = static_cast<std::size_t>(scene_.size());
-  if (count + faces_ != map_->edges() + 2) throw Rejected("V - E + F is not 2");
+  if (count + faces_ != map_->edges() + 2 * components_)
+    throw Rejected("V - E + F is not " + std::to_string(2 * components_));
   check_connected(event);
   check_insides(fresh_);
 }

@@ -53,6 +53,7 @@ class Checker {
   std::vector<FaceText> solid_faces() const;
   void begin_angles(const std::vector<FaceText>& solid);
   void check_body_edges() const;
+  void check_components();
 
   // An event.
   void check_items(const EventText& event) const;
@@ -83,6 +84,7 @@ class Checker {
 
   Angle& angle(int h) { return angles_[static_cast<std::size_t>(h)]; }
   const Angle& angle(int h) const { return angles_[static_cast<std::size_t>(h)]; }
+  int component(int v) const { return component_[static_cast<std::size_t>(v)]; }
   int& face(int h) { return face_[static_cast<std::size_t>(h)]; }
 
   Scene& scene_;
@@ -95,6 +97,9 @@ class Checker {
   Predicates predicates_;
   std::deque<Time> times_;      // t0, then those of events; references last
   std::optional<Map> map_;      // none for less than two vertices
+  std::vector<int> component_;  // of each vertex; it never changes
+  std::size_t components_ = 1;
+  int outermost_ = 0;           // the component that has the outer face
   std::vector<Angle> angles_;
   std::vector<int> fresh_;      // half-edges of the angles that came with the last line
   std::vector<int> face_;       // of each half-edge

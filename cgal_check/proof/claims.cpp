@@ -15,13 +15,6 @@ std::size_t piece_in(const Body& body, const Rational& low, const Rational& high
   return i;
 }
 
-std::vector<Place> places(const Scene& scene, const Body& body, const Time& t) {
-  std::vector<Place> result;
-  for (int i = 0; i < body.size; ++i)
-    result.push_back(place(scene.path(body.first + i, t), t.low()));
-  return result;
-}
-
 }  // namespace
 
 Time Checker::time_of(const TimeText& text) const {
@@ -74,9 +67,13 @@ void Checker::check_contact_at_start(const ContactText& contact) {
     if (body >= scene_.bodies().size() || !scene_.bodies()[body].is_polygon ||
         scene_.body_of(contact.vertex) == c)
       throw Rejected("a contact with something that has no inside, or with its own vertex");
-    const std::vector<Place> polygon = places(scene_, scene_.bodies()[body], t);
-    if (!is_simple(polygon) || !is_in(polygon, at(contact.vertex)))
-      throw Rejected("there is no contact");
+    // In an odd number of rings: none is around another one of its kind.
+    int around = 0;
+    for (const Polygon& polygon : polygons(scene_.bodies()[body], t.low())) {
+      if (!is_simple(polygon)) throw Rejected("there is no contact");
+      around += is_in(polygon, at(contact.vertex));
+    }
+    if (around % 2 == 0) throw Rejected("there is no contact");
     return;
   }
   check_vertices({contact.end, c, d});

@@ -54,6 +54,8 @@ void Checker::count_corners(int h, const Time& sample) {
   outer_faces_ -= is_outer_[f];
   is_outer_[f] = convex == 0;
   outer_faces_ += is_outer_[f];
+  if (convex == 0 && component(map_->origin(h)) != outermost_)
+    throw Rejected("a face in a hole has no convex angle", fresh_line_);
   if (convex == 0 || convex == 3) return;
   if (convex < 3 || wide > 0)
     throw Rejected("the face of " + std::to_string(map_->origin(h)) + " " +

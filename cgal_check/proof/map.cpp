@@ -106,26 +106,29 @@ bool Map::are_joined(int u, int v) const {
   }
 }
 
-bool Map::is_connected() const {
-  std::vector<bool> seen(first_.size());
-  std::vector<int> open{0};
-  std::size_t count = 1;
-  seen[0] = true;
-  while (!open.empty()) {
-    const int first = any(open.back());
-    open.pop_back();
-    int h = first;
-    do {
-      const auto v = static_cast<std::size_t>(target(h));
-      if (!seen[v]) {
-        seen[v] = true;
-        ++count;
-        open.push_back(target(h));
-      }
-      h = clockwise(h);
-    } while (h != first);
+std::vector<int> Map::components() const {
+  std::vector<int> result(first_.size(), -1);
+  int number = 0;
+  for (std::size_t start = 0; start < first_.size(); ++start) {
+    if (result[start] != -1) continue;
+    std::vector<int> open{static_cast<int>(start)};
+    result[start] = number;
+    while (!open.empty()) {
+      const int first = any(open.back());
+      open.pop_back();
+      int h = first;
+      do {
+        int& of_target = result[static_cast<std::size_t>(target(h))];
+        if (of_target == -1) {
+          of_target = number;
+          open.push_back(target(h));
+        }
+        h = clockwise(h);
+      } while (h != first);
+    }
+    ++number;
   }
-  return count == first_.size();
+  return result;
 }
 
 std::vector<int> Map::change(const EventText& event) {

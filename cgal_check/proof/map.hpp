@@ -41,7 +41,7 @@ class Map {
   std::vector<int> face(int h) const;
 
   bool are_joined(int u, int v) const;  // by a path
-  bool is_connected() const;
+  std::vector<int> components() const;  // of each vertex the number of its component
 
   // Changes the map. Throws Rejected. Returns the half-edges of which another one, or none, is
   // before them counter-clockwise now; those that went among them.

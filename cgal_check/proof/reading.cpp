@@ -199,24 +199,66 @@ Pieces<Shape> keyframes(const Json& json) {
   return pieces;
 }
 
+// A ring of vertices as it is in the file.
+struct Outline {
+  const Json* rows;
+  bool is_hole;
+};
+
+std::vector<Outline> outlines(const Json& body) {
+  std::vector<Outline> result;
+  const auto add = [&](const Json& part) {
+    result.push_back({member(part, "vertices"), false});
+    if (const Json* holes = part.find("holes"))
+      for (const Json& hole : list(holes)) result.push_back({&hole, true});
+  };
+  const Json* parts = body.find("parts");
+  if (!parts) {
+    add(body);
+    return result;
+  }
+  for (const Json& part : list(parts)) {
+    allow_keys(part, {"vertices", "holes"});
+    add(part);
+  }
+  return result;
+}
+
 Pieces<Shape> shapes(const Json& json) {
-  const Json* frames = json.find("keyframes");
-  const Json* rows = json.find("vertices");
-  if ((frames == nullptr) == (rows == nullptr))
-    throw NoProof("the scene has a body without vertices, or with keyframes besides");
-  if (frames) return keyframes(*frames);
+  int ways = 0;
+  for (const char* key : {"keyframes", "vertices", "parts"}) ways += json.find(key) != nullptr;
+  if (ways != 1) throw NoProof("the scene has a body with no vertices, or with several sorts");
+  if (const Json* frames = json.find("keyframes")) return keyframes(*frames);
   Shape shape;
-  for (const Json& row : list(rows)) {
-    if (row.kind == Json::Kind::object) {
-      allow_keys(row, {"x", "y"});
-      shape.emplace_back(polynomial(row.find("x")), polynomial(row.find("y")));
-    } else {
-      if (list(&row).size() != 2) throw NoProof("the scene has a vertex without two coordinates");
-      shape.emplace_back(constant(exact_number(&row.items[0])),
-                         constant(exact_number(&row.items[1])));
+  for (const Outline& outline : outlines(json)) {
+    for (const Json& row : list(outline.rows)) {
+      if (row.kind == Json::Kind::object) {
+        allow_keys(row, {"x", "y"});
+        shape.emplace_back(polynomial(row.find("x")), polynomial(row.find("y")));
+      } else {
+        if (list(&row).size() != 2) throw NoProof("the scene has a vertex without two coordinates");
+        shape.emplace_back(constant(exact_number(&row.items[0])),
+                           constant(exact_number(&row.items[1])));
+      }
     }
   }
   return {{}, {shape}};
+}
+
+std::vector<Ring> rings(const Json& json, const Body& body, bool is_closed) {
+  if (json.find("keyframes")) return {{body.first, body.size}};
+  std::vector<Ring> result;
+  int first = body.first;
+  for (const Outline& outline : outlines(json)) {
+    const int size = static_cast<int>(outline.rows->items.size());
+    result.push_back({first, size, outline.is_hole});
+    first += size;
+  }
+  const bool are_several = result.size() > 1 || json.find("parts");
+  for (const Ring& ring : result)
+    if (are_several && (ring.size < 3 || !is_closed))
+      throw NoProof("the scene has a ring that bounds nothing");
+  return result;
 }
 
 }  // namespace
@@ -247,7 +289,7 @@ void allow_keys(const Json& json, std::initializer_list<std::string_view> keys) 
 }
 
 Body read_body(const Json& json, int first) {
-  allow_keys(json, {"name", "vertices", "keyframes", "motion", "closed"});
+  allow_keys(json, {"name", "vertices", "keyframes", "motion", "closed", "holes", "parts"});
   Body body;
   const Json* name = member(json, "name");
   if (name->kind != Json::Kind::text) throw NoProof("the scene has a name that is no text");
@@ -260,7 +302,11 @@ Body read_body(const Json& json, int first) {
   const Pieces<Motion> motion = motions(json.find("motion"));
   if (shape.all.front().empty()) throw NoProof("the scene has a body without vertices");
   body.size = static_cast<int>(shape.all.front().size());
-  body.is_polygon = body.size > 2 && (!closed || closed->truth);
+  const bool is_closed = !closed || closed->truth;
+  body.is_polygon = body.size > 2 && is_closed;
+  if (json.find("holes") && !json.find("vertices"))
+    throw NoProof("the scene has holes without vertices");
+  body.rings = rings(json, body, is_closed);
   body.breaks = shape.until;
   body.breaks.insert(body.breaks.end(), motion.until.begin(), motion.until.end());
   std::sort(body.breaks.begin(), body.breaks.end());

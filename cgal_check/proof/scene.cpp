@@ -61,13 +61,6 @@ bool is_rigid(const Body& body, const Rational& start, const Rational& end) {
   return true;
 }
 
-std::vector<Place> places(const Body& body, const Rational& t) {
-  std::vector<Place> result;
-  const std::size_t piece = Scene::piece(body, Time(t));
-  for (const Path& path : body.pieces[piece]) result.push_back(place(path, t));
-  return result;
-}
-
 void check_jumps(const Body& body) {
   for (std::size_t i = 0; i < body.breaks.size(); ++i)
     for (std::size_t k = 0; k < body.pieces[i].size(); ++k)
@@ -86,7 +79,44 @@ int sign_of_area(const std::vector<Place>& polygon) {
   return sign(sum);
 }
 
+// Rings that are disjoint are outlines and holes in turn, from the outermost one on.
+void check_rings(const Body& body, const std::vector<Polygon>& polygons) {
+  const auto fault = [&](const char* what) { throw Rejected("the body " + body.name + what); };
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    if (!is_simple(polygons[i])) fault(" is not simple at the start");
+    int around = 0;
+    for (std::size_t j = 0; j < polygons.size(); ++j) {
+      if (i == j) continue;
+      if (j < i && do_edges_meet(polygons[i], polygons[j])) fault(" is not simple at the start");
+      around += is_in(polygons[j], polygons[i].front());
+    }
+    if ((around % 2 == 1) != body.rings[i].is_hole) fault(" has a hole or part where none can be");
+  }
+}
+
 }  // namespace
+
+std::vector<Polygon> polygons(const Body& body, const Rational& t) {
+  std::vector<Polygon> result;
+  const std::vector<Path>& paths = body.pieces[Scene::piece(body, Time(t))];
+  for (const Ring& ring : body.rings) {
+    result.emplace_back();
+    for (int v = ring.first; v < ring.first + ring.size; ++v)
+      result.back().push_back(place(paths[static_cast<std::size_t>(v - body.first)], t));
+  }
+  return result;
+}
+
+const Ring& Body::ring(int v) const {
+  const auto after = std::upper_bound(rings.begin(), rings.end(), v,
+                                      [](int u, const Ring& ring) { return u < ring.first; });
+  return *(after - 1);
+}
+
+int Body::around(int v, int step) const {
+  const Ring& r = ring(v);
+  return r.first + (v - r.first + step + r.size) % r.size;
+}
 
 Place place(const Path& path, const Rational& t) {
   const auto at = [&](const Poly<Integer>& f) {
@@ -135,17 +165,19 @@ void Scene::examine(const Rational& end) {
     check_jumps(body);
     body.is_rigid = proof::is_rigid(body, start_, end);
     if (!body.is_polygon) continue;
-    const std::vector<Place> polygon = places(body, start_);
-    const int area = sign_of_area(polygon);
-    if (area == 0) throw Rejected("the body " + body.name + " has no area at the start");
-    body.is_counter_clockwise = area > 0;
-    if (body.is_rigid && !is_simple(polygon))
-      throw Rejected("the body " + body.name + " is not simple at the start");
+    const std::vector<Polygon> all = polygons(body, start_);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const int area = sign_of_area(all[i]);
+      if (area == 0) throw Rejected("the body " + body.name + " has no area at the start");
+      body.rings[i].has_body_on_left = (area > 0) != body.rings[i].is_hole;
+    }
+    if (body.is_rigid || all.size() > 1) check_rings(body, all);
   }
 }
 
 bool Scene::is_body_edge(int u, int v) const {
   if (body_of(u) != body_of(v)) return false;
+  if (body(u).rings.size() > 1) return body(u).next(u) == v || body(u).next(v) == u;
   const int apart = std::abs(u - v);
   return apart == 1 || (body(u).is_polygon && apart == body(u).size - 1);
 }
@@ -158,10 +190,8 @@ std::string Scene::in_words(int v) const {
   return body(v).name + " vertex " + std::to_string(v - body(v).first);
 }
 
-int Scene::around(int v, int step) const {
-  const Body& b = body(v);
-  const int turned = b.is_counter_clockwise ? step : -step;
-  return b.first + (v - b.first + turned + b.size) % b.size;
+int Scene::after(int v, int step) const {
+  return body(v).around(v, body(v).ring(v).has_body_on_left ? step : -step);
 }
 
 std::size_t Scene::piece(const Body& body, const Time& t) {

@@ -18,6 +18,7 @@ struct Path {
 };
 
 using Place = std::pair<Rational, Rational>;
+using Polygon = std::vector<Place>;
 
 Place place(const Path& path, const Rational& t);
 
@@ -26,18 +27,32 @@ Place place(const Path& path, const Rational& t);
 Poly<Integer> orientation(const Path& a, const Path& b, const Path& c);
 Poly<Integer> dot_product(const Path& a, const Path& v, const Path& b);
 
+// A ring of vertices of a body; of a chain, a segment or a point, all of them.
+struct Ring {
+  int first = 0;  // the number of its first vertex in the scene
+  int size = 0;
+  bool is_hole = false;
+  bool has_body_on_left = true;  // of a polygon, at the start
+};
+
 struct Body {
   std::string name;
   int first = 0;  // the number of its first vertex in the scene
   int size = 0;
   bool is_polygon = false;
   bool is_rigid = false;            // during the time span of the proof
-  bool is_counter_clockwise = true; // of a polygon, at the start
+  std::vector<Ring> rings;
   std::vector<Rational> breaks;     // times at which the formulas change
   std::vector<std::vector<Path>> pieces;  // one more than breaks; each with all vertices
 
   int edges() const { return is_polygon ? size : size - 1; }
+  const Ring& ring(int v) const;
+  int next(int v) const { return around(v, 1); }  // on its ring, in the order of the file
+  int around(int v, int step) const;
 };
+
+// The rings of a polygon at a time.
+std::vector<Polygon> polygons(const Body& body, const Rational& t);
 
 class Scene {
  public:
@@ -58,9 +73,9 @@ class Scene {
   bool are_rigid(int u, int v, int w) const;  // all of one rigid body
   std::string in_words(int v) const;          // "box vertex 1"
 
-  // The vertices of a polygon before and after a vertex, counter-clockwise.
-  int before(int v) const { return around(v, -1); }
-  int after(int v) const { return around(v, 1); }
+  // The vertices before and after a vertex on its ring, with the polygon on the left.
+  int before(int v) const { return after(v, -1); }
+  int after(int v) const { return after(v, 1); }
 
   // Which piece holds just after a time, or at it.
   static std::size_t piece(const Body& body, const Time& t);
@@ -68,7 +83,7 @@ class Scene {
   const Path& path(int v, const Time& t) const { return path(v, piece(body(v), t)); }
 
  private:
-  int around(int v, int step) const;
+  int after(int v, int step) const;
 
   Rational start_, end_;
   std::vector<Body> bodies_;

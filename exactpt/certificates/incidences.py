@@ -33,7 +33,8 @@ Hence testing the vertices of all angles with an event at t, extended along stra
 finds every contact. (Where more than two features meet at z, consecutive ones do so as
 above, and all pairs among the vertices and edges found are tested.)
 
-The faces are those of the free space, and of the interiors that are tiled. A deforming
+The faces are those of the free space, in holes of bodies too, and of the interiors that are tiled,
+around holes. A deforming
 body without a diagonal, a segment or a triangle, may lose its interior too: then all its
 vertices are tested (`exactpt.tiling.pieces`).
 """

@@ -42,7 +42,10 @@ class BodyShape(NamedTuple):
         Raises:
             InputError: if a body has holes or several parts.
         """
-        refuse_rings(scene.bodies, "no tiling of such bodies is verified; a proof of the answer is")
+        refuse_rings(
+            scene.bodies,
+            "no tiling of such bodies is verified; a proof of the answer is (collide --proof)",
+        )
         return [
             cls(body.name, body.size, body.closed, signed_area2(body._at(scene._start)) < 0)
             for body in scene.bodies

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from exactpt.errors import InputError
 from exactpt.exchange import geojson, svg, wkt
-from exactpt.exchange.shapes import Holes, Parts, Repair, Shape, scene_of, shapes_at
+from exactpt.exchange.bodies import Holes, Parts, Repair, scene_of
+from exactpt.exchange.shapes import Shape, shapes_at
 from exactpt.files import read_text, write_atomically
 from exactpt.kernel.numbers import rational
 from exactpt.scene.format import loads, save

@@ -48,7 +48,7 @@ def shapes_of(text: str) -> Iterator[Shape]:
     The name of a feature is its property ``name`` or ``id`` (in upper or lower case), else its
     own ``id``, else its number.
 
-    >>> from exactpt.exchange.shapes import scene_of
+    >>> from exactpt.exchange.bodies import scene_of
     >>> text = '{"type": "Polygon", "coordinates": [[[0, 0], [0.1, 0], [0, 2], [0, 0]]]}'
     >>> scene_of(shapes_of(text)).bodies[0].at(0)[1]
     (Fraction(1, 10), Fraction(0, 1))

@@ -13,18 +13,8 @@ from typing import TYPE_CHECKING, Final
 from numpy import errstate
 
 from exactpt.errors import InputError
-from exactpt.exchange.shapes import (
-    Holes,
-    Kind,
-    Parts,
-    Shape,
-    body_of,
-    rounded,
-    rounded_rings,
-    scene_of,
-    shapes_at,
-    together,
-)
+from exactpt.exchange.bodies import Holes, Parts, body_of, scene_of
+from exactpt.exchange.shapes import Kind, Shape, rounded, rounded_rings, shapes_at, together
 from exactpt.kernel.numbers import nearest_float, rational, shorten
 
 try:

@@ -1,4 +1,4 @@
-"""Shapes, the common form of all file formats and libraries, and the bodies they become.
+"""Shapes, the common form of all file formats and libraries, and those of a scene.
 
 Shared by all formats: a ring may repeat its first point, names may be missing or equal, a shape
 may have holes, and not every shape is a valid body.
@@ -7,36 +7,30 @@ may have holes, and not every shape is a valid body.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Container, Iterable, Sequence
+from collections.abc import Sequence
 from itertools import chain
-from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias, final
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from exactpt.errors import InputError
 from exactpt.geometry.boxes import Boxes, Indices, boxes_of_points, overlapping_pairs
-from exactpt.geometry.polygon import contains, signed_area2
+from exactpt.geometry.polygon import contains
 from exactpt.kernel.numbers import nearest_float, shorten, show
-from exactpt.motion.body import Body
-from exactpt.motion.motions import REST, Motion
-from exactpt.scene.scene import Scene
 
 if TYPE_CHECKING:
     from exactpt.geometry.predicates import Point
-    from exactpt.kernel.numbers import QQ, Rational
+    from exactpt.kernel.numbers import QQ
+    from exactpt.motion.body import Body
+    from exactpt.scene.scene import Scene
 
 __all__ = [
     "DEEPEST",
-    "Holes",
     "Kind",
-    "Parts",
-    "Repair",
     "Shape",
-    "body_of",
     "nested",
     "rounded",
     "rounded_rings",
-    "scene_of",
     "shapes_at",
     "together",
 ]
@@ -48,13 +42,8 @@ _MOST_NESTED: Final = 10_000_000
 """Maximum number of pairs of rings of one outline with one box inside the other."""
 
 Kind: TypeAlias = Literal["point", "line", "polygon"]
-Holes: TypeAlias = Literal["keep", "refuse", "fill"]
-Parts: TypeAlias = Literal["keep", "split"]
-
-Repair: TypeAlias = "Callable[[Shape], Iterable[Shape]]"
 
 _NONE: Final[Indices] = np.empty(0, dtype=np.int64)
-_FEWEST: Final[dict[Kind, int]] = {"point": 1, "line": 2, "polygon": 3}
 
 
 class Shape(NamedTuple):
@@ -89,143 +78,6 @@ def together(parts: Sequence[Shape]) -> list[Shape]:
     if len(parts) > 1 and all(part.kind == "polygon" for part in parts):
         return [parts[0]._replace(more=parts[1:])]
     return list(parts)
-
-
-def scene_of(
-    shapes: Iterable[Shape],
-    *,
-    time: Sequence[Rational] = (0, 1),
-    holes: Holes = "keep",
-    parts: Parts = "keep",
-    radius: Rational = 0,
-    repair: Repair | None = None,
-    skipped: Callable[[str], None] | None = None,
-) -> Scene:
-    """The scene at rest of some shapes, in their order.
-
-    Args:
-        shapes: the shapes, one for each body; a name that is taken gets a number.
-        time: the start and the end of the time span.
-        holes: "keep" the holes of polygons, "refuse" such polygons, or "fill" the holes.
-        parts: "keep" the parts of a shape together as one body, or "split" them into bodies.
-        radius: the radius of each body.
-        repair: called with each shape that is not a valid body; the shapes to take instead.
-        skipped: called with a message for each shape that cannot be a body and is left out;
-            if None, such a shape is an error.
-
-    Raises:
-        InputError: one line that names the shape and says what to do about it.
-    """
-    empty = Scene([], time)
-    found = _Bodies(time, holes, radius, repair)
-    for given in shapes:
-        for shape in given.parts if parts == "split" else (given,):
-            if skipped is None:
-                found.add_or_mend(shape)
-            else:
-                found.add_what_is_valid(shape, skipped)
-    return empty.going_on(found.bodies.values(), empty._start)
-
-
-@final
-class _Bodies:
-    """The bodies of shapes, by name, see `scene_of`."""
-
-    def __init__(
-        self, time: Sequence[Rational], holes: Holes, radius: Rational, repair: Repair | None
-    ) -> None:
-        self._time, self._holes, self._radius, self._repair = time, holes, radius, repair
-        self._last: dict[str, int] = {}
-        self.bodies: dict[str, Body] = {}
-
-    def _valid(self, shape: Shape) -> Body:
-        name = _free_name(shape.name, self.bodies, self._last)
-        body = body_of(shape, name, holes=self._holes, radius=self._radius)
-        _check_simple(shape, body, self._time)
-        return body
-
-    def add_or_mend(self, shape: Shape) -> None:
-        """Add the body of a shape, or those that repair makes of it."""
-        try:
-            body = self._valid(shape)
-        except InputError:
-            if self._repair is None:
-                raise
-        else:
-            self.bodies[body.name] = body
-            return
-        for mended in self._repair(shape):
-            body = self._valid(mended)
-            self.bodies[body.name] = body
-
-    def add_what_is_valid(self, shape: Shape, skipped: Callable[[str], None]) -> None:
-        """Likewise, without the parts that are not valid on their own."""
-        try:
-            self.add_or_mend(shape)
-            return
-        except InputError as error:
-            faults = {i: self._fault(part) for i, part in enumerate(shape.parts)}
-            left = [part for i, part in enumerate(shape.parts) if faults[i] is None]
-            if len(left) == len(faults) or not shape.more:
-                skipped(str(error))
-                return
-        for fault in filter(None, faults.values()):
-            skipped(fault)
-        for rest in together(left):
-            self.add_what_is_valid(rest, skipped)
-
-    def _fault(self, part: Shape) -> str | None:
-        try:
-            self._valid(part)
-        except InputError as error:
-            return str(error)
-        return None
-
-
-def body_of(
-    shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "keep", radius: Rational = 0
-) -> Body:
-    """The body that a shape becomes.
-
-    Repeated consecutive points count once. A line that ends where it began becomes the polygon
-    that it bounds.
-
-    Raises:
-        InputError: if the shape has too few points, no area, or (``holes="refuse"``) holes.
-    """
-    count = sum(len(part.holes) for part in shape.parts)
-    if count and holes == "refuse":
-        raise InputError(
-            f"{shape.where}: polygon {shorten(shape.name)} has {_counted(count, 'hole')}: "
-            "keep or fill them (--holes, in Python holes=), or cut the polygon open"
-        )
-    rings = [_rings_of(part, fill=holes == "fill") for part in shape.parts]
-    if len(rings) == len(rings[0]) == 1:
-        points, is_polygon = _ring_of(shape, shape.points)
-        return Body(name, points, motion, closed=is_polygon or len(points) < 3, radius=radius)
-    made = [{"vertices": outline, "holes": inner} for outline, *inner in rings]
-    return Body(name, motion=motion, parts=made, radius=radius)
-
-
-def _rings_of(part: Shape, *, fill: bool) -> list[list[Point]]:
-    return [_ring_of(part, ring)[0] for ring in (part.points, *(() if fill else part.holes))]
-
-
-def _ring_of(shape: Shape, ring: Sequence[Point]) -> tuple[list[Point], bool]:
-    """The points of a ring of a shape, each once, and whether it bounds a polygon."""
-    points = _distinct_neighbours(ring)
-    closes = shape.kind != "point" and len(points) > 1 and points[0] == points[-1]
-    if closes:
-        points.pop()
-    is_polygon = shape.kind == "polygon" or (closes and len(points) > 2)
-    kind: Kind = "polygon" if is_polygon else shape.kind
-    if len(points) < _FEWEST[kind] or (is_polygon and signed_area2(points) == 0):
-        lacks = {"point": "position", "line": "length", "polygon": "area"}[kind]
-        raise InputError(
-            f"{shape.where}: {kind} {shorten(shape.name)} has no {lacks}: "
-            "remove it, or leave such shapes out (--skip-invalid)"
-        )
-    return points, is_polygon
 
 
 def shapes_at(scene: Scene, at: QQ) -> list[Shape]:
@@ -280,17 +132,6 @@ def _rounded(shape: Shape, ring: Sequence[Point]) -> list[tuple[float, float]]:
     if not all(map(math.isfinite, chain.from_iterable(points))):
         raise InputError(f"{shape.where}: a coordinate is too large for a double")
     return points
-
-
-def _check_simple(shape: Shape, body: Body, time: Sequence[Rational]) -> None:
-    try:
-        Scene([body], time)
-    except InputError as error:
-        split = "split it (--parts split), " if shape.more else ""
-        raise InputError(
-            f"{shape.where}: {error}; {split}mend it (--repair), or leave such outlines out "
-            "(--skip-invalid)"
-        ) from None
 
 
 def nested(rings: Sequence[Sequence[Point]]) -> list[tuple[int, list[int]]]:
@@ -350,25 +191,3 @@ def _inside(ring: Sequence[Point], other: Sequence[Point]) -> bool:
     corners = set(other)
     free = next((p for p in ring if p not in corners), None)
     return free is not None and len(other) > 2 and contains(other, free)
-
-
-def _distinct_neighbours(points: Sequence[Point]) -> list[Point]:
-    return [p for i, p in enumerate(points) if i == 0 or p != points[i - 1]]
-
-
-def _free_name(wanted: str, taken: Container[str], last: dict[str, int]) -> str:
-    """The wanted name, or the first free one of "wanted 2", "wanted 3", ...
-
-    ``last`` has the last number tried for each name: those below it stay taken.
-    """
-    number = last.get(wanted, 1)
-    name = wanted if number == 1 else f"{wanted} {number}"
-    while name in taken:
-        number += 1
-        name = f"{wanted} {number}"
-    last[wanted] = number
-    return name
-
-
-def _counted(count: int, what: str) -> str:
-    return f"{count} {what}" + ("s" if count > 1 else "")

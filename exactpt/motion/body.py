@@ -42,6 +42,7 @@ __all__ = ["Body", "is_text", "refuse_rings", "refuse_rounded"]
 
 _PLAIN: Final = (int, float)
 _SHARP: Final = QQ(0)
+_NO_HOLES: Final = ()
 
 
 def is_text(name: object) -> bool:
@@ -122,29 +123,44 @@ class Body:
         *,
         closed: bool = True,
         keyframes: Keyframes | None = None,
-        holes: Iterable[Outline] = (),
+        holes: Iterable[Outline] = _NO_HOLES,
         parts: Iterable[PartLike] | None = None,
         radius: Rational = 0,
     ) -> None:
         if not is_text(name):
             raise InputError(f"a body's name is a text that is not empty: {shorten(name)}")
         _check_motion(name, motion)
-        if sum(given is not None for given in (vertices, keyframes, parts)) != 1:
-            raise InputError(f"body {shorten(name)}: give either vertices or keyframes or parts")
+        plain = parts is None and holes is _NO_HOLES
+        if not plain or (vertices is None) == (keyframes is None):
+            _check_sorts(name, vertices, keyframes, parts)
         self.name = name
         self.closed = closed
         self._radius = _read_radius(name, radius)
+        self._parts: Parts | None = None
         try:
-            self._parts: Parts | None = None
-            inner = listed("holes", holes)
-            if parts is None and not inner:
+            if plain:
                 self._shape = Shape(vertices, keyframes, ring=closed)
             else:
-                _check_rings(vertices, inner, closed=closed)
-                self._shape, self._parts = read_rings(vertices, inner, parts)
+                self._read_rings(vertices, keyframes, listed("holes", holes), parts)
             self._course = Course(self._shape, motion)
         except InputError as error:
             raise InputError(f"body {shorten(name)}: {error}") from None
+
+    def _read_rings(
+        self,
+        vertices: Iterable[VertexLike] | None,
+        keyframes: Keyframes | None,
+        holes: Sequence[Outline],
+        parts: Iterable[PartLike] | None,
+    ) -> None:
+        if parts is None and not holes:
+            self._shape = Shape(vertices, keyframes, ring=self.closed)
+            return
+        if not self.closed:
+            raise InputError("an open chain has neither holes nor parts")
+        if holes and vertices is None:
+            raise InputError("holes are for a body of vertices; a part has holes of its own")
+        self._shape, self._parts = read_rings(vertices, holes, parts)
 
     @classmethod
     def from_shapely(
@@ -268,6 +284,8 @@ class Body:
     @property
     def rings(self) -> tuple[range, ...]:
         """The numbers of the vertices of each ring."""
+        if self._parts is None:
+            return (range(self.size),)
         return tuple(ring for rings in self.parts for ring in rings)
 
     @property
@@ -375,13 +393,10 @@ def _read_radius(name: str, radius: Rational) -> QQ:
     return exact
 
 
-def _check_rings(
-    vertices: Iterable[VertexLike] | None, holes: Sequence[object], *, closed: bool
-) -> None:
-    if not closed:
-        raise InputError("an open chain has neither holes nor parts")
-    if holes and vertices is None:
-        raise InputError("holes are for a body of vertices; a part has holes of its own")
+def _check_sorts(name: str, *given: object) -> None:
+    """Check that there are vertices, keyframes or parts, but one of these alone."""
+    if sum(one is not None for one in given) != 1:
+        raise InputError(f"body {shorten(name)}: give either vertices or keyframes or parts")
 
 
 def _check_motion(name: str, motion: object) -> None:

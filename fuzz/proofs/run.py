@@ -21,7 +21,7 @@ from exactpt.files import write_atomically
 from exactpt.proof import prove
 from exactpt.proof.emit import scene_bytes
 from exactpt.scene.format import loads
-from exactpt.scene.generate import FAMILIES, POINTS, generate
+from exactpt.scene.generate import FAMILIES, POINTS, RINGS, generate
 from exactpt.scene.scene import Scene
 from fuzz.proofs.checking import checker, is_geometric
 from fuzz.proofs.texts import TEXTS
@@ -115,7 +115,7 @@ class Progress:
 def mutants(number: int, kinds: set[str]) -> Iterator[Mutant]:
     """The mutants of a round: those of one proof, and others."""
     random = Random(f"mutants:{number}")
-    families = [*FAMILIES, *POINTS]
+    families = [*FAMILIES, *POINTS, *RINGS]
     scene = generate(families[number % len(families)], 100_000 + number // len(families))
     texts = [kind for kind in (*TEXTS, OTHER) if kind in kinds]
     if texts:

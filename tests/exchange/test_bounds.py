@@ -9,7 +9,7 @@ import pytest
 from exactpt.cli import main
 from exactpt.collision import initial
 from exactpt.errors import InputError
-from exactpt.exchange import shapes, svg
+from exactpt.exchange import bodies, shapes, svg
 from exactpt.exchange.files import read_shapes
 from exactpt.scene.scene import Scene
 
@@ -124,7 +124,7 @@ def test_one_name_for_all(wanted):
     """The names tried grow with the number of bodies, not with its square."""
     taken, last = Counting(), {}
     for i in range(2000):
-        taken[shapes._free_name("a" if i % 2 else wanted, taken, last)] = None
+        taken[bodies._free_name("a" if i % 2 else wanted, taken, last)] = None
 
     assert len(taken) == 2000
     assert taken.asked < 8000
@@ -262,7 +262,7 @@ def test_a_pipe_is_read_up_to_the_limit():
 def test_conversion_within_a_time(folder, capsys, monkeypatch):
     (folder / "shapes.wkt").write_text("POINT (1 1)")
     monkeypatch.setattr("exactpt.cli.alarm.GRACE", 0.01)
-    monkeypatch.setattr(shapes.Body, "__init__", lambda *_, **__: any(0 for _ in iter(int, 1)))
+    monkeypatch.setattr(bodies.Body, "__init__", lambda *_, **__: any(0 for _ in iter(int, 1)))
 
     assert code_of("convert", "shapes.wkt", "out.json", "--max-seconds", "0.05") == 4
     assert capsys.readouterr().err == "exactpt: the time is used up\n"

@@ -8,9 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exactpt.errors import InputError
+from exactpt.exchange.bodies import scene_of
 from exactpt.exchange.files import read_shapes, write_shapes
 from exactpt.exchange.geojson import geojson_of, shapes_of
-from exactpt.exchange.shapes import Shape, scene_of, shapes_at
+from exactpt.exchange.shapes import Shape, shapes_at
 from exactpt.kernel.numbers import QQ, parse_rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation

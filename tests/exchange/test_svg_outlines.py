@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exactpt.errors import InputError
-from exactpt.exchange.shapes import nested, scene_of, shapes_at
+from exactpt.exchange.bodies import scene_of
+from exactpt.exchange.shapes import nested, shapes_at
 from exactpt.exchange.svg import shapes_of, svg_of
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body

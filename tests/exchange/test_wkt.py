@@ -6,7 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exactpt.errors import InputError
-from exactpt.exchange.shapes import scene_of, shapes_at
+from exactpt.exchange.bodies import scene_of
+from exactpt.exchange.shapes import shapes_at
 from exactpt.exchange.wkt import shapes_of, wkt_of
 from exactpt.kernel.numbers import QQ, parse_rational
 from exactpt.motion.body import Body
