@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from exactpt.collision.approach import Approach, first_within
     from exactpt.collision.contact import Contact, Pair
     from exactpt.collision.detector import first_contact
+    from exactpt.collision.enclosed import EnclosedContact, first_contact_enclosed
     from exactpt.collision.planner import Planner
     from exactpt.errors import AuditError, BudgetExceeded, ExactPTError, InputError
     from exactpt.exchange.files import read_shapes, write_shapes
@@ -51,6 +52,7 @@ __all__ = [
     "Contact",
     "ContactInterval",
     "Distance",
+    "EnclosedContact",
     "Event",
     "ExactPTError",
     "FreeSpace",
@@ -74,6 +76,7 @@ __all__ = [
     "contacts",
     "distance",
     "first_contact",
+    "first_contact_enclosed",
     "first_within",
     "in_local_time",
     "onward",
@@ -94,6 +97,10 @@ _ROOMS: Final = {
         "Pair",
     ),
     "exactpt.collision.detector": ("first_contact",),
+    "exactpt.collision.enclosed": (
+        "EnclosedContact",
+        "first_contact_enclosed",
+    ),
     "exactpt.collision.planner": ("Planner",),
     "exactpt.errors": (
         "AuditError",

@@ -190,6 +190,18 @@ class Body:
             raise InputError(f"body {shorten(self.name)}: {error}") from None
         return other
 
+    def with_radius(self, radius: Rational) -> Body:
+        """A body of the same name, shape and motion with another radius.
+
+        Raises:
+            InputError: if it is no number >= 0.
+        """
+        other = Body.__new__(Body)
+        other.name, other.closed = self.name, self.closed
+        other._shape, other._course = self._shape, self._course  # noqa: SLF001
+        other._radius = _read_radius(self.name, radius)
+        return other
+
     @property
     def motion(self) -> Motion:
         """The motion of the shape."""

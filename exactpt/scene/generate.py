@@ -6,10 +6,10 @@ from collections.abc import Callable
 from random import Random
 from typing import Final, TypeAlias
 
-from exactpt.scene.families import convex, degenerate, grid, points, rounded, simple
+from exactpt.scene.families import convex, degenerate, grid, points, rounded, simple, spinning
 from exactpt.scene.scene import Scene
 
-__all__ = ["CONVEX", "FAMILIES", "POINTS", "ROUNDED", "SIMPLE", "Family", "generate"]
+__all__ = ["CONVEX", "FAMILIES", "POINTS", "ROUNDED", "SIMPLE", "SPINNING", "Family", "generate"]
 
 Family: TypeAlias = Callable[[Random], Scene]
 
@@ -81,6 +81,14 @@ ROUNDED: Final[dict[str, Family]] = {
 """Families with rounded bodies, which no tiling holds."""
 
 
+SPINNING: Final[dict[str, Family]] = {
+    "gears": spinning.gears,
+    "mills": spinning.mills,
+    "orbits": spinning.orbits,
+}
+"""Families of bodies that turn at a constant rate, by `Spin`."""
+
+
 def generate(family: str, seed: int) -> Scene:
     """The scene of a family with this seed."""
-    return {**FAMILIES, **POINTS, **ROUNDED}[family](Random(f"{family}:{seed}"))
+    return {**FAMILIES, **POINTS, **ROUNDED, **SPINNING}[family](Random(f"{family}:{seed}"))
