@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from exactpt.collision.approach import Approach, first_within
     from exactpt.collision.contact import Contact, Pair
     from exactpt.collision.detector import first_contact
+    from exactpt.collision.enclosed import EnclosedContact, first_contact_enclosed
     from exactpt.collision.planner import Planner
     from exactpt.errors import AuditError, BudgetExceeded, ExactPTError, InputError
     from exactpt.exchange.files import read_shapes, write_shapes
@@ -53,6 +54,7 @@ __all__ = [
     "Contact",
     "ContactInterval",
     "Distance",
+    "EnclosedContact",
     "Event",
     "ExactPTError",
     "FreeSpace",
@@ -77,6 +79,7 @@ __all__ = [
     "contacts",
     "distance",
     "first_contact",
+    "first_contact_enclosed",
     "first_within",
     "in_local_time",
     "onward",
@@ -97,6 +100,10 @@ _ROOMS: Final = {
         "Pair",
     ),
     "exactpt.collision.detector": ("first_contact",),
+    "exactpt.collision.enclosed": (
+        "EnclosedContact",
+        "first_contact_enclosed",
+    ),
     "exactpt.collision.planner": ("Planner",),
     "exactpt.errors": (
         "AuditError",

@@ -91,6 +91,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
                     "changes of the IPT": without[-1].events,
                     "changes of the fan": with_fan[-1].fan,
                     "us an event": without[-1].per_event,
+                    "us an event with the fan": with_fan[-1].per_event,
                     "exact": without[-1].exact,
                 }
             )
@@ -118,7 +119,7 @@ def measure(scene: Scene, *, chains: Chains = "auto", fan: bool = False) -> Meas
     _, seconds = timed(lambda: _pass(tiling))
     return Measured(
         tiling.stats.total - tiling.stats.events.get("motion", 0),
-        tiling.stats.fan,
+        0 if tiling.fan is None else tiling.fan.changes,
         seconds,
         tiling.vertices.counters.exact - exact,
         sum(tree.steps for tree in tiling.structure.trees),

@@ -159,7 +159,7 @@ class _WithFamilies(click.Command):
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the families, grouped by the kind of bodies."""
         super().format_epilog(ctx, formatter)
-        from exactpt.scene.generate import CONVEX, POINTS, RINGS, ROUNDED, SIMPLE
+        from exactpt.scene.generate import CONVEX, POINTS, RINGS, ROUNDED, SIMPLE, SPINNING
 
         rooms = {
             "Convex bodies": CONVEX,
@@ -167,6 +167,7 @@ class _WithFamilies(click.Command):
             "Points": POINTS,
             "Rounded bodies": ROUNDED,
             "Bodies with holes and parts": RINGS,
+            "Bodies that turn at a constant rate": SPINNING,
         }
         for room, families in rooms.items():
             with formatter.section(room):
@@ -191,10 +192,10 @@ def generate(family: str, seed: int, output: Path | None) -> int:
       exactpt generate grids_passing --seed 7 -o grids.json
     """
     from exactpt.scene.format import save, to_json
-    from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED
+    from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED, SPINNING
     from exactpt.scene.generate import generate as generated
 
-    names = FAMILIES | POINTS | ROUNDED | RINGS
+    names = FAMILIES | POINTS | ROUNDED | RINGS | SPINNING
     if family not in names:
         near = get_close_matches(family, names, n=3) or ["convex"]
         raise InputError(f"no family {family!r}: perhaps {' or '.join(near)} (all: --help)")

@@ -1,4 +1,4 @@
-"""collide --all: every interval of time in which two bodies meet."""
+"""collide --all and --enclosed: all intervals of contact; bounds of the first contact's time."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from click.core import ParameterSource
 
 from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import load, max_memory
-from exactpt.cli.words import intervals_in_words
+from exactpt.cli.words import bounds_in_words, intervals_in_words
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 
-__all__ = ["collide_all"]
+__all__ = ["collide_all", "collide_enclosed"]
 
 TOGETHER: Final = {
-    "scene", "every", "as_json", "until", "exit_code", "max_seconds", "max_memory", "max_bytes"
+    "scene", "as_json", "until", "exit_code", "max_seconds", "max_memory", "max_bytes"
 }  # fmt: skip
-"""Options that go together with --all."""
+"""Options that go together with --all, and with --enclosed."""
 
 
 def collide_all(
@@ -29,7 +29,7 @@ def collide_all(
     """Print all intervals of contact; the exit code."""
     from exactpt.proximity.intervals import contacts
 
-    _check_alone(click.get_current_context())
+    _check_alone("every")
     with time_limit(max_seconds, max_memory()):
         scene = load(path, until)
         found = contacts(scene)
@@ -39,10 +39,27 @@ def collide_all(
     return 1 if exit_code and found else 0
 
 
-def _check_alone(context: click.Context) -> None:
-    """Refuse options that concern the first contact alone."""
-    for parameter in context.command.params:
-        name = str(parameter.name)
+def collide_enclosed(
+    path: Path, until: QQ | None, *, as_json: bool, exit_code: bool, max_seconds: float | None
+) -> int:
+    """Print bounds of the first contact, bodies turning at their true rates; the exit code."""
+    from exactpt.collision.enclosed import first_contact_enclosed
+
+    _check_alone("enclosed")
+    with time_limit(max_seconds, max_memory()):
+        scene = load(path, until)
+        found = first_contact_enclosed(scene)
+        told = bounds_in_words(scene, found)
+        answer = {"enclosed": found and found.to_json(), "until": str(scene._end)}
+    click.echo(json.dumps(answer, indent=1) if as_json else "\n".join(told))
+    return 1 if exit_code and found is not None else 0
+
+
+def _check_alone(asked: str) -> None:
+    """Refuse options that do not go together with the one that is asked for."""
+    context = click.get_current_context()
+    option = {str(p.name): p.opts[-1] for p in context.command.params}
+    for name, written in option.items():
         source = context.get_parameter_source(name)
-        if name not in TOGETHER and source is ParameterSource.COMMANDLINE:
-            raise InputError(f"--all: {parameter.opts[-1]} is for the first contact alone")
+        if name not in {*TOGETHER, asked} and source is ParameterSource.COMMANDLINE:
+            raise InputError(f"{option[asked]}: {written} is for the first contact alone")

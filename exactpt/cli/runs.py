@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.intervals import collide_all
+from exactpt.cli.intervals import collide_all, collide_enclosed
 from exactpt.cli.naming import names_in, two_names
 from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, max_memory
 from exactpt.cli.progress import QUIET, progress
@@ -36,6 +36,11 @@ __all__ = ["collide", "simulate"]
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 @click.option("--until", type=RATIONAL, help="Search up to this time.")
 @click.option("--all", "every", is_flag=True, help="Print all intervals in which bodies meet.")
+@click.option(
+    "--enclosed",
+    is_flag=True,
+    help="Print bounds of the first contact's time, each spin turning at exactly its rate.",
+)
 @TILING
 @click.option(
     "--method",
@@ -80,6 +85,7 @@ def collide(
     as_json: bool,
     until: QQ | None,
     every: bool,
+    enclosed: bool,
     tiling: str,
     method: str,
     ignore: tuple[str, ...],
@@ -101,15 +107,15 @@ def collide(
       exactpt collide scene.json --json
       exactpt collide scene.json --stats
       exactpt collide scene.json --all
+      exactpt collide scene.json --enclosed
       exactpt collide scene.json --until 7/2 --exit-code && echo "no contact"
       exactpt collide scene.json --proof answer.proof
       exactpt collide scene.json --method pairs --ignore boat,buoy --ignore ball,wheel
       exactpt collide scene.json --after-start --between ball,wheel --since 1/2
     """
-    if every:
-        return collide_all(
-            scene, until, as_json=as_json, exit_code=exit_code, max_seconds=max_seconds
-        )
+    if every or enclosed:
+        answer = collide_all if every else collide_enclosed
+        return answer(scene, until, as_json=as_json, exit_code=exit_code, max_seconds=max_seconds)
     from exactpt.collision.searches import Question
 
     if proof is not None and since is not None:

@@ -9,6 +9,7 @@ from exactpt.kernel.numbers import shorten
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact
+    from exactpt.collision.enclosed import EnclosedContact
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.proximity.intervals import ContactInterval
     from exactpt.scene.scene import Scene
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "answer_in_words",
+    "bounds_in_words",
     "event_in_words",
     "intervals_in_words",
     "name_in_words",
@@ -54,6 +56,17 @@ def intervals_in_words(scene: Scene, intervals: Sequence[ContactInterval]) -> li
         for i in intervals
         for begin in [_when(i.start)]
     ]
+
+
+def bounds_in_words(scene: Scene, found: EnclosedContact | None) -> list[str]:
+    """Bounds of the time of the first contact, and the pairs that may meet first."""
+    if found is None:
+        return answer_in_words(scene, None)
+    pairs = [f"  {name_in_words(a)} and {name_in_words(b)} may meet first" for a, b in found.pairs]
+    if found.high is None:
+        return [f"perhaps a contact, not before t = {_when(found.low)}", *pairs]
+    low, high = _when(found.low), _when(found.high)
+    return [f"first contact not before t = {low}", f"  and not after t = {high}", *pairs]
 
 
 def _when(time: AlgebraicNumber) -> str:

@@ -243,6 +243,19 @@ class Body:
         given = parts_given(self._parts, points)
         return Body(self.name, radius=str(self._radius), **given)  # type: ignore[arg-type]
 
+    def with_radius(self, radius: Rational) -> Body:
+        """A body of the same name, shape and motion with another radius.
+
+        Raises:
+            InputError: if it is no number >= 0.
+        """
+        other = Body.__new__(Body)
+        other.name, other.closed = self.name, self.closed
+        other._shape, other._course = self._shape, self._course  # noqa: SLF001
+        other._radius = _read_radius(self.name, radius)
+        other._parts = self._parts  # noqa: SLF001
+        return other
+
     @property
     def motion(self) -> Motion:
         """The motion of the shape."""

@@ -23,7 +23,7 @@ from exactpt.kernel.numbers import QQ, floor, show
 from exactpt.kernel.polynomial import ONE, Polynomial
 from exactpt.motion.motions import Pieces, Rigid
 
-__all__ = ["bits_for", "exponent", "is_within"]
+__all__ = ["bits_for", "bound_on", "exponent", "is_within"]
 
 _SAMPLES: Final = 8
 _MOST_BITS: Final = 512
@@ -53,7 +53,7 @@ def is_within(pieces: Pieces, omega: QQ, error: QQ) -> bool:
 def _is_piece_within(turn: Rigid, a: QQ, b: QQ, omega: QQ, error: QQ) -> bool:
     ask()
     h = turn.half_turn
-    slope = _bound(2 * h.derivative() - omega * (ONE + h * h), a, b)
+    slope = bound_on(2 * h.derivative() - omega * (ONE + h * h), a, b)
     between = slope * (b - a) / (2 * _SAMPLES)
     times = [a + (b - a) * QQ(i, _SAMPLES) for i in range(_SAMPLES + 1)]
     if between > error or any(abs(h._at(t)) > 1 for t in times):
@@ -80,7 +80,7 @@ def _angle(vector: tuple[QQ, QQ], bits: int) -> Bounds:
     return 2 * low + quarters * p / 2, 2 * high + quarters * q / 2
 
 
-def _bound(f: Polynomial, a: QQ, b: QQ) -> QQ:
+def bound_on(f: Polynomial, a: QQ, b: QQ) -> QQ:
     """A bound on |f| in [a, b]: the largest of its Bernstein coefficients."""
     c = f(Polynomial([a, b - a]))._coefficients
     n = len(c) - 1

@@ -6,10 +6,29 @@ from collections.abc import Callable
 from random import Random
 from typing import Final, TypeAlias
 
-from exactpt.scene.families import convex, degenerate, grid, points, rings, rounded, simple
+from exactpt.scene.families import (
+    convex,
+    degenerate,
+    grid,
+    points,
+    rings,
+    rounded,
+    simple,
+    spinning,
+)
 from exactpt.scene.scene import Scene
 
-__all__ = ["CONVEX", "FAMILIES", "POINTS", "RINGS", "ROUNDED", "SIMPLE", "Family", "generate"]
+__all__ = [
+    "CONVEX",
+    "FAMILIES",
+    "POINTS",
+    "RINGS",
+    "ROUNDED",
+    "SIMPLE",
+    "SPINNING",
+    "Family",
+    "generate",
+]
 
 Family: TypeAlias = Callable[[Random], Scene]
 
@@ -87,7 +106,15 @@ RINGS: Final[dict[str, Family]] = {
 }
 """Families of bodies with holes and several parts."""
 
+SPINNING: Final[dict[str, Family]] = {
+    "gears": spinning.gears,
+    "mills": spinning.mills,
+    "orbits": spinning.orbits,
+}
+"""Families of bodies that turn at a constant rate, by `Spin`."""
+
 
 def generate(family: str, seed: int) -> Scene:
     """The scene of a family with this seed."""
-    return {**FAMILIES, **POINTS, **ROUNDED, **RINGS}[family](Random(f"{family}:{seed}"))
+    everything = {**FAMILIES, **POINTS, **ROUNDED, **RINGS, **SPINNING}
+    return everything[family](Random(f"{family}:{seed}"))

@@ -57,8 +57,6 @@ class Stats:
         rebuilds: number of times at which the repairs failed and the tiling was rebuilt.
         flips: number of flips made by checks after a batch, to make the tiling canonical.
         most: maximum number of pending certificates.
-        fan: number of edges added to and removed from the fan triangulation of points, if these
-            are counted.
     """
 
     def __init__(self) -> None:
@@ -67,7 +65,6 @@ class Stats:
         self.rebuilds: int = 0
         self.flips: int = 0
         self.most: int = 0
-        self.fan: int = 0
 
     def count(self, kind: str) -> None:
         """Count an event."""

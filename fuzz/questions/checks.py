@@ -22,6 +22,7 @@ from fuzz.questions.norms import Norm, first_within_norm
 from fuzz.questions.renewal import first_new_contact
 from fuzz.questions.rounded import rounded_pair, wrong_answer
 from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
+from fuzz.questions.spinning import case_of, spinning_scene
 from fuzz.questions.tiny import touching_scene
 
 OTHERS: Final[tuple[Norm, ...]] = ("max", "x", "y")
@@ -227,6 +228,12 @@ def _rounded(random: Random) -> Checked:
     return Checked(scene, kind, wrong_answer(random, scene))
 
 
+def _spin(random: Random) -> Checked:
+    """first_contact_enclosed of bodies that turn at a constant rate."""
+    scene = spinning_scene(random)
+    return Checked(scene, *case_of(scene))
+
+
 QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "distance": _distance,
     "approach": _approach,
@@ -234,6 +241,7 @@ QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "intervals": _intervals,
     "after-start": _after_start,
     "rounded": _rounded,
+    "spin": _spin,
     "cgal": _cgal,
 }
 """A function from random choices to a case, by question."""

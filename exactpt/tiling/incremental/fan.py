@@ -1,18 +1,20 @@
-"""The fan triangulation (paper, section 3.4), and how often it changes.
+"""The fan triangulation (paper, section 3.4), maintained at the events of the tiling.
 
 Every point p is joined to all vertices of its chain C(p), ends included; the result is a
-triangulation. Its edges are derived from the two trees.
+triangulation. `fan_edges` derives its edges from the two trees, `Fan` changes them at each event.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import final
 
 from exactpt.indices import Ends, VertexId
+from exactpt.planar.halfedge import edge_key
 from exactpt.tiling.incremental.structure import Exchanged, IncrementalStructure
 from exactpt.tiling.incremental.tree import TangentTree
 
-__all__ = ["chain", "changes_of_exchange", "fan_edges", "path"]
+__all__ = ["Fan", "chain", "fan_edges", "path"]
 
 
 def path(v: VertexId, tree: TangentTree) -> Iterator[VertexId]:
@@ -42,31 +44,85 @@ def fan_edges(structure: IncrementalStructure) -> Iterator[Ends]:
             yield p, z
 
 
-def changes_of_exchange(structure: IncrementalStructure, exchanged: Exchanged, q: VertexId) -> int:
-    """The number of edges that an exchange has removed and added.
+@final
+class Fan:
+    """The fan triangulation of points that move.
 
-    With K the chain that p and q see, p was joined to K from u(p) to r, and q from r to d(q).
-    Now q comes before p, and the vertex that separates their parts has moved along K from r
-    to r'.
+    `repair` and `exchange` take time in proportion to the change. They are for an event that is
+    alone at its time; after several, between which points are out of order, `derive` is called.
 
-    Args:
-        structure: the structure after the exchange.
-        exchanged: the changes of the exchange.
-        q: the point that comes first now.
+    Attributes:
+        edges: its edges, as of `edge_key`.
+        changes: number of edges that have been added or removed at events.
     """
-    if exchanged.end < 0:
-        return 0
-    point = structure.order[structure.rank[q] - 1]
-    tree, other = structure.trees[exchanged.side], structure.trees[1 - exchanged.side]
-    return 2 * (
-        _depth_below(tree, exchanged.end, point) + _depth_below(other, exchanged.old, point)
-    )
 
+    def __init__(self) -> None:
+        self.edges: set[tuple[int, int]] = set()
+        self.changes: int = 0
 
-def _depth_below(tree: TangentTree, z: VertexId, v: VertexId) -> int:
-    """The depth of v in the subtree of z."""
-    depth = 0
-    while v != z:
-        v = tree.parent[v]
-        depth += 1
-    return depth
+    def begin(self, structure: IncrementalStructure) -> None:
+        """Derive the edges from the trees; this is no change."""
+        self.edges = {edge_key(p, z) for p, z in fan_edges(structure)}
+
+    def derive(self, structure: IncrementalStructure) -> None:
+        """Derive the edges from the trees, after simultaneous events; changes are counted."""
+        old = self.edges
+        self.begin(structure)
+        self.changes += len(old ^ self.edges)
+
+    def repair(
+        self, structure: IncrementalStructure, side: int, moved: Ends, middle: VertexId
+    ) -> None:
+        """Change the edges when a tangent has come to pass through a vertex, or left it.
+
+        The three points in line are p on the right, the middle one m, and z. The edge pz is
+        added if the tangent leads to z now, or else removed; it stays if it is the other
+        tangent. The tile beyond pz loses m from its chain then, or else gets it; at the hull
+        there is none.
+
+        Args:
+            structure: the structure after the repair.
+            side: the tree of the tangent.
+            moved: p and z.
+            middle: m.
+        """
+        p, z = moved
+        tree = structure.trees[side]
+        tip = tree.after[tree.top(p)]
+        if structure.trees[1 - side].parent[p] != z:
+            self._change(p, z, is_added=tree.parent[p] == z)
+        if tip >= 0:
+            self._change(tip, middle, is_added=tree.parent[p] != z)
+
+    def exchange(self, structure: IncrementalStructure, exchanged: Exchanged, q: VertexId) -> None:
+        """Change the edges when q, that was next after p, has come before it.
+
+        With K the chain that p and q see, p was joined to K from u(p) to r, and q from r to d(q).
+        The vertex that separates their parts has moved along K from r to r'; the last point before
+        q is on K between these. The edge pq stays.
+
+        Args:
+            structure: the structure after the exchange.
+            exchanged: the changes of the exchange.
+            q: the point that comes first now.
+        """
+        if exchanged.end < 0:
+            return
+        i = structure.rank[q]
+        p, last = structure.order[i + 1], structure.order[i - 1]
+        trees = structure.trees[exchanged.side], structure.trees[1 - exchanged.side]
+        for tree, z in zip(trees, (exchanged.end, exchanged.old), strict=True):
+            v = last
+            while v != z:
+                w = tree.parent[v]
+                # The part between v and w, with the end next to r or to r', goes from p to q.
+                self._change(p, v if z == exchanged.end else w, is_added=False)
+                self._change(q, w if z == exchanged.end else v, is_added=True)
+                v = w
+
+    def _change(self, p: VertexId, z: VertexId, *, is_added: bool) -> None:
+        self.changes += 1
+        if is_added:
+            self.edges.add(edge_key(p, z))
+        else:
+            self.edges.discard(edge_key(p, z))

@@ -30,6 +30,7 @@ from exactpt.tiling.events import ContactFound, Stats, TilingEvent
 from exactpt.tiling.incremental.certified_trees import CertifiedTrees
 from exactpt.tiling.incremental.chains import PATIENCE, ChainKind, Chains
 from exactpt.tiling.incremental.contacts import coinciding
+from exactpt.tiling.incremental.fan import Fan
 from exactpt.tiling.incremental.mesh import mesh_of, update_mesh
 from exactpt.tiling.incremental.static import holds_at, sweep_at
 from exactpt.tiling.incremental.structure import IncrementalStructure
@@ -52,9 +53,10 @@ class IncrementalTiling(Tiling):
         certifier: certificates and the current time.
         stats: the counts of the run.
         chains: the representation of chains; see `Chains`.
-        fan: whether changes of the fan triangulation are counted, in ``stats.fan``.
+        fan: whether the fan triangulation is maintained.
 
     Attributes:
+        fan: the fan triangulation, if it is maintained.
         chains: the current representation of chains.
     """
 
@@ -72,8 +74,9 @@ class IncrementalTiling(Tiling):
         self.chains: Chains = Chains(chains, PATIENCE * len(vertices.all))
         none = IncrementalStructure.of([], ([], []))
         self._certified: CertifiedTrees = CertifiedTrees(none, certifier, self.table)
+        self.fan: Fan | None = Fan() if fan else None
         self._repairs: TreeRepairs = TreeRepairs(
-            self._certified, certifier, self.log, self.chains, counts_fan=fan
+            self._certified, certifier, self.log, self.chains, self.fan
         )
         self._mesh: Mesh | None = None
         self._is_current: bool = False
@@ -94,6 +97,8 @@ class IncrementalTiling(Tiling):
         if self.chains.kind == "searchable":
             structure.make_searchable()
         self._certified.now = structure
+        if self.fan is not None:
+            self.fan.begin(structure)
 
     @property
     def structure(self) -> IncrementalStructure:

@@ -29,7 +29,7 @@ from exactpt.tiling.events import Log
 from exactpt.tiling.incremental.certified_trees import CertifiedTrees
 from exactpt.tiling.incremental.chains import Chains
 from exactpt.tiling.incremental.columns import column_around, resweep
-from exactpt.tiling.incremental.fan import changes_of_exchange, fan_edges
+from exactpt.tiling.incremental.fan import Fan
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
 
 __all__ = ["TreeRepairs"]
@@ -44,7 +44,7 @@ class TreeRepairs:
         certifier: certificates and the current time.
         log: the record of events.
         chains: the representation of chains.
-        counts_fan: whether changes of the fan triangulation are counted, in ``stats.fan``.
+        fan: the fan triangulation, if it is maintained.
     """
 
     def __init__(
@@ -53,28 +53,33 @@ class TreeRepairs:
         certifier: Certifier,
         log: Log,
         chains: Chains,
-        *,
-        counts_fan: bool,
+        fan: Fan | None,
     ) -> None:
         self._certified: CertifiedTrees = certified
         self._certifier: Certifier = certifier
         self._log: Log = log
         self._chains: Chains = chains
-        self._counts_fan: bool = counts_fan
+        self._fan: Fan | None = fan
+        self._is_alone: bool = True  # whether the event is the only one at its time, so far
 
     def repair_all(self) -> None:
         """Repair until nothing is violated just after now."""
         n = len(self._certified.now.order)
         rounds = 0
+        self._is_alone = sum(map(len, self._certified.violated)) == 1
         while any(self._certified.violated):
             ask()  # repairs of a forged tree may have no end
             rounds += 1
             if rounds <= 16 + n // 4 and self._repair_one():
+                self._is_alone &= not any(self._certified.violated)
                 continue
+            self._is_alone = False
             if self._sort_columns():
                 rounds = 0
             elif rounds > 64 + n or not self._repair_one():
                 self._rebuild()
+        if self._fan is not None and not self._is_alone:
+            self._fan.derive(self._certified.now)
 
     def _repair_one(self) -> bool:
         """Repair one violated certificate; returns whether a repair was possible."""
@@ -98,11 +103,9 @@ class TreeRepairs:
         removed = () if there == old else (edge_key(p, old),)
         added = () if there == new else (edge_key(p, new),)
         self._log.record(kind, removed, added)
-        if self._counts_fan:
-            # The edge past the middle point is removed or added; and so is, if there is a tile
-            # beyond the edge, the one from the middle point to the tip of that tile.
-            past = new if p == b else old
-            self._log.stats.fan += (there != past) + (kind != "hull")
+        if self._fan is not None and self._is_alone:
+            past, middle = (new, old) if p == b else (old, new)
+            self._fan.repair(structure, side, (p, past), middle)
         for c in changed:
             self._certified.certify_edge(side, c)
 
@@ -124,8 +127,8 @@ class TreeRepairs:
         exchanged = structure.exchange(p, q, self._certified.after)
         if exchanged is None:
             return False
-        if self._counts_fan:
-            self._log.stats.fan += changes_of_exchange(structure, exchanged, q)
+        if self._fan is not None and self._is_alone:
+            self._fan.exchange(structure, exchanged, q)
         after = self._edges_of(p, q)
         self._log.record("x-order", tuple(sorted(before - after)), tuple(sorted(after - before)))
         for side, changed in enumerate(exchanged.edges):
@@ -146,7 +149,7 @@ class TreeRepairs:
             i, end = column_around(self._certifier, structure, p)
             old = order[i:end]
             new = sorted(old, key=cmp_to_key(self._x_comparison))
-            before, fan = self._edges_of(*old), self._fan_edges()
+            before = self._edges_of(*old)
             changed = resweep(structure, new, certified.after)
             if changed is None:
                 continue
@@ -155,7 +158,6 @@ class TreeRepairs:
             self._log.record(
                 "x-order", tuple(sorted(before - after)), tuple(sorted(after - before))
             )
-            self._log.stats.fan += len(fan ^ self._fan_edges())
             for side, edges in enumerate(changed):
                 for c in sorted(edges):
                     certified.certify_edge(side, c)
@@ -176,7 +178,7 @@ class TreeRepairs:
         """Sweep from scratch, by the signs just after now; unchanged certificates are kept."""
         self._log.stats.rebuilds += 1
         old = self._certified.now
-        edges, fan = self._edges_of(*old.order), self._fan_edges()
+        edges = self._edges_of(*old.order)
         order = sorted(old.order, key=cmp_to_key(self._x_comparison))
         new = IncrementalStructure.sweep(order, self._certified.after)
         if self._chains.kind == "searchable":
@@ -187,15 +189,6 @@ class TreeRepairs:
         after = self._edges_of(*order)
         kind = "reflex" if order == old.order else "x-order"
         self._log.record(kind, tuple(sorted(edges - after)), tuple(sorted(after - edges)))
-        self._log.stats.fan += len(fan ^ self._fan_edges())
-
-    def _fan_edges(self) -> set[frozenset[int]]:
-        """The edges of the fan triangulation if its changes are counted, or none."""
-        return (
-            {frozenset(edge) for edge in fan_edges(self._certified.now)}
-            if self._counts_fan
-            else set()
-        )
 
     def _x_comparison(self, p: VertexId, q: VertexId) -> int:
         return 0 if p == q else -1 if self._certified.after.left_of(p, q) else 1

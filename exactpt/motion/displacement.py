@@ -1,0 +1,66 @@
+"""How far a body that turns at a constant rate may be from where its rational pieces put it.
+
+Let a be the angle by which the pieces of a `Spin` turn, and a' = omega t the true one (before the
+span and after it, that at its start and at its end). About the pivot, a point at a distance r from
+it is turned by a or by a' to points 2 r sin(|a - a'| / 2) <= r |a - a'| apart; the translation
+that follows is the same. The distance from the pivot is convex, so on an edge it is largest at a
+vertex.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final
+
+from exactpt.geometry.predicates import Point
+from exactpt.kernel.numbers import QQ, ceil, isqrt, power_of_two
+from exactpt.kernel.polynomial import Polynomial
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Rigid
+from exactpt.motion.spin import Spin
+from exactpt.motion.turned_angle import bound_on, exponent
+
+__all__ = ["displacement"]
+
+BITS: Final = 24
+"""Significant bits of a displacement, which is rounded up."""
+
+
+def displacement(body: Body, start: QQ, end: QQ) -> QQ:
+    """A bound on how far a point of a body is from its true place, at any time of a span.
+
+    At most 1 + 2^-20 times the largest distance from the pivot (of vertices that deform along
+    polynomials: times that of their Bernstein coefficients) times the error of the angle; 0 if the
+    motion is no `Spin`.
+    """
+    motion = body.motion
+    if not isinstance(motion, Spin):
+        return QQ(0)
+    pivot = next(turn._pivot for turn in motion.motions if isinstance(turn, Rigid))
+    squared = max(_squared_arms(body, pivot, start, end))
+    return _rounded_up(_root_above(squared) * motion._error) if squared else squared
+
+
+def _squared_arms(body: Body, pivot: Point, start: QQ, end: QQ) -> Iterator[QQ]:
+    """Bounds on the squared distances of the vertices from the pivot, in the rest frame.
+
+    Between keyframes a vertex moves on a segment.
+    """
+    x, y = pivot
+    for frame in body._shape.keyframes:
+        for u, v in frame.vertices:
+            yield (QQ(u) - x) ** 2 + (QQ(v) - y) ** 2
+    for px, py in body._shape.positions:
+        dx, dy = px - Polynomial([x]), py - Polynomial([y])
+        yield bound_on(dx * dx + dy * dy, start, end)
+
+
+def _root_above(value: QQ) -> QQ:
+    """A number at least the square root of a positive one, and at most 1 + 2^-21 times it."""
+    unit = power_of_two(2 * (exponent(value) // 2 - BITS))
+    return QQ(isqrt(ceil(value / unit)) + 1) * power_of_two(exponent(value) // 2 - BITS)
+
+
+def _rounded_up(value: QQ) -> QQ:
+    unit = power_of_two(exponent(value) - BITS)
+    return ceil(value / unit) * unit

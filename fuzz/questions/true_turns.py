@@ -1,0 +1,243 @@
+"""Bodies that turn by exactly omega t: their first contact, to 200 digits.
+
+No polynomial and no code of `exactpt` takes part: positions are complex numbers, by the cosine and
+sine of the angle. Up to a distance of `NEAR` time advances by distance over speed, in doubles, so
+that nothing is passed over; there the vertices and edges that are near are followed by mpmath.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from itertools import combinations, product
+from typing import Any, Final, NamedTuple, TypeAlias, final
+
+import mpmath
+import numpy as np
+from numpy.typing import NDArray
+
+from exactpt.kernel.polynomial import Polynomial
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.motion.spin import Spin
+from exactpt.scene.scene import Scene
+
+__all__ = ["DIGITS", "Approach", "Real", "Truth", "UndecidedError", "real"]
+
+DIGITS: Final = 200
+NEAR: Final = 1e-8
+"""The distance from which on roots are sought; that of doubles is right to 1e-12 here."""
+TIME: Final = 1e-6
+"""The longest step while bodies are that near."""
+
+
+Real: TypeAlias = Any
+"""A real number of mpmath, which declares no types."""
+Places: TypeAlias = "NDArray[np.complex128]"
+
+
+class UndecidedError(Exception):
+    """Bodies come too near for the question whether they touch to be decided in this way."""
+
+
+class Approach(NamedTuple):
+    """A vertex of body i, and an edge, or a vertex twice, of body j."""
+
+    i: int
+    vertex: int
+    j: int
+    ends: tuple[int, int]
+
+
+def real(value: Real) -> Real:
+    """A rational as a number of mpmath."""
+    return mpmath.mpf(int(value.numerator)) / int(value.denominator)
+
+
+@final
+class _Turning:
+    """A body by its definition; the motion is a `Spin` or a translation."""
+
+    def __init__(self, body: Body, end: float) -> None:
+        motion = body.motion
+        self.radius = real(body.radius)
+        self.edges = body.edges or [(0, 0)]
+        self.has_interior = body.has_interior
+        self.omega = self.pivot = mpmath.mpf(0)
+        path: Any = motion
+        if isinstance(motion, Spin):
+            path = motion.motions[0]
+            self.omega, self.pivot = real(motion.omega), mpmath.mpc(*map(real, path.pivot))
+        elif not isinstance(motion, Translation):
+            raise TypeError(f"a motion without a truth: {motion!r}")
+        self.path = _coefficients(path.x, path.y)
+        self.rest = [_coefficients(x, y) for x, y in body.vertices]
+        self._doubles = [np.array(c, np.complex128) for c in (self.path, *self.rest)]
+        arms = [sum(abs(c) * max(1, end**k) for k, c in enumerate(v)) for v in self.rest]
+        own = [sum(k * abs(c) * end ** (k - 1) for k, c in enumerate(v) if k) for v in self.rest]
+        along = sum(k * abs(c) * end ** (k - 1) for k, c in enumerate(self.path) if k)
+        self.speed = float(abs(self.omega) * (max(arms) + abs(self.pivot)) + max(own) + along)
+
+    def places(self, t: Real) -> list[Any]:
+        """The vertices at a time."""
+        turn = mpmath.expj(self.omega * t)
+        by = mpmath.polyval(self.path[::-1], t) + self.pivot
+        return [by + turn * (mpmath.polyval(v[::-1], t) - self.pivot) for v in self.rest]
+
+    def doubles(self, t: float) -> Places:
+        """The vertices at a time, as complex doubles."""
+        by, *rest = (np.polynomial.polynomial.polyval(t, c) for c in self._doubles)
+        pivot = complex(self.pivot)
+        turn = np.exp(1j * float(self.omega) * t)
+        places: Places = by + pivot + turn * (np.array(rest) - pivot)
+        return places
+
+
+def _coefficients(x: Polynomial, y: Polynomial) -> list[Any]:
+    return [
+        mpmath.mpc(*(real(f.coefficients[k]) if k <= f.degree else 0 for f in (x, y)))
+        for k in range(max(x.degree, y.degree, 0) + 1)
+    ]
+
+
+@final
+class Truth:
+    """The true motion of a scene.
+
+    Attributes:
+        bodies: the bodies.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        with mpmath.workdps(DIGITS + 20):
+            self.start, self.end = real(scene.start), real(scene.end)
+            last = max(abs(float(self.start)), abs(float(self.end)))
+            self.bodies = [_Turning(body, last) for body in scene.bodies]
+
+    def first_contact(self) -> Real:
+        """The time of the first contact; None if there is none.
+
+        Raises:
+            UndecidedError: if bodies graze, or nearly.
+        """
+        with mpmath.workdps(DIGITS + 20):
+            t, end = float(self.start), float(self.end)
+            while True:
+                step, gap = self._advance(t)
+                if gap < 0 and t > float(self.start):
+                    raise UndecidedError
+                if gap < 0:
+                    return self.start
+                if gap >= NEAR:
+                    t += step
+                else:
+                    found = self._root_after(t, min(t + TIME, end))
+                    if found is not None:
+                        return found
+                    t += TIME
+                if t > end:
+                    return None
+
+    def _advance(self, t: float) -> tuple[float, float]:
+        """A time for which no bodies meet, and the least distance; -1 if bodies overlap."""
+        places = [body.doubles(t) for body in self.bodies]
+        step, least = np.inf, np.inf
+        for i, j in combinations(range(len(self.bodies)), 2):
+            a, b = self.bodies[i], self.bodies[j]
+            gap = _distance(a, b, places[i], places[j]) - float(a.radius + b.radius)
+            if gap < -1e-12 or _overlap(a, b, places[i], places[j]):
+                return 0.0, -1.0
+            least = min(least, gap)
+            step = min(step, gap / max(a.speed + b.speed, 1e-300))
+        return float(step), float(least)
+
+    def approaches(self, t: float, within: float) -> Iterator[Approach]:
+        """The pairs of a vertex and an edge or a vertex that are within a distance."""
+        places = [body.doubles(t) for body in self.bodies]
+        for i, j in product(range(len(self.bodies)), repeat=2):
+            if i == j:
+                continue
+            a, b = self.bodies[i], self.bodies[j]
+            reach = float(a.radius + b.radius) + within
+            p, q = places[i], places[j]
+            for e in b.edges:
+                near = _from_segment(p, q[e[0]], q[e[1]]) <= reach
+                for v in np.flatnonzero(near):
+                    yield Approach(i, int(v), j, e)
+
+    def gap(self, pair: Approach, t: Real) -> Real:
+        """The distance of a vertex from the line of an edge, or from a vertex, less the radii.
+
+        From a line, if there are no radii, it has a sign: that of the left of the edge.
+        """
+        a, b = self.bodies[pair.i], self.bodies[pair.j]
+        v, (p, q) = a.places(t)[pair.vertex], (b.places(t)[k] for k in pair.ends)
+        radius = a.radius + b.radius
+        if pair.ends[0] == pair.ends[1]:
+            return abs(v - p) - radius
+        height = ((q - p).conjugate() * (v - p)).imag / abs(q - p)
+        return abs(height) - radius if radius else height
+
+    def _root_after(self, begin: float, end: float) -> Real:
+        """The first time in a short interval at which a vertex comes to an edge or a vertex."""
+        found = []
+        seen: set[Approach] = set()
+        for pair in self.approaches(begin, 100 * NEAR):
+            ends = [pair.ends, *((k, k) for k in pair.ends)]
+            seen.update(pair._replace(ends=e) for e in (ends if self._reach(pair) else ends[:1]))
+        for pair in seen:
+            low, high = self.gap(pair, mpmath.mpf(begin)), self.gap(pair, mpmath.mpf(end))
+            if low * high > 0:
+                continue
+            t = mpmath.findroot(
+                partial(self.gap, pair), (begin, end), solver="anderson",
+                tol=mpmath.mpf(10) ** (-2 * DIGITS), maxsteps=200, verify=False,
+            )  # fmt: skip
+            if self._is_on(pair, t):
+                found.append(t)
+        return min(found, default=None)
+
+    def _reach(self, pair: Approach) -> Real:
+        return self.bodies[pair.i].radius + self.bodies[pair.j].radius
+
+    def _is_on(self, pair: Approach, t: Real) -> bool:
+        """Whether the foot of the perpendicular is on the edge."""
+        p, q = (self.bodies[pair.j].places(t)[k] for k in pair.ends)
+        v = self.bodies[pair.i].places(t)[pair.vertex]
+        along = ((q - p).conjugate() * (v - p)).real
+        return bool(p == q or 0 <= along <= abs(q - p) ** 2)
+
+
+def _from_segment(v: Places, a: Places, b: Places) -> NDArray[np.float64]:
+    d = b - a
+    length = abs(d) ** 2
+    along = np.clip(((v - a) * np.conj(d)).real / length, 0, 1) if length else 0.0
+    return np.abs(v - a - along * d)
+
+
+def _distance(a: _Turning, b: _Turning, p: Places, q: Places) -> float:
+    """The least distance of a vertex of one from an edge of the other."""
+    return min(
+        *(float(_from_segment(p, q[k], q[l]).min()) for k, l in b.edges),
+        *(float(_from_segment(q, p[k], p[l]).min()) for k, l in a.edges),
+    )
+
+
+def _overlap(a: _Turning, b: _Turning, p: Places, q: Places) -> bool:
+    """Whether edges cross, or one core contains a vertex of the other."""
+    for (i, j), (k, l) in product(a.edges, b.edges):
+        if (
+            _side(p[i], p[j], q[k]) * _side(p[i], p[j], q[l]) < 0
+            and _side(q[k], q[l], p[i]) * _side(q[k], q[l], p[j]) < 0
+        ):
+            return True
+    return (b.has_interior and _winds(q, p[0])) or (a.has_interior and _winds(p, q[0]))
+
+
+def _side(a: complex, b: complex, c: complex) -> float:
+    return ((b - a).conjugate() * (c - a)).imag
+
+
+def _winds(ring: Places, v: complex) -> bool:
+    turned = np.angle((np.roll(ring, -1) - v) / (ring - v)).sum()
+    return bool(abs(turned) > 3)

@@ -1,0 +1,87 @@
+"""The true times of contact of bodies that turn, and what is found wrong by them."""
+
+import mpmath
+import pytest
+
+from exactpt import AlgebraicNumber, Body, Scene, Spin, Translation
+from fuzz.questions import spinning
+from fuzz.questions.spinning import case_of
+from fuzz.questions.true_turns import DIGITS, Truth
+
+BLADE = Body("blade", [(0, 0), (2, 0)], Spin(1, time=(0, 3), error="1/1000"))
+WALL = Body("wall", [(-1, 1), (1, 1), (1, 2), (-1, 2)])
+
+
+def true_time(*bodies, time=(0, 3)):
+    return Truth(Scene(bodies, time=time)).first_contact()
+
+
+def is_near(t, expected):
+    with mpmath.workdps(DIGITS + 20):
+        return abs(t - expected()) < mpmath.mpf(10) ** -DIGITS
+
+
+def test_true_times_to_200_digits():
+    post = Body("post", [(0, 1)])
+    disc = Body("disc", [(0, 0)], Translation([0, "1/2"], [2]), radius="1/3")
+    orbit = Body("orbit", [(2, 0)], Spin(2, (1, 0), time=(0, 3)), radius="2/3")
+
+    assert is_near(true_time(BLADE, WALL), lambda: mpmath.pi / 4)
+    assert is_near(true_time(BLADE, post), lambda: mpmath.pi / 2)
+    assert is_near(
+        true_time(orbit, Body("p", [(1, 1)])),
+        lambda: (mpmath.pi / 2 - 2 * mpmath.asin(mpmath.mpf(1) / 3)) / 2,
+    )
+    t = true_time(BLADE, disc)
+    with mpmath.workdps(DIGITS + 20):
+        turn, centre = mpmath.expj(t), mpmath.mpc(t / 2, 2)
+        along = turn.conjugate() * centre
+        nearest = abs(along.imag) if along.real <= 2 else abs(centre - turn * 2)
+        assert abs(nearest - mpmath.mpf(1) / 3) < mpmath.mpf(10) ** -DIGITS
+
+
+def test_true_contacts_at_the_start_and_none():
+    inside = Body("b", [(0, 1.5)], Translation([0, 5]))
+
+    assert true_time(WALL, inside) == 0
+    assert true_time(BLADE, WALL, time=(0, "1/2")) is None
+    assert true_time(BLADE, Body("post", [(0, 3)])) is None
+
+
+def moved(low=0.0, high=0.0):
+    def bounds_of(scene):
+        found = spinning_bounds(scene)
+        ends = (found.low, found.high)
+        return found.__class__(
+            *(AlgebraicNumber(float(t) + by) for t, by in zip(ends, (low, high), strict=True)),
+            found.pairs,
+        )
+
+    return bounds_of
+
+
+spinning_bounds = spinning.first_contact_enclosed
+
+
+@pytest.mark.parametrize(
+    "bounds_of, kind",
+    [
+        (spinning_bounds, None),
+        (lambda _: None, "never"),
+        (moved(low=0.01, high=0.02), "too late"),
+        (moved(high=-0.003), "too early"),
+        (moved(high=0.02), "certain"),
+        (lambda s: spinning_bounds(s).__class__(spinning_bounds(s).low, None, ()), "not certain"),
+    ],
+)
+def test_wrong_bounds_are_found(bounds_of, kind, monkeypatch):
+    """The blade sweeps over a point far from its ends: the bounds are to be near."""
+    scene = Scene([BLADE, Body("post", [(0, 1)])], time=(0, 3))
+    monkeypatch.setattr(spinning, "first_contact_enclosed", bounds_of)
+    case = case_of(scene)
+
+    if kind is None:
+        assert case == ("certain", None)
+    else:
+        assert case.kind == kind
+        assert case.fault is not None
