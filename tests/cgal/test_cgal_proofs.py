@@ -10,7 +10,7 @@ import pytest
 from exactpt import proof_check
 from exactpt.cgal import check_proof
 from exactpt.check import check_scene
-from exactpt.errors import AuditError, BudgetExceeded, InputError
+from exactpt.errors import BudgetExceeded, InputError
 from exactpt.proof import prove
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 from exactpt.scene.scene import Scene
