@@ -66,11 +66,12 @@ lint: $(VENV)/developing ## formatting, rules, types, imports
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
-pictures: $(VENV)/developing ## draw the pictures of the README and of docs/gallery.md anew
+pictures: $(VENV)/developing ## draw the pictures of the README, the gallery and the examples anew
 	$(BIN)/exactpt draw exactpt/data/demo.json --at contact -o docs/first-contact.svg
 	$(BIN)/python docs/draw_demo.py
 	$(BIN)/python docs/draw_proof.py
 	$(BIN)/python docs/draw_gallery.py
+	$(BIN)/python docs/draw_examples.py
 
 docs: $(VENV)/developing ## the site, with tutorial, gallery, evidence and API, in site
 	NO_MKDOCS_2_WARNING=1 PYTHONPATH=. $(BIN)/python -m mkdocs build --quiet
