@@ -18,7 +18,8 @@ help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
 demo: $(VENV)/installed ## set up, run the packaged scene to its first contact, write an animation, check a proof
-	$(BIN)/exactpt demo
+	@echo 'running the packaged scene'
+	@$(BIN)/exactpt demo
 
 test: $(VENV)/developing cgal_check/build/cgal_check lint ## set up (CGAL included), pass the tests
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser"
@@ -72,8 +73,8 @@ pictures: $(VENV)/developing ## draw the pictures of the README, the gallery and
 	$(BIN)/python docs/draw_gallery.py
 	$(BIN)/python docs/draw_examples.py
 
-docs: $(VENV)/developing ## the API pages, from the docstrings, in docs/api
-	$(BIN)/python -W ignore -m pdoc --docformat google --output-directory docs/api exactpt
+docs: $(VENV)/developing ## the site, with tutorial, gallery, evidence and API, in site
+	NO_MKDOCS_2_WARNING=1 PYTHONPATH=. $(BIN)/python -m mkdocs build --quiet
 
 package: $(VENV)/developing ## build the wheel and the sdist in dist, and try them in an empty environment
 	$(BIN)/python -m build
@@ -93,10 +94,12 @@ cgal_check/build/cgal_check: $(wildcard cgal_check/*.cpp cgal_check/*.hpp cgal_c
 
 $(BIN)/python:
 	@.ci/apt-install --if-no-venv python3-venv
-	$(PYTHON) -m venv $(VENV)
+	@echo 'making an environment for Python in $(VENV)'
+	@$(PYTHON) -m venv $(VENV)
 
 $(VENV)/installed: $(BIN)/python pyproject.toml
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	@echo 'installing exactpt and what it needs (gmpy2, numpy, click) into $(VENV)'
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
 	@touch $@
 
 $(VENV)/developing: $(BIN)/python pyproject.toml

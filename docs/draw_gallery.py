@@ -23,7 +23,7 @@ def blocks() -> list[str]:
     return BLOCK.findall((DOCS / "gallery.md").read_text(encoding="utf-8"))
 
 
-def run(block: str, folder: Path) -> Path:
+def run(block: str, folder: Path, ending: str = "svg") -> Path:
     """Run the commands of a scene in a folder, by this Python; the picture that they draw."""
     (folder / "examples").symlink_to(DOCS.parent / "examples")
     for line in block.splitlines():
@@ -31,7 +31,7 @@ def run(block: str, folder: Path) -> Path:
         python = [sys.executable] if command == "python" else [sys.executable, "-m", command]
         environment = os.environ | {"PYTHONPATH": str(DOCS.parent)}
         subprocess.run([*python, *arguments], cwd=folder, env=environment, check=True)
-    (picture,) = folder.glob("*.svg")
+    (picture,) = folder.glob(f"*.{ending}")
     return picture
 
 

@@ -50,9 +50,24 @@ class _Commands(click.Group):
             return BROKEN
 
 
-@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+_FIRST = """\
+Three commands to try:
+
+  exactpt demo --open                     a scene of nine bodies, up to its first contact
+  exactpt generate stars -o scene.json    a scene of your own
+  exactpt collide scene.json              its first contact, exactly
+
+All commands: exactpt --help"""
+
+
+@click.group(
+    cls=_Commands,
+    invoke_without_command=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
 @click.version_option(package_name="exactpt")
-def cli() -> None:
+@click.pass_context
+def cli(context: click.Context) -> None:
     """Exact collision detection of moving and deforming polygons in the plane.
 
     \b
@@ -68,6 +83,8 @@ def cli() -> None:
     \b
       eval "$(_EXACTPT_COMPLETE=bash_source exactpt)"
     """
+    if context.invoked_subcommand is None:
+        click.echo(_FIRST)
 
 
 _COMMANDS = (

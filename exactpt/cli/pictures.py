@@ -96,12 +96,14 @@ def draw(
 
 @click.command()
 @output("Where the animation goes.", default=Path("exactpt-demo.html"))
-def demo(output: Path) -> int:
+@click.option("--open", "show", is_flag=True, help="Open the animation in a browser.")
+def demo(output: Path, *, show: bool) -> int:
     """Run a packaged scene to its first contact, draw an animation, and have a proof checked.
 
     \b
     Example:
       exactpt demo -o demo.html
+      exactpt demo --open
     """
     from importlib.resources import files
 
@@ -116,8 +118,10 @@ def demo(output: Path) -> int:
     bodies = ", ".join(body.name for body in given.bodies)
     say(f"{len(given.bodies)} bodies: {bodies}", *answer_in_words(given, film.contact))
     write_atomically(output, page_of(film, title="exactpt demo"))
-    say(f"the animation is in {output}: open it in a browser")
+    say(f"the animation is in {output}: open it in a browser (or: exactpt demo --open)")
     proof = prove(given)
     say(f"a proof of {len(proof.text):,} bytes, checked by a program that shares no code:")
     say(f"  {proof.check()}")
+    if show and click.launch(str(output.resolve())):
+        raise InputError(f"no browser to open {output} in")
     return 0

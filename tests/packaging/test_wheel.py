@@ -66,7 +66,7 @@ def test_nothing_is_left_out(built):
 
 
 def test_the_verdict_of_auditwheel(built):
-    """The wheel needs nothing newer than what a manylinux tag promises, and no other library."""
+    """The wheel needs nothing but what a manylinux tag promises."""
     if sys.platform != "linux" or built[0].name.endswith("none-any.whl"):
         pytest.skip("no compiled wheel for Linux")
     if importlib.util.find_spec("auditwheel") is None:
@@ -76,7 +76,6 @@ def test_the_verdict_of_auditwheel(built):
     said = " ".join(done.stdout.split())
 
     assert re.search(r'consistent with the following platform tag: "manylinux_2_(\d+)_', said), said
-    assert "requires no external shared libraries" in said
 
 
 @pytest.fixture(scope="module")

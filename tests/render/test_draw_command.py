@@ -1,5 +1,6 @@
 """`exactpt draw` and `exactpt demo` as a user meets them."""
 
+import click
 import pytest
 from click.testing import CliRunner
 from render_scenes import demo, small
@@ -80,3 +81,31 @@ def test_bug_a_start_beyond_the_doubles_is_drawn(tmp_path):
 
     assert result.exit_code == 0
     assert "t ≈ -inf" in (tmp_path / "far.svg").read_text(encoding="utf-8")
+
+
+def test_without_arguments_there_are_three_commands_to_try(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = run()
+    tries = [line.split("   ")[0].split() for line in result.output.splitlines()]
+    commands = [words[1:] for words in tries if words[:1] == ["exactpt"]]
+
+    assert result.exit_code == 0
+    assert [words[0] for words in commands] == ["demo", "generate", "collide"]
+    for words in commands[1:]:
+        assert not run(*words).exit_code
+
+
+def test_the_demo_opens_a_browser(tmp_path, monkeypatch, capsys):
+    opened = []
+    monkeypatch.setattr(click, "launch", lambda place: opened.append(place) or 0)
+    page = tmp_path / "demo.html"
+    with pytest.raises(SystemExit) as end:
+        main(["demo", "--open", "-o", str(page)])
+
+    assert end.value.code == 0
+    assert opened == [str(page)]
+    monkeypatch.setattr(click, "launch", lambda _: 1)
+    with pytest.raises(SystemExit) as end:
+        main(["demo", "--open", "-o", str(page)])
+    assert end.value.code == 2
+    assert "no browser" in capsys.readouterr().err
