@@ -31,6 +31,7 @@ __all__ = [
     "Kind",
     "Shape",
     "body_of",
+    "free_name",
     "nested",
     "rounded",
     "rounded_rings",
@@ -70,6 +71,11 @@ class Shape(NamedTuple):
     holes: Sequence[Sequence[Point]] = ()
     radius: QQ | int = 0
 
+    @property
+    def rings(self) -> list[Sequence[Point]]:
+        """Its points, then its holes."""
+        return [self.points, *self.holes]
+
 
 def scene_of(
     shapes: Iterable[Shape],
@@ -97,7 +103,7 @@ def scene_of(
     last: dict[str, int] = {}
     for shape in shapes:
         try:
-            name = _free_name(shape.name, bodies, last)
+            name = free_name(shape.name, bodies, last)
             body = body_of(shape, name, holes=holes, radius=radius)
             _check_simple(shape, body, time)
         except InputError as error:
@@ -180,7 +186,7 @@ def rounded(shape: Shape) -> list[tuple[float, float]]:
 
 def rounded_rings(shape: Shape) -> list[list[tuple[float, float]]]:
     """The boundary of a polygon and those of its holes, likewise."""
-    return [_rounded(shape, ring) for ring in (shape.points, *shape.holes)]
+    return [_rounded(shape, ring) for ring in shape.rings]
 
 
 def _rounded(shape: Shape, ring: Sequence[Point]) -> list[tuple[float, float]]:
@@ -262,7 +268,7 @@ def _distinct_neighbours(points: Sequence[Point]) -> list[Point]:
     return [p for i, p in enumerate(points) if i == 0 or p != points[i - 1]]
 
 
-def _free_name(wanted: str, taken: Container[str], last: dict[str, int]) -> str:
+def free_name(wanted: str, taken: Container[str], last: dict[str, int]) -> str:
     """The wanted name, or the first free one of "wanted 2", "wanted 3", ...
 
     ``last`` has the last number tried for each name: those below it stay taken.

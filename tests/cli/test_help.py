@@ -17,6 +17,8 @@ FILES = {
     "questions.jsonl": QUESTION,
     "answers.jsonl": '{"id": "sliding:0:0", "time": 2}',
     "countries.geojson": '{"type": "Point", "coordinates": [0.1, 2]}',
+    "trips.mfjson": '{"type": "MovingPoint", "coordinates": [[0, 0], [1, 0]],'
+    ' "datetimes": ["2000-01-01T00:00:00Z", "2000-01-01T00:00:09Z"]}',
     "parcels.wkt": "POLYGON ((0 0, 1 0, 0 1, 0 0))",
     "drawing.svg": '<svg xmlns="http://www.w3.org/2000/svg"><circle id="c" r="3"/></svg>',
 }
