@@ -21,6 +21,7 @@ BENCHMARKS: Final[dict[str, str]] = {
     "stability": "the same answer, and its cost, for extreme input",
     "scaling": "events, certificates, time and memory against the size of a scene",
     "points": "changes of the tilings of moving points beside the paper's bounds",
+    "statics": "the greedy pseudo-triangulation of one instant against the vertices of a body",
     "skipping": "what is never computed, beside a run that computes all of it",
     "arrays": "many small questions at once, beside one by one, ipctk and Box2D",
     "proofs": "size and cost of proofs of first contacts, beside the run alone",

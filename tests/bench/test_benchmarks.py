@@ -22,6 +22,7 @@ from exactpt.bench import (
     skipping,
     small,
     stability,
+    statics,
     timing,
     within,
     wrong_answers,
@@ -193,6 +194,14 @@ def test_points(results, undrawn):
     chains = results.rows("points-chains")
     assert len({row["events"] for row in chains if row["chains"].startswith("short")}) == 1
     assert {row["events"] for row in chains if row["chains"].startswith("long")} == {"400"}
+
+
+def test_statics(results):
+    statics.run(results.output, statics.Sizes(9, (8, 64, 512)), 0)
+    rows = results.rows("statics")
+
+    assert [row["diagonals"] for row in rows] == ["24"] * 3
+    assert float(results.rows("statics-exponents")[0]["p decisions"]) < 0.6
 
 
 def test_skipping(results):

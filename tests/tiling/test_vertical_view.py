@@ -8,7 +8,7 @@ from flipped import flipped_at_random, scattered
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
-from exactpt.tiling.greedy.vertical import lower_chain
+from exactpt.tiling.greedy.convex_ring import chains_of
 from exactpt.tiling.greedy.visibility import seen_from
 from exactpt.tiling.lazy import LazyRules
 
@@ -42,8 +42,8 @@ def test_a_vertical_that_meets_a_tile_twice_ends_at_the_nearest_edge(seed):
     flipped_at_random(mesh, instant, rng, 100)
     xs = [instant.position(v.id)[0] for v in vertices.all]
     for moving in vertices.bodies:
-        chain = lower_chain(instant, moving.ring)
-        for v in (chain[0], chain[-1]):
+        chain, _ = chains_of(instant, moving.ring)
+        for v in chain.ends:
             if xs.count(xs[v]) > 1:
                 continue  # the oracle knows nothing of ties
             for up in (False, True):

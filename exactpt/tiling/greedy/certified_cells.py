@@ -14,7 +14,8 @@ from exactpt.certificates.one_sided import OneSided
 from exactpt.indices import CertificateId, Ends, VertexId
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.greedy import cell_updates
-from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition, is_above, lower_chain
+from exactpt.tiling.greedy.convex_ring import chains_of, is_above
+from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition
 from exactpt.tiling.greedy.visibility import seen_from
 
 __all__ = ["CertifiedCells"]
@@ -113,12 +114,12 @@ class CertifiedCells:
     def enter(self, i: int) -> None:
         """Insert a new body into the decomposition."""
         after = self._certified.after()
-        chain = lower_chain(after, self._certified.vertices.bodies[i].ring)
+        chain, _ = chains_of(after, self._certified.vertices.bodies[i].ring)
         changed = cell_updates.add_body(
             self.now,
             after,
-            (chain[0], chain[-1]),
-            self._cell_around(chain[0], after),
+            chain.ends,
+            self._cell_around(chain.vertex(0), after),
             lambda v: is_above(after, chain, v),
         )
         self._certify_extremes(i)

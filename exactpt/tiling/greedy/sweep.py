@@ -2,7 +2,7 @@
 
 The direction of the decomposition is rotated clockwise by pi from the vertical. A cell ends
 exactly at a greedy bitangent, which is a wall from then on. O(k log k) steps and O(k)
-bitangents.
+bitangents, each found by O(log^2 n) orientations for bodies of n vertices.
 
 Source: the paper, section 4.1, after M. Pocchiola, G. Vegter, *Topologically sweeping
 visibility complexes via pseudo-triangulations*, DCG 16 (1996); the rules for the cells
@@ -12,18 +12,23 @@ were derived for exactpt and are checked against the definition in the tests.
 from __future__ import annotations
 
 import heapq
-from typing import final
+from typing import Final, final
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import AuditError
+from exactpt.indices import Ends, VertexId
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.mesh import Diagonal
 from exactpt.tiling.greedy.bitangent import Bitangent, tangent_pair
+from exactpt.tiling.greedy.convex_ring import Chain, chains_of, near_tangent
 from exactpt.tiling.greedy.vertical import NO_ARC, NO_CELL, VerticalDecomposition
 
 __all__ = ["greedy_diagonals"]
+
+MANY: Final = 48
+"""Number of vertices of two bodies from which on their bitangent is searched by bisection."""
 
 
 def greedy_diagonals(
@@ -61,6 +66,7 @@ class _Sweep:
         self.heap: list[tuple[float, Bitangent]] = []
         self.pushed = 0
         self.tied: set[tuple[int, int]] = set()
+        self._chains: dict[int, tuple[Chain, Chain]] = {}
 
     def run(self) -> list[Diagonal]:
         found: list[Diagonal] = []
@@ -107,12 +113,33 @@ class _Sweep:
         x, y = self.cells.left[cell], self.cells.right[cell]
         # The line passes a left arc with the body on its right, a right arc on its left.
         sides = (-1 if x % 2 == 0 else 1, -1 if y % 2 == 0 else 1)
-        ends = tangent_pair(self.instant, self.cells.vertex[x], self.cells.vertex[y], *sides)
+        a, b = self._near_tangent(x, y, *sides)
+        ends = tangent_pair(self.instant, a, b, *sides)
         if not self.instant.left_of(*ends):
             return
         self.pushed += 1
         s = Bitangent(self.instant, ends, sides, cell, (x, y), self.pushed)
         heapq.heappush(self.heap, (s.key, s))
+
+    def _near_tangent(self, x: int, y: int, side_x: int, side_y: int) -> Ends:
+        """Vertices of the bodies of two arcs from which `tangent_pair` is not far.
+
+        Those of the arcs, if the bodies have few vertices.
+        """
+        if len(self._ring(x)) + len(self._ring(y)) <= MANY:
+            return self.cells.vertex[x], self.cells.vertex[y]
+        a, b = self._chain(x, side_x), self._chain(y, side_y)
+        return near_tangent(self.instant, a, b, side_x, side_y)
+
+    def _ring(self, arc: int) -> list[VertexId]:
+        return self.instant.vertices.bodies[arc >> 1].ring
+
+    def _chain(self, arc: int, side: int) -> Chain:
+        """The lower (1) or upper (-1) chain of the body of an arc."""
+        pair = self._chains.get(arc >> 1)
+        if pair is None:
+            pair = self._chains[arc >> 1] = chains_of(self.instant, self._ring(arc))
+        return pair[0] if side > 0 else pair[1]
 
     def _pass(self, cell: int, x: int, y: int) -> None:
         """Pass the bitangent of arcs x and y, where their cell ends.

@@ -21,11 +21,11 @@ from bisect import bisect_left
 from typing import Final, final
 
 from exactpt.certificates.at_time import PredicatesAt, sorted_by_x
-from exactpt.certificates.predicates import Predicates
 from exactpt.indices import NO_VERTEX, VertexId
 from exactpt.kernel.budget import ask
+from exactpt.tiling.greedy.convex_ring import Chain, chains_of, is_above
 
-__all__ = ["NO_ARC", "NO_CELL", "VerticalDecomposition", "is_above", "lower_chain"]
+__all__ = ["NO_ARC", "NO_CELL", "VerticalDecomposition"]
 
 NO_ARC: Final = -1
 NO_CELL: Final = -1
@@ -128,29 +128,30 @@ class VerticalDecomposition:
     def at(cls, instant: PredicatesAt) -> VerticalDecomposition:
         """The decomposition just after an instant: a sweep from left to right.
 
-        O(k log k) comparisons of positions, each O(log n).
+        O(k log n) comparisons of positions for k bodies with n vertices.
         """
         vertices = instant.vertices
         self = cls(len(vertices.bodies))
-        lower: list[list[VertexId]] = []
+        lower: list[Chain] = []
         for i, body in enumerate(vertices.bodies):
-            chain = lower_chain(instant, body.ring)
+            chain, _ = chains_of(instant, body.ring)
             lower.append(chain)
-            self.vertex[2 * i], self.vertex[2 * i + 1] = chain[0], chain[-1]
+            self.vertex[2 * i], self.vertex[2 * i + 1] = chain.ends
         arc_of = {v: arc for arc, v in enumerate(self.vertex)}
         active: list[int] = []  # bodies on the sweep line, from bottom to top
         gaps = [self._new_cell(NO_ARC)]  # the cells between them
         for v in sorted_by_x(instant, self.vertex):
             ask()
             arc = arc_of[v]
+            own = arc >> 1
+            at = bisect_left(
+                active, 1, key=lambda i: i != own and not is_above(instant, lower[i], v)
+            )
             if arc % 2 == 0:
-                at = bisect_left(
-                    active, 1, key=lambda other: not is_above(instant, lower[other], v)
-                )
                 gaps[at : at + 1] = self._open(arc, gaps[at])
-                active.insert(at, arc >> 1)
+                active.insert(at, own)
             else:
-                at = active.index(arc >> 1)
+                at -= 1
                 gaps[at : at + 2] = [self._close(arc, gaps[at], gaps[at + 1])]
                 del active[at]
         return self
@@ -177,27 +178,3 @@ def _replace(halves: tuple[list[int], list[int]], arc: int, old: int, new: int) 
     for half in halves:
         if half[arc] == old:
             half[arc] = new
-
-
-def lower_chain(predicates: Predicates, ring: list[VertexId]) -> list[VertexId]:
-    """The vertices of a convex ring from its leftmost to its rightmost, along the bottom."""
-    n = len(ring)
-    first = last = 0
-    for i in range(1, n):
-        if predicates.left_of(ring[i], ring[first]):
-            first = i
-        if predicates.left_of(ring[last], ring[i]):
-            last = i
-    return [ring[i % n] for i in range(first, first + (last - first) % n + 1)]
-
-
-def is_above(predicates: Predicates, lower: list[VertexId], v: VertexId) -> bool:
-    """Whether v, which is vertically above or below a convex body, is above it."""
-    low, high = 0, len(lower) - 1  # lower[low] is left of v, lower[high] is not
-    while high - low > 1:
-        middle = (low + high) // 2
-        if predicates.left_of(lower[middle], v):
-            low = middle
-        else:
-            high = middle
-    return predicates.sign(lower[low], lower[high], v) >= 0
