@@ -37,7 +37,7 @@ _FEW = 3
     default=("0", "1"),
     show_default=True,
     metavar="START END",
-    help="The time span of the new scene.",
+    help="The time span of the new scene; of moving features their own.",
 )
 @click.option(
     "--tolerance",
@@ -80,15 +80,19 @@ def convert(
     quiet: bool,
     max_seconds: float | None,
 ) -> int:
-    """Turn shapes into a scene at rest, or a scene at a time into shapes.
+    """Turn shapes into a scene at rest, or a scene at a time into shapes; moving features too.
 
-    The suffixes determine the formats: .geojson, .wkt (needs: pip install 'exactpt[shapely]'),
-    .svg (needs: pip install 'exactpt[svg]'), and .json for a scene; a .json file that is read may
-    be GeoJSON too. A shape becomes a body, with its holes, or one for each part if these are not
-    the polygons of a MultiPolygon; it is named by the property name or id, or by the id in an
-    SVG. A line that ends where it began becomes a polygon.
+    The suffixes determine the formats: .geojson, .mfjson, .svg (needs: pip install
+    'exactpt[svg]'), .wkt (needs: pip install 'exactpt[shapely]'), and .json for a scene; a .json
+    file that is read may be GeoJSON or MF-JSON too. A shape becomes a body, with its holes, or one
+    for each part if these are not the polygons of a MultiPolygon; it is named by the property name
+    or id, or by the id in an SVG. A line that ends where it began becomes a polygon.
 
-    Numbers in GeoJSON and WKT are read as exact decimals. Points of an SVG are computed in
+    Moving features (OGC MF-JSON: points, lines and polygons that move straight from date to date,
+    as MobilityDB writes them too) keep their motions both ways; times are seconds since
+    1970-01-01T00:00:00Z. What they cannot say, such as turning, is refused.
+
+    Numbers in GeoJSON, MF-JSON and WKT are read as exact decimals. Points of an SVG are computed in
     doubles, which are taken at their exact value, and its y-axis is flipped to point up, as in a
     scene. Shapes are written as the doubles nearest to the exact positions.
 
@@ -98,6 +102,7 @@ def convert(
       exactpt convert drawing.svg scene.json --tolerance 0.01 --holes fill
       exactpt convert parcels.wkt scene.json --repair --skip-invalid
       exactpt convert scene.json then.geojson --at 5/2
+      exactpt convert trips.mfjson scene.json
     """
     from exactpt.exchange.files import holds_scene, read_shapes, write_shapes
 
@@ -112,7 +117,7 @@ def convert(
             raise InputError(f"{idle[0]}: {source} is a scene, which is read as it is")
         scene = read_shapes(
             source,
-            time=time,
+            time=time if typed("time") else None,
             tolerance=0.1 if tolerance is None else tolerance,
             holes=holes,
             parts=parts,

@@ -10,7 +10,7 @@ from typing import BinaryIO
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import RATIONAL, SECONDS, bounded, max_bytes, max_memory, output, typed
+from exactpt.cli.options import RATIONAL, bounded, max_bytes, max_memory, output, typed
 from exactpt.cli.progress import QUIET, counting
 from exactpt.cli.terminal import say, tell
 from exactpt.errors import InputError
@@ -26,13 +26,14 @@ _FOLDER = "exact-2d-collision-set-1"
 
 @click.command()
 @click.argument("file", type=click.File("rb"), default="-", metavar="[FILE]")
-@click.option("--max-seconds", type=SECONDS, help="Stop after this time (exit code 4).")
+@bounded
 def oracle(file: BinaryIO, max_seconds: float | None) -> int:
     """Answer questions, one line of JSON each, by their exact truths, in the same order.
 
     Questions come from a file or from standard input; whenever no more of them have come, all
     answers so far are written. docs/testing.md explains both. A line that is no question has an
-    answer with the key "error", and the exit code is 2 at the end.
+    answer with the key "error", and the exit code is 2 at the end. --max-bytes bounds a line, by
+    default to 2^24.
 
     \b
     Examples:
@@ -42,8 +43,8 @@ def oracle(file: BinaryIO, max_seconds: float | None) -> int:
     from exactpt.testing.oracle import Refusals, answers, batches
 
     refusals, first = Refusals(), 1
-    with time_limit(max_seconds):
-        for lines in batches(file):
+    with time_limit(max_seconds, max_memory()):
+        for lines in batches(file, max_bytes()):
             said = "\n".join(answers(lines, first, refusals))
             first += len(lines)
             if said:

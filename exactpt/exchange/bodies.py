@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from exactpt.geometry.predicates import Point
     from exactpt.kernel.numbers import Rational
 
-__all__ = ["Holes", "Parts", "Repair", "body_of", "scene_of"]
+__all__ = ["Holes", "Parts", "Repair", "body_of", "free_name", "scene_of"]
 
 Holes: TypeAlias = Literal["keep", "refuse", "fill"]
 Parts: TypeAlias = Literal["keep", "split"]
@@ -74,7 +74,7 @@ class _Bodies:
         self.bodies: dict[str, Body] = {}
 
     def _valid(self, shape: Shape) -> Body:
-        name = _free_name(shape.name, self.bodies, self._last)
+        name = free_name(shape.name, self.bodies, self._last)
         body = body_of(shape, name, holes=self._holes, radius=self._radius)
         _check_simple(shape, body, self._time)
         return body
@@ -178,7 +178,7 @@ def _distinct_neighbours(points: Sequence[Point]) -> list[Point]:
     return [p for i, p in enumerate(points) if i == 0 or p != points[i - 1]]
 
 
-def _free_name(wanted: str, taken: Container[str], last: dict[str, int]) -> str:
+def free_name(wanted: str, taken: Container[str], last: dict[str, int]) -> str:
     """The wanted name, or the first free one of "wanted 2", "wanted 3", ...
 
     ``last`` has the last number tried for each name: those below it stay taken.

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from exactpt.errors import InputError
-from exactpt.exchange import geojson, svg, wkt
+from exactpt.exchange import geojson, mfjson, svg, wkt
 from exactpt.exchange.bodies import Holes, Parts, Repair, scene_of
 from exactpt.exchange.shapes import Shape, shapes_at
 from exactpt.files import read_text, write_atomically
@@ -21,21 +21,22 @@ if TYPE_CHECKING:
 
 __all__ = ["ENDINGS", "holds_scene", "read_shapes", "write_shapes"]
 
-Format: TypeAlias = Literal["scene", "geojson", "wkt", "svg"]
+Format: TypeAlias = Literal["scene", "geojson", "mfjson", "wkt", "svg"]
 
 ENDINGS: Final[dict[str, Format]] = {
     ".geojson": "geojson",
+    ".mfjson": "mfjson",
     ".wkt": "wkt",
     ".svg": "svg",
     ".json": "scene",
 }
-"""Format by suffix; a ``.json`` file that is read may be GeoJSON too."""
+"""Format by suffix; a ``.json`` file that is read may be GeoJSON, and both may be MF-JSON."""
 
 
 def read_shapes(
     path: str | Path,
     *,
-    time: Sequence[Rational] = (0, 1),
+    time: Sequence[Rational] | None = None,
     tolerance: float = 0.1,
     holes: Holes = "keep",
     parts: Parts = "keep",
@@ -47,12 +48,16 @@ def read_shapes(
 
     A MultiPolygon is one body; of other shapes, and in SVG, each part is.
 
-    Decimals in GeoJSON and WKT are read exactly. In SVG, curves become chords, the y-axis is
-    flipped to point up, and coordinates are the exact values of doubles.
+    Of an MF-JSON file, the scene of its moving features; times are seconds since
+    1970-01-01T00:00:00Z.
+
+    Decimals in GeoJSON, MF-JSON and WKT are read exactly. In SVG, curves become chords, the y-axis
+    is flipped to point up, and coordinates are the exact values of doubles.
 
     Args:
         path: a file with a suffix in `ENDINGS`. A scene file is loaded unchanged.
-        time: the start and the end of the time span.
+        time: the start and the end of the time span; by default that of moving features, or from
+            0 to 1.
         tolerance: maximum distance of a chord from its curve, in units of the SVG drawing.
         holes: "keep" the holes of polygons, "refuse" such polygons, or "fill" the holes.
         parts: "keep" the parts of a MultiPolygon together as one body, or "split" them.
@@ -76,12 +81,16 @@ def read_shapes(
         return None if tell is None else lambda line: tell(f"{file}: {line}")
 
     try:
-        if kind == "scene" and not _is_geojson(text):
+        kind = _said(kind, text)
+        if kind == "scene":
             return loads(text)
+        if kind == "mfjson":
+            told = telling(skipped)
+            return mfjson.scene_of_features(text, time=time, holes=holes, skipped=told)
         shapes = _shapes_of(kind, text, tolerance)
         return scene_of(
             shapes,
-            time=time,
+            time=time or (0, 1),
             holes=holes,
             parts=parts,
             repair=_repair(telling(repaired)),
@@ -106,7 +115,8 @@ def holds_scene(path: Path, max_bytes: int | None = None) -> bool:
         InputError: if it cannot be read.
     """
     try:
-        return _format(path) == "scene" and not _is_geojson(read_text(path, max_bytes))
+        kind = _format(path)
+        return kind == "scene" and _said(kind, read_text(path, max_bytes)) == "scene"
     except InputError as error:
         told = str(error)
         raise InputError(told if told.startswith(str(path)) else f"{path}: {told}") from None
@@ -119,9 +129,16 @@ def _format(path: Path) -> Format:
     return kind
 
 
-def _is_geojson(text: str) -> bool:
+def _said(kind: Format, text: str) -> Format:
+    """The format of a file: of JSON, what the content says."""
+    if kind not in ("scene", "geojson"):
+        return kind
     data = parse_json(text)
-    return isinstance(data, dict) and "exactpt" not in data and geojson.is_type(data.get("type"))
+    if not isinstance(data, dict) or (kind == "scene" and "exactpt" in data):
+        return kind
+    if mfjson.is_moving(data):
+        return "mfjson"
+    return "geojson" if geojson.is_type(data.get("type")) else kind
 
 
 def _shapes_of(kind: Format, text: str, tolerance: float) -> Iterator[Shape]:
@@ -137,9 +154,10 @@ def write_shapes(
     *,
     tolerance: float | None = None,
 ) -> None:
-    """Write the bodies at a time, as points, lines and polygons; or the scene as a scene file.
+    """Write the bodies at a time, as points, lines and polygons; or the scene with its motions.
 
-    Exact positions are rounded to the nearest doubles. Shapes are written wherever their
+    The latter as a scene file, or as MF-JSON if all vertices move straight, piece by piece. Exact
+    positions are rounded to the nearest doubles. Shapes are written wherever their
     motions put them, even if they touch or overlap at that time. Of rounded bodies, outlines of
     chords are written, by shapely's buffer (see `Scene.to_shapely`); a scene file has the radii.
 
@@ -158,6 +176,11 @@ def write_shapes(
         if at is not None:
             raise InputError(f"{file}: a scene has all times: leave the time away")
         save(scene, file)
+        return
+    if kind == "mfjson":
+        if at is not None:
+            raise InputError(f"{file}: moving features have all times: leave the time away")
+        write_atomically(file, mfjson.mfjson_of(scene))
         return
     shapes = shapes_at(scene, scene._start if at is None else rational(at))
     if scene.is_rounded:

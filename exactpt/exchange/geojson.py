@@ -19,7 +19,16 @@ from exactpt.scene.json_values import Json, Number, a_list, exact_number, parse_
 if TYPE_CHECKING:
     from exactpt.geometry.predicates import Point
 
-__all__ = ["TYPES", "geojson_of", "is_type", "shapes_of"]
+__all__ = [
+    "TYPES",
+    "coordinates_of",
+    "geojson_of",
+    "geometry_shapes",
+    "is_type",
+    "name_of",
+    "part",
+    "shapes_of",
+]
 
 Place: TypeAlias = tuple[float, float]
 
@@ -66,7 +75,7 @@ def shapes_of(text: str) -> Iterator[Shape]:
         elif data["type"] == "Feature":
             yield from _of_feature(data, "feature")
         else:
-            yield from _of_geometry(data, "geometry", "body")
+            yield from geometry_shapes(data, "geometry", "body")
     except RecursionError:
         raise InputError("not GeoJSON: nested too deeply") from None
 
@@ -74,16 +83,17 @@ def shapes_of(text: str) -> Iterator[Shape]:
 def _of_feature(data: Json, where: str) -> Iterator[Shape]:
     if not isinstance(data, dict) or data.get("type") != "Feature":
         raise InputError(f"{where}: not a feature: {shown(data)}")
-    name = _name(data) or where
+    name = name_of(data) or where
     if name != where:
         where = f"{where} ({shorten(name)[1:-1]})"
     if data.get("geometry") is None:
         yield Shape(where, name, "point", ())
         return
-    yield from _of_geometry(data["geometry"], where, name)
+    yield from geometry_shapes(data["geometry"], where, name)
 
 
-def _name(feature: dict[str, Json]) -> str:
+def name_of(feature: dict[str, Json]) -> str:
+    """The name of a feature, see `shapes_of`; empty if it has none."""
     properties = feature.get("properties")
     keys = properties if isinstance(properties, dict) else {}
     lowered = {key.lower(): value for key, value in reversed(keys.items())}
@@ -93,15 +103,16 @@ def _name(feature: dict[str, Json]) -> str:
     return ""
 
 
-def _of_geometry(data: Json, where: str, name: str, depth: int = 0) -> Iterator[Shape]:
+def geometry_shapes(data: Json, where: str, name: str, depth: int = 0) -> Iterator[Shape]:
+    """The shapes of a geometry."""
     if depth > DEEPEST:
         raise InputError(f"{where[:60]}...: nested more than {DEEPEST} deep")
     if not isinstance(data, dict) or not is_type(data.get("type")):
         raise InputError(f"{where}: not a geometry: {shown(data)}")
     kind = str(data["type"])
     if kind == "GeometryCollection":
-        for i, part in enumerate(a_list(data.get("geometries"), f'{where}: "geometries"')):
-            yield from _of_geometry(part, f"{where}, geometry {i}", name, depth + 1)
+        for i, inner in enumerate(a_list(data.get("geometries"), f'{where}: "geometries"')):
+            yield from geometry_shapes(inner, f"{where}, geometry {i}", name, depth + 1)
         return
     at = f'{where}: "coordinates"'
     coordinates = data.get("coordinates")
@@ -109,16 +120,17 @@ def _of_geometry(data: Json, where: str, name: str, depth: int = 0) -> Iterator[
     if single not in _PARTS:
         raise InputError(f"{where}: a {kind} is inside of a geometry")
     if single == kind:
-        yield _part(_PARTS[kind], coordinates, where, name)
+        yield part(_PARTS[kind], coordinates, where, name)
         return
     parts = [
-        _part(_PARTS[single], part, f"{where}, part {i}", name)
-        for i, part in enumerate(a_list(coordinates, at))
+        part(_PARTS[single], one, f"{where}, part {i}", name)
+        for i, one in enumerate(a_list(coordinates, at))
     ]
     yield from together(parts)
 
 
-def _part(kind: Kind, data: Json, where: str, name: str) -> Shape:
+def part(kind: Kind, data: Json, where: str, name: str) -> Shape:
+    """The shape of the coordinates of a point, a line string or a polygon."""
     if kind == "point":
         return Shape(where, name, kind, [_point(data, where)] if data != [] else ())
     if kind == "line":
@@ -149,7 +161,7 @@ def geojson_of(shapes: Iterable[Shape]) -> str:
             "properties": {"name": shape.name},
             "geometry": {
                 "type": "MultiPolygon" if shape.more else _TYPE_OF[shape.kind],
-                "coordinates": _coordinates(shape),
+                "coordinates": coordinates_of(shape),
             },
         }
         for shape in shapes
@@ -157,7 +169,8 @@ def geojson_of(shapes: Iterable[Shape]) -> str:
     return json.dumps({"type": "FeatureCollection", "features": features}, indent=1) + "\n"
 
 
-def _coordinates(shape: Shape) -> object:
+def coordinates_of(shape: Shape) -> object:
+    """The coordinates of a shape, as the nearest doubles."""
     if shape.kind == "point":
         return rounded(shape)[0]
     if shape.kind == "line":

@@ -72,6 +72,11 @@ class Shape(NamedTuple):
         """The parts, as shapes of one part each."""
         return (self._replace(more=()), *self.more)
 
+    @property
+    def rings(self) -> list[Sequence[Point]]:
+        """Its points, then its holes."""
+        return [self.points, *self.holes]
+
 
 def together(parts: Sequence[Shape]) -> list[Shape]:
     """Polygons as one shape of several parts; other shapes as they are."""

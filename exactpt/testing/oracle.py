@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import BinaryIO, Final
 
 from exactpt.errors import InputError
+from exactpt.kernel.budget import ask
 from exactpt.testing.questions import Asked, Name, read_question
 from exactpt.testing.truth import Truth, truths
 
@@ -18,7 +19,7 @@ __all__ = ["Refusals", "answers", "batches"]
 MOST: Final = 4096
 """Most questions that are answered at once."""
 LONGEST: Final = 1 << 24
-"""Most bytes of a line."""
+"""Most bytes of a line, unless another limit is given."""
 PIECE: Final = 1 << 16
 
 
@@ -30,25 +31,31 @@ class Refusals:
     first: str = ""
 
 
-def batches(stream: BinaryIO) -> Iterator[list[bytes]]:
+def batches(stream: BinaryIO, longest: int | None = None) -> Iterator[list[bytes]]:
     """The lines of a stream, as many at a time as have come: it never waits with lines in hand.
 
+    Args:
+        stream: the stream, which has a file descriptor.
+        longest: the maximum number of bytes of a line; by default `LONGEST`.
+
     Raises:
-        InputError: if a line is longer than `LONGEST`.
+        InputError: if a line is longer; the lines before it come first.
     """
+    most = LONGEST if longest is None else longest
     rest = b""
     while piece := _next_piece(stream):
         lines = (rest + piece).split(b"\n")
         while len(lines) <= MOST and _has_more(stream) and (piece := _next_piece(stream)):
             more = (lines.pop() + piece).split(b"\n")
             lines += more
-            if len(lines[-1]) > LONGEST:
+            if len(lines[-1]) > most:
                 break
         rest = lines.pop()
-        if len(rest) > LONGEST:
-            raise InputError(f"a line of more than {LONGEST} bytes")
-        if lines:
-            yield lines
+        long = next((k for k, line in enumerate(lines) if len(line) > most), None)
+        if lines[:long]:
+            yield lines[:long]
+        if long is not None or len(rest) > most:
+            raise InputError(f"a line of more than {most} bytes: allow more by --max-bytes")
     if rest:
         yield [rest]
 
@@ -75,6 +82,7 @@ def answers(lines: Sequence[bytes], first: int, refusals: Refusals) -> Iterator[
     asked: list[Asked] = []
     places: list[int] = []
     for number, line in enumerate(lines, first):
+        ask()
         if not line.strip():
             continue
         try:

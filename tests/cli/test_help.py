@@ -18,6 +18,8 @@ FILES = {
     "answers.jsonl": '{"id": "sliding:0:0", "time": 2}',
     "scenes.jsonl": '{"exactpt": 1, "time": [0, 9], "bodies": []}',
     "countries.geojson": '{"type": "Point", "coordinates": [0.1, 2]}',
+    "trips.mfjson": '{"type": "MovingPoint", "coordinates": [[0, 0], [1, 0]],'
+    ' "datetimes": ["2000-01-01T00:00:00Z", "2000-01-01T00:00:09Z"]}',
     "parcels.wkt": "POLYGON ((0 0, 1 0, 0 1, 0 0))",
     "drawing.svg": '<svg xmlns="http://www.w3.org/2000/svg"><circle id="c" r="3"/></svg>',
 }

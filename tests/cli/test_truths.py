@@ -236,3 +236,17 @@ def test_a_wrong_family_is_refused(capsys):
     assert code_of("questions", "circles") == 2
 
     assert "no family 'circles'; there are: all, corner_to_corner" in capsys.readouterr().err
+
+
+def test_the_oracle_has_the_limits_of_the_other_commands(tmp_path, capsys):
+    short = json.dumps({"time": [0, 1], "a": STILL, "b": STILL})
+    (tmp_path / "q.jsonl").write_text(f"{short}\n{short}{' ' * 50}\n{short}\n")
+
+    code = code_of("oracle", tmp_path / "q.jsonl", "--max-bytes", len(short))
+
+    out, err = capsys.readouterr()
+    assert code == 2
+    assert [json.loads(line)["id"] for line in out.splitlines()] == [1]
+    assert f"a line of more than {len(short)} bytes: allow more by --max-bytes" in err
+    assert code_of("oracle", tmp_path / "q.jsonl", "--max-bytes", 1000) == 0
+    assert code_of("oracle", tmp_path / "q.jsonl", "--max-memory", 1) == 4

@@ -124,7 +124,7 @@ def test_one_name_for_all(wanted):
     """The names tried grow with the number of bodies, not with its square."""
     taken, last = Counting(), {}
     for i in range(2000):
-        taken[bodies._free_name("a" if i % 2 else wanted, taken, last)] = None
+        taken[bodies.free_name("a" if i % 2 else wanted, taken, last)] = None
 
     assert len(taken) == 2000
     assert taken.asked < 8000

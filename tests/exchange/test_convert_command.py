@@ -111,8 +111,14 @@ def test_what_is_left_out_is_said(tmp_path):
     "arguments, message",
     [
         (["none.wkt", "out.json"], "none.wkt: cannot be read: No such file"),
-        (["tie.txt", "out.json"], "a file of shapes ends in one of .geojson, .wkt, .svg, .json"),
-        (["dot.wkt", "out.txt"], "a file of shapes ends in one of .geojson, .wkt, .svg, .json"),
+        (
+            ["tie.txt", "out.json"],
+            "a file of shapes ends in one of .geojson, .mfjson, .wkt, .svg, .json",
+        ),
+        (
+            ["dot.wkt", "out.txt"],
+            "a file of shapes ends in one of .geojson, .mfjson, .wkt, .svg, .json",
+        ),
         (["tie.wkt", "out.json"], "tie.wkt: geometry 0: body 'body 0': not a simple polygon"),
         (["dot.wkt", "out.json", "--at", "0"], "a scene has all times"),
         (["dot.wkt", "out.wkt", "--at", "2"], "t = 2 is outside the time span from 0 to 1"),

@@ -1,6 +1,7 @@
 """The Exact 2D collision set: the sample again, the answers by another way, and the proofs."""
 
 import gzip
+import hashlib
 import json
 import tarfile
 from fractions import Fraction
@@ -51,6 +52,22 @@ def test_the_sample_is_written_again_byte_by_byte(small):
         assert content(small, name) == (SAMPLE / name).read_bytes(), name
 
 
+def test_the_page_names_the_checksum_of_the_sample(small):
+    page = (Path(__file__).parents[2] / "docs/collision-set.md").read_text(encoding="utf-8")
+    manifest = hashlib.sha256((small / "SHA256SUMS").read_bytes()).hexdigest()
+
+    assert f"--questions {SIZES['questions']} --scenes {SIZES['scenes']}` | `{manifest}` |" in page
+
+
+@pytest.mark.slow  # three minutes
+def test_the_page_names_the_checksum_of_the_whole(tmp_path):
+    page = (Path(__file__).parents[2] / "docs/collision-set.md").read_text(encoding="utf-8")
+
+    summary = write_set(tmp_path / "set", planned(), jobs=4)
+
+    assert f"| `exactpt questions --set` | `{summary.manifest}` |" in page
+
+
 def test_two_processes_write_the_same(small, tmp_path):
     summary = write_set(tmp_path / "again", planned(**SIZES), jobs=2)
 
@@ -63,8 +80,6 @@ def test_two_processes_write_the_same(small, tmp_path):
 
 
 def test_the_manifest_has_the_checksums_of_all_contents(small):
-    import hashlib
-
     sums = dict(
         reversed(line.split("  ")) for line in (small / "SHA256SUMS").read_text().splitlines()
     )
@@ -183,8 +198,6 @@ def test_options_of_the_other_use_are_refused(arguments, says, capsys):
 
 
 def test_the_command_names_the_checksum_of_the_manifest(tmp_path, capsys):
-    import hashlib
-
     code = code_of("questions", "--set", tmp_path / "s", "--questions", 19, "--scenes", 0)
 
     manifest = (tmp_path / "s" / "SHA256SUMS").read_bytes()
