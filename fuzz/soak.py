@@ -153,7 +153,7 @@ class Soak:
             for point in body._at(now)
             for c in point
         )
-        memory = budget._memory() / 2**20
+        memory = budget.resident_memory() / 2**20
         ms = 1000 * used / max(1, events)
         return Sample(elapsed, float(now), events, contacts, memory, bits, ms)
 

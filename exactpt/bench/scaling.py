@@ -16,7 +16,7 @@ from exactpt.bench.methods.own import fresh
 from exactpt.bench.output import Output, Row
 from exactpt.bench.plots import series_of
 from exactpt.bench.shapes import TANGLES, TangleFamily, crowd, tangle
-from exactpt.bench.timing import exponent, memory_of, per_event, timed
+from exactpt.bench.timing import exponent, memory_of, per_event, resident, timed
 from exactpt.collision.tilings import TILINGS, start_tiling
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
@@ -42,16 +42,23 @@ class Sizes(NamedTuple):
         vertices: numbers of vertices of each of two interlocked polygons.
         events: maximum number of events of a run.
         runs: number of runs, of which the fastest counts.
+        large: numbers of bodies of crowds that are run once, with twenty times as many events.
     """
 
     bodies: Sequence[int]
     vertices: Sequence[int]
     events: int
     runs: int
+    large: Sequence[int]
 
 
-QUICK: Final = Sizes((10, 30, 100), (16, 64), 200, 1)
-FULL: Final = Sizes((10, 20, 50, 100, 200, 500, 1000), (16, 64, 256, 1024, 4096), 1000, 3)
+QUICK: Final = Sizes((10, 30, 100), (16, 64), 200, 1, (300,))
+FULL: Final = Sizes(
+    (10, 20, 50, 100, 200, 500, 1000), (16, 64, 256, 1024, 4096), 1000, 3, (10_000, 100_000)
+)
+
+LARGE_TILINGS: Final = ("lazy", "greedy")
+"""The tilings that large crowds of convex bodies are given."""
 
 
 class Measured(NamedTuple):
@@ -110,7 +117,14 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
                 runs.append(measure(scene_of(n), tiling, sizes))
                 rows.append(_row(family, tiling, scene_of(n), n, runs[-1]))
             fits.append(_fit(family, tiling, of_family, runs))
+    kept: list[Tiling] = []
+    large = []
+    for n in sizes.large:
+        for tiling in LARGE_TILINGS:
+            output.progress(f"convex crowd, {tiling}, size {n}")
+            large.append(_large(n, tiling, 20 * sizes.events, seed, kept))
     output.table("scaling", rows)
+    output.table("scaling-large", large)
     output.table("scaling-exponents", fits)
     crowds = [row for row in rows if row["family"] == "convex crowd"]
     for name, column, axis in (
@@ -171,6 +185,29 @@ def _pass(kinetic: Tiling, run: Iterable[object], events: int) -> None:
                 return
     except ContactFound:
         return
+
+
+def _large(bodies: int, tiling: str, events: int, seed: int, kept: list[Tiling]) -> Row:
+    """Figures of a single run; memory is that of the process, scene and tiling apart.
+
+    ``kept`` gets the tiling, so that no later one is made in the memory of this one.
+    """
+    empty = resident()
+    scene = _crowd(bodies, seed)
+    with_scene = resident()
+    kinetic, start = timed(lambda: start_tiling(scene, tiling, scene._start))
+    with_tiling = resident()
+    kept.append(kinetic)
+    _, seconds = timed(lambda: _pass(kinetic, kinetic.run(), events))
+    return {
+        "tiling": tiling,
+        "bodies": bodies,
+        "start s": start,
+        "events": kinetic.stats.total,
+        "us an event": per_event(seconds, kinetic.stats.total),
+        "kB a body, scene": (with_scene - empty) / bodies / 1000,
+        "kB a body, tiling": (with_tiling - with_scene) / bodies / 1000,
+    }
 
 
 def _crowd(k: int, seed: int) -> Scene:

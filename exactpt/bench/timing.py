@@ -9,7 +9,9 @@ from collections.abc import Callable, Mapping, Sequence
 from time import process_time
 from typing import TypeVar
 
-__all__ = ["exponent", "in_turn", "memory_of", "microseconds", "per_event", "timed"]
+from exactpt.kernel.budget import resident_memory
+
+__all__ = ["exponent", "in_turn", "memory_of", "microseconds", "per_event", "resident", "timed"]
 
 T = TypeVar("T")
 Q = TypeVar("Q")
@@ -69,6 +71,12 @@ def memory_of(make: Callable[[], object]) -> float:
         return tracemalloc.get_traced_memory()[0] / 1024 if kept is not None else 0.0
     finally:
         tracemalloc.stop()
+
+
+def resident() -> int:
+    """The bytes of memory of this process without garbage; its maximum where that is unknown."""
+    gc.collect()
+    return resident_memory()
 
 
 def exponent(sizes: Sequence[float], values: Sequence[float]) -> float:

@@ -20,6 +20,9 @@ from exactpt.kernel.rounding import INFINITY
 __all__ = ["EventQueue", "EventTime", "ExactQueue", "Resolver", "earlier"]
 
 
+DAYS: Final = 1000
+"""Maximum number of days: their lists are in a processor's cache together."""
+
 SAMPLE: Final = 64
 """Number of events that tell the reach of a calendar."""
 
@@ -140,12 +143,12 @@ class EventQueue:
         """Note anew the first three quarters of the pending events, and what the first meets.
 
         Few may be far later than all others, so a sample tells how far the days reach; about
-        six events are noted on each.
+        six events are noted on each, or more where there are very many.
         """
         live, reach = self._live, self._heap[0][3].high if self._heap else -INFINITY
         lows = [time.low for time in live.values()]
         self._first = min(lows, default=0.0)
-        sample, days = sorted(lows[:: len(lows) // SAMPLE + 1]), len(live) // 8 + 1
+        sample, days = sorted(lows[:: len(lows) // SAMPLE + 1]), min(len(live) // 8, DAYS) + 1
         span = max(reach, sample[3 * len(sample) // 4] if sample else 0.0) - self._first
         self._per_day = (days - 0.5) / span if 0.0 < span < INFINITY else 0.0
         self._heap, self._days = [], [[] for _ in range(days)]

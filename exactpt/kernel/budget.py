@@ -17,7 +17,7 @@ from typing import Final, final
 
 from exactpt.errors import BudgetExceeded
 
-__all__ = ["GRACE", "LONG", "ask", "within"]
+__all__ = ["GRACE", "LONG", "ask", "resident_memory", "within"]
 
 LONG: Final = 64
 """Number of coefficients from which on loops over the coefficients of a polynomial ask."""
@@ -50,7 +50,7 @@ def ask() -> None:
     if now >= _LIMITS.deadline:
         raise BudgetExceeded("the time is used up", None)
     _LIMITS.look = min(_LIMITS.deadline, now + BETWEEN)
-    if _memory() > _LIMITS.memory:
+    if resident_memory() > _LIMITS.memory:
         raise BudgetExceeded("the memory is used up", None)
 
 
@@ -78,7 +78,7 @@ def within(deadline: float | None, memory: int | None = None) -> Iterator[None]:
         _LIMITS.deadline, _LIMITS.memory, _LIMITS.look = old
 
 
-def _memory() -> int:
+def resident_memory() -> int:
     """The memory of this process in bytes: what it has now, or where unknown, its maximum."""
     try:
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])

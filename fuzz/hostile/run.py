@@ -73,9 +73,9 @@ def run(
                 break
             kind = formats[number % len(formats)]
             file = hostile(kind, number, seed)
-            before = budget._memory()
+            before = budget.resident_memory()
             ended = read(kind, file, Random(f"reader {seed} {number}"), Path(folder))
-            grown = budget._memory() - before
+            grown = budget.resident_memory() - before
             if not ended.fault and grown > MOST_MEMORY:
                 ended = ended._replace(outcome="FAULT", fault=f"{grown >> 20} MB more memory")
             tallies[kind].add(file, ended, grown)

@@ -176,7 +176,7 @@ def test_stability_sees_another_answer(results, monkeypatch, alone):
 
 
 def test_scaling(results, undrawn):
-    scaling.run(results.output, scaling.Sizes((4, 8), (16, 32), 30, 1), 0)
+    scaling.run(results.output, scaling.Sizes((4, 8), (16, 32), 30, 1, (20,)), 0)
     rows = results.rows("scaling")
     assert len(rows) == 3 * (2 + 2 * 4)
     crowds = [row for row in rows if row["family"] == "convex crowd"]
@@ -186,6 +186,9 @@ def test_scaling(results, undrawn):
     far = [r for r in rows if (r["family"], r["tiling"]) == ("combs, far apart", "mixed")]
     assert [row["made"] for row in far] == ["16", "16"]
     assert len(results.rows("scaling-exponents")) == 3 * 5
+    large = results.rows("scaling-large")
+    assert [row["tiling"] for row in large] == ["lazy", "greedy"]
+    assert all(int(row["events"]) > 0 and float(row["start s"]) > 0 for row in large)
 
 
 def test_points(results, undrawn):

@@ -137,7 +137,7 @@ def test_between_two_events_a_run_can_go_on():
 
 
 def test_memory(monkeypatch):
-    monkeypatch.setattr(budget, "_memory", lambda: 2 * 10**9)
+    monkeypatch.setattr(budget, "resident_memory", lambda: 2 * 10**9)
 
     for search in SEARCHES.values():
         with pytest.raises(BudgetExceeded, match="the memory is used up"):
@@ -146,10 +146,10 @@ def test_memory(monkeypatch):
 
 
 def test_memory_is_that_of_the_process():
-    before = budget._memory()
+    before = budget.resident_memory()
     ballast = bytearray(50_000_000)
 
-    assert 40_000_000 < budget._memory() - before < 200_000_000
+    assert 40_000_000 < budget.resident_memory() - before < 200_000_000
     assert len(ballast) == 50_000_000
 
 
@@ -218,7 +218,7 @@ def many_moving(number):
 
 @pytest.mark.parametrize("number", [3, 40])
 def test_straight_motion_asks_too(monkeypatch, number):
-    monkeypatch.setattr(budget, "_memory", lambda: 2 * 10**9)
+    monkeypatch.setattr(budget, "resident_memory", lambda: 2 * 10**9)
     scene = many_moving(number)
 
     assert first_contact(scene, max_memory=3 * 10**9, max_seconds=60) is None
@@ -243,7 +243,7 @@ def test_a_restored_run_and_a_copy_have_little_memory(tmp_path, monkeypatch):
     simulation = Simulation(generate("convex", 3), max_memory=10**12)
     simulation.save(tmp_path / "run.json")
     restored = Simulation.restore(tmp_path / "run.json", max_memory=10**12)
-    monkeypatch.setattr(budget, "_memory", lambda: 2 * 10**12)
+    monkeypatch.setattr(budget, "resident_memory", lambda: 2 * 10**12)
 
     for run in (simulation.copy, restored.copy, lambda: restored):
         with pytest.raises(BudgetExceeded, match="the memory is used up"):
