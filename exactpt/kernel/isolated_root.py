@@ -137,11 +137,8 @@ class IsolatedRoot:
 
     @property
     def polynomial(self) -> tuple[int, ...]:
-        """An integer polynomial with the number as a simple root, constant term first.
-
-        Of degree 1 if the number is rational.
-        """
-        return tuple(map(int, self.simplified()._polynomial))
+        """An integer polynomial with the number as a simple root, constant term first."""
+        return tuple(map(int, self._polynomial))
 
     @property
     def low(self) -> Fraction:

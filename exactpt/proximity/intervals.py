@@ -69,7 +69,7 @@ def contact_intervals(scene: Scene, a: str, b: str) -> list[ContactInterval]:
     """
     first, second = two_bodies(scene, a, b)
     return [
-        ContactInterval(a, b, start, end)
+        ContactInterval(a, b, start.simplified(), end.simplified())
         for start, end in intervals(first, second, scene._start, scene._end)
     ]
 
@@ -80,7 +80,9 @@ def contacts(scene: Scene) -> list[ContactInterval]:
     Contacts of a deforming body with itself are not included.
     """
     found = [
-        ContactInterval(scene.bodies[i].name, scene.bodies[j].name, start, end)
+        ContactInterval(
+            scene.bodies[i].name, scene.bodies[j].name, start.simplified(), end.simplified()
+        )
         for i, j in pairs_that_come_near(scene, QQ(0))
         for start, end in intervals(scene.bodies[i], scene.bodies[j], scene._start, scene._end)
     ]
