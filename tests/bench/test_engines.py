@@ -15,7 +15,14 @@ from exactpt.bench import engines
 from exactpt.bench.engines import asking, engine
 from exactpt.bench.engines.asking import WRONG, Finding, ask, questions
 from exactpt.bench.engines.domain import as_asked
-from exactpt.bench.engines.engine import ADAPTERS, Crash, Engine, Missing, adapters, node_modules
+from exactpt.bench.engines.engine import (
+    ADAPTERS,
+    Crash,
+    Engine,
+    Missing,
+    all_adapters,
+    node_modules,
+)
 from exactpt.errors import InputError
 from exactpt.testing import Moving, Question, Truth
 
@@ -285,7 +292,7 @@ PLAIN, APART = (
 """A tip that meets an edge at t = 2, and one that passes."""
 
 
-@pytest.mark.parametrize("adapter", adapters(), ids=lambda path: path.stem)
+@pytest.mark.parametrize("adapter", all_adapters(), ids=lambda path: path.stem)
 def test_an_installed_engine_finds_a_plain_contact(adapter):
     try:
         started = Engine(adapter, node_modules(os.environ.get(engines.MODULES), ROOT))
@@ -305,8 +312,12 @@ PROGRAMS = sorted(p for p in PAGES.glob("*") if p.suffix in (".py", ".mjs"))
 def test_a_reproducer_says_what_its_head_says(program, tmp_path):
     """With the version of the engine that it was written for; with another one it runs."""
     text = program.read_text(encoding="utf-8")
-    stem = next(a for a in adapters() if program.stem.startswith(a.stem.removeprefix("with_") + "_")
-                and a.suffix == program.suffix)  # fmt: skip
+    stem = next(
+        a
+        for a in all_adapters()
+        if program.stem.startswith(a.stem.removeprefix("with_") + "_")
+        and a.suffix == program.suffix
+    )
     try:
         with Engine(stem, node_modules(os.environ.get(engines.MODULES), ROOT)) as started:
             version, package = started.version, started.about["package"]
@@ -334,9 +345,9 @@ def test_the_page_names_each_reproducer_and_eight_engines():
 
 
 def test_every_adapter_says_what_it_promises_in_words():
-    for path in adapters():
+    for path in all_adapters():
         text = path.read_text(encoding="utf-8")
         for key in ("name", "package", "module", "install", "asked", "promises", "takes", "ways"):
             assert re.search(rf'["\s]{key}"?:', text), (path.name, key)
-    assert adapters() == sorted(ADAPTERS.glob("with_*"))
+    assert all_adapters() == sorted(ADAPTERS.glob("with_*"))
     assert asking.COLUMNS[:2] == ("right", "within")

@@ -130,7 +130,7 @@ def test_between_asks_about_some_pairs_alone():
     assert first_contact(scene, between=[]) is None
     assert first_contact(scene, between=[("b", "c"), ("a", "d")]).overlaps == (("b", "c"),)
     assert first_contact(scene, between=[("b", "c")], after_start=True) is None
-    assert first_contact(scene, between=[("a", "d"), ("a", "c")], ignoring=["ac"]).time == 7
+    assert first_contact(scene, between=[("a", "d"), ("a", "c")], ignoring=[("a", "c")]).time == 7
 
 
 def test_since_a_later_time():

@@ -60,6 +60,7 @@ ARGUMENTS = {
     "sign_before": ((-1, 1),),
     "sign_of": ((-1, 1),),
     "until": (8.75,),
+    "with_radius": ("1/3",),
     "with_motion": (Translation([0, "1/3"]),),
 }
 """What methods are called with, those of one class first; without an entry, with nothing."""
@@ -248,7 +249,8 @@ def test_every_public_name_is_walked_through():
         "Hit", "Pair", "Path", "Pieces", "Place", "Planner", "Polynomial", "Rigid", "Scene",
         "Simulation", "Spin", "Translation", "BudgetExceeded", "first_contact", "first_within",
         "onward",
-        "Clearance", "ContactInterval", "Distance", "clearance", "contact_intervals", "contacts",
+        "Clearance", "ContactInterval", "Distance", "EnclosedContact", "first_contact_enclosed",
+        "clearance", "contact_intervals", "contacts",
         "distance", "Approach", "Velocity", "in_local_time", "spline",
     }  # fmt: skip
     without_numbers = {

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from exactpt.bench.engines.asking import Asked, Result, ask, questions
-from exactpt.bench.engines.engine import ADAPTERS, Engine, Missing, adapters, node_modules
+from exactpt.bench.engines.engine import ADAPTERS, Engine, Missing, all_adapters, node_modules
 from exactpt.bench.engines.page import page
 from exactpt.bench.engines.reproducer import reproducer, reproducer_name
 from exactpt.bench.machine import machine
@@ -64,7 +64,7 @@ def _results(
     output: Output, sizes: Sizes, asked: list[Asked], folder: Path
 ) -> Iterator[tuple[Result, Path]]:
     modules = node_modules(os.environ.get(MODULES), Path.cwd())
-    for adapter in adapters(folder):
+    for adapter in all_adapters(folder):
         try:
             with Engine(adapter, modules) as engine:
                 for way in engine.about["ways"]:

@@ -24,7 +24,7 @@ from typing import Any, Final, NamedTuple, final
 
 from exactpt.errors import InputError
 
-__all__ = ["ADAPTERS", "Crash", "Engine", "Missing", "Reply", "adapters", "node_modules"]
+__all__ = ["ADAPTERS", "Crash", "Engine", "Missing", "Reply", "all_adapters", "node_modules"]
 
 HERE: Final = Path(__file__).parent
 ADAPTERS: Final = HERE / "adapters"
@@ -62,7 +62,7 @@ class Reply(NamedTuple):
     seconds: float | None = None
 
 
-def adapters(folder: Path = ADAPTERS) -> list[Path]:
+def all_adapters(folder: Path = ADAPTERS) -> list[Path]:
     """The adapters in a folder, by name."""
     return sorted(p for p in folder.iterdir() if p.name.startswith("with_") and _command(p))
 
