@@ -36,7 +36,7 @@ def parts(seconds):
 
 
 def turn_of(items, date):
-    """Of some tests those whose turn it is on a date, the longest first, so that none ends alone."""
+    """Of some tests those whose turn it is on a date, the longest first."""
     seconds = {}
     for item in items:
         name = name_of(item)
