@@ -1,12 +1,12 @@
 """Labels: the geodesics along each half-edge, and their changes at repairs.
 
 The label of a half-edge h is the set of tree nodes whose geodesic traverses h in its
-direction. They all belong to one polygon, the one on the left, and form a path of ancestors
+direction. They all belong to one ring of the polygon on the left, and form a path of ancestors
 in its tree, from the deepest node, bot, up to the highest, top. (An edge shared by the
 geodesics of two nested chains is shared by those of all chains in between.) The labels
 determine the tiles of F1:
 
-* A labelled half-edge whose bot is a leaf is an edge of the polygon. Otherwise the tile on its
+* A labelled half-edge whose bot is a leaf is an edge of the ring. Otherwise the tile on its
   left belongs to bot: it lies between the geodesic of bot and those of its children.
 * The tile on the left of an unlabelled half-edge whose twin is labelled belongs to the parent
   of the twin's top; if top is the unpinned cycle, it is outside all relative hulls, in F2.
