@@ -101,6 +101,11 @@ class MovingBody:
         self.deforms: bool = False
         self.is_tiled: bool = False
 
+    @property
+    def rings(self) -> list[list[VertexId]]:
+        """The vertex ids of each ring, in the order of the body's rings."""
+        return _rings_of(self.body, self.ring)
+
 
 @final
 class Vertices:
@@ -199,7 +204,7 @@ class Vertices:
             vertex = self.all[vertex_id]
             vertex.body, vertex.index = i, index
             moving.ring.append(vertex_id)
-        for part in _rings_of(body, moving.ring):
+        for part in moving.rings:
             for behind, here in zip(part, [*part[1:], part[0]], strict=True):
                 self.all[behind].ahead = here
                 self.all[here].behind = behind

@@ -11,7 +11,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import final
 
-from exactpt.errors import InputError
+from exactpt.errors import InputError, UnreachableError
 from exactpt.geometry.predicates import Point
 from exactpt.indices import HalfEdge
 from exactpt.kernel.numbers import QQ, place
@@ -39,8 +39,11 @@ class ShortestPaths:
         """The shortest path homotopic to one that crosses the fewest diagonals."""
         if not self._plane.points:
             return _path((p, q), (), 0)
-        first = self._tile(p)
-        return self._tight(p, first, self._sleeves.dual_path(first, self._tile(q)), q)
+        first, last = self._tile(p), self._tile(q)
+        crossed = self._sleeves.dual_path(first, last)
+        if crossed is None:
+            raise _unreachable(p, q)
+        return self._tight(p, first, crossed, q)
 
     def shortest(self, p: Point, q: Point) -> Path:
         """A shortest path; its ends may be on bodies, but not in their interior."""
@@ -50,6 +53,8 @@ class ShortestPaths:
         free = copy(self._triangles)
         start, goal = (free.inserted(*end) for end in ends)
         step = last_step(free, start, goal)
+        if step is None:
+            raise _unreachable(p, q)
         nodes = step.nodes()
         way = [(p, -1), *((free.points[v], v) for v in nodes[1:-1]), (q, -1)]
         return self._named(p, bends(way), q, step.crossed)
@@ -130,6 +135,12 @@ class ShortestPaths:
 
 def _not_free(p: Point, body: str | None) -> InputError:
     return InputError(f"the point ({p[0]}, {p[1]}) is not free: body {body!r} has it")
+
+
+def _unreachable(p: Point, q: Point) -> UnreachableError:
+    return UnreachableError(
+        f"no path leads from ({p[0]}, {p[1]}) to ({q[0]}, {q[1]}): a body is around one of them"
+    )
 
 
 def _path(points: Iterable[Point], bends: tuple[VertexName, ...], crossed: int) -> Path:

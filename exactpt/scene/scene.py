@@ -287,13 +287,6 @@ class Scene:
             return bool(self.bodies.radii.any())
         return any(body._radius for body in self.bodies)
 
-    @property
-    def has_rings(self) -> bool:
-        """Whether a body has holes, or several parts."""
-        if isinstance(self.bodies, BodyArrays):
-            return False
-        return any(body.has_rings for body in self.bodies)
-
     def __eq__(self, other: object) -> bool:
         """Whether the bodies, in order, and the time spans are equal."""
         if not isinstance(other, Scene):
