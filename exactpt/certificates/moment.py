@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, final
 
 from exactpt.certificates.queue import EventTime
-from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.integer_polynomial import sign_at, square_free
+from exactpt.kernel.algebraic import AlgebraicNumber, linear_root
+from exactpt.kernel.integer_polynomial import IntPoly, sign_at, square_free
 from exactpt.motion.incidence import difference, orientation
 
 if TYPE_CHECKING:
@@ -54,9 +54,18 @@ def exact_time(time: EventTime, tracks: tuple[Track, ...], frame: Frame) -> Alge
         f = orientation(tracks[0], tracks[1], tracks[2])
     else:
         f = difference(tracks[0].x, tracks[0].w, tracks[1].x, tracks[1].w)
-    low, high = frame.exact_time(time.low), frame.exact_time(time.high)
-    p = square_free(f)
-    number = AlgebraicNumber(low) if sign_at(p, low) == 0 else AlgebraicNumber._root(p, low, high)
+    number = linear_root(f)
+    if number is None:
+        number = _isolated(f, time, frame)
     time.exact = number
     time.low, time.high = frame.enclosure(number)
     return number
+
+
+def _isolated(f: IntPoly, time: EventTime, frame: Frame) -> AlgebraicNumber:
+    """The root of a polynomial in the enclosure of a time."""
+    low, high = frame.exact_time(time.low), frame.exact_time(time.high)
+    p = square_free(f)
+    if sign_at(p, low) == 0:
+        return AlgebraicNumber(low)
+    return AlgebraicNumber._root(p, low, high)

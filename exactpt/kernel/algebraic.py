@@ -46,7 +46,7 @@ from exactpt.kernel.numbers import (
 if TYPE_CHECKING:
     from exactpt.kernel.sympy_door import Expression
 
-__all__ = ["AlgebraicNumber", "multiple_before", "rational_between"]
+__all__ = ["AlgebraicNumber", "linear_root", "multiple_before", "rational_between"]
 
 FINE: Final = power_of_two(-100)
 """Interval width below which two overlapping numbers are tested for equality by a gcd."""
@@ -269,3 +269,8 @@ class AlgebraicNumber(IsolatedRoot):
             return f"AlgebraicNumber('{self._low}')"
         coefficients = ", ".join(map(str, self._polynomial))
         return f"<root of ({coefficients}) near {float(self)!r}>"
+
+
+def linear_root(f: IntPoly) -> AlgebraicNumber | None:
+    """The root of a polynomial of degree 1; None if it has another degree."""
+    return AlgebraicNumber(QQ(-f[0], f[1])) if len(f) == 2 else None

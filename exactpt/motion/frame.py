@@ -62,11 +62,12 @@ class Frame:
         """Doubles that enclose an algebraic time, normalised; at most two ulps apart."""
         if self.is_identity:
             return t.enclosure()
-        while True:
+        while not t.is_rational:
             lo, hi = self.time(t._low)[0], self.time(t._high)[1]
-            if hi <= math.nextafter(math.nextafter(lo, math.inf), math.inf) or t.is_rational:
+            if hi <= math.nextafter(math.nextafter(lo, math.inf), math.inf):
                 return lo, hi
             t.refine()
+        return self.time(t._low)
 
     def exact_time(self, t: float) -> QQ:
         """The rational time of which a double is the normalised value."""

@@ -76,10 +76,13 @@ class Track:
         return place(self._at(rational(t)))
 
     def _at(self, t: QQ) -> tuple[QQ, QQ]:
+        if not t:
+            w = self.w[0]
+            return QQ(self.x[0] if self.x else 0, w), QQ(self.y[0] if self.y else 0, w)
         if len(self.w) == 1:
             return evaluate(self.x, t) / self.w[0], evaluate(self.y, t) / self.w[0]
-        w = evaluate(self.w, t)
-        return evaluate(self.x, t) / w, evaluate(self.y, t) / w
+        at_t = evaluate(self.w, t)
+        return evaluate(self.x, t) / at_t, evaluate(self.y, t) / at_t
 
     def __repr__(self) -> str:
         return f"Track({self.x}, {self.y}, {self.w})"

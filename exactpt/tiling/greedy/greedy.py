@@ -213,7 +213,10 @@ class VerticalRules(Rules):
 
     def _edge(self, u: VertexId, v: VertexId) -> HalfEdge | None:
         m = self.certified.mesh.map
-        return next((h for h in m.star(self.certified.mesh.ring_edge[u]) if m.target(h) == v), None)
+        for h in m.star(self.certified.mesh.ring_edge[u]):
+            if m.origin[h ^ 1] == v:
+                return h
+        return None
 
     def _remove_diagonal(self, u: VertexId, v: VertexId, predicates: OneSided) -> None:
         """Replace a diagonal, which now has the largest theta, by its shadow edge."""
@@ -230,27 +233,45 @@ class VerticalRules(Rules):
         """Replace a diagonal by its shadow edge uv, which now has the smallest theta."""
         if self._edge(u, v) is not None:
             return  # on the convex hull
-        m = self.certified.mesh.map
-        around = m.star(self.certified.mesh.ring_edge[u])
-        g = facing_visit(self.certified.mesh, around, v, predicates)
-        tile = [] if g is None else [h for h in m.face(g) if self.certified.mesh.is_flippable(h)]
-        # It crosses that diagonal into a tile with vertex v, or shares an end with it.
-        meeting = [
-            h for h in tile if u in self.certified.mesh.ends(h) or v in self.certified.mesh.ends(h)
-        ]
-        crossed = [
-            h
-            for h in tile
-            if h not in meeting
-            and v in [m.origin[e] for e in m.face(twin(h))]
-            and crosses(u, v, *self.certified.mesh.ends(h), predicates)
-        ]
-        for h in (*crossed, *meeting):
-            visits = shadow(self.certified.mesh, h, predicates)
-            if visits is not None and {m.origin[visits[0]], m.origin[visits[1]]} == {u, v}:
+        mesh = self.certified.mesh
+        origin = mesh.map.origin
+        g = facing_visit(mesh, mesh.map.star(mesh.ring_edge[u]), v, predicates)
+        for h in [] if g is None else self._crossed_by(g, v, predicates):
+            visits = shadow(mesh, h, predicates)
+            if visits is not None and {origin[visits[0]], origin[visits[1]]} == {u, v}:
                 self._flip(h, visits, predicates)
                 return
         self._require_check_around(u)
+
+    def _crossed_by(self, g: HalfEdge, v: VertexId, predicates: OneSided) -> list[HalfEdge]:
+        """The diagonals that a bitangent may replace, the likely ones first.
+
+        It crosses such a diagonal into a tile with vertex v, or shares an end with it. In the
+        latter case it runs inside one tile, where it is not tangent at both ends, or it would
+        be an edge; and at an end that is none of the diagonal's its tangency does not depend
+        on it. So the diagonal ends where the bitangent is not tangent.
+
+        Args:
+            g: the visit at one end of the bitangent.
+            v: its other end.
+            predicates: the predicates of the time.
+        """
+        mesh = self.certified.mesh
+        m = mesh.map
+        u, after, before = m.origin[g], m.origin[g ^ 1], m.origin[m.previous[g]]
+        is_tangent = mesh.corner[g] or predicates.sign(u, after, v) == predicates.sign(u, before, v)
+        crossed, likely, others = list[HalfEdge](), list[HalfEdge](), list[HalfEdge]()
+        for h in m.face(g):
+            if not mesh.is_flippable(h):
+                continue
+            a, b = m.origin[h], m.origin[h ^ 1]
+            if v in (a, b):
+                (likely if is_tangent else others).append(h)
+            elif u in (a, b):
+                (others if is_tangent else likely).append(h)
+            elif _is_visited(mesh, v, twin(h)) and crosses(u, v, a, b, predicates):
+                crossed.append(h)
+        return crossed + likely + others
 
     def _require_check_around(self, u: VertexId) -> None:
         """Leave a pair to the check of the batch, which flips until the tiling is greedy.
@@ -283,3 +304,12 @@ class VerticalRules(Rules):
             f"t = {float(self.certified.certifier.exact_now)}: "
             "this greedy tiling is for bodies that stay convex"
         )
+
+
+def _is_visited(mesh: Mesh, v: VertexId, h: HalfEdge) -> bool:
+    """Whether a vertex is on the boundary of the face of a half-edge."""
+    origin = mesh.map.origin
+    for g in mesh.map.face(h):  # noqa: SIM110 - called at many events
+        if origin[g] == v:
+            return True
+    return False
