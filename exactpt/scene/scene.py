@@ -121,7 +121,7 @@ class Scene:
             InputError: if the file cannot be written, or the scene has a number of more than
                 10,000 digits or a custom motion, which files cannot hold.
         """
-        from exactpt.scene.format import save
+        from exactpt.scene.written import save
 
         save(self, Path(path))
 
@@ -154,7 +154,7 @@ class Scene:
         Raises:
             InputError: see `save`.
         """
-        from exactpt.scene.format import to_json
+        from exactpt.scene.written import to_json
 
         return to_json(self)
 

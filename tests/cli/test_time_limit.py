@@ -13,8 +13,8 @@ from exactpt.cli import main
 from exactpt.cli.alarm import time_limit
 from exactpt.collision import pairs
 from exactpt.errors import BudgetExceeded
-from exactpt.scene.format import save
 from exactpt.scene.generate import generate
+from exactpt.scene.written import save
 from exactpt.tiling.engine import Engine
 from exactpt.tiling.tiling import Tiling
 
