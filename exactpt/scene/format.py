@@ -135,7 +135,7 @@ def _ring(data: Json, where: str, of: str, *, closed: bool = True) -> list[Posit
     """The vertices of a ring, named ``where``; each is a vertex ``of`` something."""
     rows = a_list(data, where)
     if not rows:
-        raise InputError(f"{where}: at least one is needed")
+        raise InputError(f"{where}: at least one vertex is needed")
     if closed and len(rows) > 3 and rows[0] == rows[-1]:
         raise InputError(f"{where}: the last repeats the first: {shown(rows[-1])}")
     return [_vertex(row, f"{of}: vertex {i}") for i, row in enumerate(rows)]
