@@ -65,7 +65,7 @@ def test_the_inside_of_a_deforming_body_is_tiled_around_its_holes():
 @pytest.mark.parametrize("family", sorted(RINGS))
 def test_the_tiling_is_valid_between_all_events(family, tiling):
     """And equal to the one built there, if it is canonical; no event calls for a rebuild."""
-    for seed in range(8):
+    for seed in range(5):
         audited = run_and_audit(generate(family, seed), tiling, middle=True)
         assert audited is None or audited.kinetic.stats.rebuilds == 0
 
