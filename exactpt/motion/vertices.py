@@ -239,11 +239,25 @@ class Vertices:
     def _ever_deforms(self, i: int, start: QQ) -> bool:
         """Whether a body deforms in its current piece or any later one."""
         body = self.bodies[i].body
-        return self.bodies[i].deforms or any(
-            _deforms(self.enclosures.images(body._piece_after(t).tracks))
-            for t in body._breakpoints
-            if t > start
+        return self.bodies[i].deforms or self._deforms_in_pieces(
+            body, [t for t in body._breakpoints if t > start]
         )
+
+    def _deforms_in_pieces(self, body: Body, starts: Sequence[QQ]) -> bool:
+        """Whether a body deforms in one of the pieces that begin at these times."""
+        return any(_deforms(self.enclosures.images(body._piece_after(t).tracks)) for t in starts)
+
+    def begins_inside(self, i: int, body: Body, t: QQ) -> bool:
+        """Whether the interior of several rings would have to be tiled by a plan, and is not yet.
+
+        Args:
+            i: the number of the body.
+            body: the body with its new plan.
+            t: the time from which it holds.
+        """
+        starts = [t, *(later for later in body._breakpoints if later > t)]
+        is_tiled = self.bodies[i].is_tiled
+        return body.has_rings and not is_tiled and self._deforms_in_pieces(body, starts)
 
     def enter_piece(self, i: int, t: QQ) -> None:
         """Give the vertices of a body the trajectories valid just after a rational time."""

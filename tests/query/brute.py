@@ -6,6 +6,8 @@ Written from the definitions in plain rational arithmetic; shares nothing with
 
 from itertools import pairwise
 
+from gmpy2 import mpq
+
 
 def cross(o, a, b):
     return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
@@ -38,7 +40,7 @@ class Rings(list):
 def points_of(scene, t):
     """name -> points, at a time."""
     at = scene.at(t)
-    return {b.name: _points_of(b, at[b.name]) for b in scene.bodies}
+    return {b.name: _points_of(b, [(mpq(x), mpq(y)) for x, y in at[b.name]]) for b in scene.bodies}
 
 
 def _points_of(body, points):
