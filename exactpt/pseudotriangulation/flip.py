@@ -55,33 +55,36 @@ def shadow(mesh: Mesh, h: HalfEdge, predicates: Predicates) -> tuple[HalfEdge, H
     chains until the segment between them is tangent at both. None if the result does not
     cross h: the mesh is then not a pseudo-triangulation just after now.
     """
-    m = mesh.map
-    here, there = opposite_corner(mesh, h), opposite_corner(mesh, twin(h))
+    m, t = mesh.map, twin(h)
+    here, there = opposite_corner(mesh, h), opposite_corner(mesh, t)
     if here < 0 or there < 0:
         return None
     cycle = _cycle(mesh, h, here)
     n = len(cycle)
     points = [m.origin[g] for g in cycle]
     is_corner = [mesh.corner[g] for g in cycle]
-    for g in (m.following[h], m.following[h ^ 1]):  # two angles have merged here
+    for g in (m.following[h], m.following[t]):  # two angles have merged here
         k = cycle.index(g)
         is_corner[k] = predicates.sign(points[k - 1], points[k], points[(k + 1) % n]) > 0
-    ends = [0, cycle.index(there)]
-    distances = [0, 0]  # from their corners, negative: backwards
-    e = stuck = steps = moved = 0
-    is_tangent = True
+    # Visit i moves, visit j waits; then they change their parts.
+    i, j = 0, cycle.index(there)
+    distance = other_distance = 0  # from their corners, negative: backwards
+    stuck = steps = moved = 0
+    is_tangent, is_turned = True, False
     while stuck < 2 and steps < 8 * n:
         steps += 1
-        i, y = ends[e], points[ends[1 - e]]
-        at_other = points[i] == y  # then the other end must move
-        step = 0 if at_other else _step(points, i, distances[e], moved, y, predicates)
-        if step and (not is_corner[(i + step) % n] or distances[e] + step == 0):
-            ends[e], distances[e], moved = (i + step) % n, distances[e] + step, step
+        at_other = points[i] == points[j]  # then the other end must move
+        step = 0 if at_other else _step(points, i, distance, moved, points[j], predicates)
+        if step and (not is_corner[(i + step) % n] or distance + step == 0):
+            i, distance, moved = (i + step) % n, distance + step, step
             stuck, is_tangent = 0, True
         else:
-            stuck, e, moved = stuck + 1, 1 - e, 0
+            stuck, moved = stuck + 1, 0
             is_tangent = is_tangent and step == 0 and not at_other
-    i, j = ends
+            i, j, distance, other_distance = j, i, other_distance, distance
+            is_turned = not is_turned
+    if is_turned:
+        i, j = j, i
     if not (stuck == 2 and is_tangent and crosses(points[i], points[j], *mesh.ends(h), predicates)):
         return None
     return cycle[i], cycle[j]
@@ -93,18 +96,43 @@ def tangency(mesh: Mesh, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge]) -> list
     Each end gives two, with its neighbours before and after it on the boundary of the two
     faces of h. Empty if the faces do not have both visits.
     """
-    cycle = _cycle(mesh, h, mesh.map.following[h])
-    if visits[0] not in cycle or visits[1] not in cycle:
+    i, j = visits
+    if not _has_visits(mesh, h, i, j):
         return []
-    points = [mesh.map.origin[g] for g in cycle]
-    i, j = cycle.index(visits[0]), cycle.index(visits[1])
-    x, y = points[i], points[j]
+    m = mesh.map
+    x, y = m.origin[i], m.origin[j]
     return [
-        (x, points[(i + 1) % len(points)], y),
-        (x, y, points[i - 1]),
-        (y, points[(j + 1) % len(points)], x),
-        (y, x, points[j - 1]),
+        (x, m.origin[i ^ 1], y),
+        (x, y, _before(mesh, h, i)),
+        (y, m.origin[j ^ 1], x),
+        (y, x, _before(mesh, h, j)),
     ]
+
+
+def _has_visits(mesh: Mesh, h: HalfEdge, i: HalfEdge, j: HalfEdge) -> bool:
+    """Whether two visits are on the boundary of the union of the two faces of h."""
+    following, t = mesh.map.following, twin(h)
+    missing = 1 if i == j else 2
+    g = following[h]
+    while True:
+        if g == h:  # at the origin of h: continue in the other face
+            g = following[t]
+        if g == t:
+            return False
+        if g in (i, j):
+            missing -= 1
+            if missing == 0:
+                return True
+        g = following[g]
+
+
+def _before(mesh: Mesh, h: HalfEdge, visit: HalfEdge) -> VertexId:
+    """The vertex before a visit on the boundary of the union of the two faces of h."""
+    m, t = mesh.map, twin(h)
+    g = m.previous[visit]
+    if g in (h, t):
+        g = m.previous[g ^ 1]
+    return m.origin[g]
 
 
 def _cycle(mesh: Mesh, h: HalfEdge, start: HalfEdge) -> list[HalfEdge]:

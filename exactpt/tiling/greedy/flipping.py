@@ -12,7 +12,7 @@ four orientations.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import final
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certificate import SHADOW, pack, part_of
@@ -32,7 +32,8 @@ from exactpt.tiling.tiling import State
 __all__ = ["FlippingRules"]
 
 
-class _Shadow(NamedTuple):
+@final
+class _Shadow:
     """The certified data of a diagonal and its shadow edge.
 
     Attributes:
@@ -43,11 +44,30 @@ class _Shadow(NamedTuple):
         tangencies: the triples that certify its tangencies.
     """
 
-    diagonal: Ends
-    visits: tuple[HalfEdge, HalfEdge]
-    corners: tuple[bool, bool]
-    crossing: Ends
-    tangencies: list[Triple]
+    __slots__ = ("corners", "crossing", "diagonal", "tangencies", "visits")
+
+    def __init__(
+        self,
+        diagonal: Ends,
+        visits: tuple[HalfEdge, HalfEdge],
+        corners: tuple[bool, bool],
+        crossing: Ends,
+        tangencies: list[Triple],
+    ) -> None:
+        self.diagonal: Ends = diagonal
+        self.visits: tuple[HalfEdge, HalfEdge] = visits
+        self.corners: tuple[bool, bool] = corners
+        self.crossing: Ends = crossing
+        self.tangencies: list[Triple] = tangencies
+
+    def is_same_edge(self, other: _Shadow) -> bool:
+        """Whether all but the tangencies is equal."""
+        return (
+            self.diagonal == other.diagonal
+            and self.visits == other.visits
+            and self.corners == other.corners
+            and self.crossing == other.crossing
+        )
 
 
 class FlippingRules(Rules):
@@ -172,11 +192,13 @@ class FlippingRules(Rules):
         if old is None or h in self._moved:
             return False
         new = self._shadow_of(h, old.visits)
-        if new == old:
-            return True
-        if not new.tangencies or new._replace(tangencies=old.tangencies) != old:
-            return False
         before, now = old.tangencies, new.tangencies
+        if not new.is_same_edge(old):
+            return False
+        if before == now:
+            return True
+        if not now:
+            return False
         if not all(
             before[2 * e : 2 * e + 2] == now[2 * e : 2 * e + 2]
             or self._is_tangent(now[2 * e], now[2 * e + 1], new.corners[e])
@@ -234,15 +256,20 @@ class FlippingRules(Rules):
 
     def _shadow_of(self, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge]) -> _Shadow:
         mesh = self.certified.mesh
-        tangencies = tangency(mesh, h, visits)
-        corners = [mesh.corner[g] for g in visits]
-        for e, g in enumerate(visits):
+        first, second = visits
+        there = tangency(mesh, h, visits)
+        corners = self._is_corner(h, first, there[:2]), self._is_corner(h, second, there[2:])
+        crossing = mesh.map.origin[first], mesh.map.origin[second]
+        return _Shadow(mesh.ends(h), visits, corners, crossing, there)
+
+    def _is_corner(self, h: HalfEdge, visit: HalfEdge, tangencies: list[Triple]) -> bool:
+        """Whether a visit is at a corner of both faces of a diagonal together."""
+        following = self.certified.mesh.map.following
+        if tangencies and (visit == following[h] or visit == following[h ^ 1]):
             # At an end of the diagonal itself the angles of the two faces are one.
-            if tangencies and g in (mesh.map.following[h], mesh.map.following[twin(h)]):
-                (x, after, _), (_, _, before) = tangencies[2 * e : 2 * e + 2]
-                corners[e] = self.certified.after().sign(before, x, after) > 0
-        crossing = mesh.map.origin[visits[0]], mesh.map.origin[visits[1]]
-        return _Shadow(mesh.ends(h), visits, (corners[0], corners[1]), crossing, tangencies)
+            (x, after, _), (_, _, before) = tangencies
+            return self.certified.after().sign(before, x, after) > 0
+        return self.certified.mesh.corner[visit]
 
     def _certify_x_order(
         self, certificate: CertificateId, u: VertexId, v: VertexId, after: OneSided

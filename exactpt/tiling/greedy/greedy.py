@@ -244,34 +244,22 @@ class VerticalRules(Rules):
         self._require_check_around(u)
 
     def _crossed_by(self, g: HalfEdge, v: VertexId, predicates: OneSided) -> list[HalfEdge]:
-        """The diagonals that a bitangent may replace, the likely ones first.
+        """The diagonals of the tile of g that a bitangent from the origin of g to v may replace.
 
-        It crosses such a diagonal into a tile with vertex v, or shares an end with it. In the
-        latter case it runs inside one tile, where it is not tangent at both ends, or it would
-        be an edge; and at an end that is none of the diagonal's its tangency does not depend
-        on it. So the diagonal ends where the bitangent is not tangent.
-
-        Args:
-            g: the visit at one end of the bitangent.
-            v: its other end.
-            predicates: the predicates of the time.
+        It crosses such a diagonal into a tile with vertex v, or shares an end with it.
         """
         mesh = self.certified.mesh
         m = mesh.map
-        u, after, before = m.origin[g], m.origin[g ^ 1], m.origin[m.previous[g]]
-        is_tangent = mesh.corner[g] or predicates.sign(u, after, v) == predicates.sign(u, before, v)
-        crossed, likely, others = list[HalfEdge](), list[HalfEdge](), list[HalfEdge]()
+        u = m.origin[g]
+        crossed, meeting = list[HalfEdge](), list[HalfEdge]()
         for h in m.face(g):
-            if not mesh.is_flippable(h):
-                continue
-            a, b = m.origin[h], m.origin[h ^ 1]
-            if v in (a, b):
-                (likely if is_tangent else others).append(h)
-            elif u in (a, b):
-                (others if is_tangent else likely).append(h)
-            elif _is_visited(mesh, v, twin(h)) and crosses(u, v, a, b, predicates):
-                crossed.append(h)
-        return crossed + likely + others
+            if mesh.is_flippable(h):
+                a, b = m.origin[h], m.origin[h ^ 1]
+                if u in (a, b) or v in (a, b):
+                    meeting.append(h)
+                elif _is_visited(mesh, v, twin(h)) and crosses(u, v, a, b, predicates):
+                    crossed.append(h)
+        return crossed + meeting
 
     def _require_check_around(self, u: VertexId) -> None:
         """Leave a pair to the check of the batch, which flips until the tiling is greedy.
