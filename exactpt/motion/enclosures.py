@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Hashable, Iterable, Sequence
+from collections.abc import Collection, Hashable, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, Final, final
 
@@ -94,17 +94,18 @@ class Enclosures:
             size = max(size, len(w))
             # A common factor of x, y and w is free. The power of two rounds nothing.
             divisor = power_of_two(binary_exponent(QQ(max(map(abs, w)))))
-            ws = _floats(w, divisor, size)
+            ws = _floats(_quotients(w, divisor), size)
         else:
             ws, divisor = [], QQ(w[0])
-        xs, ys = _floats(x, divisor, size), _floats(y, divisor, size)
+        x, y = _quotients(x, divisor), _quotients(y, divisor)
+        xs, ys = _floats(x, size), _floats(y, size)
         self.errors += [0.0] * (size - len(self.errors))
         if not (_moderate(xs) and _moderate(ys) and _moderate(ws)):
             nan = [math.nan] * size
             return Image(nan, nan, nan if ws else [], motion)
         if not ws:
-            self._note_errors(x, xs, divisor)
-            self._note_errors(y, ys, divisor)
+            self._note_errors(x, xs)
+            self._note_errors(y, ys)
         image = Image(xs, ys, ws, motion)
         if isinstance(track.motion, Turning):
             image.arm = self._arm(track, track.motion)
@@ -134,9 +135,9 @@ class Enclosures:
                     r[i + j] -= a * b
             r = self._frame.in_time([a * unit for a in r[:3]])
             p = self._frame.in_time(combined(list(path), [QQ(1)], -c, unit))
-            parts.append(_floats(p, QQ(1), 3))
-            parts.append([*_floats(r, divisor, 3), *_floats([r[0] / w_now[0]], QQ(1), 1)])
-        parts.append(_floats(w_now, divisor, 3))
+            parts.append(_floats(p, 3))
+            parts.append([*_floats(_quotients(r, divisor), 3), *_floats([r[0] / w_now[0]], 1)])
+        parts.append(_floats(_quotients(w_now, divisor), 3))
         if not all(map(_fits_in_arms, chain.from_iterable(parts))):
             return None
         pivot_x, arm_x, pivot_y, arm_y, denominator = parts
@@ -151,13 +152,13 @@ class Enclosures:
         """Forget all motions but those in ``kept``: no enclosure has them any more."""
         self._motions = {key: i for key, i in self._motions.items() if i in kept}
 
-    def _note_errors(self, exact: Sequence[QQ], floats: list[float], divisor: QQ) -> None:
+    def _note_errors(self, exact: Sequence[QQ], floats: list[float]) -> None:
         # Rounding to nearest errs by at most U |c| / (1 + U), and so by at most U times the
         # double; doubled, for a margin. A third of it would be wrong: 1 + U (1 - epsilon)
-        # becomes 1, with an error of nearly U.
+        # becomes 1, with an error of nearly U. (gmpy2 compares a rational with a double exactly.)
         for i, c in enumerate(exact):
             error = abs(floats[i]) * (2.0 * U)
-            if error > self.errors[i] and QQ(*floats[i].as_integer_ratio()) * divisor != c:
+            if error > self.errors[i] and c != floats[i]:
                 self.errors[i] = error
 
 
@@ -175,17 +176,21 @@ def _integer_image(track: Track, x: list[float], y: list[float], motion: int) ->
     return None
 
 
-def _floats(coefficients: Iterable[QQ], divisor: QQ, size: int) -> list[float]:
-    one = divisor == 1
+def _quotients(coefficients: Sequence[QQ], divisor: QQ) -> Sequence[QQ]:
+    return coefficients if divisor == 1 else [c / divisor for c in coefficients]
+
+
+def _floats(coefficients: Sequence[QQ], size: int) -> list[float]:
     # Only 0 itself becomes 0.0: a number that underflows becomes NaN, as out of range.
-    values = [
-        nearest_float(c if one else c / divisor) or (math.nan if c else 0.0) for c in coefficients
-    ]
+    values = [nearest_float(c) or (math.nan if c else 0.0) for c in coefficients]
     return values + [0.0] * (size - len(values))
 
 
 def _moderate(values: list[float]) -> bool:
-    return all(v == 0.0 or SMALLEST <= abs(v) <= LARGEST for v in values)
+    for v in values:  # noqa: SIM110 - called for every vertex
+        if v != 0.0 and not SMALLEST <= abs(v) <= LARGEST:
+            return False
+    return True
 
 
 def _fits_in_arms(v: float) -> bool:
