@@ -11,7 +11,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import final
 
-from exactpt.errors import InputError, UnreachableError
+from exactpt.errors import AuditError, InputError, UnreachableError
 from exactpt.geometry.predicates import Point
 from exactpt.indices import HalfEdge
 from exactpt.kernel.numbers import QQ, place
@@ -42,7 +42,7 @@ class ShortestPaths:
         first, last = self._tile(p), self._tile(q)
         crossed = self._sleeves.dual_path(first, last)
         if crossed is None:
-            raise _unreachable(p, q)
+            raise self._unreachable(p, q)
         return self._tight(p, first, crossed, q)
 
     def shortest(self, p: Point, q: Point) -> Path:
@@ -54,7 +54,7 @@ class ShortestPaths:
         start, goal = (free.inserted(*end) for end in ends)
         step = last_step(free, start, goal)
         if step is None:
-            raise _unreachable(p, q)
+            raise self._unreachable(p, q)
         nodes = step.nodes()
         way = [(p, -1), *((free.points[v], v) for v in nodes[1:-1]), (q, -1)]
         return self._named(p, bends(way), q, step.crossed)
@@ -126,6 +126,17 @@ class ShortestPaths:
         nodes = pull_tight(start, goal, portals, plane.points)
         return self._named(start, nodes, goal, len(crossed))
 
+    def _unreachable(self, p: Point, q: Point) -> UnreachableError:
+        """The error that a body with a hole keeps two points apart.
+
+        Raises:
+            AuditError: if no body has a hole.
+        """
+        what = f"no path leads from ({p[0]}, {p[1]}) to ({q[0]}, {q[1]})"
+        if all(len(cycles) == 1 for cycles in self._plane.cycles.values()):
+            raise AuditError(what)
+        return UnreachableError(f"{what}: a body is around one of them")
+
     def _named(self, start: Point, nodes: Sequence[int], goal: Point, crossed: int) -> Path:
         """The path that bends at these nodes."""
         plane = self._plane
@@ -135,12 +146,6 @@ class ShortestPaths:
 
 def _not_free(p: Point, body: str | None) -> InputError:
     return InputError(f"the point ({p[0]}, {p[1]}) is not free: body {body!r} has it")
-
-
-def _unreachable(p: Point, q: Point) -> UnreachableError:
-    return UnreachableError(
-        f"no path leads from ({p[0]}, {p[1]}) to ({q[0]}, {q[1]}): a body is around one of them"
-    )
 
 
 def _path(points: Iterable[Point], bends: tuple[VertexName, ...], crossed: int) -> Path:
