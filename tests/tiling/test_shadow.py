@@ -9,7 +9,7 @@ from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.predicates import Predicates
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
-from exactpt.pseudotriangulation.flip import flip_until_greedy, shadow
+from exactpt.pseudotriangulation.flip import flip_until_greedy, shadow, tangency
 from exactpt.scene.generate import generate
 from exactpt.tiling.greedy.greedy import VerticalRules
 
@@ -70,3 +70,36 @@ def test_the_walk_to_a_shadow_ends_whatever_the_signs(seed):
     for h in mesh.diagonals():
         if not mesh.is_hull(h):
             shadow(mesh, h, Nonsense(seed))
+
+
+def boundary(mesh, h):
+    """The half-edges around the two faces of a diagonal, from the one after it."""
+    following = mesh.map.face(h)[1:]
+    return following + mesh.map.face(h ^ 1)[1:]
+
+
+def test_the_neighbours_of_a_shadow_are_those_on_the_boundary_of_both_faces():
+    """Also of other visits of these faces; there are none of half-edges elsewhere."""
+    at_ends = elsewhere = 0
+    for instant in instants(2):
+        mesh = VerticalRules.build(instant)
+        origin = mesh.map.origin
+        half_edges = mesh.map.half_edges()
+        for h in mesh.flippable():
+            around = boundary(mesh, h)
+            points = [origin[g] for g in around]
+            for i, g in enumerate(around):
+                k = (2 * i + 1) % len(around)
+                x, y = points[i], points[k]
+                at_ends += g in (mesh.map.following[h], mesh.map.following[h ^ 1])
+                assert tangency(mesh, h, (g, around[k])) == [
+                    (x, points[(i + 1) % len(points)], y),
+                    (x, y, points[i - 1]),
+                    (y, points[(k + 1) % len(points)], x),
+                    (y, x, points[k - 1]),
+                ]
+            for g in (h, h ^ 1, *(g for g in half_edges[:40] if g not in around)):
+                elsewhere += 1
+                assert tangency(mesh, h, (around[0], g)) == []
+                assert tangency(mesh, h, (g, around[0])) == []
+    assert at_ends > 50 < elsewhere

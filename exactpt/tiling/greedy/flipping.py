@@ -249,9 +249,10 @@ class FlippingRules(Rules):
         spin = pack(SHADOW + 1, h)
         if old is None or old.crossing != new.crossing or spin in failed:
             self._certify_x_order(spin, *new.crossing, after)
+        known = [] if old is None else old.tangencies
         for i, triple in enumerate(new.tangencies):
             there = pack(SHADOW + 2 + i, h)
-            if old is None or old.tangencies[i : i + 1] != [triple] or there in failed:
+            if i >= len(known) or known[i] != triple or there in failed:
                 self._certify_tangency(there, triple)
 
     def _shadow_of(self, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge]) -> _Shadow:
