@@ -99,18 +99,24 @@ void check_outside(Circulator edge, Subdivision& found) {
   } while (++edge != first);
 }
 
-Cycle region_of(Arrangement::Face_const_handle face) {
+Cycle cycle_of(const Circulator first, std::set<int>& met) {
   Cycle cycle;
-  const Circulator first = face->outer_ccb();
   Circulator edge = first;
+  bool is_simple = true;
   do {
     cycle.push_back(edge->source()->data());
+    is_simple = met.insert(cycle.back()).second && is_simple;
   } while (++edge != first);
-  if (face->number_of_inner_ccbs() > 0 || face->number_of_isolated_vertices() > 0)
-    throw Bad("the region inside " + shown_cycle(cycle) + " has a hole");
-  if (std::set<int>(cycle.begin(), cycle.end()).size() < cycle.size())
-    throw Bad("the boundary " + shown_cycle(cycle) + " of a region meets itself");
+  if (!is_simple) throw Bad("the boundary " + shown_cycle(cycle) + " of a region meets itself");
   return cycle;
+}
+
+std::vector<Cycle> region_of(Arrangement::Face_const_handle face) {
+  std::set<int> met;
+  std::vector<Cycle> cycles{cycle_of(face->outer_ccb(), met)};
+  for (auto ccb = face->inner_ccbs_begin(); ccb != face->inner_ccbs_end(); ++ccb)
+    cycles.push_back(cycle_of(*ccb, met));
+  return cycles;
 }
 
 }  // namespace

@@ -37,18 +37,39 @@ std::vector<int> convex_corners(const Tiling& tiling, const Cycle& cycle) {
   return corners;
 }
 
+using Boundary = std::vector<Cycle>;
 using Regions = std::map<Cycle, bool>;  // whether it was accounted for
 
-void take_polygons(const Tiling& tiling, Regions& regions) {
+// Equal for equal regions, in whatever order their cycles are.
+Boundary in_order(Boundary boundary) {
+  for (Cycle& cycle : boundary) cycle = from_smallest(std::move(cycle));
+  std::sort(boundary.begin(), boundary.end());
+  return boundary;
+}
+
+void take_polygons(const Tiling& tiling, std::set<Boundary>& regions) {
   for (std::size_t b = 0; b < tiling.bodies.size(); ++b) {
     if (!tiling.bodies[b].is_closed()) continue;
-    const auto inside = regions.find(from_smallest(tiling.bodies[b].vertices));
-    if (inside == regions.end())
-      throw Bad("the inside of body " + std::to_string(b) + ", " +
-                shown_cycle(tiling.bodies[b].vertices) +
-                ", is not one region bounded by exactly its edges");
-    regions.erase(inside);
+    for (const Boundary& part : tiling.bodies[b].parts)
+      if (regions.erase(in_order(part)) == 0)
+        throw Bad("the inside of body " + std::to_string(b) + ", " + shown_cycle(part.front()) +
+                  ", is not one region bounded by exactly its edges");
   }
+}
+
+// What no body has; each of it is bounded by one cycle.
+Regions free_regions(const Tiling& tiling, const std::set<Boundary>& rest) {
+  Regions free;
+  for (const Boundary& boundary : rest) {
+    if (boundary.size() > 1) {
+      const auto outline = std::find_if(boundary.begin(), boundary.end(), [&](const Cycle& c) {
+        return area2(tiling, c) > 0;
+      });
+      throw Bad("the region inside " + shown_cycle(*outline) + " has a second boundary");
+    }
+    free.emplace(boundary.front(), false);
+  }
+  return free;
 }
 
 void check_shapes(const Tiling& tiling, const Regions& free) {
@@ -118,7 +139,9 @@ void check_areas(const Tiling& tiling, const Regions& free) {
   else
     for (const Face& face : tiling.faces) add_face(face.vertices);
   for (const Body& body : tiling.bodies)
-    if (body.is_closed()) add(body.vertices, 1);
+    if (body.is_closed())
+      for (const Boundary& part : body.parts)
+        for (const Cycle& cycle : part) add(cycle, 1);
   add(convex_hull(tiling.vertices), -1);
   Rational missing = 0;
   for (const auto& [edge, factor] : times) {
@@ -128,6 +151,26 @@ void check_areas(const Tiling& tiling, const Regions& free) {
   }
   if (missing != 0) throw Bad("faces and polygons together have not the area of the hull");
 }
+
+void check_counts(const Tiling& tiling, const Subdivision& found) {
+  if (found.vertices != tiling.vertices.size())
+    throw Bad(std::to_string(tiling.vertices.size()) + " vertices are claimed, " +
+              std::to_string(found.vertices) + " found");
+  if (found.edges != tiling.edges.size())
+    throw Bad(std::to_string(tiling.edges.size()) + " edges are claimed, " +
+              std::to_string(found.edges) + " found");
+  std::size_t sides = found.outside.size();
+  for (const Boundary& boundary : found.regions)
+    for (const Cycle& cycle : boundary) sides += cycle.size();
+  if (sides != 2 * found.edges) throw Bad("the regions do not use every edge on both sides");
+  // Euler: V - E + F = 1 + C, F with the unbounded region.
+  if (found.vertices + found.regions.size() != found.edges + components(tiling))
+    throw Bad("V - E + F is not 1 + C for " + std::to_string(found.vertices) + " vertices, " +
+              std::to_string(found.edges) + " edges, " + std::to_string(found.regions.size() + 1) +
+              " faces, " + std::to_string(components(tiling)) + " components");
+}
+
+}  // namespace
 
 std::size_t components(const Tiling& tiling) {
   std::vector<int> parent(tiling.vertices.size());
@@ -146,42 +189,30 @@ std::size_t components(const Tiling& tiling) {
   return count;
 }
 
-void check_counts(const Tiling& tiling, const Subdivision& found) {
-  if (found.vertices != tiling.vertices.size())
-    throw Bad(std::to_string(tiling.vertices.size()) + " vertices are claimed, " +
-              std::to_string(found.vertices) + " found");
-  if (found.edges != tiling.edges.size())
-    throw Bad(std::to_string(tiling.edges.size()) + " edges are claimed, " +
-              std::to_string(found.edges) + " found");
-  std::size_t sides = found.outside.size();
-  for (const Cycle& cycle : found.regions) sides += cycle.size();
-  if (sides != 2 * found.edges) throw Bad("the regions do not use every edge on both sides");
-  // Euler: V - E + F = 1 + C, F with the unbounded region.
-  if (found.vertices + found.regions.size() != found.edges + components(tiling))
-    throw Bad("V - E + F is not 1 + C for " + std::to_string(found.vertices) + " vertices, " +
-              std::to_string(found.edges) + " edges, " + std::to_string(found.regions.size() + 1) +
-              " faces, " + std::to_string(components(tiling)) + " components");
-}
-
-}  // namespace
-
 void orient_bodies(Tiling& tiling) {
   for (std::size_t b = 0; b < tiling.bodies.size(); ++b) {
     Body& body = tiling.bodies[b];
     if (!body.is_closed()) continue;
-    const Rational area = area2(tiling, body.vertices);
-    if (area == 0) throw Bad("body " + std::to_string(b) + " has no area");
-    if (area > 0) continue;
-    if (body.kind == Body::Kind::polygon)
-      throw Bad("body " + std::to_string(b) + " is clockwise");
-    std::reverse(body.vertices.begin(), body.vertices.end());
+    const std::string name = "body " + std::to_string(b);
+    for (Boundary& part : body.parts) {
+      for (std::size_t k = 0; k < part.size(); ++k) {
+        const bool is_hole = k > 0;
+        const Rational area = area2(tiling, part[k]);
+        if (area == 0) throw Bad((is_hole ? "a hole of " + name : name) + " has no area");
+        if ((area > 0) != is_hole) continue;
+        if (is_hole) throw Bad("a hole of " + name + " is counter-clockwise");
+        if (body.kind != Body::Kind::ring) throw Bad(name + " is clockwise");
+        std::reverse(part[k].begin(), part[k].end());
+      }
+    }
   }
 }
 
 void judge(const Tiling& tiling, const Subdivision& found) {
-  Regions free;
-  for (const Cycle& cycle : found.regions) free.emplace(from_smallest(cycle), false);
-  take_polygons(tiling, free);
+  std::set<Boundary> regions;
+  for (const Boundary& boundary : found.regions) regions.insert(in_order(boundary));
+  take_polygons(tiling, regions);
+  Regions free = free_regions(tiling, regions);
   check_shapes(tiling, free);
   check_faces(tiling, free);
   check_hull_flags(tiling, found);

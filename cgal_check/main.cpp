@@ -41,11 +41,10 @@ std::string objection(Witness witness, const Tiling& tiling) {
 
 std::string statistics(const Tiling& tiling, int witnesses) {
   std::size_t polygons = 0, hull = 0;
-  for (const Body& body : tiling.bodies) polygons += body.is_closed() ? 1 : 0;
+  for (const Body& body : tiling.bodies) polygons += body.is_closed() ? body.parts.size() : 0;
   for (const Edge& e : tiling.edges) hull += e.hull ? 1 : 0;
   // By Euler's formula, which was verified; a triangulation lists no faces.
-  const std::size_t regions =
-      tiling.vertices.empty() ? 0 : tiling.edges.size() + 1 - tiling.vertices.size();
+  const std::size_t regions = tiling.edges.size() + components(tiling) - tiling.vertices.size();
   const auto item = [](const char* name, std::size_t n) {
     return std::string(" ") + name + " " + std::to_string(n);
   };

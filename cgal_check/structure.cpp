@@ -13,14 +13,16 @@ Pair unordered(int u, int v) { return std::minmax(u, v); }
 void check_bodies(const Tiling& tiling) {
   constexpr int none = -1;
   std::vector<int> owner(tiling.vertices.size(), none);
-  for (std::size_t b = 0; b < tiling.bodies.size(); ++b) {
-    for (int v : tiling.bodies[b].vertices) {
-      if (owner[v] != none)
-        throw Bad("vertex " + std::to_string(v) + " belongs to body " + std::to_string(owner[v]) +
-                  " and again to body " + std::to_string(b));
-      owner[v] = static_cast<int>(b);
-    }
-  }
+  const auto take = [&](int v, int b) {
+    if (owner[v] != none)
+      throw Bad("vertex " + std::to_string(v) + " belongs to body " + std::to_string(owner[v]) +
+                " and again to body " + std::to_string(b));
+    owner[v] = b;
+  };
+  for (std::size_t b = 0; b < tiling.bodies.size(); ++b)
+    for (const auto& part : tiling.bodies[b].parts)
+      for (const Cycle& cycle : part)
+        for (int v : cycle) take(v, static_cast<int>(b));
   const auto orphan = std::find(owner.begin(), owner.end(), none);
   if (orphan != owner.end())
     throw Bad("vertex " + std::to_string(orphan - owner.begin()) + " belongs to no body");
@@ -28,11 +30,13 @@ void check_bodies(const Tiling& tiling) {
 
 std::set<Pair> edges_of_bodies(const Tiling& tiling) {
   std::set<Pair> edges;
-  for (const Body& body : tiling.bodies) {
-    for (std::size_t i = 1; i < body.vertices.size(); ++i)
-      edges.insert(unordered(body.vertices[i - 1], body.vertices[i]));
-    if (body.is_closed()) edges.insert(unordered(body.vertices.back(), body.vertices.front()));
-  }
+  const auto add = [&](const Cycle& cycle, bool is_closed) {
+    for (std::size_t i = 1; i < cycle.size(); ++i) edges.insert(unordered(cycle[i - 1], cycle[i]));
+    if (is_closed) edges.insert(unordered(cycle.back(), cycle.front()));
+  };
+  for (const Body& body : tiling.bodies)
+    for (const auto& part : body.parts)
+      for (const Cycle& cycle : part) add(cycle, body.is_closed());
   return edges;
 }
 

@@ -10,19 +10,35 @@ Cycle read_cycle(Reader& in, std::size_t size, std::size_t of) {
   return cycle;
 }
 
-Body read_body(Reader& in, std::size_t vertices) {
-  const std::string kind = in.word();
-  if (kind == "point") return {Body::Kind::point, read_cycle(in, 1, vertices)};
-  if (kind == "segment") return {Body::Kind::segment, read_cycle(in, 2, vertices)};
-  if (kind != "polygon" && kind != "ring" && kind != "chain")
-    throw BadInput("unknown kind of body: '" + shown(kind) + "'");
+Cycle read_counted(Reader& in, const std::string& kind, std::size_t vertices) {
   const std::size_t size = in.count();
   if (size < 3) throw BadInput("a " + kind + " has three vertices or more, not " +
                                std::to_string(size));
+  return read_cycle(in, size, vertices);
+}
+
+std::vector<std::vector<Cycle>> read_parts(Reader& in, std::size_t vertices) {
+  std::vector<std::vector<Cycle>> parts(in.count());
+  if (parts.empty()) throw BadInput("a body has one part or more");
+  for (std::vector<Cycle>& part : parts) {
+    part.push_back(read_counted(in, "part", vertices));
+    in.expect("holes");
+    for (std::size_t n = in.count(); n > 0; --n) part.push_back(read_counted(in, "hole", vertices));
+  }
+  return parts;
+}
+
+Body read_body(Reader& in, std::size_t vertices) {
+  const std::string kind = in.word();
+  if (kind == "point") return {Body::Kind::point, {{read_cycle(in, 1, vertices)}}};
+  if (kind == "segment") return {Body::Kind::segment, {{read_cycle(in, 2, vertices)}}};
+  if (kind == "parts") return {Body::Kind::parts, read_parts(in, vertices)};
+  if (kind != "polygon" && kind != "ring" && kind != "chain")
+    throw BadInput("unknown kind of body: '" + shown(kind) + "'");
   const auto which = kind == "polygon" ? Body::Kind::polygon
                      : kind == "ring"  ? Body::Kind::ring
                                        : Body::Kind::chain;
-  return {which, read_cycle(in, size, vertices)};
+  return {which, {{read_counted(in, kind, vertices)}}};
 }
 
 bool read_either(Reader& in, std::string_view yes, std::string_view no) {

@@ -36,12 +36,16 @@ Vertex read_vertex(Reader& in);
 using Cycle = std::vector<int>;  // vertices in the order of a walk, each followed by the next
 
 struct Body {
-  enum class Kind { polygon, ring, chain, segment, point };
+  enum class Kind { polygon, ring, parts, chain, segment, point };
   Kind kind;
-  Cycle vertices;
+  // Of each part its outline, counter-clockwise, and then its holes, clockwise: so what is
+  // solid is on the left. All but `parts` are one outline; a ring is a polygon given in either
+  // orientation, and the vertices of a chain are no cycle.
+  std::vector<std::vector<Cycle>> parts;
 
-  // A polygon is counter-clockwise; a ring is a polygon given in either orientation.
-  bool is_closed() const { return kind == Kind::polygon || kind == Kind::ring; }
+  bool is_closed() const {
+    return kind == Kind::polygon || kind == Kind::ring || kind == Kind::parts;
+  }
 };
 
 struct Edge {
@@ -71,7 +75,8 @@ Tiling read_tiling(Reader& in, bool triangles);
 struct Subdivision {
   std::size_t vertices = 0;
   std::size_t edges = 0;
-  std::vector<Cycle> regions;               // bounded; each one simple counter-clockwise cycle
+  // Of each bounded region the cycles around it, with the region on the left of each.
+  std::vector<std::vector<Cycle>> regions;
   std::vector<std::pair<int, int>> outside;  // directed edges with the unbounded region beside them
 };
 
@@ -83,14 +88,17 @@ struct Bad : std::runtime_error {
 // Without coordinates: bodies and edges fit together. Throws Bad.
 void check_structure(const Tiling& tiling);
 
-// Polygons have area and are counter-clockwise; rings are turned so. Throws Bad.
+// Polygons have area and are counter-clockwise, holes clockwise; rings are turned so. Throws Bad.
 void orient_bodies(Tiling& tiling);
 
 // Two independent ways from coordinates to regions. Both throw Bad for duplicate
 // vertices, crossings, vertices inside an edge, missing hull edges, and regions whose
-// boundary is not one simple cycle.
+// boundary meets itself.
 Subdivision by_triangulation(const Tiling& tiling);
 Subdivision by_arrangement(const Tiling& tiling);
+
+// How many components the edges have; a vertex without an edge is one.
+std::size_t components(const Tiling& tiling);
 
 // The regions are the polygons' insides and the claimed faces, all pseudo-triangles;
 // flags, areas and counts are right. Throws Bad.

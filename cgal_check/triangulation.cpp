@@ -141,10 +141,10 @@ void find_outside(const Triangulation& triangulation, Subdivision& found) {
   } while (++face != first);
 }
 
-// Marks the triangles of the region of `start`; returns how many edges bound it
-// (an edge with the region on both sides counts twice) and one of them.
-std::size_t flood(FaceHandle start, int region, std::pair<FaceHandle, int>& edge) {
-  std::size_t bounds = 0;
+// Marks the triangles of the region of `start`; returns the edges that bound it
+// (an edge with the region on both sides twice).
+std::vector<std::pair<FaceHandle, int>> flood(FaceHandle start, int region) {
+  std::vector<std::pair<FaceHandle, int>> bounds;
   std::vector<FaceHandle> todo{start};
   start->info().region = region;
   while (!todo.empty()) {
@@ -153,8 +153,7 @@ std::size_t flood(FaceHandle start, int region, std::pair<FaceHandle, int>& edge
     for (int i = 0; i < 3; ++i) {
       const FaceHandle neighbour = face->neighbor(i);
       if (face->is_constrained(i)) {
-        ++bounds;
-        edge = {face, i};
+        bounds.emplace_back(face, i);
       } else if (neighbour->info().region < 0) {
         neighbour->info().region = region;
         todo.push_back(neighbour);
@@ -182,15 +181,17 @@ Cycle walk(FaceHandle face, int i) {
   return cycle;
 }
 
-void check_simple(const Cycle& cycle, std::size_t bounds) {
-  Cycle sorted = cycle;
+void check_simple(const std::vector<Cycle>& cycles) {
+  Cycle sorted;
+  for (const Cycle& cycle : cycles) sorted.insert(sorted.end(), cycle.begin(), cycle.end());
   std::sort(sorted.begin(), sorted.end());
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end())
-    throw Bad("vertex " + std::to_string(*twice) + " is twice on the boundary " +
-              shown_cycle(cycle) + " of one region");
-  if (cycle.size() != bounds)
-    throw Bad("the region inside " + shown_cycle(cycle) + " has a second boundary");
+  if (twice == sorted.end()) return;
+  const auto cycle = std::find_if(cycles.begin(), cycles.end(), [&](const Cycle& c) {
+    return std::find(c.begin(), c.end(), *twice) != c.end();
+  });
+  throw Bad("vertex " + std::to_string(*twice) + " is twice on the boundary " +
+            shown_cycle(*cycle) + " of one region");
 }
 
 }  // namespace
@@ -205,12 +206,12 @@ Subdivision by_triangulation(const Tiling& tiling) {
   find_outside(triangulation, found);
   for (FaceHandle face : triangulation.finite_face_handles()) {
     if (face->info().region >= 0) continue;
-    std::pair<FaceHandle, int> edge;
-    const std::size_t bounds = flood(face, static_cast<int>(found.regions.size()), edge);
-    // The hull edges are constraints, so the flood stayed inside and something bounds it.
-    Cycle cycle = walk(edge.first, edge.second);
-    check_simple(cycle, bounds);
-    found.regions.push_back(std::move(cycle));
+    std::vector<Cycle> cycles;
+    // The hull edges are constraints, so the flood stays inside and something bounds it.
+    for (const auto& [bound, i] : flood(face, static_cast<int>(found.regions.size())))
+      if (!bound->info().walked[i]) cycles.push_back(walk(bound, i));
+    check_simple(cycles);
+    found.regions.push_back(std::move(cycles));
   }
   found.vertices = triangulation.number_of_vertices();
   for (const auto& edge : triangulation.finite_edges())

@@ -87,7 +87,7 @@ def _moved(text: str, *, below: str) -> str:
         name = target.removeprefix(below) if target.startswith(below) else target
         if target.startswith("docs/"):
             return before + target.removeprefix("docs/")
-        if name.startswith("examples/"):
+        if name.startswith("examples/") and name.endswith(".py"):
             return f"{before}{name}.txt"
         return before + ({**PAGES, **OUTSIDE}.get(name, target))
 

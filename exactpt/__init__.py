@@ -21,7 +21,13 @@ if TYPE_CHECKING:
     from exactpt.collision.detector import first_contact
     from exactpt.collision.enclosed import EnclosedContact, first_contact_enclosed
     from exactpt.collision.planner import Planner
-    from exactpt.errors import AuditError, BudgetExceeded, ExactPTError, InputError
+    from exactpt.errors import (
+        AuditError,
+        BudgetExceeded,
+        ExactPTError,
+        InputError,
+        UnreachableError,
+    )
     from exactpt.exchange.files import read_shapes, write_shapes
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.polynomial import Polynomial
@@ -73,6 +79,7 @@ __all__ = [
     "Simulation",
     "Spin",
     "Translation",
+    "UnreachableError",
     "Velocity",
     "clearance",
     "contact_intervals",
@@ -110,6 +117,7 @@ _ROOMS: Final = {
         "BudgetExceeded",
         "ExactPTError",
         "InputError",
+        "UnreachableError",
     ),
     "exactpt.exchange.files": (
         "read_shapes",

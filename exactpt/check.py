@@ -112,11 +112,10 @@ def check_scene(
         reached: called with each event time after its verification.
 
     Raises:
-        InputError: if the program cgal_check is missing, or a body has holes or several parts.
+        InputError: if the program cgal_check is missing.
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
     deadline = None if max_seconds is None else clock.monotonic() + max_seconds
-    BodyShape.of_scene(scene)  # refuses what cannot be verified
     name = plan_tiling(scene, tiling, scene._start).name
     file = scene_bytes(scene) if scene_file is None else scene_file
     proof = ProofRun(scene, tiling=name, scene_file=file, max_events=max_events)

@@ -17,6 +17,7 @@ __all__ = [
     "ExactPTError",
     "InputError",
     "TimeRangeError",
+    "UnreachableError",
     "carrying",
     "printable",
 ]
@@ -46,6 +47,10 @@ class InputError(ExactPTError, ValueError):
 
 class TimeRangeError(InputError):
     """There is no answer at the given time: it is outside the time span or after the contact."""
+
+
+class UnreachableError(InputError):
+    """No path leads from the start to the goal: bodies are in between, whichever way one goes."""
 
 
 class AuditError(ExactPTError, AssertionError):

@@ -6,13 +6,19 @@ import contextlib
 import os
 import secrets
 import stat
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import BinaryIO, Final
 
 from exactpt.errors import InputError
 
-__all__ = ["MOST_BYTES", "read_bytes", "read_text", "write_atomically", "writing"]
+if sys.platform == "win32":
+    import msvcrt
+else:
+    import fcntl
+
+__all__ = ["MOST_BYTES", "lock", "read_bytes", "read_text", "write_atomically", "writing"]
 
 MOST_BYTES: Final = 100_000_000
 """Maximum size of a file that is read, unless another limit is given."""
@@ -129,3 +135,15 @@ def _put_in_place(file: BinaryIO, target: Path, mode: int | None) -> None:
     os.fsync(file.fileno())
     file.close()
     os.replace(file.name, target)
+
+
+def lock(file: BinaryIO) -> bool:
+    """Lock a file until it is closed; false if another process has locked it."""
+    try:
+        if sys.platform == "win32":
+            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+        else:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True

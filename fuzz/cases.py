@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from exactpt.errors import InputError
-from exactpt.scene.format import loads, to_json
+from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
+from exactpt.scene.written import to_json
 from exactpt.testing.shrinking import shrink_data
 from exactpt.workers import work
 from fuzz.limits import HANGS, TimeIsUp, TooSlow, limit, patience_of

@@ -29,8 +29,8 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.proof.written import write_proof
-from exactpt.scene.format import to_json
 from exactpt.scene.scene import Scene
+from exactpt.scene.written import to_json
 from exactpt.simulation.plans import onward
 from exactpt.simulation.responses import Bounce
 from exactpt.simulation.simulation import Simulation

@@ -106,9 +106,7 @@ def symmetry(scene: Scene, turn: int | None) -> None:
 
 
 def cgal(scene: Scene, turn: int | None) -> None:
-    """CGAL accepts every tiling and every event time; not asked about bodies with holes."""
-    if scene.has_rings:
-        return
+    """CGAL accepts every tiling and every event time."""
 
     def check(name: str) -> None:
         report = check_run(scene, tiling=name)

@@ -47,9 +47,9 @@ def pytest_addoption(parser):
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config, items):
     if day := config.getoption("--rotating"):
-        turn = set(turn_of(items, day))
-        config.hook.pytest_deselected(items=[item for item in items if item not in turn])
-        items[:] = [item for item in items if item in turn]
+        turn = turn_of(items, day)
+        config.hook.pytest_deselected(items=list(set(items).difference(turn)))
+        items[:] = turn
     if filters.__file__.endswith(".py"):
         return
     if config.getoption("--exact-only"):

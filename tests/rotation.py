@@ -36,10 +36,11 @@ def parts(seconds):
 
 
 def turn_of(items, date):
-    """Of some tests those whose turn it is on a date."""
+    """Of some tests those whose turn it is on a date, the longest first."""
     seconds = {}
     for item in items:
         name = name_of(item)
         seconds[name] = seconds.get(name, 0.0) + seconds_of(item.nodeid.partition("@")[0])
     names = parts(seconds)[date.toordinal() % DAYS]
-    return [item for item in items if name_of(item) in names]
+    turn = [item for item in items if name_of(item) in names]
+    return sorted(turn, key=lambda item: -seconds[name_of(item)])

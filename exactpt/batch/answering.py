@@ -64,6 +64,7 @@ def answer(content: bytes, question: Question) -> Answer:
         return {"error": f"more than {question.max_bytes} bytes"}
     try:
         with question.budget():
+            ask()
             return question.ask(_scene(content))
     except (InputError, BudgetExceeded) as error:
         return {"error": str(error)}

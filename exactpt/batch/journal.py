@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import json
 import os
 from collections.abc import Callable
@@ -13,6 +12,7 @@ from typing import BinaryIO
 from exactpt.batch.chunks import Answered, Record, record_of
 from exactpt.batch.question import Question
 from exactpt.errors import InputError
+from exactpt.files import lock
 
 __all__ = ["Journal"]
 
@@ -45,7 +45,8 @@ class Journal:
         self.records: dict[int, Record] = {}
         with ExitStack() as opened:
             self._part, self._journal = (opened.enter_context(_open(path)) for path in self._paths)
-            self._lock()
+            if not lock(self._journal):
+                raise InputError(f"{self._paths[1]}: another batch writes it")
             about = {"exactpt batch": VERSION, "question": question.to_json(), "length": length}
             self._read(json.dumps(about))
             self._close = opened.pop_all().close
@@ -81,12 +82,6 @@ class Journal:
     def _append(self, line: str) -> None:
         self._journal.write(line.encode() + b"\n")
         self._journal.flush()
-
-    def _lock(self) -> None:
-        try:
-            fcntl.flock(self._journal, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            raise InputError(f"{self._paths[1]}: another batch writes it") from None
 
     def _read(self, head: str) -> None:
         """Read the journal up to its last whole line, and cut off what follows."""

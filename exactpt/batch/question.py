@@ -11,7 +11,7 @@ from exactpt.collision.approach import first_within
 from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError
 from exactpt.files import MOST_BYTES
-from exactpt.kernel.budget import GRACE, within
+from exactpt.kernel.budget import within
 from exactpt.kernel.numbers import Rational, rational
 from exactpt.proximity.intervals import contacts
 from exactpt.scene.scene import Scene
@@ -104,7 +104,7 @@ class Question:
     def budget(self) -> AbstractContextManager[None]:
         """The context in which a scene is answered."""
         most = self.max_seconds
-        return within(None if most is None else clock.monotonic() + most + GRACE, self.max_memory)
+        return within(None if most is None else clock.monotonic() + most, self.max_memory)
 
     def ask(self, scene: Scene) -> dict[str, object]:
         """The answer for a scene as JSON, see docs/format.md.

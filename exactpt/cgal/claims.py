@@ -8,9 +8,10 @@ from typing import NamedTuple, TypeAlias, cast, final
 
 from exactpt.errors import InputError
 from exactpt.geometry.polygon import signed_area2
+from exactpt.geometry.predicates import Point
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, ZZ, Rational, rational, shorten
-from exactpt.motion.body import refuse_rings
+from exactpt.motion.body import Body
 from exactpt.scene.scene import Scene
 
 __all__ = ["BodyShape", "IsolatedRoot", "RootClaim", "Signs", "Tile", "Verdict", "exactly"]
@@ -28,28 +29,33 @@ class BodyShape(NamedTuple):
         closed: for three or more vertices: whether it is a polygon, not an open chain.
         clockwise: whether a polygon's vertices are numbered clockwise; None if unknown:
             either order is accepted.
+        parts: of a body with holes or several parts: for each part the numbers of the vertices
+            of its outline, counter-clockwise, and of its holes, clockwise.
     """
 
     name: str
     size: int
     closed: bool = True
     clockwise: bool | None = None
+    parts: Sequence[Sequence[Sequence[int]]] = ()
 
     @classmethod
     def of_scene(cls, scene: Scene) -> list[BodyShape]:
-        """The shapes of all bodies, with the orientation at the start, which never changes.
+        """The shapes of all bodies, with the orientation at the start, which never changes."""
+        return [cls._of_body(body, body._at(scene._start)) for body in scene.bodies]
 
-        Raises:
-            InputError: if a body has holes or several parts.
-        """
-        refuse_rings(
-            scene.bodies,
-            "no tiling of such bodies is verified; a proof of the answer is (collide --proof)",
-        )
-        return [
-            cls(body.name, body.size, body.closed, signed_area2(body._at(scene._start)) < 0)
-            for body in scene.bodies
+    @classmethod
+    def _of_body(cls, body: Body, points: Sequence[Point]) -> BodyShape:
+        if not body.has_rings:
+            return cls(body.name, body.size, body.closed, signed_area2(points) < 0)
+        parts = [
+            [
+                ring if (signed_area2([points[i] for i in ring]) > 0) == (k == 0) else ring[::-1]
+                for k, ring in enumerate(part)
+            ]
+            for part in body.parts
         ]
+        return cls(body.name, body.size, parts=parts)
 
 
 class IsolatedRoot(NamedTuple):

@@ -83,7 +83,9 @@ def _body_lines(vertices: list[_TileVertex], shapes: list[BodyShape]) -> Iterato
             missing = ring.index(None)
             raise _BadTileError(f"body {shape.name!r}: vertex {missing} is not in the tile")
         words = " ".join(map(str, reversed(ring) if shape.clockwise else ring))
-        if shape.size < 3:
+        if shape.parts:
+            yield f"parts {len(shape.parts)} {_part_words(shape.parts, ring)}"
+        elif shape.size < 3:
             yield f"{'point' if shape.size == 1 else 'segment'} {words}"
         elif not shape.closed:
             yield f"chain {shape.size} {words}"
@@ -91,6 +93,18 @@ def _body_lines(vertices: list[_TileVertex], shapes: list[BodyShape]) -> Iterato
             yield f"{'ring' if shape.clockwise is None else 'polygon'} {shape.size} {words}"
     for (name, number), i in place.items():
         raise _BadTileError(f"vertex {i} is of no body: {name!r}: {number}")
+
+
+def _part_words(parts: Sequence[Sequence[Sequence[int]]], place: Sequence[int | None]) -> str:
+    """The parts of a body with holes, by the places of its vertices."""
+
+    def cycle(ring: Sequence[int]) -> str:
+        return " ".join(map(str, (len(ring), *(place[i] for i in ring))))
+
+    return " ".join(
+        " ".join([cycle(outline), f"holes {len(holes)}", *map(cycle, holes)])
+        for outline, *holes in parts
+    )
 
 
 def _edge_lines(edges: list[_TileEdge], fan: list[list[int]], index: range) -> Iterator[str]:

@@ -196,9 +196,9 @@ def generate(family: str, seed: int, output: Path | None) -> int:
       exactpt generate stars -o stars.json
       exactpt generate grids_passing --seed 7 -o grids.json
     """
-    from exactpt.scene.format import save, to_json
     from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED, SPINNING
     from exactpt.scene.generate import generate as generated
+    from exactpt.scene.written import save, to_json
 
     names = FAMILIES | POINTS | ROUNDED | RINGS | SPINNING
     if family not in names:

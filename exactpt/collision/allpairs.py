@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from exactpt.collision.contact import Contact, contact_of, tracks_before
+from exactpt.collision.contact import Contact, contact_of
+from exactpt.collision.incidences import tracks_before
 from exactpt.collision.rounded_reference import (
     core_distance,
     first_at_distance,

@@ -11,7 +11,7 @@ from typing import Final
 from exactpt.collision.contact import Contact
 from exactpt.collision.searches import Question, search_for
 from exactpt.errors import InputError, carrying
-from exactpt.kernel.budget import within
+from exactpt.kernel.budget import check_bounds, within
 from exactpt.kernel.numbers import Rational
 from exactpt.scene.scene import Scene
 from exactpt.tiling import catalogue
@@ -95,8 +95,6 @@ def _budget(
     """
     if max_seconds is None and max_memory is None:
         return contextlib.nullcontext()
-    for what, bound in (("max_seconds", max_seconds), ("max_memory", max_memory)):
-        if bound is not None and not bound >= 0:
-            raise InputError(f"{what}: not a number from 0 on: {bound!r}")
+    check_bounds(max_seconds=max_seconds, max_memory=max_memory)
     deadline = None if max_seconds is None else clock.monotonic() + max_seconds
     return within(deadline, max_memory)

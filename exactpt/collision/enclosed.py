@@ -36,10 +36,9 @@ from exactpt.errors import carrying
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
-from exactpt.kernel.numbers import QQ, ceil, power_of_two
+from exactpt.kernel.numbers import QQ, ceil, exponent, power_of_two
 from exactpt.motion.body import Body
 from exactpt.motion.displacement import displacement
-from exactpt.motion.turned_angle import exponent
 from exactpt.proximity.sure import surely_meet, surely_passed
 from exactpt.scene.scene import Scene, scene_of
 

@@ -9,8 +9,8 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.collision.contact import tracks_just_before
 from exactpt.collision.ignoring import groups_of
+from exactpt.collision.incidences import tracks_just_before
 from exactpt.collision.meeting import Span, span_of
 from exactpt.collision.rounded_rows import RoundedRows, rounded_rows
 from exactpt.collision.rounded_straight import first_touch

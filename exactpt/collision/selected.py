@@ -12,8 +12,9 @@ from collections.abc import Collection, Iterable, Sequence
 from typing import TypeAlias, final
 
 from exactpt.collision.allpairs import touches_at
-from exactpt.collision.contact import Contact, contact_of, tracks_before
+from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.ignoring import groups_of
+from exactpt.collision.incidences import tracks_before
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.pairs import PairsSearch
 from exactpt.collision.planner import is_rigid

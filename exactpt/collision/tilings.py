@@ -72,14 +72,14 @@ def check_tiling(name: str) -> None:
 
 def tilings_for(scene: Scene) -> list[str]:
     """The names of the tilings that are for the bodies of a scene."""
-    return catalogue.names(points=_are_points(scene), rings=scene.has_rings)
+    return catalogue.names(points=_are_points(scene))
 
 
 def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
     """The tiling of a given name; "auto" chooses by the shapes.
 
     "auto" is "incremental" if all bodies are points, "greedy" if all bodies stay convex until
-    the end, "lazy" if one has holes or several parts, and "mixed" otherwise.
+    the end, and "mixed" otherwise.
 
     Raises:
         InputError: if there is no such tiling, or it does not support these bodies.
@@ -94,9 +94,7 @@ def tiling_for_contact(scene: Scene, name: str) -> str:
     if name != catalogue.AUTO:
         return name
     points = _are_points(scene)
-    return catalogue.choose(
-        name, points=points, convex=lambda: False, fewest_events=True, rings=scene.has_rings
-    ).name
+    return catalogue.choose(name, points=points, convex=lambda: False, fewest_events=True).name
 
 
 def start_tiling(scene: Scene, name: str, start: QQ, *, exact_only: bool = False) -> Tiling:

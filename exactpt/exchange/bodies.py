@@ -143,7 +143,8 @@ def body_of(
 
 
 def _rings_of(part: Shape, *, fill: bool) -> list[list[Point]]:
-    return [_ring_of(part, ring)[0] for ring in (part.points, *(() if fill else part.holes))]
+    holes = () if fill else part.holes
+    return [_ring_of(part, part.points)[0], *(_ring_of(part, hole)[0] for hole in holes)]
 
 
 def _ring_of(shape: Shape, ring: Sequence[Point]) -> tuple[list[Point], bool]:
@@ -156,9 +157,13 @@ def _ring_of(shape: Shape, ring: Sequence[Point]) -> tuple[list[Point], bool]:
     kind: Kind = "polygon" if is_polygon else shape.kind
     if len(points) < _FEWEST[kind] or (is_polygon and signed_area2(points) == 0):
         lacks = {"point": "position", "line": "length", "polygon": "area"}[kind]
+        what = f"{kind} {shorten(shape.name)}"
+        remedy = "remove it"
+        if ring is not shape.points:
+            what, remedy = f"a hole of {what}", "mend it (--repair)"
         raise InputError(
-            f"{shape.where}: {kind} {shorten(shape.name)} has no {lacks}: "
-            "remove it, or leave such shapes out (--skip-invalid)"
+            f"{shape.where}: {what} has no {lacks}: "
+            f"{remedy}, or leave such shapes out (--skip-invalid)"
         )
     return points, is_polygon
 
@@ -168,6 +173,8 @@ def _check_simple(shape: Shape, body: Body, time: Sequence[Rational]) -> None:
         Scene([body], time)
     except InputError as error:
         split = "split it (--parts split), " if shape.more else ""
+        if body.has_rings and any(part.holes for part in shape.parts):
+            split += "fill its holes (--holes fill), "
         raise InputError(
             f"{shape.where}: {error}; {split}mend it (--repair), or leave such outlines out "
             "(--skip-invalid)"

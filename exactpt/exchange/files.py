@@ -12,8 +12,9 @@ from exactpt.exchange.bodies import Holes, Parts, Repair, scene_of
 from exactpt.exchange.shapes import Shape, shapes_at
 from exactpt.files import read_text, write_atomically
 from exactpt.kernel.numbers import rational
-from exactpt.scene.format import loads, save
+from exactpt.scene.format import loads
 from exactpt.scene.json_values import parse_json
+from exactpt.scene.written import save
 
 if TYPE_CHECKING:
     from exactpt.kernel.numbers import Rational

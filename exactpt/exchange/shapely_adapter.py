@@ -169,6 +169,12 @@ def mended(shape: Shape, told: Callable[[str], None]) -> list[Shape]:
     if min(map(len, rings)) < 3:
         raise InputError(f"{shape.where}: a ring of {shorten(shape.name)} has no area")
     given = _core(shape)
+    if given.is_valid:
+        raise InputError(
+            f"{shape.where}: rings of {shorten(shape.name)} touch each other, and no other polygon "
+            "is the same: fill its holes (--holes fill), or leave such outlines out "
+            "(--skip-invalid)"
+        )
     valid = shapely.make_valid(given)
     pieces = [part for unit in _units(valid) for part in unit if part.geom_type == "Polygon"]
     if not pieces:

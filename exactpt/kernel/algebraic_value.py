@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import lcm
+from typing import Final
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -27,10 +28,13 @@ from exactpt.kernel.integer_polynomial import (
     subtract,
     trimmed,
 )
-from exactpt.kernel.numbers import QQ, ZZ, isqrt, power_of_two
+from exactpt.kernel.numbers import QQ, ZZ, ceil, exponent, floor, is_square, isqrt, power_of_two
 from exactpt.kernel.sturm import count_roots, sturm_sequence
 
 __all__ = ["lowest_terms", "quotient_at", "square_root"]
+
+RELATIVE_BITS: Final = 8
+"""Binary digits of the first bounds of the square root of a rational."""
 
 
 def lowest_terms(n: IntPoly, d: IntPoly) -> tuple[IntPoly, IntPoly]:
@@ -79,8 +83,18 @@ def _root_near(f: IntPoly, narrow: Callable[[], tuple[QQ, QQ]]) -> AlgebraicNumb
         low, high = narrow()
         if low == high:
             return AlgebraicNumber(low)
+        low, high = _rounded_out(low, high)
         if count_roots(sequence, low, high) == 1 and evaluate(f, low) != 0:
             return AlgebraicNumber._root(f, low, high)
+
+
+def _rounded_out(low: QQ, high: QQ) -> tuple[QQ, QQ]:
+    """Dyadic bounds with few digits, farther apart by at most an eighth.
+
+    Bounds computed from others have their digits times the degree, however wide they are.
+    """
+    unit = power_of_two(exponent(high - low) - 5)  # at most a sixteenth of the width
+    return floor(low / unit) * unit, ceil(high / unit) * unit
 
 
 def _range(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> tuple[QQ, QQ]:
@@ -99,14 +113,14 @@ def _range_of_root(y: AlgebraicNumber) -> tuple[QQ, QQ]:
     y.refine()
     while y._low <= 0 and not y.is_rational:
         y.refine()
-    bits = 2 * max(8, y._high.denominator.bit_length() + y._low.denominator.bit_length())
-    unit = power_of_two(bits)
-    low, high = (
-        isqrt(v.numerator * (ZZ(1) << 2 * bits) // v.denominator) for v in (y._low, y._high)
-    )
-    if y.is_rational and QQ(low) * low == y._low * unit * unit:
-        return QQ(low) / unit, QQ(low) / unit
-    return QQ(low) / unit, QQ(high + 1) / unit
+    if y.is_rational and is_square(y._low.numerator) and is_square(y._low.denominator):
+        root = QQ(isqrt(y._low.numerator), isqrt(y._low.denominator))
+        return root, root
+    size = exponent(y._high) // 2
+    bits = RELATIVE_BITS - size if y.is_rational else size - exponent(y._high - y._low) + 4
+    unit = power_of_two(-bits)
+    low, high = (isqrt(floor(v / (unit * unit))) for v in (y._low, y._high))
+    return low * unit, (high + 1) * unit
 
 
 def _norm_in_y(p: IntPoly, n: IntPoly, d: IntPoly) -> IntPoly:

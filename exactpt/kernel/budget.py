@@ -12,12 +12,13 @@ import sys
 import threading
 import time as clock
 from collections.abc import Iterator
+from numbers import Real
 from pathlib import Path
 from typing import Final, final
 
-from exactpt.errors import BudgetExceeded
+from exactpt.errors import BudgetExceeded, InputError
 
-__all__ = ["GRACE", "LONG", "ask", "resident_memory", "within"]
+__all__ = ["GRACE", "LONG", "ask", "check_bounds", "resident_memory", "within"]
 
 LONG: Final = 64
 """Number of coefficients from which on loops over the coefficients of a polynomial ask."""
@@ -76,6 +77,17 @@ def within(deadline: float | None, memory: int | None = None) -> Iterator[None]:
         yield
     finally:
         _LIMITS.deadline, _LIMITS.memory, _LIMITS.look = old
+
+
+def check_bounds(**bounds: object) -> None:
+    """Check that bounds are numbers from 0 on, or None for no limit.
+
+    Raises:
+        InputError: if one is not; it has its name.
+    """
+    for name, bound in bounds.items():
+        if bound is not None and not (isinstance(bound, Real) and float(bound) >= 0):
+            raise InputError(f"{name}: not a number from 0 on: {bound!r:.60}")
 
 
 def resident_memory() -> int:

@@ -58,6 +58,7 @@ __all__ = [
     "ceil",
     "digits",
     "enclosing_floats",
+    "exponent",
     "finite",
     "floor",
     "fraction",
@@ -111,6 +112,11 @@ def floor(value: QQ) -> ZZ:
 def ceil(value: QQ) -> ZZ:
     """The smallest integer at least ``value``."""
     return ZZ(-(-value.numerator // value.denominator))
+
+
+def exponent(value: QQ) -> int:
+    """The binary logarithm of a positive number, to within 1."""
+    return int(value.numerator.bit_length() - value.denominator.bit_length())
 
 
 def power_of_two(exponent: int) -> QQ:

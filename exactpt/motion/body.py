@@ -38,7 +38,7 @@ from exactpt.motion.shape import Keyframe, Keyframes, Shape, VertexLike, listed
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["Body", "is_text", "refuse_rings", "refuse_rounded"]
+__all__ = ["Body", "is_text", "refuse_rounded"]
 
 _PLAIN: Final = (int, float)
 _SHARP: Final = QQ(0)
@@ -65,17 +65,6 @@ def refuse_rounded(bodies: Iterable[Body]) -> None:
                 f"body {shorten(body.name)} has a radius: no tiling holds rounded bodies; "
                 "their contacts are found by pairs (first_contact, collide)"
             )
-
-
-def refuse_rings(bodies: Iterable[Body], why: str) -> None:
-    """Refuse bodies with holes or several parts, and say why.
-
-    Raises:
-        InputError: if there is one.
-    """
-    for body in bodies:
-        if body.has_rings:
-            raise InputError(f"body {shorten(body.name)} has holes or several parts: {why}")
 
 
 @final

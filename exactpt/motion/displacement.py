@@ -13,12 +13,12 @@ from collections.abc import Iterator
 from typing import Final
 
 from exactpt.geometry.predicates import Point
-from exactpt.kernel.numbers import QQ, ceil, isqrt, power_of_two
+from exactpt.kernel.numbers import QQ, ceil, exponent, isqrt, power_of_two
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid
 from exactpt.motion.spin import Spin
-from exactpt.motion.turned_angle import bound_on, exponent
+from exactpt.motion.turned_angle import bound_on
 
 __all__ = ["displacement"]
 

@@ -19,6 +19,7 @@ from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import (
     QQ,
     Rational,
+    exponent,
     floor,
     fraction,
     nearest_float,
@@ -29,7 +30,7 @@ from exactpt.kernel.numbers import (
 )
 from exactpt.kernel.polynomial import ZERO, Polynomial
 from exactpt.motion.motions import Coefficients, Pieces, Rigid, SimpleMotion
-from exactpt.motion.turned_angle import bits_for, exponent, is_within
+from exactpt.motion.turned_angle import bits_for, is_within
 
 __all__ = ["Spin"]
 

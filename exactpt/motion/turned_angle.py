@@ -19,11 +19,11 @@ from typing import Final
 from exactpt.errors import InputError
 from exactpt.kernel.arctangents import Bounds, atan_bounds, pi_bounds
 from exactpt.kernel.budget import ask
-from exactpt.kernel.numbers import QQ, floor, show
+from exactpt.kernel.numbers import QQ, exponent, floor, show
 from exactpt.kernel.polynomial import ONE, Polynomial
 from exactpt.motion.motions import Pieces, Rigid
 
-__all__ = ["bits_for", "bound_on", "exponent", "is_within"]
+__all__ = ["bits_for", "bound_on", "is_within"]
 
 _SAMPLES: Final = 8
 _MOST_BITS: Final = 512
@@ -98,8 +98,3 @@ def bits_for(error: QQ, angle: QQ) -> int:
     if bits > _MOST_BITS:
         raise InputError(f"an error of {show(error)} is too small for angles up to {show(angle)}")
     return bits
-
-
-def exponent(value: QQ) -> int:
-    """The binary logarithm of a positive number, to within 1."""
-    return int(value.numerator).bit_length() - int(value.denominator).bit_length()

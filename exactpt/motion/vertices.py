@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Final, final
 
 from mypy_extensions import mypyc_attr
 
-from exactpt.geometry.polygon import is_counter_clockwise
 from exactpt.indices import NO_VERTEX, VertexId
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, ZZ
@@ -22,7 +21,8 @@ from exactpt.motion.convexity import stays_convex
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.image import Image
-from exactpt.motion.infinitesimal import Direction, displacements, ring_of_copies
+from exactpt.motion.infinitesimal import Direction, displacements
+from exactpt.motion.ring_order import ring_indices, rings_of
 from exactpt.motion.track import Track
 
 if TYPE_CHECKING:
@@ -101,6 +101,11 @@ class MovingBody:
         self.deforms: bool = False
         self.is_tiled: bool = False
 
+    @property
+    def rings(self) -> list[list[VertexId]]:
+        """The vertex ids of each ring, in the order of the body's rings."""
+        return rings_of(self.body, self.ring)
+
 
 @final
 class Vertices:
@@ -160,7 +165,7 @@ class Vertices:
         flat = [p for points in positions for p in points]
         ids = count()
         rings = [
-            [(VertexId(next(ids)), index) for index in _ring_indices(body, points, plain=plain)]
+            [(VertexId(next(ids)), index) for index in ring_indices(body, points, plain=plain)]
             for body, points in zip(bodies, positions, strict=True)
         ]
         frame = frame_for(flat or [(QQ(0), QQ(0))], start, end)
@@ -171,7 +176,7 @@ class Vertices:
 
     def add(self, body: Body, t: QQ) -> int:
         """Add a body as the last one, at a rational time; returns its number."""
-        i, indices = len(self.bodies), _ring_indices(body, body._at(t))
+        i, indices = len(self.bodies), ring_indices(body, body._at(t))
         while len(self._free) < len(indices):
             new = VertexId(len(self.all))
             self._free.insert(0, new)
@@ -199,7 +204,7 @@ class Vertices:
             vertex = self.all[vertex_id]
             vertex.body, vertex.index = i, index
             moving.ring.append(vertex_id)
-        for part in _rings_of(body, moving.ring):
+        for part in moving.rings:
             for behind, here in zip(part, [*part[1:], part[0]], strict=True):
                 self.all[behind].ahead = here
                 self.all[here].behind = behind
@@ -234,11 +239,25 @@ class Vertices:
     def _ever_deforms(self, i: int, start: QQ) -> bool:
         """Whether a body deforms in its current piece or any later one."""
         body = self.bodies[i].body
-        return self.bodies[i].deforms or any(
-            _deforms(self.enclosures.images(body._piece_after(t).tracks))
-            for t in body._breakpoints
-            if t > start
+        return self.bodies[i].deforms or self._deforms_in_pieces(
+            body, [t for t in body._breakpoints if t > start]
         )
+
+    def _deforms_in_pieces(self, body: Body, starts: Sequence[QQ]) -> bool:
+        """Whether a body deforms in one of the pieces that begin at these times."""
+        return any(_deforms(self.enclosures.images(body._piece_after(t).tracks)) for t in starts)
+
+    def begins_inside(self, i: int, body: Body, t: QQ) -> bool:
+        """Whether the interior of several rings would have to be tiled by a plan, and is not yet.
+
+        Args:
+            i: the number of the body.
+            body: the body with its new plan.
+            t: the time from which it holds.
+        """
+        starts = [t, *(later for later in body._breakpoints if later > t)]
+        is_tiled = self.bodies[i].is_tiled
+        return body.has_rings and not is_tiled and self._deforms_in_pieces(body, starts)
 
     def enter_piece(self, i: int, t: QQ) -> None:
         """Give the vertices of a body the trajectories valid just after a rational time."""
@@ -294,31 +313,3 @@ def _unused(vertex_id: VertexId) -> Vertex:
 def _deforms(images: Sequence[Image]) -> bool:
     first = images[0].motion
     return first < 0 or any(image.motion != first for image in images)
-
-
-def _ring_indices(body: Body, positions: list[tuple[QQ, QQ]], *, plain: bool = False) -> list[int]:
-    if plain:
-        return list(range(body.size))
-    if not body.has_interior:
-        return ring_of_copies(body.size)
-    if body.has_rings:
-        return [i for rings in body.parts for ring in _turned(rings, positions) for i in ring]
-    ring = list(range(body.size))
-    return ring if is_counter_clockwise(positions) else ring[::-1]
-
-
-def _rings_of(body: Body, ring: list[VertexId]) -> list[list[VertexId]]:
-    """The ids of each ring of a body, given those of all."""
-    if not body.has_rings:
-        return [ring]
-    return [ring[part.start : part.stop] for part in body.rings]
-
-
-def _turned(rings: Sequence[range], positions: list[tuple[QQ, QQ]]) -> list[list[int]]:
-    """The rings of a part, the outline counter-clockwise, holes clockwise."""
-    turned = []
-    for k, ring in enumerate(rings):
-        turns_left = is_counter_clockwise([positions[i] for i in ring])
-        indices = list(ring)
-        turned.append(indices if turns_left == (k == 0) else indices[::-1])
-    return turned

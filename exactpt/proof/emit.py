@@ -15,7 +15,7 @@ from exactpt.motion.body import refuse_rounded
 from exactpt.proof.lines import Lines, header
 from exactpt.proof.nodes import Nodes
 from exactpt.proof.watch import Watch
-from exactpt.scene.format import to_json
+from exactpt.scene.written import to_json
 from exactpt.tiling.events import ContactFound
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import final
 
-from exactpt.errors import InputError
+from exactpt.errors import AuditError, InputError, UnreachableError
 from exactpt.geometry.predicates import Point
 from exactpt.indices import HalfEdge
 from exactpt.kernel.numbers import QQ, place
@@ -39,8 +39,11 @@ class ShortestPaths:
         """The shortest path homotopic to one that crosses the fewest diagonals."""
         if not self._plane.points:
             return _path((p, q), (), 0)
-        first = self._tile(p)
-        return self._tight(p, first, self._sleeves.dual_path(first, self._tile(q)), q)
+        first, last = self._tile(p), self._tile(q)
+        crossed = self._sleeves.dual_path(first, last)
+        if crossed is None:
+            raise self._unreachable(p, q)
+        return self._tight(p, first, crossed, q)
 
     def shortest(self, p: Point, q: Point) -> Path:
         """A shortest path; its ends may be on bodies, but not in their interior."""
@@ -50,6 +53,8 @@ class ShortestPaths:
         free = copy(self._triangles)
         start, goal = (free.inserted(*end) for end in ends)
         step = last_step(free, start, goal)
+        if step is None:
+            raise self._unreachable(p, q)
         nodes = step.nodes()
         way = [(p, -1), *((free.points[v], v) for v in nodes[1:-1]), (q, -1)]
         return self._named(p, bends(way), q, step.crossed)
@@ -120,6 +125,17 @@ class ShortestPaths:
         portals = self._sleeves.portals(start, tile, crossed, goal)
         nodes = pull_tight(start, goal, portals, plane.points)
         return self._named(start, nodes, goal, len(crossed))
+
+    def _unreachable(self, p: Point, q: Point) -> UnreachableError:
+        """The error that a body with a hole keeps two points apart.
+
+        Raises:
+            AuditError: if no body has a hole.
+        """
+        what = f"no path leads from ({p[0]}, {p[1]}) to ({q[0]}, {q[1]})"
+        if all(len(cycles) == 1 for cycles in self._plane.cycles.values()):
+            raise AuditError(what)
+        return UnreachableError(f"{what}: a body is around one of them")
 
     def _named(self, start: Point, nodes: Sequence[int], goal: Point, crossed: int) -> Path:
         """The path that bends at these nodes."""

@@ -74,7 +74,7 @@ def cast(
     if not plane.points:
         return None
     ray = Ray(plane, origin, direction)
-    if OUTSIDE not in plane.edge_of:
+    if OUTSIDE not in plane.cycles:
         return _cast_at_point(plane, ray, limit)
     at, crossed = QQ(0), 0
     while True:

@@ -12,7 +12,6 @@ from __future__ import annotations
 from heapq import heappop, heappush
 from typing import final
 
-from exactpt.errors import AuditError
 from exactpt.query.lengths import Length, squared_distance
 from exactpt.query.sight import Corner, FreeTriangles
 
@@ -59,12 +58,8 @@ class Step:
         return nodes[::-1]
 
 
-def last_step(free: FreeTriangles, start: int, goal: int) -> Step:
-    """The last step of a shortest path from a node to another.
-
-    Raises:
-        AuditError: if there is none.
-    """
+def last_step(free: FreeTriangles, start: int, goal: int) -> Step | None:
+    """The last step of a shortest path from a node to another; None if there is none."""
     points = free.points
     target = points[goal]
     far = Length(None, squared_distance(points[start], target))
@@ -89,7 +84,7 @@ def last_step(free: FreeTriangles, start: int, goal: int) -> Step:
             best[corner] = length
             total = Length(length, squared_distance(points[there], target))
             heappush(heap, Step(corner, step, length, total, step.crossed + crossed))
-    raise AuditError(f"no way leads from {points[start]} to {target}")
+    return None
 
 
 def _leads_on(free: FreeTriangles, step: Step, corner: Corner, goal: int) -> bool:

@@ -36,27 +36,25 @@ class Sleeves:
         self._plane = plane
         self._tiles: dict[int, list[Triangle]] = {}
 
-    def dual_path(self, start: int, goal: int) -> list[int]:
+    def dual_path(self, start: int, goal: int) -> list[int] | None:
         """A shortest path in the dual graph: the fewest diagonals to cross between two tiles.
 
         Returns:
-            The half-edges of the diagonals in order, each on the side of the tile that is left.
-
-        Raises:
-            AuditError: if the tiles are not connected.
+            The half-edges of the diagonals in order, each on the side of the tile that is left;
+            None if the tiles are in different components of the free space.
         """
         plane, m = self._plane, self._plane.map
         came: dict[int, int] = {start: -1}
         queue = deque([start])
         while queue and goal not in came:
             tile = queue.popleft()
-            for h in m.face(plane.edge_of[tile]):
+            for h in m.face(plane.cycles[tile][0]):
                 there = plane.face[h ^ 1]
                 if there >= 0 and not plane.boundary[h >> 1] and there not in came:
                     came[there] = h
                     queue.append(there)
         if goal not in came:
-            raise AuditError(f"no way leads from tile {start} to tile {goal}")
+            return None
         crossed = []
         tile = goal
         while came[tile] >= 0:
@@ -82,7 +80,7 @@ class Sleeves:
         known = self._tiles.get(tile)
         if known is None:
             m = self._plane.map
-            cycle = [m.origin[h] for h in m.face(self._plane.edge_of[tile])]
+            cycle = [m.origin[h] for h in m.face(self._plane.cycles[tile][0])]
             known = self._tiles[tile] = triangulated(cycle, self._plane.points)
         return known
 

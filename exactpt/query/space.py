@@ -21,7 +21,6 @@ from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
 from exactpt.indices import VertexId
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
-from exactpt.motion.body import refuse_rings
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.query.answers import Hit, Path, Place, VertexName
@@ -51,14 +50,13 @@ class FreeSpace:
 
     Attributes:
         snapshot: the tiling at that time; `Place.tile` is an index into its faces.
-
-    Queries raise an `InputError` if a body has holes or several parts.
     """
 
     def __init__(self, kinetic: Tiling, at: QQ) -> None:
         self._vertices = kinetic.vertices
         self._changes = kinetic.vertices.changes
         self._node = kinetic.vertices.nodes()
+        self._bodies = [moving.body for moving in kinetic.vertices.bodies]
         self._mesh: Mesh = kinetic.mesh_now(at)
         # What the mesh knows of relative hulls changes as the run goes on: it is read now.
         self._relative_hulls = self._mesh.relative_hulls()
@@ -83,9 +81,7 @@ class FreeSpace:
 
     @cached_property
     def _plane(self) -> Subdivision:
-        bodies = [moving.body for moving in self._vertices.bodies]
-        refuse_rings(bodies, "queries about the free space are not for such bodies")
-        return Subdivision(self.snapshot, self._hidden)
+        return Subdivision(self.snapshot, self._bodies, self._hidden)
 
     # Places and rays
 
@@ -118,10 +114,11 @@ class FreeSpace:
         """The shortest path of the homotopy class of one that crosses the fewest diagonals.
 
         Another homotopy class may contain a shorter path: see `shortest_path`. Free points are
-        always connected, if need be around the convex hull.
+        connected, if need be around the convex hull, unless one is in a hole of a body.
 
         Raises:
             InputError: if one of the points is not free.
+            UnreachableError: if one of them is in a hole, and the other one is not in it too.
         """
         p, q = _point(start), _point(goal)
         return self._paths((p, q)).path(p, q)
@@ -138,6 +135,8 @@ class FreeSpace:
 
         Raises:
             InputError: if one of the points is in the interior of a body.
+            UnreachableError: if no path leads from one to the other, since one of them is in a
+                hole of a body, or on its edge, and the other one is not.
         """
         p, q = _point(start), _point(goal)
         return self._paths((p, q)).shortest(p, q)
@@ -164,7 +163,7 @@ class FreeSpace:
             if plane.points:
                 corners = self._around.corners(count)
                 wider = with_outer_triangulation(self.snapshot, self._hull_nodes(), corners)
-                plane = Subdivision(wider, self._hidden)
+                plane = Subdivision(wider, self._bodies, self._hidden)
             self._wide[count] = ShortestPaths(plane)
         return self._wide[count]
 
@@ -184,22 +183,26 @@ class FreeSpace:
 
     def _hull_nodes(self) -> Sequence[int]:
         plane = self._plane
-        if OUTSIDE not in plane.edge_of:
+        if OUTSIDE not in plane.cycles:
             return range(len(plane.points))
         m = plane.map
-        cycle = [m.origin[h] for h in m.face(plane.edge_of[OUTSIDE])][::-1]
+        cycle = [m.origin[h] for h in m.face(plane.cycles[OUTSIDE][0])][::-1]
         least = cycle.index(min(cycle))
         return cycle[least:] + cycle[:least]
 
     def relative_hull(self, body: str) -> list[VertexName]:
         """The vertices of the shortest loop around this body and no other, counter-clockwise.
 
-        The mixed tiling contains it; with any other tiling a mixed tiling is built here.
+        Bodies in its holes are in the loop too. The mixed tiling contains it; with any other
+        tiling a mixed tiling is built here.
 
         Raises:
-            InputError: if there is no such body; or if a mixed tiling must be built, and bodies
-                have been added, removed or given new motions since this space was made.
+            InputError: if there is no such body, or it has several parts; or if a mixed tiling
+                must be built, and bodies have been added, removed or given new motions since this
+                space was made.
         """
+        if len(self._bodies[self._index(body)].parts) > 1:
+            raise InputError(f"body {body!r} has several parts: no loop is the shortest around all")
         index, first = self._index(body), self._plane.first
         if first[index + 1] - first[index] == 1:
             return [(body, 0)]

@@ -8,7 +8,7 @@ free space, the interiors of the bodies, and the exterior of the convex hull.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from functools import cmp_to_key
 from itertools import pairwise
 from typing import Final, final
@@ -17,6 +17,7 @@ from exactpt.geometry.polygon import signed_area2
 from exactpt.geometry.predicates import Point
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId
 from exactpt.kernel.numbers import QQ, sign
+from exactpt.motion.body import Body
 from exactpt.planar.halfedge import PlanarMap, twin
 from exactpt.pseudotriangulation.snapshot import Snapshot
 
@@ -37,6 +38,7 @@ class Subdivision:
 
     Args:
         snapshot: the tiling.
+        bodies: the bodies, in the order of the scene.
         hidden: edges of the tiling to leave out, those inside bodies: pairs of nodes (u, v)
             with u < v.
 
@@ -48,13 +50,19 @@ class Subdivision:
             or ``-2 - i`` for the interior of body i.
         boundary: for each edge (half-edge // 2), whether it belongs to a body.
         out: for each node, one outgoing half-edge, or -1.
-        edge_of: for each face, one half-edge with the face on its left.
+        cycles: for each face, one half-edge of each cycle around it, with the face on its left.
+            The interior of a body has one for each of its rings, any other face a single one.
         names: names of the bodies, in the order of the scene.
         first: first node of each body; the last entry is the number of nodes.
         body: index of the body of each node.
     """
 
-    def __init__(self, snapshot: Snapshot, hidden: Collection[tuple[int, int]] = ()) -> None:
+    def __init__(
+        self,
+        snapshot: Snapshot,
+        bodies: Sequence[Body],
+        hidden: Collection[tuple[int, int]] = (),
+    ) -> None:
         self.snapshot = snapshot
         self.points: list[Point] = [(node._x, node._y) for node in snapshot.nodes]
         self.names: list[str] = []
@@ -71,8 +79,8 @@ class Subdivision:
         self.out: list[HalfEdge] = [NO_HALF_EDGE] * len(self.points)
         self._link(hidden)
         self.face: list[int] = [OUTSIDE] * len(self.map.origin)
-        self.edge_of: dict[int, HalfEdge] = {}
-        self._name_faces()
+        self.cycles: dict[int, list[HalfEdge]] = {}
+        self._name_faces(bodies)
 
     def direction(self, h: HalfEdge) -> Point:
         """The vector from the origin of a half-edge to its target."""
@@ -118,32 +126,27 @@ class Subdivision:
 
         return sorted(edges, key=cmp_to_key(order))
 
-    def _name_faces(self) -> None:
+    def _name_faces(self, bodies: Sequence[Body]) -> None:
         names: dict[tuple[int, int], int] = {}
-        for i in range(len(self.names)):
-            names.update(dict.fromkeys(self._inner_edges(i), -2 - i))
+        for i, body in enumerate(bodies):
+            if body.has_interior:
+                names.update(dict.fromkeys(self._inner_edges(i, body), -2 - i))
         for i, tile in enumerate(self.snapshot.faces):
             names.update(dict.fromkeys(pairwise([*tile.nodes, tile.nodes[0]]), i))
         origin = self.map.origin
+        seen: set[HalfEdge] = set()
         for h in map(HalfEdge, range(len(origin))):
-            face = names.get((origin[h], origin[h ^ 1]))
-            if face is not None:
-                self.face[h] = face
-                self.edge_of[face] = h
-            else:
-                self.edge_of[OUTSIDE] = h
+            self.face[h] = face = names.get((origin[h], origin[h ^ 1]), OUTSIDE)
+            if h not in seen:
+                seen.update(self.map.face(h))
+                self.cycles.setdefault(face, []).append(h)
 
-    def _inner_edges(self, body: int) -> Sequence[tuple[int, int]]:
+    def _inner_edges(self, i: int, body: Body) -> Iterator[tuple[int, int]]:
         """The edges of a closed body, directed so that its interior is on their left."""
-        nodes = list(range(self.first[body], self.first[body + 1]))
-        last = nodes[0], nodes[-1]
-        if len(nodes) < 3 or not self._has_edge(*last):
-            return []
-        if signed_area2([self.points[v] for v in nodes]) < 0:
-            nodes.reverse()
-        return list(pairwise([*nodes, nodes[0]]))
-
-    def _has_edge(self, u: int, v: int) -> bool:
-        """Whether two nodes are joined by an edge of a body."""
-        m = self.map
-        return any(self.boundary[h >> 1] and m.target(h) == v for h in m.star(self.out[u]))
+        for rings in body.parts:
+            for k, ring in enumerate(rings):
+                nodes = [self.first[i] + vertex for vertex in ring]
+                turns_left = signed_area2([self.points[v] for v in nodes]) > 0
+                if turns_left != (k == 0):
+                    nodes.reverse()
+                yield from pairwise([*nodes, nodes[0]])

@@ -99,18 +99,18 @@ class Ray:
 def next_step(plane: Subdivision, ray: Ray, spot: Spot, at: QQ) -> RayStep:
     """The step of a ray that starts at a spot with parameter ``at``."""
     if spot.on is On.FACE:
-        return _through_face(plane, ray, spot.handle, plane.edge_of[spot.handle], at)
+        return _through_face(plane, ray, spot.handle, at)
     if spot.on is On.EDGE:
         h = HalfEdge(spot.handle)
         turn = sign(cross(plane.direction(h), ray.direction))
         if turn == 0:
             return _along(plane, ray, h if _ahead(plane, ray, h) else twin(h))
         h = h if turn > 0 else twin(h)
-        return _through_face(plane, ray, plane.face[h], h, at)
+        return _through_face(plane, ray, plane.face[h], at)
     h, along = _sector(plane, ray, spot.handle)
     if along:
         return _along(plane, ray, h)
-    return _through_face(plane, ray, plane.face[h], h, at)
+    return _through_face(plane, ray, plane.face[h], at)
 
 
 def _ahead(plane: Subdivision, ray: Ray, h: HalfEdge) -> bool:
@@ -150,23 +150,25 @@ def _is_below_pi(plane: Subdivision, h: HalfEdge, g: HalfEdge) -> bool:
     return cross(plane.direction(h), plane.direction(g)) > 0
 
 
-def _through_face(plane: Subdivision, ray: Ray, face: int, start: int, at: QQ) -> RayStep:
-    """The step through a face from a parameter on; ``start`` is any half-edge of the face."""
+def _through_face(plane: Subdivision, ray: Ray, face: int, at: QQ) -> RayStep:
+    """The step through a face from a parameter on."""
     m = plane.map
     best: QQ | None = None
     end: Spot | None = None
-    h = start
-    while True:
-        u, v = m.origin[h], m.origin[h ^ 1]
-        s, t = ray.side(u), ray.side(v)
-        if s == 0:
-            when = ray.reaches(u)
-            if when > at and (best is None or when < best):
-                best, end = when, Spot(On.NODE, u)
-        elif s * t < 0:
-            when = ray.crosses(u, v)
-            if when > at and (best is None or when < best):
-                best, end = when, Spot(On.EDGE, h)
-        h = m.following[h]
-        if h == start:
-            return RayStep(Spot(On.FACE, face), end, at if best is None else best)
+    for first in plane.cycles[face]:
+        h = first
+        while True:
+            u, v = m.origin[h], m.origin[h ^ 1]
+            s, t = ray.side(u), ray.side(v)
+            if s == 0:
+                when = ray.reaches(u)
+                if when > at and (best is None or when < best):
+                    best, end = when, Spot(On.NODE, u)
+            elif s * t < 0:
+                when = ray.crosses(u, v)
+                if when > at and (best is None or when < best):
+                    best, end = when, Spot(On.EDGE, h)
+            h = m.following[h]
+            if h == first:
+                break
+    return RayStep(Spot(On.FACE, face), end, at if best is None else best)

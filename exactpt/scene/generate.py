@@ -103,6 +103,7 @@ ROUNDED: Final[dict[str, Family]] = {
 RINGS: Final[dict[str, Family]] = {
     "lakes": rings.lakes,
     "frames": rings.frames,
+    "walls": rings.walls,
 }
 """Families of bodies with holes and several parts."""
 

@@ -121,7 +121,7 @@ class Scene:
             InputError: if the file cannot be written, or the scene has a number of more than
                 10,000 digits or a custom motion, which files cannot hold.
         """
-        from exactpt.scene.format import save
+        from exactpt.scene.written import save
 
         save(self, Path(path))
 
@@ -154,7 +154,7 @@ class Scene:
         Raises:
             InputError: see `save`.
         """
-        from exactpt.scene.format import to_json
+        from exactpt.scene.written import to_json
 
         return to_json(self)
 
@@ -286,13 +286,6 @@ class Scene:
         if isinstance(self.bodies, BodyArrays):
             return bool(self.bodies.radii.any())
         return any(body._radius for body in self.bodies)
-
-    @property
-    def has_rings(self) -> bool:
-        """Whether a body has holes, or several parts."""
-        if isinstance(self.bodies, BodyArrays):
-            return False
-        return any(body.has_rings for body in self.bodies)
 
     def __eq__(self, other: object) -> bool:
         """Whether the bodies, in order, and the time spans are equal."""

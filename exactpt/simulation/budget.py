@@ -6,8 +6,7 @@ from contextlib import AbstractContextManager, nullcontext
 from time import monotonic
 from typing import final
 
-from exactpt.errors import InputError
-from exactpt.kernel.budget import GRACE, within
+from exactpt.kernel.budget import GRACE, check_bounds, within
 
 __all__ = ["Budget"]
 
@@ -28,10 +27,7 @@ class Budget:
     def __init__(
         self, events: int | None, seconds: float | None, memory: int | None = None
     ) -> None:
-        bounds = {"max_events": events, "max_seconds": seconds, "max_memory": memory}
-        for what, bound in bounds.items():
-            if bound is not None and not bound >= 0:
-                raise InputError(f"{what}: not a number from 0 on: {bound!r}")
+        check_bounds(max_events=events, max_seconds=seconds, max_memory=memory)
         self._events = events
         self._deadline = None if seconds is None else monotonic() + seconds
         self._memory = memory

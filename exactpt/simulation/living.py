@@ -158,9 +158,7 @@ class LivingScene:
         bodies = self._bodies[:]
         for i, body in new.items():
             bodies[i] = body
-        # A tiling of bodies with holes or several parts begins to tile no inside.
-        rings = any(body.has_rings for body in new.values())
-        events = None if rings else self.kinetic.change_plans(new, t)
+        events = self.kinetic.change_plans(new, t)
         if events is None:
             return self._restart(bodies, t, len(new))
         self._bodies, self._since, self._scene = bodies, t, None

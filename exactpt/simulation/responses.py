@@ -17,6 +17,7 @@ from exactpt.kernel.integer_polynomial import derivative, evaluate
 from exactpt.kernel.numbers import QQ, Rational, nearest_float, rational, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.motions import made
+from exactpt.simulation.normals import Vector, normals_at
 from exactpt.simulation.plans import GRID, onward, translation_at
 
 if TYPE_CHECKING:
@@ -94,9 +95,12 @@ class Bounce:
         names = sorted({name for pair in contact.pairs for name in (pair.body, pair.other)})
         bodies = {name: simulation.body(name) for name in names}
         change = {name: [0.0, 0.0] for name in names}
+        pushes = [
+            (pair, normal) for pair in contact.pairs for normal in self._normals(pair, bodies, t)
+        ]
         for _ in range(ROUNDS):
             # Incidence by incidence until all separate: a vertex may touch several edges.
-            pushed = [self._push(pair, bodies, change, t) for pair in contact.pairs]
+            pushed = [self._push(*push, bodies, change, t) for push in pushes]
             if not any(pushed):
                 break
         plans = {}
@@ -122,26 +126,34 @@ class Bounce:
         }  # fmt: skip
         return made, (Bounce, (tuple(sorted(self._fixed)),), options)
 
+    def _normals(self, pair: Pair, bodies: dict[str, Body], t: QQ) -> list[Vector]:
+        """The directions in which the first body of a pair is to be pushed; none if both stay."""
+        if pair.body == pair.other or self._fixed.issuperset((pair.body, pair.other)):
+            return []
+        if pair.normal is not None:
+            return [pair.normal]
+        a, b = bodies[pair.body], bodies[pair.other]
+        (ux, uy), (vx, vy) = _velocities(pair, a, b, t)
+        return normals_at((a, pair.vertex), (b, pair.other_vertex or 0), (ux - vx, uy - vy), t)
+
     def _push(
-        self, pair: Pair, bodies: dict[str, Body], change: dict[str, list[float]], t: QQ
+        self,
+        pair: Pair,
+        normal: Vector,
+        bodies: dict[str, Body],
+        change: dict[str, list[float]],
+        t: QQ,
     ) -> bool:
-        """Push one pair apart, by opposite impulses along the normal, if needed.
+        """Push one pair apart, by opposite impulses along a normal, if needed.
 
         An impulse changes a velocity in inverse proportion to the mass; a fixed body's is infinite.
 
         Returns:
-            Whether an impulse was applied: not to a pair that separates, nor to fixed bodies.
+            Whether an impulse was applied: not to a pair that separates.
         """
         free = [name for name in (pair.body, pair.other) if name not in self._fixed]
-        if pair.body == pair.other or not free:
-            return False
-        nx, ny = pair.normal or _between_centers(bodies[pair.body], bodies[pair.other], t)
-        ux, uy = _velocity(bodies[pair.body], pair.vertex, t)
-        if pair.edge is None:
-            vx, vy = _velocity(bodies[pair.other], pair.other_vertex or 0, t)
-        else:
-            place = bodies[pair.body]._at(t)[pair.vertex]
-            vx, vy = _velocity_beside(bodies[pair.other], pair.edge, place, t)
+        nx, ny = normal
+        (ux, uy), (vx, vy) = _velocities(pair, bodies[pair.body], bodies[pair.other], t)
         a, b = change[pair.body], change[pair.other]
         approach = nx * (vx - ux) + ny * (vy - uy)
         parting = nx * (a[0] - b[0]) + ny * (a[1] - b[1]) - approach
@@ -164,7 +176,15 @@ class Bounce:
         return body.with_motion(onward(body, t, velocity, grid=self._grid))
 
 
-def _velocity(body: Body, vertex: int, t: QQ) -> tuple[float, float]:
+def _velocities(pair: Pair, a: Body, b: Body, t: QQ) -> tuple[Vector, Vector]:
+    """The velocities of the vertex and of what it touches."""
+    first = _velocity(a, pair.vertex, t)
+    if pair.edge is None:
+        return first, _velocity(b, pair.other_vertex or 0, t)
+    return first, _velocity_beside(b, pair.edge, a._at(t)[pair.vertex], t)
+
+
+def _velocity(body: Body, vertex: int, t: QQ) -> Vector:
     """The velocity of a vertex just after a time, in doubles."""
     track = body._piece_after(t).tracks[vertex]
     w, dw = evaluate(track.w, t), evaluate(derivative(track.w), t)
@@ -175,7 +195,7 @@ def _velocity(body: Body, vertex: int, t: QQ) -> tuple[float, float]:
     return x, y
 
 
-def _velocity_beside(body: Body, edge: int, place: Point, t: QQ) -> tuple[float, float]:
+def _velocity_beside(body: Body, edge: int, place: Point, t: QQ) -> Vector:
     """The velocity of the point of an edge that is nearest to a given point."""
     points = body._at(t)
     a, b = points[edge], points[(edge + 1) % len(points)]
@@ -186,20 +206,7 @@ def _velocity_beside(body: Body, edge: int, place: Point, t: QQ) -> tuple[float,
     return ux + s * (vx - ux), uy + s * (vy - uy)
 
 
-def _translation_speed(body: Body, t: QQ) -> tuple[float, float]:
+def _translation_speed(body: Body, t: QQ) -> Vector:
     """The velocity that the motion's translation gives to every vertex."""
     x, y = translation_at(body, t)
     return nearest_float(x.derivative()._at(t)), nearest_float(y.derivative()._at(t))
-
-
-def _between_centers(a: Body, b: Body, t: QQ) -> tuple[float, float]:
-    """The direction from the centroid of the vertices of b to that of a."""
-    (ax, ay), (bx, by) = (
-        [sum((p[k] for p in body._at(t)), QQ(0)) / body.size for k in (0, 1)] for body in (a, b)
-    )
-    dx, dy = ax - bx, ay - by
-    size = max(abs(dx), abs(dy))
-    if size == 0:
-        return 1.0, 0.0
-    x, y = nearest_float(dx / size), nearest_float(dy / size)
-    return x / math.hypot(x, y), y / math.hypot(x, y)

@@ -16,8 +16,8 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import Rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
-from exactpt.scene.format import to_json as scene_to_json
 from exactpt.scene.scene import Scene
+from exactpt.scene.written import to_json as scene_to_json
 from exactpt.simulation.budget import Budget
 from exactpt.simulation.event import Event
 from exactpt.simulation.history import History, Log

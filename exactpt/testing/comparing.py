@@ -9,7 +9,7 @@ from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, Rational, rational, shorten
+from exactpt.kernel.numbers import QQ, Rational, rational, shorten, show
 from exactpt.scene.scene import Scene
 
 __all__ = [
@@ -40,7 +40,7 @@ def bound(tolerance: Rational) -> QQ:
     """
     exact = rational(tolerance)
     if exact < 0:
-        raise InputError(f"a tolerance is not negative: {shorten(tolerance)}")
+        raise InputError(f"a tolerance is not negative: {show(exact)}")
     return exact
 
 

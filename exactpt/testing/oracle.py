@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import select
+import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import BinaryIO, Final
@@ -66,7 +67,8 @@ def _next_piece(stream: BinaryIO) -> bytes:
 
 
 def _has_more(stream: BinaryIO) -> bool:
-    return bool(select.select([stream], [], [], 0)[0])
+    """Whether more has come; false on Windows, where only sockets can tell."""
+    return sys.platform != "win32" and bool(select.select([stream], [], [], 0)[0])
 
 
 def answers(lines: Sequence[bytes], first: int, refusals: Refusals) -> Iterator[str]:

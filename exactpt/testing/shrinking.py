@@ -18,8 +18,9 @@ from fractions import Fraction
 from typing import Any, Final, TypeAlias
 
 from exactpt.errors import InputError
-from exactpt.scene.format import from_json, to_json
+from exactpt.scene.format import from_json
 from exactpt.scene.scene import Scene
+from exactpt.scene.written import to_json
 from exactpt.testing.questions import Question
 from exactpt.testing.truth import Truth, truth_of
 

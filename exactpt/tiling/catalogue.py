@@ -41,7 +41,6 @@ class Entry(NamedTuple):
         is_canonical: whether the tiling is determined by the positions alone, not by the past.
         has_fewest_events: whether it is preferred where only the first contact is wanted.
         has_relative_hulls: whether its mesh contains the shortest loop around every body.
-        holds_rings: whether bodies may have holes and several parts.
     """
 
     name: str
@@ -50,7 +49,6 @@ class Entry(NamedTuple):
     is_canonical: bool = True
     has_fewest_events: bool = False
     has_relative_hulls: bool = False
-    holds_rings: bool = False
 
     @property
     def is_for_convex(self) -> bool:
@@ -77,7 +75,6 @@ ENTRIES: Final = [
         "exactpt.tiling.lazy:LazyRules",
         is_canonical=False,
         has_fewest_events=True,
-        holds_rings=True,
     ),
 ]
 """All tilings; of two with one name the first that is for the bodies is meant."""
@@ -88,24 +85,15 @@ def known() -> list[str]:
     return list(dict.fromkeys([AUTO, *(entry.name for entry in ENTRIES)]))
 
 
-def names(*, points: bool, rings: bool = False) -> list[str]:
-    """The names of the tilings of any bodies; of points alone too, if there are but such.
-
-    With ``rings``, those of tilings that hold bodies with holes and several parts.
-    """
+def names(*, points: bool) -> list[str]:
+    """The names of the tilings of any bodies; of points alone too, if there are but such."""
     kinds = (Bodies.CONVEX, Bodies.ANY, *([Bodies.POINTS] if points else []))
     found = [entry for kind in kinds for entry in ENTRIES if entry.bodies is kind]
-    found = [entry for entry in found if entry.holds_rings or not rings]
     return list(dict.fromkeys(entry.name for entry in found))
 
 
 def choose(
-    name: str,
-    *,
-    points: bool,
-    convex: Callable[[], bool],
-    fewest_events: bool = False,
-    rings: bool = False,
+    name: str, *, points: bool, convex: Callable[[], bool], fewest_events: bool = False
 ) -> Entry:
     """The tiling with a name that is for the bodies; by "auto" the first one that is.
 
@@ -114,7 +102,6 @@ def choose(
         points: whether the bodies are points alone.
         convex: whether they stay convex; asked only if it matters.
         fewest_events: whether by "auto" only tilings with the fewest events are meant.
-        rings: whether a body has holes or several parts.
 
     Raises:
         InputError: if there is none.
@@ -122,7 +109,7 @@ def choose(
     for entry in ENTRIES:
         if name == AUTO:
             is_meant = entry.has_fewest_events or not fewest_events
-            fits = entry.holds_rings if rings else entry.bodies is not Bodies.POINTS or points
+            fits = entry.bodies is not Bodies.POINTS or points
         else:
             is_meant, fits = entry.name == name, True  # `loading.plan` refuses the others
         if is_meant and fits and (entry.bodies is not Bodies.CONVEX or convex()):

@@ -203,6 +203,8 @@ class Engine(Tiling):
         """See `Tiling.change_plans`."""
         if not all(self.rules.allows_plan(body, t) for body in plans.values()):
             return None
+        if any(self.vertices.begins_inside(i, body, t) for i, body in plans.items()):
+            return None  # `tile_inside` is for one ring
         certified = self.certified
         self._begin_change(t)
         certified.batch.has_new_motions = True

@@ -12,7 +12,7 @@ from exactpt.certificates.convex_bodies import all_stay_convex
 from exactpt.errors import AuditError, InputError
 from exactpt.indices import VertexId
 from exactpt.kernel.counters import Counters
-from exactpt.motion.body import refuse_rings, refuse_rounded
+from exactpt.motion.body import refuse_rounded
 from exactpt.motion.vertices import Vertices
 from exactpt.tiling import catalogue
 from exactpt.tiling.catalogue import Bodies, Entry
@@ -35,10 +35,9 @@ def plan(name: str, bodies: Sequence[Body], start: QQ, end: QQ) -> tuple[Entry, 
 
     Raises:
         InputError: if there is no such tiling, it is for points and a body is not one, or a body
-            is rounded or has holes or several parts.
+            is rounded.
     """
     refuse_rounded(bodies)
-    rings = any(body.has_rings for body in bodies)
     made: list[Vertices] = []
 
     def vertices() -> Vertices:
@@ -50,11 +49,7 @@ def plan(name: str, bodies: Sequence[Body], start: QQ, end: QQ) -> tuple[Entry, 
         name,
         points=all(body.size == 1 for body in bodies),
         convex=lambda: all_stay_convex(PredicatesAt(vertices(), start)),
-        rings=rings,
     )
-    if rings and not entry.holds_rings:
-        others = " or ".join(catalogue.names(points=False, rings=True))
-        refuse_rings(bodies, f"the {entry.name} tiling holds no such bodies: choose {others}")
     if entry.bodies is Bodies.POINTS:
         return entry, _vertices_of_points(entry, bodies, start, end)
     vertices().counters = Counters()  # decisions made for the choice are not part of the run

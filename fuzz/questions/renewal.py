@@ -77,6 +77,8 @@ def overlap(a: Body, b: Body, t: QQ) -> bool:
     f = [(q[i], q[j]) for i, j in edges_of(b)]
     if not a.has_interior and not b.has_interior:
         return any(_crossing(u, v) is not None for u, v in product(e, f))
+    if _is_point_on(e, f) or _is_point_on(f, e):
+        return False
     return any(_overlap_at(x, a, e, b, f) for x in _lines(e, f))
 
 
@@ -96,6 +98,17 @@ def _crossing(e: Edge, f: Edge) -> QQ | None:
     if sides[0] * sides[1] >= 0 or sides[2] * sides[3] >= 0:
         return None
     return c[0] + (d[0] - c[0]) * sides[0] / (sides[0] - sides[1])
+
+
+def _is_point_on(e: list[Edge], f: list[Edge]) -> bool:
+    """Whether a body is a point, and on the boundary of another one: not in its interior.
+
+    Where it is a vertex whose edges are on one side, a line through it meets none of these.
+    """
+    p, end = e[0]
+    if p != end:
+        return False
+    return any(_side(a, b, p) == 0 and min(a, b) <= p <= max(a, b) for a, b in f)
 
 
 def _side(a: Point, b: Point, c: Point) -> QQ:

@@ -131,10 +131,10 @@ def _error(body: Body) -> Real:
 
 
 def _near(truth: Truth, errors: list[Real], t: float) -> set[Approach]:
-    """The vertices and edges of bodies that are within the sum of their errors."""
+    """The vertices and edges of bodies that are within twice the sum of their errors."""
     found = set()
     for i, j in combinations(range(len(errors)), 2):
-        reach = float(errors[i] + errors[j]) * 1.0001
+        reach = 2 * float(errors[i] + errors[j]) * 1.0001
         found |= {pair for pair in truth.approaches(t, reach) if {pair.i, pair.j} == {i, j}}
     return found
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from exactpt.errors import InputError
-from exactpt.scene.format import to_json
+from exactpt.scene.written import to_json
 from fuzz import corpus
 from fuzz.cases import Case
 from fuzz.small_scope.run import Progress, failure_in, run, start_of

@@ -17,7 +17,7 @@ from typing import Final
 
 from exactpt.errors import InputError
 from exactpt.files import write_atomically
-from exactpt.scene.format import to_json
+from exactpt.scene.written import to_json
 from fuzz.cases import Failure, failure_of, shrunk
 from fuzz.small_scope.look import AUDITED, looks, looks_at_proofs
 from fuzz.small_scope.scope import planned, sizes

@@ -17,6 +17,7 @@ from exactpt.batch.lines import Lines
 from exactpt.cli import main
 from exactpt.errors import InputError
 from exactpt.scene.generate import generate
+from exactpt.workers import processes
 
 TURNING = [json.dumps(generate("turning", seed).to_json()) for seed in range(3)]
 MALFORMED = ["{", "[]", '{"exactpt": 2, "time": [0, 1], "bodies": []}', "\x00", '"', "nan"]
@@ -377,6 +378,23 @@ def test_a_budget_is_one_of_each_scene(tmp_path):
 
     assert summary.failures == 2
     assert summary.first == "line 1: the memory is used up"
+
+
+@pytest.mark.parametrize("line", [SCENES[0], TURNING[0]])
+def test_no_time_at_all(line):
+    (told,) = answers([line], Question(max_seconds=0))
+
+    assert told == {"error": "the time is used up"}
+
+
+def test_workers_are_deaf_to_ctrl_c_from_their_first_moment_on():
+    command = "import signal; print(signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, []))"
+
+    with processes._deaf():
+        inside = subprocess.check_output([sys.executable, "-c", command])
+
+    assert inside == b"True\n"
+    assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
 @pytest.mark.parametrize("what", ["missing", "folder", "null"])

@@ -84,6 +84,18 @@ ROUND = {  # a triangle within a triangle, not joined to it
 }
 
 
+FRAME = {  # a square with a square hole, and a point in it
+    "vertices": "9  0 0  6 0  6 6  0 6  1 1  5 1  5 5  1 5  2 4",
+    "bodies": "2  parts 1 4 0 1 2 3 holes 1 4 7 6 5 4  point 8",
+    "edges": (
+        "11  0 1 boundary hull  1 2 boundary hull  2 3 boundary hull  3 0 boundary hull"
+        "  4 5 boundary inner  5 6 boundary inner  6 7 boundary inner  7 4 boundary inner"
+        "  4 8 diagonal inner  5 8 diagonal inner  6 8 diagonal inner"
+    ),
+    "faces": "3  3 4 5 8 corners 4 5 8  3 5 6 8 corners 5 6 8  4 6 7 4 8 corners 4 6 7",
+}
+
+
 def tiling(base, **changes):
     return TILING.format(**(base | changes))
 
@@ -143,6 +155,17 @@ WITHOUT_COORDINATES = [
         "face 0 has corner 3, which is no vertex of it",
     ),
     (replaced(SOUND, "bodies", "0 1 2 3", "3 2 1 0"), "body 0 is clockwise"),
+    (replaced(FRAME, "bodies", "4 0 1 2 3", "4 3 2 1 0"), "body 0 is clockwise"),
+    (replaced(FRAME, "bodies", "4 7 6 5 4", "4 4 5 6 7"), "a hole of body 0 is counter-clockwise"),
+    (
+        replaced(FRAME, "vertices", "1 1  5 1  5 5  1 5", "1 1  2 1  3 1  4 1"),
+        "a hole of body 0 has no area",
+    ),
+    (
+        replaced(FRAME, "bodies", "4 7 6 5 4", "4 7 6 5 3"),
+        "vertex 3 belongs to body 0 and again to body 0",
+    ),
+    (edges(FRAME, 10, without="4 5 boundary inner"), "edge 4-5 of a body is missing"),
     (tiling(SOUND, vertices="5  0 0  1 0  2 0  3 0  4 1"), "body 0 has no area"),
 ]
 
@@ -214,7 +237,36 @@ WITH_COORDINATES = [
         "vertex 0 is twice on the boundary",
         "meets itself",
     ),
-    (tiling(ROUND), "has a second boundary", "has a hole"),
+    (tiling(ROUND), *["the region inside 0-1-2 has a second boundary"] * 2),
+    # The hole is taken for a body; the point is moved into what is solid, an edge drawn there; a
+    # face is left out; the hole is beside the square; a diagonal is missing.
+    (
+        tiling(FRAME, bodies="3  polygon 4 0 1 2 3  polygon 4 4 5 6 7  point 8"),
+        *["the inside of body 0, 0-1-2-3, is not one region"] * 2,
+    ),
+    (
+        replaced(FRAME, "vertices", "2 4", "1/2 2"),
+        "cross",
+        "edges cross near",
+    ),
+    (
+        edges(FRAME, 12, extra="0 4 diagonal inner"),
+        "vertex 0 is twice on the boundary",
+        "meets itself",
+    ),
+    (
+        replaced(FRAME, "faces", "3  3 4 5 8 corners 4 5 8", "2"),
+        *["the free region 4-5-8 is not among the faces"] * 2,
+    ),
+    (
+        tiling(FRAME, vertices="9  0 0  6 0  6 6  0 6  11 1  15 1  15 5  11 5  12 4"),
+        "hull edge",
+        "the edges are not connected",
+    ),
+    (
+        edges(FRAME, 10, without="4 8 diagonal inner"),
+        *["the region 4-5-8-6-7 has 4 convex corners"] * 2,
+    ),
     (
         tiling(ROUND, vertices="6  0 0  1 0  0 1  5 5  6 5  5 6"),
         "hull edge",
@@ -243,7 +295,7 @@ WITH_COORDINATES = [
 ]
 
 
-@pytest.mark.parametrize("base", [SOUND, OPEN, ON_A_LINE])
+@pytest.mark.parametrize("base", [SOUND, OPEN, ON_A_LINE, FRAME])
 def test_sound_tilings_of_this_file_are_accepted(program, base):
     code, (answer,) = run(program, GREETING + tiling(base))
 
@@ -315,6 +367,12 @@ FAULTS = [
     (
         replaced(SOUND, "bodies", "polygon 4", "polygon 2"),
         "a polygon has three vertices or more, not 2",
+    ),
+    (replaced(FRAME, "bodies", "parts 1", "parts 0"), "a body has one part or more"),
+    (replaced(FRAME, "bodies", "holes 1", "4 7 6 5 4"), "expected 'holes', found '4'"),
+    (
+        replaced(FRAME, "bodies", "holes 1 4 7 6 5 4", "holes 1 2 7 6"),
+        "a hole has three vertices or more, not 2",
     ),
     (
         replaced(SOUND, "edges", "1 4 diagonal", "1 4 bridge"),

@@ -11,8 +11,8 @@ import pytest
 
 from exactpt.cli import main
 from exactpt.files import write_atomically
-from exactpt.scene.format import save
 from exactpt.scene.generate import generate
+from exactpt.scene.written import save
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="pipes and links of a Unix")
 

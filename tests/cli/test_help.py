@@ -33,12 +33,17 @@ def examples(command):
 
 
 MARKS = {"check": pytest.mark.cgal, "bench": pytest.mark.slow}
+MINUTES = ["exactpt questions --set --jobs 4", "exactpt draw scene.json -o film.gif"]
 COMMANDS = {"": cli, **cli.commands}
 EXAMPLES = [
-    pytest.param(line, marks=MARKS.get(name, []))
+    pytest.param(line, marks=pytest.mark.slow if line in MINUTES else MARKS.get(name, []))
     for name, command in COMMANDS.items()
     for line in examples(command)
 ]
+
+
+def test_the_examples_that_take_long_are_among_them():
+    assert {line for name in COMMANDS for line in examples(COMMANDS[name])} >= set(MINUTES)
 
 
 @pytest.mark.parametrize("name", COMMANDS)

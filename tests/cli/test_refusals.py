@@ -46,7 +46,10 @@ REFUSED = {
         scene(box(motion={"x": [float("nan")]})),
         "body 'box': \"motion\": \"x\": not a number: 'NaN'",
     ),
-    "no vertex": (scene(box(vertices=[])), "body 'box': \"vertices\": at least one is needed"),
+    "no vertex": (
+        scene(box(vertices=[])),
+        "body 'box': \"vertices\": at least one vertex is needed",
+    ),
     "repeated name": (scene(box(), box()), "body 'box': the name is taken by another body"),
     "empty span": (scene(box(), time=("3", "3")), "time: the span from 3 to 3 is empty"),
     "reversed span": (scene(box(), time=("3", "5/2")), "time: the span from 3 to 5/2 is empty"),

@@ -13,8 +13,8 @@ import pytest
 
 from exactpt.cli import main
 from exactpt.files import write_atomically, writing
-from exactpt.scene.format import save
 from exactpt.scene.generate import generate
+from exactpt.scene.written import save
 from exactpt.simulation.simulation import Simulation
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals and limits of a Unix")

@@ -9,7 +9,8 @@ import exactpt
 from exactpt import Body, Pieces, Rigid, Scene
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.kernel.numbers import QQ
-from exactpt.scene.format import loads, to_json
+from exactpt.scene.format import loads
+from exactpt.scene.written import to_json
 from exactpt.simulation.plans import onward
 from fuzz.variants import VARIANTS, difference
 

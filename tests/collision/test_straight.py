@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from exactpt.collision import row_boxes, straight_search
+from exactpt.collision import incidences, row_boxes, straight_search
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
@@ -225,13 +225,12 @@ def test_exact_vertices_are_made_for_what_may_touch_alone():
 
 def test_points_and_normals_are_computed_on_demand(monkeypatch):
     asked = []
-    details = vars(__import__("exactpt.collision.contact", fromlist=["_details"]))["_details"]
 
     def recorded(*arguments):
         asked.append(1)
-        return details(*arguments)
+        return incidences.details(*arguments)
 
-    monkeypatch.setattr("exactpt.collision.contact._details", recorded)
+    monkeypatch.setattr("exactpt.collision.contact.details", recorded)
     box = [(0, 0), (1, 0), (1, 1), (0, 1)]
     scene = Scene(
         [Body("a", box, Translation([0, 1])), Body("b", [(x + 3, y) for x, y in box])], (0, 9)

@@ -1,4 +1,4 @@
-"""What the README and docs/format.md say of answers, events and floats is so."""
+"""What README and the pages say of answers, events, floats and files is so (docs/claims.md)."""
 
 import inspect
 import json
@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import tomllib
+from fractions import Fraction
 from functools import partial
 from pathlib import Path
 from random import Random
@@ -18,11 +19,12 @@ from exactpt.cli.runs import collide
 from exactpt.collision import pairs, straight_search
 from exactpt.errors import AuditError
 from exactpt.motion import swept_edges
-from exactpt.scene.generate import generate
+from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED, SPINNING, generate
 
 ROOT = Path(__file__).parents[2]
 FORMAT = (ROOT / "docs" / "format.md").read_text(encoding="utf-8")
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+SPEED = (ROOT / "docs" / "speed.md").read_text(encoding="utf-8")
 
 
 def test_the_answer_on_the_format_page_is_that_of_its_scene(tmp_path):
@@ -46,6 +48,22 @@ def test_the_kinds_of_events_on_the_format_page_are_those_that_happen():
     }
 
     assert happened == set(listed.split("|"))
+
+
+def test_the_number_of_families():
+    (stated,) = re.findall(r"generated scenes of (\d+) families", README)
+
+    assert int(stated) == sum(map(len, [FAMILIES, POINTS, RINGS, ROUNDED, SPINNING]))
+
+
+def test_a_gap_of_a_hair_is_a_gap():
+    """A square passes above another one, at a distance of 10^-300, and at none."""
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    for gap, touches in [("1e-300", False), (0, True)]:
+        above = Body("above", square, Translation([-3, 1], [1 + Fraction(gap)]))
+        contact = first_contact(Scene([Body("below", square), above], time=(0, 9)))
+
+        assert (contact is not None) == touches
 
 
 def crowd(motion_of):
@@ -90,7 +108,7 @@ def test_floats_decide_about_bodies_that_translate(request, degree, tiling, most
 def test_floats_decide_about_bodies_that_turn(request, tiling):
     if request.config.getoption("--exact-only"):
         pytest.skip("there are no filters")
-    assert "it leaves fewer than one in a hundred" in README
+    assert "it leaves fewer than one in a hundred" in SPEED
 
     assert exact_share(crowd(turning), tiling) < 0.01
 
@@ -107,7 +125,7 @@ def convoy(count):
 
 
 def test_in_a_convoy_pairs_compares_edges_of_one_body_alone(monkeypatch):
-    assert "a convoy of 1,000 bodies at one velocity" in README
+    assert "a convoy of 1,000 bodies at one velocity" in SPEED
     met = []
     find = swept_edges.overlapping_pairs
 
@@ -130,14 +148,14 @@ def test_in_a_convoy_no_two_bodies_are_compared(monkeypatch):
 
 
 def test_auto_is_the_default_of_first_contact_and_collide():
-    assert "`auto`, the default" in README
+    assert "`auto`, the default" in SPEED
     assert inspect.signature(first_contact).parameters["method"].default == "auto"
     (method,) = [p for p in collide.params if p.name == "method"]
     assert method.default == "auto"
 
 
 def test_a_path_crosses_few_diagonals_and_may_be_a_detour():
-    (stated,) = re.findall(r"(\d) times as long as the shortest of all", README)
+    (stated,) = re.findall(r"(\d) times as long as the shortest of all", SPEED)
     boxes = []
     for i in range(20):
         x, y = 3 * (i % 4), 6 * (i // 4)
@@ -151,7 +169,6 @@ def test_a_path_crosses_few_diagonals_and_may_be_a_detour():
 
 
 def test_the_command_line_saves_the_scene_of_a_broken_invariant(tmp_path, monkeypatch, capsys):
-    assert "the command line saves the scene when an invariant breaks" in README
     scene = ROOT / "exactpt" / "data" / "demo.json"
 
     def broken(_):
@@ -170,7 +187,6 @@ def test_the_command_line_saves_the_scene_of_a_broken_invariant(tmp_path, monkey
 
 @pytest.mark.parametrize("how", ["simulation", "kinetic", "pairs", "running"])
 def test_an_error_raised_in_python_has_its_scene(tmp_path, monkeypatch, how):
-    assert '`AuditError` has it (`error.scene.save("bug.json")`)' in README
     scene = Scene.load(ROOT / "exactpt" / "data" / "demo.json")
 
     def broken(*_, **__):
@@ -206,7 +222,6 @@ def test_the_library_saves_nothing(tmp_path, monkeypatch):
 
 
 def test_the_fuzzer_is_in_the_repository_and_not_in_the_wheel():
-    assert "`python -m fuzz`, in the repository and not in the wheel" in README
     packages = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
 
     assert packages["packages"]["find"]["include"] == ["exactpt*"]

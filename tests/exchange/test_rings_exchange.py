@@ -134,6 +134,25 @@ def test_what_has_no_area_is_not_repaired(tmp_path, capsys):
     assert "only polygons are repaired" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    "hole, options, told",
+    [
+        ("(1 1, 5 5, 3 3, 1 1)", [], "a hole of polygon 'body 0' has no area: mend it (--repair)"),
+        ("(0 0, 5 2, 2 5, 0 0)", [], "fill its holes (--holes fill), mend it (--repair)"),
+        ("(0 0, 5 2, 2 5, 0 0)", ["--repair"], "rings of 'body 0' touch each other"),
+        ("(1 1, 5 5, 3 3, 1 1)", ["--repair"], None),
+        ("(0 0, 5 2, 2 5, 0 0)", ["--holes", "fill"], None),
+    ],
+)
+def test_a_flat_hole_and_one_that_touches_the_outline(tmp_path, capsys, hole, options, told):
+    """The latter is valid for shapely, so nothing mends it."""
+    source, target = tmp_path / "a.wkt", tmp_path / "a.json"
+    source.write_text(f"POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), {hole})")
+
+    assert run("convert", source, target, *options) == (2 if told else 0)
+    assert told is None or told in capsys.readouterr().err
+
+
 def test_the_command_has_the_choices(tmp_path):
     source, target = tmp_path / "a.geojson", tmp_path / "a.json"
     write_shapes(Scene([WHOLE]), source)

@@ -24,6 +24,6 @@ def test_a_record_is_the_same_twice(lines):
 
 
 def test_another_answer_is_another_record(lines, monkeypatch):
-    monkeypatch.setattr("exactpt.collision.contact.finite", lambda x: x + 1.0)
+    monkeypatch.setattr("exactpt.collision.incidences.finite", lambda x: x + 1.0)
 
     assert differences(lines, list(record(FAMILIES, 6)))

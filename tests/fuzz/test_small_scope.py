@@ -18,8 +18,9 @@ from exactpt.collision.straight_search import rows_of
 from exactpt.errors import InputError
 from exactpt.geometry.polygon import contains, edges, first_self_touch, segments_meet, signed_area2
 from exactpt.kernel.numbers import QQ
-from exactpt.scene.format import loads, to_json
+from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
+from exactpt.scene.written import to_json
 from fuzz import corpus
 from fuzz.planted import PLANTED
 from fuzz.small_scope import by_arrays

@@ -4,9 +4,9 @@ from random import Random
 
 import pytest
 
-from exactpt.scene.format import to_json
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 from exactpt.scene.scene import Scene
+from exactpt.scene.written import to_json
 from fuzz.subscene import MOST, WHOLE, scene_of, subscene
 from fuzz.thin import SUFFIX
 

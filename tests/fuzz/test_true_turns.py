@@ -85,3 +85,19 @@ def test_wrong_bounds_are_found(bounds_of, kind, monkeypatch):
     else:
         assert case.kind == kind
         assert case.fault is not None
+
+
+def test_bodies_that_passed_within_both_errors_may_graze():
+    """Case 1458 of seed 0: 2 E apart in truth, the given bodies may be E apart.
+
+    A segment passes the mill at 1.1 E long before it meets it; the given mill is within E then,
+    and the bounds begin there.
+    """
+    mill = Spin("-441/512", pivot=(0, 0), time=(0, 3), error="1/50")
+    places = [("135/512", "6103/4096"), ("647/512", "22405/12288")]
+    path = Translation([0, "61/128"], [0, "-283/256"])
+    corner = Body("mill", [(3, 0), (0, 0), (0, 3)], mill, closed=False)
+
+    case = case_of(Scene([corner, Body("segment", places, path)], time=(0, 3)))
+
+    assert case == ("certain, and may graze", None)

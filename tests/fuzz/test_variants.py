@@ -9,8 +9,9 @@ import pytest
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
-from exactpt.scene.format import loads, to_json
+from exactpt.scene.format import loads
 from exactpt.scene.generate import FAMILIES, generate
+from exactpt.scene.written import to_json
 from fuzz.variants import VARIANTS, difference, expected_time
 
 FORWARDS = [name for name in VARIANTS if name != "backwards"]

@@ -12,7 +12,8 @@ import exactpt
 from exactpt import Body, InputError, Pieces, Rigid, Scene, Spin, Translation
 from exactpt.kernel.arctangents import atan_bounds, pi_bounds
 from exactpt.kernel.numbers import QQ
-from exactpt.scene.format import loads, to_json
+from exactpt.scene.format import loads
+from exactpt.scene.written import to_json
 
 DIGITS = 200
 

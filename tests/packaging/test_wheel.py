@@ -84,7 +84,8 @@ def empty(built, tmp_path_factory):
     home = tmp_path_factory.mktemp("empty")
     venv.create(home, with_pip=True)
     subprocess.run([home / "bin/python", "-m", "pip", "install", "-q", built[0]], check=True)
-    clean = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
+    own = ("PYTHON", "EXACTPT_")
+    clean = {key: value for key, value in os.environ.items() if not key.startswith(own)}
 
     def run(*arguments):
         return subprocess.run(

@@ -107,3 +107,16 @@ def test_values_of_quotients():
     assert square_root(AlgebraicNumber(QQ(9, 4))) == QQ(3, 2)
     assert square_root(root).minimal_polynomial() == (-2, 0, 0, 0, 1)
     assert square_root(AlgebraicNumber(0)) == 0
+
+
+@pytest.mark.parametrize("narrow", [0, 60, 1000])
+def test_bounds_of_values_have_no_more_digits_than_they_need(narrow):
+    """However many the bounds of the time have: a value of a value of a value stays cheap."""
+    number = AlgebraicNumber.root((-1, -1, 0, 0, 0, 1), 1, 2)  # t^5 = t + 1
+    number.refine_to(QQ(1, 2**narrow))
+    for _ in range(3):
+        number = square_root(quotient_at((ZZ(1), ZZ(0), ZZ(3)), (ZZ(2), ZZ(1)), number))
+        width = number.high - number.low
+
+        needed = (width.denominator // width.numerator).bit_length()
+        assert number.low.denominator.bit_length() <= needed + 8

@@ -6,6 +6,8 @@ Written from the definitions in plain rational arithmetic; shares nothing with
 
 from itertools import pairwise
 
+from gmpy2 import mpq
+
 
 def cross(o, a, b):
     return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
@@ -23,21 +25,81 @@ class OpenChain(list):
     """The points of an open chain; those of any other body are in a plain list."""
 
 
+class Rings(list):
+    """The points of a body with several rings, which are given as ranges.
+
+    Attributes:
+        parts: for each part its rings, the outline first.
+    """
+
+    def __init__(self, points, parts):
+        super().__init__(points)
+        self.parts = parts
+
+
 def points_of(scene, t):
     """name -> points, at a time."""
     at = scene.at(t)
-    return {b.name: at[b.name] if b.closed else OpenChain(at[b.name]) for b in scene.bodies}
+    return {b.name: _points_of(b, [(mpq(x), mpq(y)) for x, y in at[b.name]]) for b in scene.bodies}
+
+
+def _points_of(body, points):
+    if len(body.rings) > 1:
+        return Rings(points, body.parts)
+    return points if body.closed else OpenChain(points)
+
+
+def rings_of(points):
+    """(vertices, whether it is a hole) of each ring of a body."""
+    parts = points.parts if isinstance(points, Rings) else [[range(len(points))]]
+    return [(list(ring), k > 0) for part in parts for k, ring in enumerate(part)]
+
+
+def split_into_parts(scene):
+    """(name, part) -> points of each part of each body, as a body of its own."""
+    found = {}
+    for name, points in scene.items():
+        for i, part in enumerate(points.parts if isinstance(points, Rings) else [None]):
+            if part is None:
+                found[name, i] = points
+            else:
+                first = part[0].start
+                own = points[first : part[-1].stop]
+                shifted = [range(ring.start - first, ring.stop - first) for ring in part]
+                found[name, i] = Rings(own, [shifted]) if len(part) > 1 else own
+    return found
 
 
 def edges_of(points):
     """(number, a, b) of each edge; a body of one vertex has none, of two one."""
+    if isinstance(points, Rings):
+        return [
+            (i, points[i], points[j])
+            for ring, _ in rings_of(points)
+            for i, j in pairwise([*ring, ring[0]])
+        ]
     n = len(points)
     count = n if n > 2 and not isinstance(points, OpenChain) else n - 1
     return [(i, points[i], points[(i + 1) % n]) for i in range(count)]
 
 
+def is_inside(p, points):
+    """Whether a polygon, with its holes, has a point that is on none of its edges."""
+    return sum(
+        winding(p, [points[i] for i in ring]) % 2 * (-1 if is_hole else 1)
+        for ring, is_hole in rings_of(points)
+    )
+
+
+def is_in_hole(p, points):
+    """Whether a point is in a hole of a body."""
+    return any(
+        is_hole and winding(p, [points[i] for i in ring]) for ring, is_hole in rings_of(points)
+    )
+
+
 def winding(p, points):
-    """How often a polygon turns around a point that is not on it."""
+    """How often a polygon of one ring turns around a point that is not on it."""
     total = 0
     for _, a, b in edges_of(points):
         if a[1] <= p[1] < b[1] and cross(a, b, p) > 0:
@@ -55,7 +117,7 @@ def owner(p, scene):
         for i, a, b in edges_of(points):
             if on_segment(p, a, b):
                 return name, None, i
-        if len(points) > 2 and not isinstance(points, OpenChain) and winding(p, points):
+        if len(points) > 2 and not isinstance(points, OpenChain) and is_inside(p, points):
             return name, None, None
     return None
 
@@ -153,7 +215,9 @@ def inner_point(points, rng):
         return tuple(sum(c) / len(ends) for c in zip(*ends, strict=True))
     while True:
         i = rng.randrange(n)
-        a, b, c = points[i - 1], points[i], points[(i + 1) % n]
+        ring = next(ring for ring, _ in rings_of(points) if i in ring)
+        k = ring.index(i)
+        a, b, c = (points[j] for j in (ring[k - 1], i, ring[(k + 1) % len(ring)]))
         u, v, w = (rng.randint(1, 997) for _ in range(3))
         s, far = u + v + w, rng.choice([1, 2, 4, 8, 64])
         m = tuple((a[k] * u + b[k] * v + c[k] * w) / s for k in (0, 1))

@@ -38,18 +38,24 @@ class VisibilityGraph:
         """(p, q) -> whether the left of the part of an edge from p to q is free."""
         for points in scene.values():
             is_solid = len(points) > 2 and not isinstance(points, brute.OpenChain)
-            area = sum(brute.cross((0, 0), a, b) for _, a, b in brute.edges_of(points))
-            for _, a, b in brute.edges_of(points):
-                stops = [p for p in self.points if brute.on_segment(p, a, b)]
-                stops.sort(reverse=a > b)
-                for p, q in pairwise(stops):
-                    self.wall_side[p, q] = not (is_solid and area > 0)
-                    self.wall_side[q, p] = not (is_solid and area < 0)
+            for ring, is_hole in brute.rings_of(points):
+                edges = [(a, b) for i, a, b in brute.edges_of(points) if i in ring]
+                area = sum(brute.cross((0, 0), a, b) for a, b in edges)
+                for a, b in edges:
+                    self._add_wall(a, b, is_solid and (area > 0) != is_hole, is_solid)
         self.walls = {p: [] for p in self.points}
         for p, q in self.wall_side:
             self.walls[p].append(q)
         for p, around in self.walls.items():
             around.sort(key=cmp_to_key(lambda a, b, p=p: _angular(p, a, b)))
+
+    def _add_wall(self, a, b, left_is_solid, is_solid):
+        """Add the parts of an edge between the points on it."""
+        stops = [p for p in self.points if brute.on_segment(p, a, b)]
+        stops.sort(reverse=a > b)
+        for p, q in pairwise(stops):
+            self.wall_side[p, q] = not left_is_solid
+            self.wall_side[q, p] = left_is_solid or not is_solid
 
     def _legs(self, p):
         """(sector, q, sector there) of all legs from a point."""
@@ -72,7 +78,7 @@ class VisibilityGraph:
         return before[-1] if before else len(walls) - 1
 
     def shortest(self, start, goal):
-        """The length of a shortest path."""
+        """The length of a shortest path; None if there is no path."""
         with mpmath.workprec(BITS):
             zero = mpmath.mpf(0)
             count = max(len(self.walls[start]), 1)
@@ -92,7 +98,7 @@ class VisibilityGraph:
                     if here == sector and new < at.get((q, there), mpmath.inf):
                         at[q, there] = new
                         heappush(heap, (new, q, there))
-        raise AssertionError("the free space is connected")
+        return None
 
 
 def _angular(o, a, b):

@@ -4,7 +4,8 @@ import re
 
 import pytest
 
-from exactpt import Body, InputError, Scene, Translation
+from exactpt import Body, Scene, Translation
+from exactpt.collision.tilings import TILINGS
 from exactpt.kernel.numbers import QQ
 from exactpt.render.data import data_of
 from exactpt.render.film import film_of
@@ -63,12 +64,12 @@ def test_the_animation_knows_the_first_vertex_of_each_ring():
     assert data["contact"]["pairs"][0]["edge"] == [5, 6]
 
 
-def test_the_lazy_tiling_is_drawn_in_the_hole_too():
+@pytest.mark.parametrize("tiling", TILINGS)
+def test_the_tiling_is_drawn_in_the_hole_too(tiling):
     scene = Scene(SCENE.bodies[:2], (0, 10))
-    film = film_of(scene)
-    assert film.tiling == "lazy"
-    assert any({4, 11} <= {*tile.nodes} or {5, 12} <= {*tile.nodes} for tile in film.tiles)
-    picture = svg_of(frame_of(still(scene, QQ(1))))
+    film = film_of(scene, tiling=tiling)
+    in_hole = [tile for tile in film.tiles if {4, 5, 6, 7} & {*tile.nodes}]
+    assert all({*tile.nodes} <= {4, 5, 6, 7, 11, 12, 13} for tile in in_hole)
+    assert {node for tile in in_hole for node in tile.nodes} == {4, 5, 6, 7, 11, 12, 13}
+    picture = svg_of(frame_of(still(scene, QQ(1), tiling=tiling)))
     assert picture.count('class="diagonal"') > 4
-    with pytest.raises(InputError, match=r"body 'frame' .* the mixed tiling holds no such bodies"):
-        film_of(scene, tiling="mixed")

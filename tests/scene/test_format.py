@@ -17,8 +17,9 @@ from strategies import as_rational, fractions, scene_data
 from exactpt.errors import InputError
 from exactpt.motion.body import Body
 from exactpt.motion.motions import REST
-from exactpt.scene.format import load, loads, save, to_json
+from exactpt.scene.format import load, loads
 from exactpt.scene.scene import Scene
+from exactpt.scene.written import save, to_json
 
 SCENES = Path(__file__).parent.parent / "data" / "scenes"
 NAMES = sorted(path.stem for path in SCENES.glob("*_*.json"))

@@ -123,7 +123,7 @@ def test_what_does_not_go_together(given, told):
         ('"parts": [{"vertices": [[0,0],[9,0],[0,9]], "motion": {}}]',
          "body 'b': part 0: unknown key 'motion'"),
         ('"parts": [{"vertices": [[0,0],[9,0],[0,9]], "holes": [[]]}]',
-         "body 'b': part 0: hole 0: at least one is needed"),
+         "body 'b': part 0: hole 0: at least one vertex is needed"),
         ('"parts": [{}], "holes": []', "body 'b': \"holes\" belong to \"vertices\""),
         ('"parts": [[[0,0],[9,0],[0,9]]]', "body 'b': part 0: not an object"),
         ('"closed": false, "parts": [{"vertices": [[0,0],[9,0],[0,9]]}]',

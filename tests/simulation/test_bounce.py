@@ -2,10 +2,20 @@
 
 import pickle
 from fractions import Fraction
+from random import Random
 
 import pytest
 
-from exactpt import Body, Bounce, InputError, Scene, Simulation, Velocity
+from exactpt import (
+    Body,
+    Bounce,
+    InputError,
+    Scene,
+    Simulation,
+    Translation,
+    Velocity,
+    first_contact,
+)
 
 BOX = [(0, 0), (1, 0), (1, 1), (0, 1)]
 EXACT = 2.0**-19  # velocities are rounded to the grid of 2^-20
@@ -78,3 +88,60 @@ def test_options_out_of_range_are_refused(options, message):
 def test_a_mass_of_no_body_is_refused():
     with pytest.raises(InputError, match="Bounce: masses: there is no body 'lfet'"):
         velocities_after(Bounce(masses={"lfet": 2}))
+
+
+SHAPES = {
+    "point": [(0, 0)],
+    "segment": [(0, 0), (3, 1)],
+    "square": [(0, 0), (4, 0), (4, 4), (0, 4)],
+    "triangle": [(0, 0), (5, 1), (1, 3)],
+    "L": [(0, 0), (9, 0), (9, 2), (2, 2), (2, 9), (0, 9)],
+    "hook": [(0, 0), (6, 0), (6, 5)],
+    "star": [(0, 6), (-1, 1), (-6, 0), (-1, -1), (0, -6), (1, -1), (6, 0), (1, 1)],
+}
+
+
+def vertex_on_vertex(random):
+    """A body of which a vertex comes to a vertex of a wall at t = 8; None if it comes elsewhere."""
+    (a, p), (b, q) = (random.choice(list(SHAPES.items())) for _ in range(2))
+    u, v = (random.choice((-3, -2, -1, 1, 2, 3)) for _ in range(2))
+    (x, y), (z, w) = random.choice(p), random.choice(q)
+    path = [(px - x + z - 8 * u, py - y + w - 8 * v) for px, py in p]
+    scene = Scene(
+        [
+            Body("body", path, Translation([0, u], [0, v]), closed=a != "hook"),
+            Body("wall", q, closed=b != "hook"),
+        ],
+        time=(0, 20),
+    )
+    contact = first_contact(scene)
+    alone = contact and [pair.kind for pair in contact.pairs] == ["vertex-vertex"]
+    return scene if alone and contact.time == 8 else None
+
+
+def test_a_vertex_that_meets_a_vertex_goes_on():
+    """At the end of a wall, in an inner corner, corner on corner."""
+    random = Random(1)
+    scenes = [scene for _ in range(300) if (scene := vertex_on_vertex(random))]
+
+    assert len(scenes) > 60
+    for scene in scenes:
+        simulation = Simulation(scene)
+        for _ in simulation.run(on_contact=Bounce(fixed=["wall"])):
+            pass
+        assert simulation.contact is None
+        assert simulation.now == 20
+
+
+def test_a_ball_comes_back_from_a_corner_of_a_frame():
+    wide = [(-25, -25), (25, -25), (25, 25), (-25, 25)]
+    narrow = [(-21, -21), (21, -21), (21, 21), (-21, 21)]
+    ball = Body("ball", [(-5, -4), (-3, -3)], Translation([0, 3], [0, 3]))
+    simulation = Simulation(Scene([ball, Body("frame", wide, holes=[narrow])], time=(0, 20)))
+    contacts = [
+        e for e in simulation.run(on_contact=Bounce(fixed=["frame"])) if e.kind == "contact"
+    ]
+
+    assert [e.time for e in contacts] == [8]
+    motion = simulation.body("ball").motion
+    assert (motion.x.coefficients[1], motion.y.coefficients[1]) == (-3, -3)

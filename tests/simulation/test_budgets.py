@@ -271,3 +271,13 @@ def test_bug_repairs_without_end_are_ended_by_the_budget():
 
     with pytest.raises(BudgetExceeded), within(clock.monotonic() + 0.1):
         repair()
+
+
+@pytest.mark.parametrize("bound", ["1", [1], -1, math.nan, 1j])
+def test_what_is_no_bound(bound):
+    scene = Scene([Body("a", [(0, 0)])])
+    for name in ("max_seconds", "max_memory"):
+        with pytest.raises(InputError, match=f"{name}: not a number from 0 on"):
+            Simulation(scene, **{name: bound})
+        with pytest.raises(InputError, match=f"{name}: not a number from 0 on"):
+            first_contact(scene, **{name: bound})

@@ -254,8 +254,8 @@ def test_every_public_name_is_walked_through():
         "distance", "Approach", "Velocity", "in_local_time", "spline",
     }  # fmt: skip
     without_numbers = {
-        "AuditError", "ExactPTError", "InputError", "Proof", "prove", "read_shapes", "stop",
-        "write_shapes",
+        "AuditError", "ExactPTError", "InputError", "Proof", "UnreachableError", "prove",
+        "read_shapes", "stop", "write_shapes",
     }  # fmt: skip
     assert reached | without_numbers == set(exactpt.__all__)
     assert Snapshot.__module__.startswith("exactpt")

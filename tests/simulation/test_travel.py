@@ -306,7 +306,7 @@ def test_bug_a_pickle_tells_of_nothing_that_depends_on_the_build():
     assert unpickler.names == {
         "builtins.getattr",
         "exactpt.collision.contact.Contact",
-        "exactpt.collision.contact.Pair",
+        "exactpt.collision.incidences.Pair",
         "exactpt.kernel.algebraic.AlgebraicNumber",
         "exactpt.kernel.polynomial.Polynomial",
         "exactpt.motion.body.Body",

@@ -4,8 +4,9 @@ import json
 
 import pytest
 
-from exactpt.scene.format import loads, to_json
+from exactpt.scene.format import loads
 from exactpt.scene.generate import FAMILIES, generate
+from exactpt.scene.written import to_json
 from exactpt.testing.shrinking import shrink, shrink_data
 
 

@@ -86,7 +86,7 @@ def test_geodesics_do_not_depend_on_the_triangulation(family, count):
         rng = Random(seed)
         forest = Forest(instant.vertices)
         meshes = [shuffled(instant, rng) for _ in range(2)]
-        for tree, _, chain in forest.bodies:
+        for ((tree, _, chain, _),) in forest.bodies:
             for node in range(1, len(tree)):
                 part = chain[tree.low[node] : tree.high[node]]
                 first, second = (

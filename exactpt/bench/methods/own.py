@@ -11,8 +11,9 @@ from exactpt.bench.methods.method import Answer, Method
 from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
-from exactpt.scene.format import loads, to_json
+from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
+from exactpt.scene.written import to_json
 
 __all__ = ["EXACT_SEARCH", "OWN", "fresh"]
 

@@ -11,10 +11,20 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Motion, Pieces, Position, Rigid, Translation
 from exactpt.motion.rings import PartLike
-from exactpt.scene.families.shapes import box, cells, convex_polygon, poly, velocity
+from exactpt.scene.families.shapes import (
+    box,
+    cells,
+    convex_polygon,
+    hull,
+    is_simple,
+    poly,
+    shape,
+    velocity,
+)
+from exactpt.scene.families.simple import star
 from exactpt.scene.scene import Scene
 
-__all__ = ["frames", "lakes"]
+__all__ = ["frames", "lakes", "walls"]
 
 QUARTER = [(5, 0), (4, 3), (3, 4)]
 """Directions of length 5 from the first axis to the second one."""
@@ -110,6 +120,46 @@ def frames(rng: Random) -> Scene:
     if rng.random() < 0.5:
         bodies.append(Body("stray", box(-3, rng.randint(0, 6), 1, 1), velocity(rng, 2)))
     return Scene(bodies, (0, rng.choice([1, 3, 6])))
+
+
+def walls(rng: Random) -> Scene:
+    """Bodies of any shape within a wall whose teeth point inwards, or reach in between them."""
+    inner = []
+    for i, c in enumerate(cells(rng, rng.randint(1, 4), 20)):
+        outline = star(rng, c, 9, rng.randint(4, 12)) if rng.random() < 0.6 else shape(rng, c, 8)
+        inner.append((f"b{i}", outline, c))
+    points = [p for _, outline, _ in inner for p in outline]
+    low, high = (tuple(f(p[k] for p in points) for k in (0, 1)) for f in (min, max))
+    gap = rng.choice([2, 5, 9])
+    corners = box(
+        low[0] - gap, low[1] - gap, high[0] - low[0] + 2 * gap, high[1] - low[1] + 2 * gap
+    )
+    hole = [p for a, b in pairwise([*corners, corners[0]]) for p in _toothed(rng, a, b, gap)]
+    outer = hull([(x + QQ(dx), y + QQ(dy)) for x, y in corners for dx in (-3, 3) for dy in (-3, 3)])
+    middle = (low[0] + high[0]) / 2, (low[1] + high[1]) / 2
+    bodies = [_moved(rng, "wall", [{"vertices": outer, "holes": [hole]}], middle)]
+    for name, outline, c in inner:
+        if len(outline) > 2:
+            bodies.append(_moved(rng, name, [outline], c))
+        else:
+            bodies.append(Body(name, outline, velocity(rng, 3)))
+    simple = [b for b in bodies if is_simple(b)]
+    return Scene(simple, (0, rng.choice([1, 4])))
+
+
+def _toothed(rng: Random, a: Point, b: Point, gap: int) -> list[Point]:
+    """A side of a hole from a to before b, with up to three teeth on its left."""
+    (dx, dy), count = (b[0] - a[0], b[1] - a[1]), rng.randint(0, 3)
+    length = abs(dx) + abs(dy)
+    side = [a]
+    for i in range(count):
+        depth = QQ(rng.randint(1, 6 * gap), 4) / length
+        at, width = QQ(4 * i + rng.randint(1, 3), 4 * count + 1), QQ(1, 4 * count + 1)
+        side.append((a[0] + at * dx, a[1] + at * dy))
+        tip = at + width / 2
+        side.append((a[0] + tip * dx - depth * dy, a[1] + tip * dy + depth * dx))
+        side.append((a[0] + (at + width) * dx, a[1] + (at + width) * dy))
+    return side
 
 
 def _add_frame(

@@ -91,7 +91,7 @@ def shape(rng: Random, center: Point, radius: int) -> list[Point]:
     return convex_polygon(rng, center, radius, rng.randint(3, 9))
 
 
-def box(x: QQ | int, y: QQ | int, width: int = 2, height: int = 2) -> list[Point]:
+def box(x: QQ | int, y: QQ | int, width: QQ | int = 2, height: QQ | int = 2) -> list[Point]:
     """A box with its lower left corner at (x, y)."""
     a, b = QQ(x), QQ(y)
     return [(a, b), (a + width, b), (a + width, b + height), (a, b + height)]

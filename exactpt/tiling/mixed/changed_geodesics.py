@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from exactpt.indices import HalfEdge
 from exactpt.pseudotriangulation.mesh import FREE
-from exactpt.tiling.mixed.forest import BodyTree
+from exactpt.tiling.mixed.forest import RingTree
 from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.mixed.tree import ROOT, TOP
 
@@ -39,7 +39,7 @@ class ChangedGeodesics(NamedTuple):
         spans: for each node of the tree that has to be recomputed, its range in the cycle.
     """
 
-    tree: BodyTree
+    tree: RingTree
     edges: list[HalfEdge]
     after: dict[HalfEdge, HalfEdge]
     spans: dict[int, tuple[int, int]]
@@ -51,7 +51,7 @@ def nodes_changed_by_insertion(mesh: LabelledMesh, faces: Iterable[HalfEdge]) ->
 
 
 def nodes_changed_by_removal(
-    mesh: LabelledMesh, own: BodyTree, sides: Iterable[HalfEdge]
+    mesh: LabelledMesh, own: RingTree, sides: Iterable[HalfEdge]
 ) -> set[int]:
     """The nodes of other bodies whose geodesics change when a body is removed.
 
@@ -76,17 +76,17 @@ def _with_ancestors(mesh: LabelledMesh, nodes: Iterable[int]) -> set[int]:
 
 
 def changed_geodesics(
-    mesh: LabelledMesh, body_tree: BodyTree, changing: set[int]
+    mesh: LabelledMesh, ring_tree: RingTree, changing: set[int]
 ) -> ChangedGeodesics:
     """The chains of a body: the geodesics of its highest nodes that do not change, in order."""
-    tree = body_tree.tree
+    tree = ring_tree.tree
     edges: list[HalfEdge] = []
     after: dict[HalfEdge, HalfEdge] = {}
     spans: dict[int, tuple[int, int]] = {}
 
     def descend(k: int) -> None:
-        if body_tree.nodes[k] not in changing:
-            geodesic = mesh.geodesic(body_tree, k)
+        if ring_tree.nodes[k] not in changing:
+            geodesic = mesh.geodesic(ring_tree, k)
             edges.extend(geodesic)
             after.update(pairwise(geodesic))
             return
@@ -97,4 +97,4 @@ def changed_geodesics(
 
     descend(ROOT)
     spans[TOP] = (0, len(edges))
-    return ChangedGeodesics(body_tree, edges, after, spans)
+    return ChangedGeodesics(ring_tree, edges, after, spans)

@@ -1,4 +1,4 @@
-"""The trees of all bodies, and labels: sets of their nodes."""
+"""The trees of all rings, and labels: sets of their nodes."""
 
 from __future__ import annotations
 
@@ -6,58 +6,66 @@ from collections.abc import Sequence
 from typing import Final, NamedTuple, TypeAlias, final
 
 from exactpt.indices import VertexId
-from exactpt.motion.vertices import Vertices
+from exactpt.motion.vertices import MovingBody, Vertices
 from exactpt.tiling.mixed.tree import ROOT, GeodesicTree, tree_of_size
 
-__all__ = ["NO_LABEL", "BodyTree", "Forest", "Label"]
+__all__ = ["NO_LABEL", "Forest", "Label", "RingTree"]
 
 Label: TypeAlias = frozenset[int]
-"""A set of nodes; the nodes of all bodies are numbered consecutively, two for each vertex."""
+"""A set of nodes; the nodes of all rings are numbered consecutively, two for each vertex."""
 
 NO_LABEL: Final[Label] = frozenset()
 
 
-class BodyTree(NamedTuple):
-    """The tree of one body.
+class RingTree(NamedTuple):
+    """The tree of one ring, an outline or a hole.
 
     Attributes:
-        tree: its shape, shared by all polygons of one size.
-        nodes: for each node of the tree, its number among the nodes of all bodies.
+        tree: its shape, shared by all rings of one size.
+        nodes: for each node of the tree, its number among the nodes of all rings.
         chain: the ring with its first vertex repeated: the vertices 0 to n of the tree.
+        is_hole: whether the free space that it borders is inside it.
     """
 
     tree: GeodesicTree
     nodes: list[int]
     chain: list[VertexId]
+    is_hole: bool
 
 
 @final
 class Forest:
-    """The trees of all bodies, with consecutive numbers for their nodes.
+    """The trees of all rings, with consecutive numbers for their nodes.
 
     A ring of n vertices has a tree of 2 n nodes. So each vertex id stands for two numbers,
     which are reused when the id is.
 
     Attributes:
         vertices: the moving vertices.
-        bodies: for each body, its tree.
+        bodies: for each body, the trees of its rings.
         parent, depth: for each node, its parent (-1 for a `TOP`) and its depth.
         leaves: the nodes that are leaves.
-        pinned: for vertex 0 of each body, the root, whose loop passes it and is pinned there.
+        pinned: for vertex 0 of each ring, the root, whose loop passes it and is pinned there.
     """
 
     def __init__(self, vertices: Vertices) -> None:
         self.vertices = vertices
-        self.bodies: list[BodyTree] = []
+        self.bodies: list[list[RingTree]] = []
         self.parent: list[int] = []
         self.depth: list[int] = []
         self.leaves: set[int] = set()
         self.pinned: dict[VertexId, Label] = {}
         for moving in vertices.bodies:
-            self.add(moving.ring)
+            self.add(moving)
 
-    def add(self, ring: Sequence[VertexId]) -> BodyTree:
-        """Add the tree of a new body, the last one."""
+    def add(self, moving: MovingBody) -> list[RingTree]:
+        """Add the trees of a new body, the last one."""
+        is_hole = [k > 0 for rings in moving.body.parts for k in range(len(rings))]
+        trees = [self._grow(*ring) for ring in zip(moving.rings, is_hole, strict=True)]
+        self.bodies.append(trees)
+        return trees
+
+    def _grow(self, ring: Sequence[VertexId], is_hole: bool) -> RingTree:  # noqa: FBT001
         tree = tree_of_size(len(ring))
         nodes = [2 * v + side for v in ring for side in (0, 1)]
         missing = 2 * len(self.vertices.all) - len(self.parent)
@@ -68,17 +76,16 @@ class Forest:
             self.depth[node] = depth
         self.leaves.update(nodes[leaf] for leaf in tree.leaf)
         self.pinned[ring[0]] = frozenset((nodes[ROOT],))
-        self.bodies.append(BodyTree(tree, nodes, [*ring, ring[0]]))
-        return self.bodies[-1]
+        return RingTree(tree, nodes, [*ring, ring[0]], is_hole)
 
     def remove(self, i: int) -> None:
-        """Remove the tree of a body; the last body takes over its number."""
-        _, nodes, chain = self.bodies[i]
-        last = self.bodies.pop()
+        """Remove the trees of a body; the last body takes over its number."""
+        removed, last = self.bodies[i], self.bodies.pop()
         if i < len(self.bodies):
             self.bodies[i] = last
-        self.leaves.difference_update(nodes)
-        del self.pinned[chain[0]]
+        for tree in removed:
+            self.leaves.difference_update(tree.nodes)
+            del self.pinned[tree.chain[0]]
 
     def body(self, node: int) -> int:
         """The number of the body to which a node belongs."""

@@ -119,6 +119,43 @@ class Geodesics:
                 first = i
         return [*cycle[first:], *cycle[:first]]
 
+    def around_contents(self, ring: Sequence[HalfEdge]) -> list[HalfEdge]:
+        """A chain around all that is in a hole, from its leftmost vertex p on; none if it is empty.
+
+        The chain leads from p to the ring of the hole, around it, and back. The unpinned geodesic
+        cycle is convex only at vertices of the contents, so p is its leftmost vertex too. What is
+        left of p in the hole is empty, and no part of the cycle: where the chain meets the ring
+        there does not matter. A triangle at p that reaches to the left has a vertex there.
+        """
+        m, origins = self._mesh.map, {self._mesh.map.origin[h]: i for i, h in enumerate(ring)}
+        p = NO_VERTEX
+        for h in self._component(twin(ring[0])):
+            v = m.origin[h]
+            if v not in origins and (p == NO_VERTEX or self._predicates.left_of(v, p)):
+                p = v
+        if p == NO_VERTEX:
+            return []
+        bridge = next(
+            h
+            for h in m.star(self._mesh.ring_edge[p])
+            if m.target(h) in origins and self._predicates.left_of(m.target(h), p)
+        )
+        first = origins[m.target(bridge)]
+        return [bridge, *ring[first:], *ring[:first], twin(bridge)]
+
+    def _component(self, first: HalfEdge) -> set[HalfEdge]:
+        """The half-edges of all triangles that are connected to one."""
+        m = self._mesh.map
+        seen: set[HalfEdge] = set()
+        todo = [first]
+        while todo:
+            h = todo.pop()
+            if h not in seen and h in self._triangles:
+                face = m.face(h)
+                seen.update(face)
+                todo += [twin(g) for g in face]
+        return seen
+
     def _triangles_at(self, before: HalfEdge, after: HalfEdge) -> list[HalfEdge] | None:
         """The triangles on the right of a chain at a vertex; None if a face is no triangle.
 

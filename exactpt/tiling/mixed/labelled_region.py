@@ -20,6 +20,8 @@ tile has a vertex on the chain that the geodesic does not pass: where the geodes
 chain it bends to the right, so no tile with all its vertices on the geodesic is on its left.
 The tiles between the chain and the old geodesic are in the region from the start. So all other
 tiles keep their nodes.
+
+Every body has one ring here: beside holes and parts, the whole is tiled anew instead.
 """
 
 from __future__ import annotations
@@ -41,7 +43,7 @@ from exactpt.tiling.mixed.changed_geodesics import (
     nodes_changed_by_insertion,
     nodes_changed_by_removal,
 )
-from exactpt.tiling.mixed.forest import BodyTree
+from exactpt.tiling.mixed.forest import RingTree
 from exactpt.tiling.mixed.geodesics import Geodesics, joined
 from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.mixed.tree import TOP
@@ -71,7 +73,7 @@ def region_of_removal(mesh: LabelledMesh, i: int, edges: Sequence[HalfEdge]) -> 
         edges: the edges at its vertices.
     """
     sides = [g for h in edges for g in (h, twin(h))]
-    own = mesh.forest.bodies[i]
+    (own,) = mesh.forest.bodies[i]
     return LabelledRegion(mesh, sides, edges, nodes_changed_by_removal(mesh, own, sides), own)
 
 
@@ -93,15 +95,17 @@ class LabelledRegion(Region):
         faces: Iterable[HalfEdge],
         gone: Iterable[HalfEdge],
         changing: set[int],
-        own: BodyTree | None,
+        own: RingTree | None,
     ) -> None:
         self._labelled = mesh
         self._triangles: set[HalfEdge] = set()
         self._triangulation: list[HalfEdge] = []
         self._was_fixed: dict[HalfEdge, bool] = {}
         forest = mesh.forest
-        trees = [forest.bodies[i] for i in sorted({forest.body(node) for node in changing})]
-        self._changed = [changed_geodesics(mesh, tree, changing) for tree in trees]
+        bodies = sorted({forest.body(node) for node in changing})
+        self._changed = [
+            changed_geodesics(mesh, tree, changing) for i in bodies for tree in forest.bodies[i]
+        ]
         paths = [
             (changed.tree.nodes[k], mesh.geodesic(changed.tree, k))
             for changed in self._changed
@@ -120,7 +124,7 @@ class LabelledRegion(Region):
     def add_ring(self, vertices: Vertices, moving: MovingBody) -> None:
         """As `Region.add_ring`, and add the tree of the body."""
         super().add_ring(vertices, moving)
-        of = self._labelled.forest.add(moving.ring)
+        (of,) = self._labelled.forest.add(moving)
         ring = [self.mesh.ring_edge[v] for v in moving.ring]
         spans = {k: (of.tree.low[k], of.tree.high[k]) for k in range(len(of.nodes))}
         self._changed.append(ChangedGeodesics(of, ring, {}, spans))

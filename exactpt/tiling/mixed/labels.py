@@ -1,12 +1,12 @@
 """Labels: the geodesics along each half-edge, and their changes at repairs.
 
 The label of a half-edge h is the set of tree nodes whose geodesic traverses h in its
-direction. They all belong to one polygon, the one on the left, and form a path of ancestors
+direction. They all belong to one ring of the polygon on the left, and form a path of ancestors
 in its tree, from the deepest node, bot, up to the highest, top. (An edge shared by the
 geodesics of two nested chains is shared by those of all chains in between.) The labels
 determine the tiles of F1:
 
-* A labelled half-edge whose bot is a leaf is an edge of the polygon. Otherwise the tile on its
+* A labelled half-edge whose bot is a leaf is an edge of the ring. Otherwise the tile on its
   left belongs to bot: it lies between the geodesic of bot and those of its children.
 * The tile on the left of an unlabelled half-edge whose twin is labelled belongs to the parent
   of the twin's top; if top is the unpinned cycle, it is outside all relative hulls, in F2.
@@ -31,7 +31,7 @@ from exactpt.errors import AuditError
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import F2, FREE, INSIDE, Mesh, Tile
-from exactpt.tiling.mixed.forest import NO_LABEL, BodyTree, Forest, Label
+from exactpt.tiling.mixed.forest import NO_LABEL, Forest, Label, RingTree
 from exactpt.tiling.mixed.loops import loop_along
 from exactpt.tiling.mixed.tree import ROOT, TOP
 
@@ -72,7 +72,7 @@ class LabelledMesh(Mesh):
         """The node whose tile is on the left of a half-edge of free space; -1 in F2."""
         return self.forest.node(self.labels[h], self.labels[h ^ 1])
 
-    def geodesic(self, body_tree: BodyTree, k: int) -> list[HalfEdge]:
+    def geodesic(self, ring_tree: RingTree, k: int) -> list[HalfEdge]:
         """The half-edges along the geodesic of a node; the cycle of `TOP` starts anywhere.
 
         Where the geodesic passes a vertex twice, it continues along the first of its half-edges
@@ -81,16 +81,16 @@ class LabelledMesh(Mesh):
         Raises:
             AuditError: if the labels are not those of one path.
         """
-        node = body_tree.nodes[k]
+        node = ring_tree.nodes[k]
         if k == TOP:
             last = NO_HALF_EDGE
             first = next(
-                (h for h in self.geodesic(body_tree, ROOT) if node in self.labels[h]), NO_HALF_EDGE
+                (h for h in self.geodesic(ring_tree, ROOT) if node in self.labels[h]), NO_HALF_EDGE
             )
         else:  # the last one is that from the end back along the ring
-            last = twin(self.ring_edge[body_tree.chain[body_tree.tree.high[k] - 1]])
+            last = twin(self.ring_edge[ring_tree.chain[ring_tree.tree.high[k] - 1]])
             first = self._clockwise(
-                self.ring_edge[body_tree.chain[body_tree.tree.low[k]]], node, NO_HALF_EDGE
+                self.ring_edge[ring_tree.chain[ring_tree.tree.low[k]]], node, NO_HALF_EDGE
             )
         path: list[HalfEdge] = []
         h = first
@@ -201,7 +201,7 @@ class LabelledMesh(Mesh):
 
     def relative_hulls(self) -> Callable[[int], list[VertexId]]:
         """See `Mesh.relative_hulls`: the unpinned cycles of the current bodies."""
-        tops = [body_tree.nodes[TOP] for body_tree in self.forest.bodies]
+        tops = [outline.nodes[TOP] for outline, *_ in self.forest.bodies]
         return lambda i: loop_along(self.map, self.labels, tops[i])
 
     def audit_faces(self, half_edges: Iterable[HalfEdge]) -> None:

@@ -6,6 +6,14 @@ pseudo-triangulation; the labels (`exactpt.tiling.mixed.labels`) determine which
 replaced. The border between F1 and F2 needs no rule of its own: an edge that loses its last
 label is a diagonal of F2 from then on, and one that gets a label no longer is. When a body is
 added or removed, geodesics that change are recomputed (`exactpt.tiling.mixed.labelled_region`).
+
+A hole is a ring as an outline is: the body is on the left of its half-edges, and the geodesics
+along it lead through the free space in the hole. Its unpinned cycle is the shortest loop around
+all that is in the hole; what is between the ring and this loop belongs to F1 as well. Loops of
+different rings do not cross, since the rings do not: so a half-edge has labels of one ring, in the
+holes too, and the repairs, which are local, are those of outlines. Where nothing is in a hole, the
+loops of `ROOT` and `TOP` are points, without an edge, and remain so: geodesics keep their homotopy
+class. (Those of the two halves of the ring are then one path, in opposite directions.)
 """
 
 from __future__ import annotations
@@ -28,7 +36,7 @@ __all__ = ["MixedRules"]
 
 @final
 class MixedRules(FlippingRules):
-    """The mixed tiling: O(kappa log n) certificates of rigid polygons."""
+    """The mixed tiling: O(kappa log n) certificates of rigid polygons, holes included."""
 
     @property
     def _labelled(self) -> LabelledMesh:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from itertools import pairwise
+from itertools import chain, pairwise
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.indices import Ends
@@ -16,7 +16,7 @@ from exactpt.pseudotriangulation.pointed import make_pointed
 from exactpt.tiling.mixed.forest import NO_LABEL, Forest, Label
 from exactpt.tiling.mixed.geodesics import Geodesics
 from exactpt.tiling.mixed.labels import LabelledMesh
-from exactpt.tiling.mixed.tree import TOP
+from exactpt.tiling.mixed.tree import ROOT, TOP
 
 __all__ = ["mixed_mesh"]
 
@@ -49,13 +49,15 @@ def _geodesic_labels(instant: PredicatesAt, forest: Forest) -> dict[Ends, Label]
     triangles = {h for h in triangulation.map.half_edges() if triangulation.region[h] == FREE}
     geodesics = Geodesics(instant, triangulation, triangles)
     sets: dict[Ends, set[int]] = {}
-    for tree, nodes, chain in forest.bodies:
+    for tree, nodes, vertices, is_hole in chain.from_iterable(forest.bodies):
         ask()
-        ring = [triangulation.ring_edge[v] for v in chain[:-1]]
+        ring = [triangulation.ring_edge[v] for v in vertices[:-1]]
+        cycle = (geodesics.around_contents if is_hole else geodesics.from_leftmost)(ring)
         for k, node in enumerate(nodes):
-            part = ring[tree.low[k] : tree.high[k]]
-            path = geodesics.path(geodesics.from_leftmost(part) if k == TOP else part)
-            for ends in pairwise(path):
+            part = cycle if k == TOP else ring[tree.low[k] : tree.high[k]]
+            if k <= ROOT and not cycle:
+                continue  # the loops around nothing are points
+            for ends in pairwise(geodesics.path(part)):
                 sets.setdefault(ends, set()).add(node)
     return {ends: frozenset(nodes) for ends, nodes in sets.items()}
 

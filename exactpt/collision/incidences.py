@@ -1,0 +1,196 @@
+"""Incidences as users see them: which vertex is on what, the point and the normal."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import final
+
+from exactpt.collision.rounded_touch import place_of
+from exactpt.geometry.polygon import signed_area2
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.integer_polynomial import IntPoly, greatest_common_divisor, multiply, scale
+from exactpt.kernel.numbers import QQ, ZZ, finite
+from exactpt.kernel.quotients import exponent, nearest_quotient
+from exactpt.motion.body import Body
+from exactpt.motion.incidence import Touch, difference, orientation
+from exactpt.motion.track import Track
+from exactpt.proximity.features import excess
+from exactpt.scene.scene import Scene
+
+__all__ = ["Pair", "details", "tracks_before", "tracks_just_before"]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """An incidence: a vertex that lies on, or as a rounded one touches, an edge or a vertex.
+
+    Attributes:
+        kind: "vertex-edge" or "vertex-vertex".
+        body, vertex: name of the body and number of its vertex, as in the scene.
+        other: name of the body that is touched (``body`` itself in a self-contact).
+        edge: the edge of ``other``, from vertex ``edge`` to the next; None for vertex-vertex.
+        other_vertex: the vertex of ``other``; None for vertex-edge.
+        point: the common point, each coordinate the nearest finite double.
+        normal: the unit normal of the edge that points out of ``other`` (if ``other`` has no
+            interior: to the side from which the vertex came); None for vertex-vertex.
+
+    Where a body is rounded, vertices and edges are those of the cores. Then the point is on both
+    boundaries, and the normal, from the edge or the vertex of ``other`` to the vertex, is always
+    given, each coordinate the nearest double.
+    """
+
+    kind: str
+    body: str
+    vertex: int
+    other: str
+    edge: int | None
+    other_vertex: int | None
+    point: tuple[float, float]
+    normal: tuple[float, float] | None
+
+    def to_json(self) -> dict[str, object]:
+        """The pair as a JSON object, see docs/format.md."""
+        if self.edge is None:
+            b: dict[str, object] = {"body": self.other, "vertex": self.other_vertex}
+        else:
+            b = {"body": self.other, "edge": self.edge}
+        return {
+            "kind": self.kind,
+            "a": {"body": self.body, "vertex": self.vertex},
+            "b": b,
+            "point": list(self.point),
+            "normal": None if self.normal is None else list(self.normal),
+        }
+
+
+def tracks_before(scene: Scene, time: AlgebraicNumber) -> list[tuple[Track, ...]]:
+    """The trajectories of the vertices of each body, in the piece of motion just before a time.
+
+    The time is later than the start of the scene.
+    """
+    return [tracks_just_before(body, time, scene._start) for body in scene.bodies]
+
+
+def tracks_just_before(body: Body, time: AlgebraicNumber, start: QQ) -> tuple[Track, ...]:
+    """Those of one body; at the start, in the piece just after it."""
+    since = max((b for b in body._breakpoints if time.compare_rational(b) > 0), default=start)
+    return body._piece_after(since).tracks
+
+
+def details(
+    scene: Scene, time: AlgebraicNumber, touches: Sequence[Touch]
+) -> tuple[AlgebraicNumber, tuple[Pair, ...]]:
+    """The time in the form that does not depend on the search, and the incidences."""
+    outward = {i: _outward(scene, i) for i in {touch.other for touch in touches}}
+    involved = sorted({i for touch in touches for i in (touch.body, touch.other)})
+    tracks = {i: tracks_just_before(scene.bodies[i], time, scene._start) for i in involved}
+    number = _as_root(scene, time, tracks, touches)
+    pairs = tuple(
+        _pair(scene, tracks, touch, number, _side(outward[touch.other], touch)) for touch in touches
+    )
+    return number, pairs
+
+
+def _as_root(
+    scene: Scene,
+    time: AlgebraicNumber,
+    tracks: Mapping[int, tuple[Track, ...]],
+    touches: Sequence[Touch],
+) -> AlgebraicNumber:
+    """The time as a root of the first incidence's polynomial, whichever search has found it."""
+    if time.simplified().is_rational or not touches:
+        return time
+    touch = touches[0]
+    v, other = tracks[touch.body][touch.vertex], tracks[touch.other]
+    reach = scene.bodies[touch.body]._radius + scene.bodies[touch.other]._radius
+    if reach:
+        f = excess(v, _ends(scene, touch, other), reach * reach)
+    elif touch.edge >= 0:
+        f = orientation(v, *_ends(scene, touch, other))
+    else:
+        f = _coincidence(v, other[touch.other_vertex])
+    return time._as_root_of(f) if f else time
+
+
+def _ends(
+    scene: Scene, touch: Touch, other: tuple[Track, ...]
+) -> tuple[Track] | tuple[Track, Track]:
+    """The vertex that is touched, or the ends of the edge."""
+    if touch.edge < 0:
+        return (other[touch.other_vertex],)
+    return other[touch.edge], other[scene.bodies[touch.other].end_of_edge(touch.edge)]
+
+
+def _coincidence(v: Track, w: Track) -> IntPoly:
+    """A polynomial that vanishes at each time at which two vertices coincide."""
+    dx, dy = difference(v.x, v.w, w.x, w.w), difference(v.y, v.w, w.y, w.w)
+    return greatest_common_divisor(dx, dy) if dx and dy else dx or dy
+
+
+def _pair(
+    scene: Scene,
+    tracks: Mapping[int, tuple[Track, ...]],
+    touch: Touch,
+    time: AlgebraicNumber,
+    outward: int,
+) -> Pair:
+    v, ends = tracks[touch.body][touch.vertex], _ends(scene, touch, tracks[touch.other])
+    normal = None
+    x, y, w = v.x, v.y, v.w
+    radii = scene.bodies[touch.body]._radius, scene.bodies[touch.other]._radius
+    if any(radii):
+        x, y, w, n_x, n_y, n_w = place_of(v, ends, *radii)
+        normal = nearest_quotient(n_x, n_w, time), nearest_quotient(n_y, n_w, time)
+    elif len(ends) == 2:
+        normal = _normal(outward, v, *ends, time)
+    return Pair(
+        kind="vertex-edge" if touch.edge >= 0 else "vertex-vertex",
+        body=scene.bodies[touch.body].name,
+        vertex=touch.vertex,
+        other=scene.bodies[touch.other].name,
+        edge=touch.edge if touch.edge >= 0 else None,
+        other_vertex=touch.other_vertex if touch.edge < 0 else None,
+        point=(finite(nearest_quotient(x, w, time)), finite(nearest_quotient(y, w, time))),
+        normal=normal,
+    )
+
+
+def _outward(scene: Scene, i: int) -> list[tuple[range, int]]:
+    """For each ring of a body, the side of its edges on which the exterior lies.
+
+    That is 1 for the right one, -1 for the left one, 0 for both.
+    """
+    body = scene.bodies[i]
+    if not body.has_interior:
+        return [(range(body.size), 0)]
+    points = body._at(scene._start)
+    return [
+        (ring, 1 if (signed_area2(points[ring.start : ring.stop]) > 0) == (k == 0) else -1)
+        for rings in body.parts
+        for k, ring in enumerate(rings)
+    ]
+
+
+def _side(outward: Sequence[tuple[range, int]], touch: Touch) -> int:
+    """The side on which the exterior lies at the edge that is touched; 0 if it is a vertex."""
+    return next((side for ring, side in outward if touch.edge in ring), 0)
+
+
+def _normal(
+    outward: int, v: Track, a: Track, b: Track, time: AlgebraicNumber
+) -> tuple[float, float]:
+    w = multiply(a.w, b.w)
+    dx, dy = difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
+    # The unit vector does not depend on the scale; at this scale no double under- or overflows.
+    size = max(exponent(f, w, time) for f in (dx, dy))
+    grown, shrunk = ZZ(1) << max(0, -size), ZZ(1) << max(0, size)
+    w = scale(w, shrunk)
+    x, y = (nearest_quotient(scale(f, grown), w, time) for f in (dx, dy))
+    # A body without interior: towards the side from which the vertex came; to the right if it
+    # came along the line.
+    out = outward or -time.sign_before(orientation(a, b, v)) or 1
+    length = math.hypot(x, y)
+    return (out * y / length + 0.0, -out * x / length + 0.0)

@@ -1,0 +1,128 @@
+"""Scenes written as JSON, exactly: what `exactpt.scene.format` reads back."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+from exactpt.errors import InputError
+from exactpt.files import write_atomically
+from exactpt.kernel.numbers import QQ, shorten, show
+from exactpt.kernel.polynomial import Polynomial
+from exactpt.motion.body import Body
+from exactpt.motion.motions import (
+    REST,
+    Affine,
+    Motion,
+    Pieces,
+    Position,
+    Rigid,
+    Translation,
+)
+from exactpt.motion.spin import Spin
+from exactpt.scene.format import VERSION
+from exactpt.scene.json_values import MOST_DIGITS, is_too_long
+from exactpt.scene.scene import Scene
+
+__all__ = ["save", "to_json"]
+
+
+def _text(value: QQ) -> str:
+    if is_too_long(value):
+        raise InputError(
+            f"more than {MOST_DIGITS} digits have no place in a scene file: {show(value)}"
+        )
+    return str(value)
+
+
+def _coefficients(f: Polynomial) -> list[str]:
+    return [_text(c) for c in f._coefficients] or ["0"]
+
+
+def to_json(scene: Scene) -> dict[str, object]:
+    """The scene as JSON data, rationals as ``"p/q"``; `loads` gives the same scene back.
+
+    Raises:
+        InputError: if it has a number or a custom motion that files cannot hold.
+    """
+    return {
+        "exactpt": VERSION,
+        "time": [_text(scene._start), _text(scene._end)],
+        "bodies": [_named_body_to_json(body) for body in scene.bodies],
+    }
+
+
+def _named_body_to_json(body: Body) -> dict[str, object]:
+    try:
+        return _body_to_json(body)
+    except InputError as error:
+        raise InputError(f"body {shorten(body.name)}: {error}") from None
+
+
+def _body_to_json(body: Body) -> dict[str, object]:
+    data: dict[str, object] = {"name": body.name}
+    if not body.closed:
+        data["closed"] = False
+    if body._radius:
+        data["radius"] = _text(body._radius)
+    if body._shape.keyframes:
+        data["keyframes"] = [
+            {"t": _text(f.t), "vertices": [[_text(x), _text(y)] for x, y in f.vertices]}
+            for f in body._shape.keyframes
+        ]
+    elif len(body.parts) > 1:
+        data["parts"] = [_part_to_json(body, rings) for rings in body.parts]
+    else:
+        data |= _part_to_json(body, body.parts[0])
+    if body.motion != REST:
+        data["motion"] = _motion_to_json(body.motion)
+    return data
+
+
+def _part_to_json(body: Body, rings: Sequence[range]) -> dict[str, object]:
+    outline, *holes = ([_vertex_to_json(body.vertices[i]) for i in ring] for ring in rings)
+    return {"vertices": outline, "holes": holes} if holes else {"vertices": outline}
+
+
+def _vertex_to_json(vertex: Position) -> object:
+    x, y = vertex
+    if x.degree <= 0 and y.degree <= 0:
+        return [_text(x._at(QQ(0))), _text(y._at(QQ(0)))]
+    return {"x": _coefficients(x), "y": _coefficients(y)}
+
+
+def _motion_to_json(motion: Motion) -> dict[str, object]:
+    if isinstance(motion, Pieces):
+        ends = [{"until": _text(t)} for t in motion._until]
+        pieces: dict[str, object] = {
+            "pieces": [
+                {**end, "motion": _motion_to_json(m)}
+                for end, m in zip([*ends, {}], motion.motions, strict=True)
+            ]
+        }
+        if isinstance(motion, Spin):
+            pieces["spin"] = {"omega": _text(motion._omega), "error": _text(motion._error)}
+        return pieces
+    if isinstance(motion, Rigid):
+        rigid = {
+            "pivot": [_text(c) for c in motion._pivot],
+            "half_turn": _coefficients(motion.half_turn),
+            "x": _coefficients(motion.x),
+            "y": _coefficients(motion.y),
+        }
+        if motion._orientation[0] != 1:
+            rigid["orientation"] = [_text(c) for c in motion._orientation]
+        return {"rigid": rigid}
+    if isinstance(motion, Affine):
+        matrix = [[_coefficients(p) for p in row] for row in motion.matrix]
+        x, y = _coefficients(motion.x), _coefficients(motion.y)
+        return {"affine": {"matrix": matrix, "x": x, "y": y}}
+    if isinstance(motion, Translation):
+        return {"x": _coefficients(motion.x), "y": _coefficients(motion.y)}
+    raise InputError(f"a motion of this kind has no place in a scene file: {motion!r}")
+
+
+def save(scene: Scene, path: Path) -> None:
+    """Write a scene file atomically."""
+    write_atomically(path, json.dumps(to_json(scene), indent=1) + "\n")
