@@ -23,8 +23,9 @@ from exactpt.kernel.numbers import (
     shorten,
     show,
 )
-from exactpt.kernel.polynomial import ONE, ZERO, Polynomial, polynomial
-from exactpt.motion.track import Track, Turning, track, translated
+from exactpt.kernel.polynomial import ZERO, Polynomial, polynomial
+from exactpt.motion.track import Track, track, translated
+from exactpt.motion.turn import Turn, turn_of
 
 __all__ = [
     "REST",
@@ -157,7 +158,7 @@ class Rigid(_Given):
         InputError: if an argument is invalid, such as an orientation that is no unit vector.
     """
 
-    __slots__ = ("_orientation", "_pivot", "half_turn", "x", "y")
+    __slots__ = ("_orientation", "_pivot", "_turn", "half_turn", "x", "y")
 
     def __init__(
         self,
@@ -177,6 +178,7 @@ class Rigid(_Given):
         self.half_turn = polynomial(half_turn)
         self.x = polynomial(x)
         self.y = polynomial(y)
+        self._turn: Turn | None = None
 
     @property
     def pivot(self) -> tuple[Fraction, Fraction]:
@@ -190,20 +192,10 @@ class Rigid(_Given):
 
     def track(self, position: Position) -> Track:
         """The trajectory of the vertex with this position in the rest frame."""
-        px, py = Polynomial([self._pivot[0]]), Polynomial([self._pivot[1]])
-        h = self.half_turn
-        w, cosine, sine = ONE + h * h, ONE - h * h, h + h
-        dx, dy = position[0] - px, position[1] - py
-        if self._orientation[0] != 1:
-            c, s = (Polynomial([part]) for part in self._orientation)
-            dx, dy = c * dx - s * dy, s * dx + c * dy
-        x = cosine * dx - sine * dy + w * (px + self.x)
-        y = sine * dx + cosine * dy + w * (py + self.y)
-        if h.degree <= 0:
-            scale = Polynomial([1 / w._at(QQ(0))])
-            return track(x * scale, y * scale, None, None)
-        rigid = position[0].degree <= 0 and position[1].degree <= 0
-        return track(x, y, w, Turning(h, px + self.x, py + self.y) if rigid else None)
+        if self._turn is None:
+            path = Polynomial([self._pivot[0]]) + self.x, Polynomial([self._pivot[1]]) + self.y
+            self._turn = turn_of(self.half_turn, self._pivot, path, self._orientation)
+        return self._turn.track(position)
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         pivot = (str(self._pivot[0]), str(self._pivot[1]))

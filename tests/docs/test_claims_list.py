@@ -54,6 +54,7 @@ def command_of(words):
     if words[0] == "exactpt":
         return cli.commands[words[1]]
     how = {
+        "--cases": fuzzer.fuzz,
         "proof-mutants": fuzzer.proof_mutants,
         "questions": fuzzer.questions,
         "small-scope": fuzzer.small_scope,
@@ -61,7 +62,7 @@ def command_of(words):
         "--hostile": fuzzer.run_hostile,
         "--soak": fuzzer.run_soak,
     }
-    return next((how[word] for word in words if word in how), fuzzer.fuzz)
+    return next(how[word] for word in [*words[3:4], *words] if word in how)
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -73,6 +74,9 @@ def test_a_command_is_there(command, pytestconfig):
         for option in {"--exact-only"} & set(words):
             assert pytestconfig.getoption(option) is not None
         assert files or "--exact-only" in words
+        if files and files[0].startswith("examples/"):
+            source = (ROOT / files[0]).read_text(encoding="utf-8")
+            assert all(f'"{word}"' in source for word in words if word.startswith("--"))
         return
     options = {
         name
