@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Hashable, Sequence
-from itertools import chain
-from typing import TYPE_CHECKING, Final, final
+from itertools import chain, zip_longest
+from typing import TYPE_CHECKING, Final, NamedTuple, final
 
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, ZZ, nearest_float, power_of_two
@@ -35,6 +35,27 @@ INTEGERS: Final = 2.0**53
 _ONE: Final = (ZZ(1),)
 
 
+class _Common(NamedTuple):
+    """What the arms of all vertices of a motion have in common.
+
+    Attributes:
+        w, w_now: the constant coefficients of 1 + h^2, in the scene's and in normalised time.
+        divisor: the power of two by which coefficients are divided.
+        pivot_x, pivot_y: the path of the pivot.
+        part_x, part_y: three coefficients of its product with 1 + h^2, in the scene's time.
+        denominator: 1 + h^2, divided.
+    """
+
+    w: QQ
+    w_now: QQ
+    divisor: QQ
+    pivot_x: list[float]
+    pivot_y: list[float]
+    part_x: list[QQ]
+    part_y: list[QQ]
+    denominator: list[float]
+
+
 @final
 class Enclosures:
     """The enclosures made in a frame: numbers for their rigid motions, bounds on their errors.
@@ -48,6 +69,8 @@ class Enclosures:
         self._frame = frame
         self._motions: dict[object, int] = {}
         self._named: int = 0
+        self._turning: Turning | None = None  # of the last arm, and what it has in common
+        self._common: _Common | None = None
         self.errors: list[float] = [0.0, 0.0]
 
     def images(self, tracks: Sequence[Track]) -> list[Image]:
@@ -117,31 +140,47 @@ class Enclosures:
         (The denominators of trajectories of one motion differ by constants.) None if the
         degrees are too large, or a coefficient is out of range.
         """
-        paths = turning.x._coefficients, turning.y._coefficients
-        w = (ONE + turning.half_turn * turning.half_turn)._coefficients
-        if len(w) > 3 or max(map(len, paths)) > 3:
+        if self._turning is not turning:
+            self._turning, self._common = turning, self._common_of(turning)
+        common = self._common
+        if common is None:
             return None
-        factor = w[0] / track.w[0]
-        w_now = self._frame.in_time(list(w))
-        divisor = power_of_two(binary_exponent(max(map(abs, w_now))))
-        parts: list[list[float]] = []
-        for path, x, c, scale in zip(
-            paths, (track.x, track.y), self._frame.center, self._frame.scale, strict=True
+        factor = common.w / track.w[0]
+        arms = []
+        for x, part, scale in zip(
+            (track.x, track.y), (common.part_x, common.part_y), self._frame.scale, strict=True
         ):
             unit = power_of_two(-scale)
-            r = [a * factor for a in x] + [QQ(0)] * (len(path) + 3)
-            for i, a in enumerate(w):
-                for j, b in enumerate(path):
-                    r[i + j] -= a * b
-            r = self._frame.in_time([a * unit for a in r[:3]])
-            p = self._frame.in_time(combined(list(path), [QQ(1)], -c, unit))
-            parts.append(_floats(p, 3))
-            parts.append([*_floats(_quotients(r, divisor), 3), *_floats([r[0] / w_now[0]], 1)])
-        parts.append(_floats(_quotients(w_now, divisor), 3))
-        if not all(map(_fits_in_arms, chain.from_iterable(parts))):
+            r = [(a * factor - b) * unit for a, b in zip_longest(x[:3], part, fillvalue=QQ(0))]
+            r = self._frame.in_time(r)
+            arms.append(
+                [*_floats(_quotients(r, common.divisor), 3), *_floats([r[0] / common.w_now], 1)]
+            )
+        if not all(map(_fits_in_arms, chain(*arms))):
             return None
-        pivot_x, arm_x, pivot_y, arm_y, denominator = parts
-        return Arm(pivot_x, pivot_y, arm_x, arm_y, denominator)
+        arm_x, arm_y = arms
+        return Arm(common.pivot_x, common.pivot_y, arm_x, arm_y, common.denominator)
+
+    def _common_of(self, turning: Turning) -> _Common | None:
+        """What the arms of all vertices of a motion have in common; None if they are none."""
+        paths = turning.x._coefficients, turning.y._coefficients
+        h = turning.half_turn
+        w = ONE + h * h
+        if w.degree > 2 or max(map(len, paths)) > 3:
+            return None
+        w_now = self._frame.in_time(list(w._coefficients))
+        divisor = power_of_two(binary_exponent(max(map(abs, w_now))))
+        pivots = [
+            _floats(self._frame.in_time(combined(list(path), [QQ(1)], -c, power_of_two(-scale))), 3)
+            for path, c, scale in zip(paths, self._frame.center, self._frame.scale, strict=True)
+        ]
+        denominator = _floats(_quotients(w_now, divisor), 3)
+        if not all(map(_fits_in_arms, chain(denominator, *pivots))):
+            return None
+        parts = ([*(w * path)._coefficients, *[QQ(0)] * 3][:3] for path in (turning.x, turning.y))
+        (pivot_x, pivot_y), (part_x, part_y) = pivots, parts
+        constants = w._coefficients[0], w_now[0], divisor
+        return _Common(*constants, pivot_x, pivot_y, part_x, part_y, denominator)
 
     @property
     def motion_count(self) -> int:
