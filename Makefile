@@ -12,7 +12,7 @@ LOWEST := $(VENV)/lowest
 COMPILED_TESTS := $(addprefix tests/,kernel certificates motion planar pseudotriangulation tiling collision simulation)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser compiled plain test-compiled coverage lint quick pictures docs package wheels check-cgal clean
+.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser browser try-browser compiled plain test-compiled coverage lint quick pictures docs package wheels check-cgal clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -42,6 +42,14 @@ test-exact: $(VENV)/developing ## the quick tests with the float filters switche
 test-browser: $(VENV)/developing ## the animation in a real browser (installs chromium)
 	@.ci/apt-install chromium chromium-driver
 	$(BIN)/python -m pytest -m browser
+
+browser: $(VENV)/developing ## the page that runs exactpt in the browser, with its wheel, in dist/browser
+	$(BIN)/python docs/make_page.py dist/browser
+
+try-browser: $(VENV)/developing ## that page in a real browser (fetches Pyodide into .pyodide, 30 MB; needs npm)
+	@.ci/apt-install chromium chromium-driver
+	$(BIN)/python .ci/fetch_pyodide.py
+	$(BIN)/python -m pytest -m browser tests/docs/test_page_in_chromium.py
 
 compiled: $(VENV)/developing ## compile the hot rooms of this checkout (setup.py)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77.0.3'
@@ -114,4 +122,4 @@ $(LOWEST)/installed: $(VENV)/developing .ci/lowest.py
 	@touch $@
 
 clean: ## remove what was built (not .venv)
-	rm -rf build dist cgal_check/build *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	rm -rf build dist .pyodide cgal_check/build *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis

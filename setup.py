@@ -2,7 +2,9 @@
 
 The sources are the same; without a compiler the package is plain Python and works as
 well, slower. An editable install stays plain, so that what is edited is what runs;
-`python setup.py build_ext --inplace` compiles a checkout, and `make plain` undoes it.
+`python setup.py build_ext --inplace` compiles a checkout, and `make plain` undoes it. With
+EXACTPT_PLAIN=1 in the environment nothing is compiled: the wheel is for any platform, also for
+Pyodide's (`make browser`).
 
 Not compiled is what computes with the integers of GMP: for the type checker they are
 ``int``, which mypyc would take at its word.
@@ -10,6 +12,7 @@ Not compiled is what computes with the integers of GMP: for the type checker the
 A wheel has the C++ sources of cgal_check too, in exactpt/cgal/sources: `exactpt check --build`.
 """
 
+import os
 import shutil
 import sys
 from glob import glob
@@ -44,8 +47,8 @@ EXACT = {
 
 
 def extensions() -> list[Extension]:
-    """The compiled modules; none if mypyc is missing or the install is editable."""
-    if "editable_wheel" in sys.argv:
+    """The compiled modules; none if mypyc is missing, or the install is editable or plain."""
+    if "editable_wheel" in sys.argv or os.environ.get("EXACTPT_PLAIN") == "1":
         return []
     try:
         from mypyc.build import mypycify

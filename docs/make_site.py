@@ -1,7 +1,8 @@
 """What the site has besides the pages of this folder; a hook of mkdocs.yml (`make docs`).
 
 The pages of the checkout's root, the API pages, the examples that pages link to, the gallery's
-animations, and llms.txt: the list of all pages, for programs that read.
+animations, what the page docs/browser needs, and llms.txt: the list of all pages, for programs
+that read.
 """
 
 from __future__ import annotations
@@ -38,6 +39,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Add everything that is no page of this folder."""
     from mkdocs.structure.files import File
 
+    from docs.make_page import made
+
     def add(path: str, content: str | bytes) -> None:
         files.append(File.generated(config, path, content=content))
 
@@ -53,6 +56,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
         add(f"reference/{room}.md", "\n".join(_modules(room)))
     for name, page in _animations():
         add(f"gallery/{name}.html", page)
+    for path, content in made():
+        add(f"browser/{path}", content)
     return files
 
 

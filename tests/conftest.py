@@ -1,9 +1,11 @@
-"""Hypothesis profiles, a limit on refinement, two options, and the CGAL witness as a fixture.
+"""Hypothesis profiles, a limit on refinement, two options; CGAL's witness and Chromium as fixtures.
 
 ``dev`` (random, short) is the default; HYPOTHESIS_PROFILE=ci is derandomized and longer.
 """
 
 import os
+import shutil
+import warnings
 from datetime import date
 
 import pytest
@@ -30,6 +32,17 @@ settings.register_profile(
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "dev"))
 
 MOST_BITS = 100_000
+
+FLAGS = (
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+    "--window-size=1280,800",
+)
 
 
 def pytest_addoption(parser):
@@ -106,3 +119,22 @@ def program():
 def witness(program):
     with CgalCheck(program) as running:
         yield running
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """Chromium, headless, with what pages say on the console in its log."""
+    webdriver = pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
+    chromium, chromedriver = shutil.which("chromium"), shutil.which("chromedriver")
+    if chromium is None or chromedriver is None:
+        pytest.fail("Chromium is not installed; `make test-browser` does that")
+    options = webdriver.ChromeOptions()
+    options.binary_location = chromium
+    for flag in FLAGS:
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    driver = webdriver.Chrome(options=options, service=webdriver.ChromeService(chromedriver))
+    yield driver
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ResourceWarning)
+        driver.quit()

@@ -57,7 +57,7 @@ def test_every_page_is_in_the_search_and_in_the_list_for_programs(site):
     index = json.loads(page(site, "search/search_index.json"))
     found = {entry["location"].partition("#")[0] for entry in index["docs"]}
     pages = {path.relative_to(site).as_posix() for path in site.rglob("*.html")}
-    films = {name for name in pages if name.startswith("gallery/")}
+    films = {name for name in pages if name.startswith(("gallery/", "browser/"))}
 
     assert pages - films - {"404.html"} <= found
     listed = set(re.findall(r"^- \[.*\]\((.*)\)$", page(site, "llms.txt"), re.MULTILINE))
@@ -69,6 +69,15 @@ def test_the_scenes_of_the_gallery_move(site):
 
     assert len(frames) == len(set(frames)) > 5
     assert all('id="scrub"' in page(site, frame) for frame in frames)
+
+
+def test_the_page_for_the_browser_has_its_wheel_and_its_scenes(site):
+    settings = json.loads(page(site, "browser/settings.json"))
+
+    assert (site / "browser" / settings["wheel"]).stat().st_size > 100_000
+    options = re.findall(r'<option value="([^"]+)"', page(site, "browser/index.html"))
+    assert len(options) == 4
+    assert all((site / "browser" / option).is_file() for option in options)
 
 
 def test_nothing_is_fetched_from_elsewhere(site):

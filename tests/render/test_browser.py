@@ -1,9 +1,7 @@
 """The animation in a real browser: Debian's Chromium, headless."""
 
 import math
-import shutil
 import time
-import warnings
 from itertools import accumulate
 from pathlib import Path
 
@@ -31,35 +29,9 @@ from exactpt.simulation.simulation import Simulation
 
 pytestmark = pytest.mark.browser
 
-webdriver = pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
-
-FLAGS = (
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--no-first-run",
-    "--window-size=1280,800",
-)
-
-
-@pytest.fixture(scope="module")
-def browser():
-    chromium, chromedriver = shutil.which("chromium"), shutil.which("chromedriver")
-    if chromium is None or chromedriver is None:
-        pytest.fail("Chromium is not installed; `make test-browser` does that")
-    options = webdriver.ChromeOptions()
-    options.binary_location = chromium
-    for flag in FLAGS:
-        options.add_argument(flag)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    driver = webdriver.Chrome(options=options, service=webdriver.ChromeService(chromedriver))
-    yield driver
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ResourceWarning)
-        driver.quit()
+ActionChains = pytest.importorskip(
+    "selenium.webdriver", reason="selenium is not installed"
+).ActionChains
 
 
 @pytest.fixture
@@ -211,7 +183,7 @@ def test_zoom_and_pan(page):
     assert click(page, "closer")["camera"]["scale"] == pytest.approx(1.6 * before["scale"])
     assert click(page, "wider")["camera"]["scale"] == pytest.approx(before["scale"])
     canvas = page.find_element("id", "canvas")
-    actions = webdriver.ActionChains(page)
+    actions = ActionChains(page)
     actions.drag_and_drop_by_offset(canvas, 100, 50).perform()
     shown = state(page)
     old, new = (shown_x(camera) for camera in (before, shown["camera"]))
@@ -230,7 +202,7 @@ def test_hover_tells_names_and_places(page):
     x, y = state(page)["pixels"][10]  # the bow of the boat
     canvas = page.find_element("id", "canvas")
     size = canvas.size
-    webdriver.ActionChains(page).move_to_element_with_offset(
+    ActionChains(page).move_to_element_with_offset(
         canvas, round(x - size["width"] / 2), round(y - size["height"] / 2)
     ).perform()
     tip = page.find_element("id", "tip")
@@ -263,6 +235,21 @@ def test_it_fits_a_phone(page, width, height):
     page.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     assert wide[0] <= wide[1]
     assert boxes[0]["bottom"] <= boxes[1]["top"]
+
+
+def test_discs_are_drawn_in_a_frame_of_little_height(browser, tmp_path):
+    path = tmp_path / "discs.html"
+    discs = Scene([Body("a", [(0, 0)], radius=1), Body("b", [(0, 3)], radius=1)], time=(0, 1))
+    path.write_text(page_of(film_of(discs)), encoding="utf-8")
+    emulated = {"width": 1280, "height": 150, "deviceScaleFactor": 1, "mobile": False}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", emulated)
+    browser.get(path.as_uri())
+    shown = state(browser)
+    browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+    below, above = (shown["pixels"][i][1] for i in range(2))
+    assert below > above
+    assert browser.get_log("browser") == []
 
 
 @pytest.mark.parametrize("at", ["0", "5/2", "31/7", "8", "contact"])
@@ -416,7 +403,7 @@ def test_a_disc_is_drawn_and_told_of(browser, tmp_path):
 def hover(page, x, y):
     canvas = page.find_element("id", "canvas")
     size = canvas.size
-    webdriver.ActionChains(page).move_to_element_with_offset(
+    ActionChains(page).move_to_element_with_offset(
         canvas, round(x - size["width"] / 2), round(y - size["height"] / 2)
     ).perform()
 

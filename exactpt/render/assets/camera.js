@@ -35,7 +35,7 @@ class Camera {
   /** The camera that shows a box [left, bottom, right, top], relative to a chart's origin. */
   framing(chart, [left, bottom, right, top]) {
     const margin = Math.min(this.width, this.height) * 0.08;
-    const room = (pixels, extent) => pixels / Math.max(extent, 1e-300);
+    const room = (pixels, extent) => Math.max(pixels, 1) / Math.max(extent, 1e-300);
     const scale = Math.min(
       room(this.width - 2 * margin, right - left),
       room(this.height - 2 * Math.max(margin, CLOCK), top - bottom));
