@@ -18,17 +18,23 @@ async function load() {
   return python.pyimport("exactpt.cli.browser");
 }
 
-const loaded = load();
-loaded.catch(() => {}); // it is reported to whoever asks
+const loaded = load().catch((error) => stop("Pyodide or exactpt cannot be loaded", error));
+
+/** Say what the worker ended by; it is of no further use. */
+function stop(what, error) {
+  const why = String(error.message ?? error).trim().split("\n").at(-1);
+  postMessage({ broken: `${what}: ${why}` });
+}
 
 onmessage = async ({ data: { scene, method, tiling } }) => {
+  const exactpt = await loaded;
+  if (!exactpt) return;
   try {
-    const exactpt = await loaded;
     tell("the first contact is being found");
     const answer = JSON.parse(exactpt.answer(scene, method, tiling));
     postMessage({ answer });
     if (!answer.error) postMessage({ picture: JSON.parse(exactpt.picture(scene, tiling)) });
   } catch (error) {
-    postMessage({ broken: String(error.message ?? error).trim().split("\n").at(-1) });
+    stop("Pyodide broke off, and starts again with the next question", error);
   }
 };

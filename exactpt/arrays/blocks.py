@@ -19,7 +19,7 @@ from exactpt.arrays.spans import Spans
 from exactpt.arrays.starts import at_start
 from exactpt.arrays.undecided import decide, search
 from exactpt.geometry.ragged import Flags, ranges
-from exactpt.kernel.doubles import Floats, Indices
+from exactpt.kernel.doubles import Floats, Indices, native
 from exactpt.kernel.rounding import SLACK, U
 from exactpt.scene.body_arrays import BodyArrays
 
@@ -94,7 +94,7 @@ class Block(NamedTuple):
         pair = candidates.pair
         relative = candidates.relative(o, self.motions.take(k))
         low, high = first_meetings(relative, self.spans.length.take(k).take(pair))
-        best = np.minimum.reduceat(high, starts).reshape(2, n).min(axis=0)
+        best = np.minimum.reduceat(high, native(starts)).reshape(2, n).min(axis=0)
         left = np.flatnonzero((low <= best[pair]) & (low < INFINITY))
         left = left[~_beside_until(relative, low, high, best[pair], left)]
         counts = np.bincount(pair[left], minlength=n)

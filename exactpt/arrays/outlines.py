@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exactpt.geometry.ragged import Edges, Flags, edges_of
-from exactpt.kernel.doubles import Floats, Indices
+from exactpt.kernel.doubles import Floats, Indices, native
 from exactpt.scene.body_arrays import BodyArrays
 
 __all__ = ["Outlines", "outlines_of"]
@@ -53,7 +53,7 @@ def outlines_of(bodies: BodyArrays) -> Outlines:
         ux, uy = x[edges.last] - ax, y[edges.last] - ay
     first, count = bodies.offsets[:-1], np.diff(bodies.offsets)
     low, high = (
-        np.stack([extreme.reduceat(c, first) for c in (x, y)], axis=1)
+        np.stack([extreme.reduceat(c, native(first)) for c in (x, y)], axis=1)
         if len(first) else np.zeros((0, 2))
         for extreme in (np.minimum, np.maximum)
     )  # fmt: skip

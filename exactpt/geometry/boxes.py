@@ -90,14 +90,14 @@ def _swept_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
     box, strip = _spread(np.arange(n), lowest, highest + 1)
     by_strip = np.argsort(strip, kind="stable")
     box, strip = box[by_strip], strip[by_strip]
-    place = strip * (n + 1) + box
+    place = strip.astype(np.int64) * (n + 1) + box
     after = np.arange(1, len(box) + 1)
     stop = np.searchsorted(place, place - box + ends[box])
     first = 0
     while first < len(box):
         ask()
         # As many boxes as fit in a chunk, but at least one.
-        total = np.cumsum(stop[first:] - after[first:])
+        total = np.cumsum(stop[first:] - after[first:], dtype=np.int64)
         last = first + max(1, int(np.searchsorted(total, _CHUNK, side="right")))
         here, there = _spread(np.arange(first, last), after[first:last], stop[first:last])
         i, j = box[here], box[there]

@@ -11,7 +11,7 @@ from typing import Final, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.kernel.doubles import Floats, Indices
+from exactpt.kernel.doubles import Floats, Indices, native
 from exactpt.kernel.rounding import SLACK, TINY, U
 
 __all__ = ["Edges", "Flags", "edges_of", "ranges", "segments_meet", "spread", "surely_simple"]
@@ -43,8 +43,8 @@ class Edges(NamedTuple):
 def spread(counts: Indices) -> tuple[Indices, Indices]:
     """For each k the numbers 0 to ``counts[k]`` - 1, as arrays of k and of these numbers."""
     ends = np.cumsum(counts)
-    owner = np.repeat(np.arange(len(counts)), counts)
-    return owner, np.arange(len(owner)) - np.repeat(ends - counts, counts)
+    owner = np.repeat(np.arange(len(counts)), native(counts))
+    return owner, np.arange(len(owner)) - np.repeat(ends - counts, native(counts))
 
 
 def ranges(counts: Indices, most: int) -> list[tuple[int, int]]:
@@ -158,11 +158,11 @@ def surely_simple(
     error = K * (np.abs(p) + np.abs(q)) + TINY
     off = None if rounded is None else 2.0 * SLACK * rounded
     if off is not None:
-        length, e = np.abs(dx) + np.abs(dy), np.repeat(off, np.diff(edges.offsets))
+        length, e = np.abs(dx) + np.abs(dy), np.repeat(off, native(np.diff(edges.offsets)))
         error += e * (length + length[before] + 2.0 * e) * SLACK
     turn = _sign(p - q, error)
     upward = (dy > 0.0) | ((dy == 0.0) & (dx > 0.0))
-    starts = edges.offsets[:-1]
+    starts = native(edges.offsets[:-1])
     rings = closed & (sizes > 2)
     one_way = np.abs(np.add.reduceat(turn, starts, dtype=np.int64)) == sizes
     rises = np.add.reduceat(upward & ~upward[before], starts, dtype=np.int64)

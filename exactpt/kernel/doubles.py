@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import shorten
 
-__all__ = ["Floats", "Indices", "doubles", "first_true", "indices", "middles"]
+__all__ = ["Floats", "Indices", "doubles", "first_true", "indices", "middles", "native"]
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
@@ -61,6 +61,14 @@ def indices(values: ArrayLike, what: str) -> Indices:
     if given.dtype.kind not in "iu" and given.size:
         raise InputError(f"{what}: not an array of integers: {shorten(values)}")
     return given.astype(np.int64)
+
+
+def native(counts: Indices) -> NDArray[np.intp]:
+    """Counts or indices as `numpy.repeat`, ``reduceat`` and `numpy.bincount` take them.
+
+    That is as integers of a pointer's size: where it has 32 bits, they take no others.
+    """
+    return counts.astype(np.intp, copy=False)
 
 
 def first_true(flags: NDArray[np.bool_]) -> tuple[int, ...] | None:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from exactpt.errors import InputError
 from exactpt.geometry.ragged import Flags, surely_simple
-from exactpt.kernel.doubles import Floats, Indices, doubles, first_true, indices
+from exactpt.kernel.doubles import Floats, Indices, doubles, first_true, indices, native
 from exactpt.kernel.numbers import shorten
 from exactpt.motion.body import Body, is_text
 from exactpt.motion.motions import REST, Translation
@@ -116,7 +116,7 @@ class BodyArrays(Sequence[Body]):
             return np.flatnonzero(~simple).tolist()
         sizes = np.diff(self.offsets)[some]
         ends = np.concatenate(([0], np.cumsum(sizes)))
-        at = np.arange(ends[-1]) + np.repeat(self.offsets[some] - ends[:-1], sizes)
+        at = np.arange(ends[-1]) + np.repeat(self.offsets[some] - ends[:-1], native(sizes))
         off = None if rounded is None else rounded[some]
         simple = surely_simple(self.vertices[at], ends, self.closed[some], off)
         return cast("list[int]", some[~simple].tolist())

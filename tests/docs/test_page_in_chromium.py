@@ -1,6 +1,7 @@
 """The page docs/browser in Chromium: Pyodide from a folder beside it, all else as it is shipped."""
 
 import json
+import shutil
 import threading
 import time
 from functools import partial
@@ -36,9 +37,12 @@ def address(tmp_path_factory):
     """The page's address on a server of its own."""
     folder = tmp_path_factory.mktemp("served")
     write(folder / "browser")
+    shutil.copytree(folder / "browser", folder / "alone")
     (folder / "pyodide").symlink_to(PYODIDE)
     settings = json.loads((PAGE / "settings.json").read_text()) | {"pyodide": "../pyodide/"}
     (folder / "browser" / "settings.json").write_text(json.dumps(settings))
+    settings["pyodide"] = "../nowhere/"
+    (folder / "alone" / "settings.json").write_text(json.dumps(settings))
     server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=folder))
     threading.Thread(target=server.serve_forever, daemon=True).start()
     yield f"http://127.0.0.1:{server.server_port}/browser/index.html"
@@ -46,14 +50,28 @@ def address(tmp_path_factory):
     server.server_close()
 
 
+def test_without_pyodide_it_says_so(browser, address):
+    open_page(browser, address.replace("/browser/", "/alone/"))
+    ask(browser, "graze")
+
+    assert field(browser, "error").text.startswith("Pyodide or exactpt cannot be loaded: ")
+    assert field(browser, "status").text == ""
+    browser.get_log("browser")  # that it was not found
+
+
 @pytest.fixture(scope="module")
 def opened(browser, address):
     """The page, with exactpt loaded into its worker by a first question."""
-    browser.get(address)
-    wait(browser, lambda: field(browser, "scene").get_property("value"))
+    open_page(browser, address)
     assert field(browser, "status").text.startswith("The first answer loads Pyodide")
     ask(browser, "graze")
     return browser
+
+
+def open_page(page, address):
+    """Open the page, and wait for its first example."""
+    page.get(address)
+    wait(page, lambda: field(page, "scene").get_property("value"))
 
 
 def field(page, name):
@@ -157,8 +175,7 @@ def test_a_link_contains_the_scene(opened, address):
 
 def test_a_run_is_stopped_and_the_next_one_answers(opened, address):
     opened.get("about:blank")
-    opened.get(address)
-    wait(opened, lambda: field(opened, "scene").get_property("value"))
+    open_page(opened, address)
     assert not field(opened, "stop").is_enabled()
     field(opened, "answer").click()
     field(opened, "stop").click()
@@ -169,3 +186,15 @@ def test_a_run_is_stopped_and_the_next_one_answers(opened, address):
     wait(opened, field(opened, "answer").is_enabled)
 
     assert field(opened, "words").text.startswith("first contact at t = 8.693879580404362")
+
+
+def test_what_breaks_pyodide_is_told_and_the_next_question_is_answered(opened):
+    """Pyodide has less stack than JSON nested so deeply needs."""
+    ask(opened, "deep", "[" * 100_000)
+    assert field(opened, "error").text.startswith("Pyodide broke off, and starts again with the ")
+    opened.get_log("browser")  # what Pyodide says about it
+
+    ask(opened, "graze")
+
+    assert field(opened, "words").text.startswith("first contact at t = 1.7320508075688772")
+    assert complaints(opened) == []
