@@ -10,9 +10,10 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DATE ?= $(shell date -u +%F)
 LOWEST := $(VENV)/lowest
 COMPILED_TESTS := $(addprefix tests/,kernel certificates motion planar pseudotriangulation tiling collision simulation)
+PYODIDE_TESTS := $(addprefix tests/,kernel geometry planar motion certificates tiling collision arrays query)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser browser try-browser compiled plain test-compiled coverage lint quick pictures docs package wheels check-cgal clean
+.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures docs package wheels check-cgal clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -50,6 +51,10 @@ try-browser: $(VENV)/developing ## that page in a real browser (fetches Pyodide 
 	@.ci/apt-install chromium chromium-driver
 	$(BIN)/python .ci/fetch_pyodide.py
 	$(BIN)/python -m pytest -m browser tests/docs/test_page_in_chromium.py
+
+test-pyodide: $(VENV)/developing ## the quick tests in Pyodide, in Node.js (fetches as try-browser does): 10 minutes
+	$(BIN)/python .ci/fetch_pyodide.py
+	for room in $(PYODIDE_TESTS); do node .ci/test_in_pyodide.mjs $$room || exit 1; done
 
 compiled: $(VENV)/developing ## compile the hot rooms of this checkout (setup.py)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77.0.3'

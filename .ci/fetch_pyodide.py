@@ -1,9 +1,9 @@
-"""Pyodide for the tests of the page docs/browser, into the folder .pyodide (`make try-browser`).
+"""Pyodide for `make try-browser` and `make test-pyodide`, into the folder .pyodide.
 
 The core comes from the npm registry, by npm; packages from the address that the page names,
 each compared with its hash in the core's lock file; what exactpt needs and that file has not,
 or not in such a version, from PyPI, as micropip does, and is added to the file: the tests need no
-network. What is there already is kept.
+network. What the tests of the package need comes from PyPI too. What is there already is kept.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name, parse_wheel_filename
 
 ROOT = Path(__file__).parents[1]
+TESTED_WITH = ("pytest", "hypothesis", "sympy", "python-flint")
 
 
 def fetch(folder: Path, address: str) -> None:
@@ -45,6 +46,8 @@ def fetch(folder: Path, address: str) -> None:
     for name in needed:  # it grows
         needed += [other for other in packages[name]["depends"] if other not in needed]
         _fetch_package(folder, address, packages[name])
+    if not (folder / "tests").is_dir():
+        _download(folder / "tests", lock["info"], *TESTED_WITH)
 
 
 def _fetch_core(folder: Path, version: str) -> None:
@@ -74,19 +77,8 @@ def _fetch_package(folder: Path, address: str, package: dict[str, Any]) -> None:
 
 def _from_pypi(folder: Path, requirement: Requirement, pyodide: dict[str, str]) -> dict[str, Any]:
     """Fetch a wheel that micropip would choose; its entry in the lock file."""
-    print(f"fetching {requirement}")
-    minor = "".join(pyodide["python"].split(".")[:2])
-    platform = f"pyemscripten_{pyodide['abi_version']}_{pyodide['arch']}"
-    options = [
-        "--no-deps",
-        "--only-binary=:all:",
-        "--implementation=cp",
-        f"--python-version={minor}",
-    ]
-    options += [f"--abi=cp{minor}", "--abi=none", f"--platform={platform}", "--platform=any"]
     with TemporaryDirectory() as place:
-        command = [sys.executable, "-m", "pip", "download", "--quiet", *options]
-        subprocess.run([*command, "--dest", place, str(requirement)], check=True)
+        _download(Path(place), pyodide, "--no-deps", str(requirement))
         (wheel,) = Path(place).glob("*.whl")
         content = wheel.read_bytes()
     (folder / wheel.name).write_bytes(content)
@@ -102,6 +94,17 @@ def _from_pypi(folder: Path, requirement: Requirement, pyodide: dict[str, str]) 
         "depends": [],
         "unvendored_tests": False,
     }
+
+
+def _download(folder: Path, pyodide: dict[str, str], *arguments: str) -> None:
+    """Download wheels for Pyodide's platform, or for any."""
+    print("fetching", *arguments)
+    minor = "".join(pyodide["python"].split(".")[:2])
+    platform = f"pyemscripten_{pyodide['abi_version']}_{pyodide['arch']}"
+    options = ["--only-binary=:all:", "--implementation=cp", f"--python-version={minor}"]
+    options += [f"--abi=cp{minor}", "--abi=none", f"--platform={platform}", "--platform=any"]
+    command = [sys.executable, "-m", "pip", "download", "--quiet", *options, "--dest", str(folder)]
+    subprocess.run([*command, *arguments], check=True)
 
 
 if __name__ == "__main__":

@@ -76,7 +76,9 @@ class Journal:
             path.unlink(missing_ok=True)
 
     def close(self) -> None:
-        """Leave the files as they are, for another time."""
+        """Leave the files as they are, for another time; without any answers, remove them."""
+        if not self.records:
+            self.remove()
         self._close()
 
     def _append(self, line: str) -> None:

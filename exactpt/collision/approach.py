@@ -18,7 +18,7 @@ from exactpt.proximity.near import pairs_that_come_near
 from exactpt.proximity.search import ApproachSearch, Nearest
 from exactpt.proximity.stretches import two_bodies
 from exactpt.proximity.within import Norm, asked_distance, of_cores, time_within
-from exactpt.scene.scene import Scene, scene_of
+from exactpt.scene.scene import Scene, a_scene, scene_of
 
 __all__ = ["Approach", "first_within"]
 
@@ -105,6 +105,11 @@ def first_within(
         InputError: if there is no such body or norm, the distance is negative, or a body is
             rounded and the norm is "max".
     """
+    a_scene(scene)
+    if (a is None) != (b is None):
+        raise InputError(
+            "two names of bodies are given, or none for all bodies; the distance by its name"
+        )
     if a is not None and b is not None and norm is None:
         warnings.warn(
             'first_within without a norm means norm="max"; name the norm',
@@ -116,8 +121,6 @@ def first_within(
     if a is not None and b is not None:
         first, second = two_bodies(scene, a, b)
         return time_within(first, second, scene._start, scene._end, d, norm)
-    if a is not None or b is not None:
-        raise InputError("two names of bodies are given, or none for all bodies")
     found: Nearest | None = None
     if len(scene.bodies) > 1:
         found = _first(scene, d, norm)

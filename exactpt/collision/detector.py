@@ -13,7 +13,7 @@ from exactpt.collision.searches import Question, search_for
 from exactpt.errors import InputError, carrying
 from exactpt.kernel.budget import check_bounds, within
 from exactpt.kernel.numbers import Rational
-from exactpt.scene.scene import Scene
+from exactpt.scene.scene import Scene, a_scene
 from exactpt.tiling import catalogue
 
 __all__ = ["METHODS", "first_contact"]
@@ -64,11 +64,13 @@ def first_contact(
     Raises:
         BudgetExceeded: if the time or memory is used up, in any thread, also before the search
             begins; its ``reached`` is a time up to which there is no contact, or None.
-        InputError: if there is no such method, tiling or body, or the proof cannot be written.
+        InputError: if there is no such method, tiling or body, the scene is none, or the proof
+            cannot be written.
     """
     if method not in METHODS:
         raise InputError(f"no method {method!r}; there are: {', '.join(METHODS)}")
     catalogue.choose(tiling, points=True, convex=lambda: True)  # refuses unknown names
+    a_scene(scene)
     with _budget(max_seconds, max_memory), carrying(lambda: scene):
         groups = ignoring if isinstance(ignoring, str) else list(ignoring)
         if since is not None:

@@ -40,7 +40,7 @@ from exactpt.kernel.numbers import QQ, ceil, exponent, power_of_two
 from exactpt.motion.body import Body
 from exactpt.motion.displacement import displacement
 from exactpt.proximity.sure import surely_meet, surely_passed
-from exactpt.scene.scene import Scene, scene_of
+from exactpt.scene.scene import Scene, a_scene, scene_of
 
 __all__ = ["EnclosedContact", "first_contact_enclosed"]
 
@@ -103,7 +103,11 @@ def first_contact_enclosed(scene: Scene) -> EnclosedContact | None:
 
     Returns:
         The bounds; None if there is no contact for sure.
+
+    Raises:
+        InputError: if the scene is none.
     """
+    a_scene(scene)
     with carrying(lambda: scene):
         return _Search(scene).run()
 

@@ -111,7 +111,10 @@ def geometry_shapes(data: Json, where: str, name: str, depth: int = 0) -> Iterat
         raise InputError(f"{where}: not a geometry: {shown(data)}")
     kind = str(data["type"])
     if kind == "GeometryCollection":
-        for i, inner in enumerate(a_list(data.get("geometries"), f'{where}: "geometries"')):
+        geometries = a_list(data.get("geometries"), f'{where}: "geometries"')
+        if not geometries:
+            yield Shape(where, name, "point", ())
+        for i, inner in enumerate(geometries):
             yield from geometry_shapes(inner, f"{where}, geometry {i}", name, depth + 1)
         return
     at = f'{where}: "coordinates"'
@@ -126,7 +129,7 @@ def geometry_shapes(data: Json, where: str, name: str, depth: int = 0) -> Iterat
         part(_PARTS[single], one, f"{where}, part {i}", name)
         for i, one in enumerate(a_list(coordinates, at))
     ]
-    yield from together(parts)
+    yield from together(parts) if parts else [Shape(where, name, _PARTS[single], ())]
 
 
 def part(kind: Kind, data: Json, where: str, name: str) -> Shape:

@@ -106,6 +106,9 @@ def shapes_of_geometry(
             shapes.append(Shape(at, name, _KINDS[part.geom_type], taken[0], taken[1:]))
             count += 1
         yield from together(shapes)
+    kind = _KINDS.get(geometry.geom_type.removeprefix("Multi"))
+    if count == 0 and kind is not None:
+        yield Shape(where, name, kind, ())
 
 
 def _units(geometry: BaseGeometry) -> Iterator[list[BaseGeometry]]:

@@ -11,11 +11,11 @@ from exactpt.files import write_atomically, writing
 from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import fraction
 from exactpt.proof.emit import ProofRun, scene_bytes
+from exactpt.scene.scene import Scene, a_scene
 from exactpt.tiling.report import report
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact
-    from exactpt.scene.scene import Scene
 
 __all__ = ["Proof", "ProvedSearch", "prove", "write_proof"]
 
@@ -73,8 +73,10 @@ def prove(
         exact_only: whether the float filters are switched off.
 
     Raises:
-        InputError: if there is no such tiling, or it does not support these bodies.
+        InputError: if the scene is none, there is no such tiling, or it does not support these
+            bodies.
     """
+    a_scene(scene)
     file = scene_bytes(scene) if scene_file is None else scene_file
     run = ProofRun(scene, tiling=tiling, scene_file=file, exact_only=exact_only)
     text = "".join(f"{line}\n" for line in run.lines())

@@ -25,7 +25,7 @@ from exactpt.proximity.features import feature_pairs
 from exactpt.proximity.near import pairs_that_come_near
 from exactpt.proximity.overlap import bodies_meet
 from exactpt.proximity.stretches import Stretch, segments_of, stretches, two_bodies
-from exactpt.scene.scene import Scene
+from exactpt.scene.scene import Scene, a_scene
 
 __all__ = ["ContactInterval", "contact_intervals", "contacts", "incidence_times", "intervals"]
 
@@ -78,7 +78,11 @@ def contacts(scene: Scene) -> list[ContactInterval]:
     """The intervals in which any two bodies meet, in the order of their starts, then of names.
 
     Contacts of a deforming body with itself are not included.
+
+    Raises:
+        InputError: if the scene is none.
     """
+    a_scene(scene)
     found = [
         ContactInterval(
             scene.bodies[i].name, scene.bodies[j].name, start.simplified(), end.simplified()

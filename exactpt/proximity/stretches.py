@@ -14,7 +14,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.inside import one_is_inside
 from exactpt.motion.track import Track
-from exactpt.scene.scene import Scene
+from exactpt.scene.scene import Scene, a_scene
 
 __all__ = ["Stretch", "meet", "segments_of", "stretches", "two_bodies"]
 
@@ -37,8 +37,9 @@ def two_bodies(scene: Scene, a: str, b: str) -> tuple[Body, Body]:
     """Two different bodies of a scene, by name.
 
     Raises:
-        InputError: if there is no such body, or both are the same.
+        InputError: if the scene is none, there is no such body, or both are the same.
     """
+    a_scene(scene)
     first, second = scene.body(a), scene.body(b)
     if first is second:
         raise InputError(f"two bodies are asked for, not {a!r} twice")

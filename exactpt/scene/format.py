@@ -113,6 +113,8 @@ def _body(data: Json, index: int) -> Body:
         return Body(name, motion=motion, closed=closed, keyframes=frames, radius=radius)
     if "parts" in body:
         rows = a_list(body["parts"], f'{where}: "parts"')
+        if not rows:
+            raise InputError(f'{where}: "parts": at least one part is needed')
         parts = [_part(row, f"{where}: part {i}") for i, row in enumerate(rows)]
         return Body(name, None, motion, closed=closed, parts=parts, radius=radius)
     vertices = _ring(body["vertices"], f'{where}: "vertices"', where, closed=closed)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["Scene", "scene_of"]
+__all__ = ["Scene", "a_scene", "scene_of"]
 
 
 @final
@@ -352,6 +352,17 @@ def scene_of(bodies: Sequence[Body], start: QQ, end: QQ) -> Scene:
     scene = Scene.__new__(Scene)
     scene.bodies, scene._start, scene._end = bodies, start, end
     return scene
+
+
+def a_scene(value: object) -> Scene:
+    """The value itself.
+
+    Raises:
+        InputError: if it is no scene.
+    """
+    if not isinstance(value, Scene):
+        raise InputError(f"not a scene: {shorten(value)}")
+    return value
 
 
 def _valid_scene(bodies: Sequence[Body], start: str, end: str) -> Scene:

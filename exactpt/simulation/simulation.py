@@ -16,7 +16,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import Rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
-from exactpt.scene.scene import Scene
+from exactpt.scene.scene import Scene, a_scene
 from exactpt.scene.written import to_json as scene_to_json
 from exactpt.simulation.budget import Budget
 from exactpt.simulation.event import Event
@@ -75,8 +75,8 @@ class Simulation:
 
     Raises:
         BudgetExceeded: if the time or memory is used up before the run begins.
-        InputError: if there is no such tiling, it does not support these bodies, a bound
-            is not a number >= 0, or the folder contains proofs or cannot be made.
+        InputError: if the scene is none, there is no such tiling, it does not support these bodies,
+            a bound is not a number >= 0, or the folder contains proofs or cannot be made.
     """
 
     def __init__(
@@ -91,6 +91,7 @@ class Simulation:
         proof: str | Path | None = None,
         record: bool = False,
     ) -> None:
+        a_scene(scene)
         budget = Budget(max_events, max_seconds, max_memory)
         recorder: Recorder | None = None
         if proof is not None:

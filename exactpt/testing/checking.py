@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Final, TypeAlias, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational
+from exactpt.kernel.numbers import QQ, Rational, shorten
 from exactpt.testing.comparing import TOLERANCE, VERDICTS, bound, shown_time, verdict
 from exactpt.testing.families import FAMILIES, make_question
 from exactpt.testing.questions import Question
@@ -123,8 +123,14 @@ def check(
             missed or invented, however near.
 
     Raises:
-        InputError: if there is no such family, or the tolerance is negative.
+        InputError: if ``toi`` is no function, there is no such family, or the tolerance or the
+            number of questions is negative.
     """
+    if not callable(toi):
+        raise InputError(f"toi: not a function: {shorten(toi)}")
+    number: object = cases
+    if not isinstance(number, int) or number < 0:
+        raise InputError(f"cases: not a number of questions: {shorten(number)}")
     table, worst, exact = Table(), _Worst(), bound(tolerance)
     names = list(FAMILIES if families is None else families)
     if not names:

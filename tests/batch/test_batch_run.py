@@ -437,3 +437,4 @@ def test_a_scheduler_that_does_not_answer_is_refused(scenes, tmp_path):
     pytest.importorskip("distributed")
     with pytest.raises(InputError, match="no scheduler at"):
         run(scenes, tmp_path / "answers.jsonl", scheduler="nonsense://nowhere")
+    assert not list(tmp_path.glob("answers.jsonl*"))

@@ -147,7 +147,10 @@ def named(scene, found):
         ({"norm": "max"}, "either a distance or its square"),
         ({"distance_squared": 2, "norm": "max"}, "for the Euclidean norm, not for 'max'"),
         ({"distance": -1, "norm": "euclidean"}, "a distance is not negative: -1"),
-        ({"a": "p", "distance": 1, "norm": "max"}, "two names of bodies are given, or none"),
+        (
+            {"a": "p", "distance": 1, "norm": "max"},
+            "two names of bodies are given, or none for all bodies; the dist",
+        ),
     ],
 )
 def test_wrong_questions(options, words):

@@ -128,6 +128,7 @@ def test_what_does_not_go_together(given, told):
         ('"parts": [[[0,0],[9,0],[0,9]]]', "body 'b': part 0: not an object"),
         ('"closed": false, "parts": [{"vertices": [[0,0],[9,0],[0,9]]}]',
          "body 'b': an open chain has neither holes nor parts"),
+        ('"parts": []', "body 'b': \"parts\": at least one part is needed"),
         ('"keyframes": [], "parts": []', 'needs either "vertices" or "keyframes" or "parts"'),
     ],
 )  # fmt: skip

@@ -164,3 +164,16 @@ def test_arrays_answer_all_questions_with_linear_motions(monkeypatch):
 
     assert len(truths(questions)) == len(questions)
     assert alone == []
+
+
+@pytest.mark.parametrize(
+    "function, options, message",
+    [
+        (None, {}, "toi: not a function: None"),
+        (toi, {"cases": -1}, "cases: not a number of questions: -1"),
+        (toi, {"cases": 1.5}, "cases: not a number of questions: 1.5"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(function, options, message):
+    with pytest.raises(InputError, match=f"^{message}$"):
+        check(function, **options)
