@@ -139,7 +139,7 @@ class PredicatesAt(Predicates):
     def _exact_sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
         ask()
         u, v, w = (self.vertices.all[i] for i in (a, b, c))
-        are_copies = u.track is v.track or v.track is w.track or w.track is u.track
+        are_copies = u.is_copy_of(v) or v.is_copy_of(w) or w.is_copy_of(u)
         s = 0 if are_copies else side(self.position(a), self.position(b), self.position(c))
         is_zero = s == 0 and not are_copies
         self._count(u, v, w, is_zero=is_zero)
@@ -160,7 +160,7 @@ class PredicatesAt(Predicates):
         a, b, c = copies_first(u, v, w)
         (ax, ay), (bx, by) = self.offset(a.id), self.offset(b.id)
         (px, py), (qx, qy) = (
-            (self.offset(i) if a.track is c.track else self.position(i)) for i in (a.id, c.id)
+            (self.offset(i) if a.is_copy_of(c) else self.position(i)) for i in (a.id, c.id)
         )
         return sign((bx - ax) * (qy - py) - (by - ay) * (qx - px))
 

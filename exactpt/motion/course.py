@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import NamedTuple, final
+from typing import final
 
 from exactpt.errors import InputError
 from exactpt.kernel.budget import ask
@@ -17,16 +17,55 @@ from exactpt.motion.track import Track
 __all__ = ["Course", "Piece"]
 
 
-class Piece(NamedTuple):
-    """The motion of a body up to a time.
+@final
+class Piece:
+    """The motion of a body up to a time, by one formula.
+
+    Args:
+        shape: the shape of the body.
+        since: a time of the piece, for the shape.
+        motion: the formula.
+        until: the last time of the piece; None if it has no end.
 
     Attributes:
-        until: the last time of the piece; None if it has no end.
-        tracks: the trajectory of each vertex, in the order of the scene.
+        motion, until: as given.
     """
 
-    until: QQ | None
-    tracks: tuple[Track, ...]
+    __slots__ = ("_shape", "_since", "_tracks", "motion", "until")
+
+    def __init__(self, shape: Shape, since: QQ, motion: SimpleMotion, until: QQ | None) -> None:
+        self.motion = motion
+        self.until = until
+        self._shape = shape
+        self._since = since
+        self._tracks: tuple[Track, ...] | None = None
+
+    @property
+    def tracks(self) -> tuple[Track, ...]:
+        """The trajectory of each vertex, in the order of the scene; made when first asked for."""
+        if self._tracks is None:
+            self._tracks = _tracks(self._shape.after(self._since), self.motion)
+        return self._tracks
+
+    @property
+    def translation(self) -> tuple[tuple[list[float], list[float]], Translation] | None:
+        """The rest positions x and y as doubles, and what is added to them.
+
+        None if they are no doubles, or the motion is no translation.
+        """
+        if not isinstance(self.motion, Translation):
+            return None
+        rest = self._shape.at_rest
+        return None if rest is None else (rest, self.motion)
+
+    def corners(self, t: QQ) -> list[tuple[QQ, QQ]]:
+        """Points with the bounding box of the body at a rational time of the piece."""
+        moved = self.translation
+        if moved is None:
+            return [track._at(t) for track in self.tracks]
+        (xs, ys), translation = moved
+        dx, dy = translation._at(t)
+        return [(QQ(of(xs)) + dx, QQ(of(ys)) + dy) for of in (min, max)]
 
 
 @final
@@ -62,7 +101,7 @@ class Course:
             motion = self.motion
             if isinstance(motion, Pieces):
                 motion = motion.motions[bisect_right(motion._until, t)]
-            self._pieces[end] = Piece(end, _tracks(self._shape.after(t), motion))
+            self._pieces[end] = Piece(self._shape, t, motion, end)
         return self._pieces[end]
 
     def at(self, t: QQ) -> list[tuple[QQ, QQ]]:

@@ -12,21 +12,17 @@ from exactpt.kernel.numbers import QQ, ZZ, nearest_float, power_of_two
 from exactpt.kernel.polynomial import ONE
 from exactpt.kernel.rounding import U
 from exactpt.motion.frame import Frame, binary_exponent, combined
-from exactpt.motion.image import Arm, Image
+from exactpt.motion.image import LARGEST, SMALLEST, Arm, Image, translated
 from exactpt.motion.track import Turning
 
 if TYPE_CHECKING:
+    from exactpt.motion.course import Piece
     from exactpt.motion.track import Track
 
 __all__ = ["Enclosures"]
 
-SMALLEST: Final = 2.0**-300
-LARGEST: Final = 2.0**100
-"""Range of the size of nonzero coefficients that the filters accept.
-
-Certificates are sums of products of two differences, or of three coefficients. A difference
-of doubles of size 2^-300 or more is 0 or at least 2^-352. So no product underflows.
-"""
+MOST_SCALED: Final = 900
+"""Largest absolute value of a scale 2^s by which doubles are multiplied."""
 SMALLEST_OF_ARMS: Final = 2.0**-100
 """The same for `Arm`: certificates with arms have products of four coefficients."""
 INTEGERS: Final = 2.0**53
@@ -72,6 +68,43 @@ class Enclosures:
         self._turning: Turning | None = None  # of the last arm, and what it has in common
         self._common: _Common | None = None
         self.errors: list[float] = [0.0, 0.0]
+
+    def of_piece(self, piece: Piece) -> list[Image]:
+        """The enclosures of the trajectories of a piece of motion."""
+        return self._translated(piece) or self.images(piece.tracks)
+
+    def _translated(self, piece: Piece) -> list[Image] | None:
+        """The same as `images` of doubles that are translated, without their trajectories.
+
+        None if the positions are not doubles, or what is added to them is not one.
+        """
+        moved = piece.translation
+        if moved is None or max(map(abs, self._frame.scale)) > MOST_SCALED:
+            return None
+        ask()
+        places, translation = moved
+        paths = translation.x._coefficients, translation.y._coefficients
+        size = max(*map(len, paths), 1)
+        (x_shift, *x), (y_shift, *y) = (
+            self._frame.in_time([*path, *[QQ(0)] * (size - len(path))]) for path in paths
+        )
+        (cx, cy), (sx, sy) = self._frame.center, self._frame.scale
+        x_shift, y_shift = x_shift - cx, y_shift - cy
+        shift = nearest_float(x_shift), nearest_float(y_shift)
+        if shift[0] != x_shift or shift[1] != y_shift:
+            return None
+        motion = self._number((paths[0][1:], paths[1][1:]))
+        x, y = [c * power_of_two(-sx) for c in x], [c * power_of_two(-sy) for c in y]
+        tails = _floats(x, size - 1), _floats(y, size - 1)
+        self.errors += [0.0] * (size - len(self.errors))
+        if not (_moderate(tails[0]) and _moderate(tails[1])):
+            nan = [math.nan] * size
+            return [Image(nan, nan, [], motion)] * len(places[0])
+        images, largest = translated(places, shift, (2.0**-sx, 2.0**-sy), tails, motion)
+        self.errors[0] = max(self.errors[0], largest * (2.0 * U))
+        self._note_errors(x, tails[0], first=1)
+        self._note_errors(y, tails[1], first=1)
+        return images
 
     def images(self, tracks: Sequence[Track]) -> list[Image]:
         """The enclosures of trajectories, fast if most successive ones share their motion."""
@@ -191,13 +224,13 @@ class Enclosures:
         """Forget all motions but those in ``kept``: no enclosure has them any more."""
         self._motions = {key: i for key, i in self._motions.items() if i in kept}
 
-    def _note_errors(self, exact: Sequence[QQ], floats: list[float]) -> None:
+    def _note_errors(self, exact: Sequence[QQ], floats: list[float], first: int = 0) -> None:
         # Rounding to nearest errs by at most U |c| / (1 + U), and so by at most U times the
         # double; doubled, for a margin. A third of it would be wrong: 1 + U (1 - epsilon)
         # becomes 1, with an error of nearly U. (gmpy2 compares a rational with a double exactly.)
-        for i, c in enumerate(exact):
-            error = abs(floats[i]) * (2.0 * U)
-            if error > self.errors[i] and c != floats[i]:
+        for i, (c, near) in enumerate(zip(exact, floats, strict=False), start=first):
+            error = abs(near) * (2.0 * U)
+            if error > self.errors[i] and c != near:
                 self.errors[i] = error
 
 

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
-from typing import final
+import math
+from typing import Final, final
 
 from mypy_extensions import mypyc_attr
 
-__all__ = ["Arm", "Image"]
+__all__ = ["LARGEST", "SMALLEST", "Arm", "Image", "translated"]
+
+SMALLEST: Final = 2.0**-300
+LARGEST: Final = 2.0**100
+"""Range of the size of nonzero coefficients that the filters accept.
+
+Certificates are sums of products of two differences, or of three coefficients. A difference
+of doubles of size 2^-300 or more is 0 or at least 2^-352. So no product underflows.
+"""
 
 
 @final
@@ -74,6 +83,8 @@ class Image:
     """
 
     __slots__ = (
+        "_xs",
+        "_ys",
         "arm",
         "degree",
         "motion",
@@ -82,12 +93,10 @@ class Image:
         "x1",
         "x2",
         "x3",
-        "xs",
         "y0",
         "y1",
         "y2",
         "y3",
-        "ys",
     )
 
     def __init__(self, xs: list[float], ys: list[float], ws: list[float], motion: int) -> None:
@@ -103,6 +112,68 @@ class Image:
         self.y2: float = ys[2] if len(ys) > 2 else 0.0
         self.x3: float = xs[3] if len(xs) > 3 else 0.0
         self.y3: float = ys[3] if len(ys) > 3 else 0.0
-        self.xs: list[float] = xs
-        self.ys: list[float] = ys
+        is_linear = len(xs) <= 2 and not ws
+        self._xs: list[float] | None = None if is_linear else xs
+        self._ys: list[float] | None = None if is_linear else ys
         self.arm: Arm | None = None
+
+    @property
+    def xs(self) -> list[float]:
+        """The coefficients of x."""
+        return [self.x0, self.x1][: self.degree + 1] if self._xs is None else self._xs
+
+    @property
+    def ys(self) -> list[float]:
+        """The coefficients of y."""
+        return [self.y0, self.y1][: self.degree + 1] if self._ys is None else self._ys
+
+
+def translated(
+    places: tuple[list[float], list[float]],
+    shift: tuple[float, float],
+    units: tuple[float, float],
+    tails: tuple[list[float], list[float]],
+    motion: int,
+) -> tuple[list[Image], float]:
+    """The enclosures of vertices that are translated: constants (place + shift) unit, and tails.
+
+    The units are powers of two, so a sum of doubles is rounded once, to the nearest double, as
+    long as the result is in the range of the filters.
+
+    Args:
+        places: the coordinates x and y of the vertices.
+        shift: what is added to them.
+        units: what the sums are multiplied by.
+        tails: the coefficients of t, t^2, ... in x and in y.
+        motion: the number of the motion.
+
+    Returns:
+        The enclosures, and the largest absolute value of a constant coefficient that is not
+        exact, or 0.
+    """
+    (xs, ys), (dx, dy), (x_unit, y_unit), (x_tail, y_tail) = places, shift, units, tails
+    images: list[Image] = []
+    largest = 0.0
+    for i in range(len(xs)):
+        x, y = xs[i] + dx, ys[i] + dy
+        x0, y0 = x * x_unit, y * y_unit
+        if not (_in_range(x, x0) and _in_range(y, y0)):
+            nan = [math.nan] * (len(x_tail) + 1)
+            images.append(Image(nan, nan, [], motion))
+            continue
+        if abs(x0) > largest and _is_rounded(xs[i], dx, x):
+            largest = abs(x0)
+        if abs(y0) > largest and _is_rounded(ys[i], dy, y):
+            largest = abs(y0)
+        images.append(Image([x0, *x_tail], [y0, *y_tail], [], motion))
+    return images, largest
+
+
+def _in_range(before: float, scaled: float) -> bool:
+    return before == 0.0 or SMALLEST <= abs(scaled) <= LARGEST
+
+
+def _is_rounded(a: float, b: float, total: float) -> bool:
+    """Whether a + b is not the double that it is rounded to (TwoSum; Knuth, TAOCP 2, 4.2.2)."""
+    of_b = total - a
+    return (a - (total - of_b)) + (b - of_b) != 0.0

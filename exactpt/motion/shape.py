@@ -6,10 +6,10 @@ from bisect import bisect_right
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any, Final, NamedTuple, TypeAlias, final
+from typing import Any, Final, Literal, NamedTuple, TypeAlias, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, as_doubles, rational, shorten, show
+from exactpt.kernel.numbers import QQ, Rational, as_doubles, nearest_float, rational, shorten, show
 from exactpt.kernel.polynomial import Polynomial, polynomial
 from exactpt.motion.motions import Coefficients, Position
 
@@ -50,7 +50,7 @@ class Shape:
         keyframes: in the order of time; none if vertices were given.
     """
 
-    __slots__ = ("_pieces", "_positions", "doubles", "keyframes", "size")
+    __slots__ = ("_at_rest", "_pieces", "_positions", "doubles", "keyframes", "size")
 
     def __init__(
         self,
@@ -63,6 +63,7 @@ class Shape:
         self.keyframes: tuple[Keyframe, ...] = ()
         self._pieces: list[tuple[Position, ...]] = []
         self._positions: tuple[Position, ...] | None = None
+        self._at_rest: tuple[list[float], list[float]] | Literal[False] | None = False
         if keyframes is not None:
             self.keyframes = frames = _read_keyframes(keyframes)
             between = [_between(*pair) for pair in pairwise(frames)]
@@ -107,6 +108,13 @@ class Shape:
             )
         return self._positions
 
+    @property
+    def at_rest(self) -> tuple[list[float], list[float]] | None:
+        """The coordinates x and y, if they are constant, and all of them doubles."""
+        if self._at_rest is False:
+            self._at_rest = self.doubles or _constant_doubles(self._positions or ())
+        return self._at_rest
+
     def after(self, t: QQ) -> tuple[Position, ...]:
         """Those just after a time; before the first keyframe and after the last they rest."""
         if not self.keyframes:
@@ -123,6 +131,20 @@ class Shape:
         if self.doubles is not None:
             return {"vertices": tuple(zip(*self.doubles, strict=True))}
         return {"vertices": tuple(map(_given, self.positions))}
+
+
+def _constant_doubles(positions: Sequence[Position]) -> tuple[list[float], list[float]] | None:
+    """The coordinates x and y of vertices; None unless all are constant doubles, or without any."""
+    both: tuple[list[float], list[float]] = [], []
+    for vertex in positions:
+        for coordinate, values in zip(vertex, both, strict=True):
+            if coordinate.degree > 0:
+                return None
+            value = coordinate._at(QQ(0))
+            values.append(nearest_float(value))
+            if values[-1] != value:
+                return None
+    return both if positions else None
 
 
 def _given(vertex: Position) -> tuple[object, object]:
