@@ -31,20 +31,31 @@ class Piece:
         motion, until: as given.
     """
 
-    __slots__ = ("_shape", "_since", "_tracks", "motion", "until")
+    __slots__ = ("_made", "_shape", "_since", "_tracks", "motion", "until")
 
     def __init__(self, shape: Shape, since: QQ, motion: SimpleMotion, until: QQ | None) -> None:
         self.motion = motion
         self.until = until
         self._shape = shape
+        self._shape = shape
         self._since = since
+        self._made: dict[int, Track] = {}
         self._tracks: tuple[Track, ...] | None = None
+
+    def track(self, vertex: int) -> Track:
+        """The trajectory of a vertex, numbered as in the scene; made when first asked for."""
+        made = self._made.get(vertex)
+        if made is None:
+            ask()
+            position = self._shape.after(self._since)[vertex]
+            made = self._made.setdefault(vertex, self.motion.track(position))
+        return made
 
     @property
     def tracks(self) -> tuple[Track, ...]:
-        """The trajectory of each vertex, in the order of the scene; made when first asked for."""
+        """The trajectory of each vertex, in the order of the scene."""
         if self._tracks is None:
-            self._tracks = _tracks(self._shape.after(self._since), self.motion)
+            self._tracks = tuple(map(self.track, range(self._shape.size)))
         return self._tracks
 
     @property
@@ -120,18 +131,18 @@ class Course:
             ):
                 continue
             shape = self._shape.after(t)
-            both = zip(_tracks(shape, before), _tracks(shape, after), strict=True)
+            both = zip(_places(shape, before, t), _places(shape, after, t), strict=True)
             for i, (a, b) in enumerate(both):
-                if a._at(t) != b._at(t):
+                if a != b:
                     raise InputError(
-                        f"vertex {i} jumps at t = {show(t)} "
-                        f"from {show(*a._at(t))} to {show(*b._at(t))}"
+                        f"vertex {i} jumps at t = {show(t)} from {show(*a)} to {show(*b)}"
                     )
 
 
-def _tracks(shape: Sequence[Position], motion: SimpleMotion) -> tuple[Track, ...]:
-    tracks = []
+def _places(shape: Sequence[Position], motion: SimpleMotion, t: QQ) -> list[tuple[QQ, QQ]]:
+    """The positions of vertices at a time."""
+    places = []
     for position in shape:
         ask()
-        tracks.append(motion.track(position))
-    return tuple(tracks)
+        places.append(motion.track(position)._at(t))
+    return places

@@ -138,11 +138,10 @@ def _constant_doubles(positions: Sequence[Position]) -> tuple[list[float], list[
     both: tuple[list[float], list[float]] = [], []
     for vertex in positions:
         for coordinate, values in zip(vertex, both, strict=True):
-            if coordinate.degree > 0:
-                return None
-            value = coordinate._at(QQ(0))
+            coefficients = coordinate._coefficients
+            value = coefficients[0] if coefficients else QQ(0)
             values.append(nearest_float(value))
-            if values[-1] != value:
+            if len(coefficients) > 1 or values[-1] != value:
                 return None
     return both if positions else None
 

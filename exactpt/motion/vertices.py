@@ -81,7 +81,7 @@ class Vertex:
     @property
     def track(self) -> Track:
         """Its trajectory until the body's next breakpoint."""
-        return self.piece.tracks[self.index]
+        return self.piece.track(self.index)
 
     def is_copy_of(self, other: Vertex) -> bool:
         """Whether both are one vertex of the scene, or infinitesimal copies of one."""

@@ -56,8 +56,8 @@ def test_determinants_of_tracks(a, b, c, d):
 @given(a=tracks, c=tracks, offsets=st.tuples(*[polynomials] * 4))
 def test_the_orientation_of_copies(a, c, offsets):
     place = Image([0.0], [0.0], [], -1)
-    copies = [Vertex(i, 0, 0, SimpleNamespace(tracks=(a,)), place) for i in (0, 1)]
-    other = Vertex(2, 1, 0, SimpleNamespace(tracks=(c,)), place)
+    copies = [Vertex(i, 0, 0, SimpleNamespace(track=lambda _: a), place) for i in (0, 1)]
+    other = Vertex(2, 1, 0, SimpleNamespace(track=lambda _: c), place)
     copies[0].offset, copies[1].offset = offsets[:2], offsets[2:]
     turned = subtract(offsets[2], offsets[0]), subtract(offsets[3], offsets[1])
     expected = cross_of(turned, towards(a, c))

@@ -73,7 +73,7 @@ def test_trajectories_are_made_when_asked_for():
     images = Enclosures(frame_for(piece.corners(QQ(0)), QQ(0), QQ(1))).of_piece(piece)
 
     assert [image.xs for image in images] == [[1.5, 0.1], [4.0, 0.1], [8.0, 0.1]]
-    assert piece._tracks is None
+    assert not piece._made
     assert [track.at(1)[0] for track in piece.tracks] == [
         Fraction(x) + Fraction(0.1) for x in (1.5, 4, 8)
     ]
