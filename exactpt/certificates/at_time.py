@@ -26,6 +26,7 @@ from exactpt.indices import Triple, VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.counters import Counters
+from exactpt.kernel.error_free import NOT_EXACT, exact_turn
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, sign
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
@@ -87,7 +88,8 @@ class PredicatesAt(Predicates):
         """The exact unperturbed position of a vertex."""
         found = self._exact.get(v)
         if found is None:
-            found = self._exact[v] = self.vertices.all[v].track._at(self.time)
+            vertex = self.vertices.all[v]
+            found = self._exact[v] = vertex.piece.position(vertex.index, self.time)
         return found
 
     def sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
@@ -140,7 +142,12 @@ class PredicatesAt(Predicates):
         ask()
         u, v, w = (self.vertices.all[i] for i in (a, b, c))
         are_copies = u.is_copy_of(v) or v.is_copy_of(w) or w.is_copy_of(u)
-        s = 0 if are_copies else side(self.position(a), self.position(b), self.position(c))
+        s = 0 if are_copies else self._turn_of_doubles(a, b, a, c)
+        if s in (1, -1):
+            self._counters.filtered += 1
+            return s
+        if s == NOT_EXACT:
+            s = side(self.position(a), self.position(b), self.position(c))
         is_zero = s == 0 and not are_copies
         self._count(u, v, w, is_zero=is_zero)
         if not are_copies:
@@ -183,12 +190,41 @@ class PredicatesAt(Predicates):
             if difference < -bound:
                 self._counters.filtered += 1
                 return False
+            if s := self._order_of_equals(a, b):
+                self._counters.filtered += 1
+                return s > 0
         (ax, _), (bx, _) = self.position(a), self.position(b)
         u, v = self.vertices.all[a], self.vertices.all[b]
         self._count(u, v, is_zero=ax == bx)
         if ax != bx:
             return ax < bx
         return self.first_sign(x_order_terms(u, v)) > 0
+
+    def _order_of_equals(self, a: VertexId, b: VertexId) -> int:
+        """The sign of `left_of` for two vertices with one x: 0 unless doubles tell.
+
+        If the doubles are positions without an error, those that are equal are. The trajectories
+        are straight then: just after the time, x(b) - x(a) has the sign of its slope. Where that
+        is zero for ever, y decides.
+        """
+        if self._d != 0.0 or self._x[a] != self._x[b]:
+            return 0
+        if self.after:
+            u, v = self.vertices.all[a].image, self.vertices.all[b].image
+            slope, off = v.x1 - u.x1, 2.0 * self.vertices.enclosures.errors[1]
+            if abs(slope) > off + K * abs(slope):
+                return 1 if slope > 0.0 else -1
+            if off and not u.motion == v.motion >= 0:
+                return 0
+        height = self._y[a] - self._y[b]
+        return 1 if height > 0.0 else -1 if height < 0.0 else 0
+
+    def _turn_of_doubles(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
+        """The sign of (b - a) x (d - c) at the time, if doubles give it exactly, or `NOT_EXACT`."""
+        if self._d != 0.0 or self._exact_only:
+            return NOT_EXACT
+        x, y = self._x, self._y
+        return exact_turn((x[a], y[a]), (x[b], y[b]), (x[c], y[c]), (x[d], y[d]))
 
     def sorted_by_x(self, ids: Iterable[VertexId]) -> list[VertexId]:
         """Vertices from left to right: sorted by doubles, and exactly where these are close.
@@ -250,6 +286,10 @@ class PredicatesAt(Predicates):
             if now:
                 self._counters.filtered += 1
                 return now
+        now = self._turn_of_doubles(a, b, c, d)
+        if now != NOT_EXACT:
+            self._counters.filtered += 1
+            return now
         p, q, r, s = (self.position(i) for i in (a, b, c, d))
         now = sign((q[0] - p[0]) * (s[1] - r[1]) - (q[1] - p[1]) * (s[0] - r[0]))
         self._count(*[self.vertices.all[i] for i in (a, b, c, d)], is_zero=now == 0)

@@ -42,20 +42,16 @@ def signed_area2(points: Sequence[Point]) -> QQ:
     return total
 
 
-def is_counter_clockwise(points: Sequence[tuple[QQ | float, QQ | float]]) -> bool:
-    """Whether a polygon of nonzero area is counter-clockwise; doubles stand for their values.
+def is_counter_clockwise(points: Sequence[Point]) -> bool:
+    """Whether a polygon of nonzero area is counter-clockwise.
 
     A simple polygon is oriented as it turns at its leftmost vertex, the lowest if there are
     several: the interior angle there is less than pi. (It is neither 0 nor pi.)
     """
     n = len(points)
     first = min(range(n), key=points.__getitem__)
-    turn = side(*[_exact(points[i]) for i in (first - 1, first, (first + 1) % n)])
-    return turn > 0 if turn else signed_area2(list(map(_exact, points))) > 0
-
-
-def _exact(point: tuple[QQ | float, QQ | float]) -> Point:
-    return QQ(point[0]), QQ(point[1])
+    turn = side(points[first - 1], points[first], points[(first + 1) % n])
+    return turn > 0 if turn else signed_area2(points) > 0
 
 
 def segments_meet(a: Point, b: Point, c: Point, d: Point) -> bool:

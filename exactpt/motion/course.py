@@ -69,14 +69,31 @@ class Piece:
         rest = self._shape.at_rest
         return None if rest is None else (rest, self.motion)
 
+    def position(self, vertex: int, t: QQ) -> tuple[QQ, QQ]:
+        """The position of a vertex at a rational time of the piece."""
+        moved = self.translation
+        if moved is None:
+            return self.track(vertex)._at(t)
+        (xs, ys), translation = moved
+        dx, dy = translation._at(t)
+        return _exact(xs[vertex]) + dx, _exact(ys[vertex]) + dy
+
+    def positions(self, t: QQ) -> list[tuple[QQ, QQ]]:
+        """The positions of all vertices at a rational time of the piece."""
+        moved = self.translation
+        if moved is None:
+            return [track._at(t) for track in self.tracks]
+        dx, dy = moved[1]._at(t)
+        return [(_exact(x) + dx, _exact(y) + dy) for x, y in zip(*moved[0], strict=True)]
+
     def corners(self, t: QQ) -> list[tuple[QQ, QQ]]:
         """Points with the bounding box of the body at a rational time of the piece."""
         moved = self.translation
         if moved is None:
-            return [track._at(t) for track in self.tracks]
+            return self.positions(t)
         (xs, ys), translation = moved
         dx, dy = translation._at(t)
-        return [(QQ(of(xs)) + dx, QQ(of(ys)) + dy) for of in (min, max)]
+        return [(_exact(of(xs)) + dx, _exact(of(ys)) + dy) for of in (min, max)]
 
 
 @final
@@ -119,7 +136,7 @@ class Course:
         """The positions at a time; those at the last time asked for are cached."""
         last = self._last  # one read: other threads may share the body
         if last is None or last[0] != t:
-            self._last = last = t, [track._at(t) for track in self.after(t).tracks]
+            self._last = last = t, self.after(t).positions(t)
         return last[1][:]
 
     def _check_continuity(self, motion: Pieces) -> None:
@@ -137,6 +154,10 @@ class Course:
                     raise InputError(
                         f"vertex {i} jumps at t = {show(t)} from {show(*a)} to {show(*b)}"
                     )
+
+
+def _exact(x: float) -> QQ:
+    return QQ(*x.as_integer_ratio())
 
 
 def _places(shape: Sequence[Position], motion: SimpleMotion, t: QQ) -> list[tuple[QQ, QQ]]:

@@ -29,6 +29,7 @@ INTEGERS: Final = 2.0**53
 """All integers of smaller absolute value are doubles."""
 
 _ONE: Final = (ZZ(1),)
+_ZERO: Final = QQ(0)
 
 
 class _Common(NamedTuple):
@@ -85,16 +86,13 @@ class Enclosures:
         places, translation = moved
         paths = translation.x._coefficients, translation.y._coefficients
         size = max(*map(len, paths), 1)
-        (x_shift, *x), (y_shift, *y) = (
-            self._frame.in_time([*path, *[QQ(0)] * (size - len(path))]) for path in paths
-        )
-        (cx, cy), (sx, sy) = self._frame.center, self._frame.scale
-        x_shift, y_shift = x_shift - cx, y_shift - cy
+        (sx, sy), (cx, cy) = self._frame.scale, self._frame.center
+        x_shift, x = self._path(paths[0], size, sx, cx)
+        y_shift, y = self._path(paths[1], size, sy, cy)
         shift = nearest_float(x_shift), nearest_float(y_shift)
         if shift[0] != x_shift or shift[1] != y_shift:
             return None
         motion = self._number((paths[0][1:], paths[1][1:]))
-        x, y = [c * power_of_two(-sx) for c in x], [c * power_of_two(-sy) for c in y]
         tails = _floats(x, size - 1), _floats(y, size - 1)
         self.errors += [0.0] * (size - len(self.errors))
         if not (_moderate(tails[0]) and _moderate(tails[1])):
@@ -105,6 +103,19 @@ class Enclosures:
         self._note_errors(x, tails[0], first=1)
         self._note_errors(y, tails[1], first=1)
         return images
+
+    def _path(
+        self, path: Sequence[QQ], size: int, scale: int, center: QQ
+    ) -> tuple[QQ, Sequence[QQ]]:
+        """A coordinate of a translation in normalised time.
+
+        Returns:
+            What is added, less the center; and the coefficients of t, t^2, ..., scaled.
+        """
+        if self._frame.is_identity:
+            return (path[0], path[1:]) if path else (_ZERO, path)
+        shift, *tail = self._frame.in_time([*path, *[_ZERO] * (size - len(path))])
+        return shift - center, [c * power_of_two(-scale) for c in tail]
 
     def images(self, tracks: Sequence[Track]) -> list[Image]:
         """The enclosures of trajectories, fast if most successive ones share their motion."""

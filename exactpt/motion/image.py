@@ -7,6 +7,8 @@ from typing import Final, final
 
 from mypy_extensions import mypyc_attr
 
+from exactpt.kernel.error_free import is_exact_sum
+
 __all__ = ["LARGEST", "SMALLEST", "Arm", "Image", "translated"]
 
 SMALLEST: Final = 2.0**-300
@@ -161,9 +163,9 @@ def translated(
             nan = [math.nan] * (len(x_tail) + 1)
             images.append(Image(nan, nan, [], motion))
             continue
-        if abs(x0) > largest and _is_rounded(xs[i], dx, x):
+        if abs(x0) > largest and not is_exact_sum(xs[i], dx, x):
             largest = abs(x0)
-        if abs(y0) > largest and _is_rounded(ys[i], dy, y):
+        if abs(y0) > largest and not is_exact_sum(ys[i], dy, y):
             largest = abs(y0)
         images.append(Image([x0, *x_tail], [y0, *y_tail], [], motion))
     return images, largest
@@ -171,9 +173,3 @@ def translated(
 
 def _in_range(before: float, scaled: float) -> bool:
     return before == 0.0 or SMALLEST <= abs(scaled) <= LARGEST
-
-
-def _is_rounded(a: float, b: float, total: float) -> bool:
-    """Whether a + b is not the double that it is rounded to (TwoSum; Knuth, TAOCP 2, 4.2.2)."""
-    of_b = total - a
-    return (a - (total - of_b)) + (b - of_b) != 0.0
