@@ -17,6 +17,7 @@ from typing import Final, final
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.certificates.exact_places import ExactPlaces
 from exactpt.certificates.perturbation import copies_first, cross, orientation, x_order_terms
 from exactpt.certificates.positions import K, cross_sign, positions_at
 from exactpt.certificates.predicates import Predicates
@@ -26,7 +27,7 @@ from exactpt.indices import Triple, VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.counters import Counters
-from exactpt.kernel.error_free import NOT_EXACT, exact_turn
+from exactpt.kernel.error_free import NOT_EXACT
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, sign
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
@@ -76,6 +77,8 @@ class PredicatesAt(Predicates):
         self._x: list[float] = self._xs.tolist()
         self._y: list[float] = self._ys.tolist()
         d = self._d = 2.0 * error
+        is_exact = d == 0.0 and not exact_only
+        self._places = ExactPlaces(vertices, self._x, self._y, are_exact=is_exact, after=after)
         # The bound of `cross_sign` for the largest differences among these positions.
         width, height = _extent(self._xs), _extent(self._ys)
         self._largest_bound: float = (
@@ -142,7 +145,7 @@ class PredicatesAt(Predicates):
         ask()
         u, v, w = (self.vertices.all[i] for i in (a, b, c))
         are_copies = u.is_copy_of(v) or v.is_copy_of(w) or w.is_copy_of(u)
-        s = 0 if are_copies else self._turn_of_doubles(a, b, a, c)
+        s = 0 if are_copies else self._places.turn(a, b, a, c)
         if s in (1, -1):
             self._counters.filtered += 1
             return s
@@ -190,7 +193,7 @@ class PredicatesAt(Predicates):
             if difference < -bound:
                 self._counters.filtered += 1
                 return False
-            if s := self._order_of_equals(a, b):
+            if s := self._places.order(a, b):
                 self._counters.filtered += 1
                 return s > 0
         (ax, _), (bx, _) = self.position(a), self.position(b)
@@ -199,32 +202,6 @@ class PredicatesAt(Predicates):
         if ax != bx:
             return ax < bx
         return self.first_sign(x_order_terms(u, v)) > 0
-
-    def _order_of_equals(self, a: VertexId, b: VertexId) -> int:
-        """The sign of `left_of` for two vertices with one x: 0 unless doubles tell.
-
-        If the doubles are positions without an error, those that are equal are. The trajectories
-        are straight then: just after the time, x(b) - x(a) has the sign of its slope. Where that
-        is zero for ever, y decides.
-        """
-        if self._d != 0.0 or self._x[a] != self._x[b]:
-            return 0
-        if self.after:
-            u, v = self.vertices.all[a].image, self.vertices.all[b].image
-            slope, off = v.x1 - u.x1, 2.0 * self.vertices.enclosures.errors[1]
-            if abs(slope) > off + K * abs(slope):
-                return 1 if slope > 0.0 else -1
-            if off and not u.motion == v.motion >= 0:
-                return 0
-        height = self._y[a] - self._y[b]
-        return 1 if height > 0.0 else -1 if height < 0.0 else 0
-
-    def _turn_of_doubles(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
-        """The sign of (b - a) x (d - c) at the time, if doubles give it exactly, or `NOT_EXACT`."""
-        if self._d != 0.0 or self._exact_only:
-            return NOT_EXACT
-        x, y = self._x, self._y
-        return exact_turn((x[a], y[a]), (x[b], y[b]), (x[c], y[c]), (x[d], y[d]))
 
     def sorted_by_x(self, ids: Iterable[VertexId]) -> list[VertexId]:
         """Vertices from left to right: sorted by doubles, and exactly where these are close.
@@ -259,6 +236,8 @@ class PredicatesAt(Predicates):
         ex, ey = self._d + K * abs(dx), self._d + K * abs(dy)
         if dx > 2.0 * ex and dx > SMALL and not self._exact_only:
             q = -dy / dx
+            if self._places.is_slope(a, b, q):
+                return q * STEPS // 1.0
             error = ((ey + abs(q) * ex) / (dx - ex) + 4.0 * U * abs(q)) * SLACK + TINY
             low = (q - error) * STEPS // 1.0
             if low == (q + error) * STEPS // 1.0:
@@ -286,7 +265,7 @@ class PredicatesAt(Predicates):
             if now:
                 self._counters.filtered += 1
                 return now
-        now = self._turn_of_doubles(a, b, c, d)
+        now = self._places.turn(a, b, c, d)
         if now != NOT_EXACT:
             self._counters.filtered += 1
             return now
