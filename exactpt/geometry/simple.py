@@ -50,18 +50,29 @@ def is_surely_simple(
     return _no_edges_meet(xs, ys, error, closed=closed)
 
 
-def turn_of_doubles(xs: Sequence[float], ys: Sequence[float]) -> int:
+def turn_of_doubles(xs: Sequence[float], ys: Sequence[float], *, is_exact: bool) -> int:
     """1 if a simple polygon is counter-clockwise, -1 if it is clockwise, 0 if not certain.
 
-    It is oriented as it turns at its leftmost vertex (`exactpt.geometry.polygon`).
+    It is oriented as it turns at its leftmost vertex (`exactpt.geometry.polygon`). Numbers keep
+    their order when they are rounded, but may become equal.
+
+    Args:
+        xs: coordinates.
+        ys: the other coordinates.
+        is_exact: whether they are exact; else they are the nearest doubles.
     """
     x = min(xs)
     i = xs.index(x)
     if xs.count(x) > 1:
+        if not is_exact:
+            return 0
         i = min(range(len(xs)), key=lambda k: (xs[k], ys[k]))
     j = i + 1 if i + 1 < len(xs) else 0
+    error = 0.0
+    if not is_exact:
+        error = 2.0 * U * max(abs(v) for k in (i - 1, i, j) for v in (xs[k], ys[k]))
     vx, vy = xs[j] - x, ys[j] - ys[i]
-    return _cross_sign(x - xs[i - 1], ys[i] - ys[i - 1], vx, vy, 0.0)
+    return _cross_sign(x - xs[i - 1], ys[i] - ys[i - 1], vx, vy, error)
 
 
 def _turns_once(xs: Sequence[float], ys: Sequence[float], error: float) -> bool:

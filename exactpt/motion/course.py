@@ -11,7 +11,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, show
 from exactpt.motion.motions import Motion, Pieces, Position, SimpleMotion, Translation
-from exactpt.motion.shape import Shape
+from exactpt.motion.shape import Places, Shape
 from exactpt.motion.track import Track
 
 __all__ = ["Course", "Piece"]
@@ -59,39 +59,40 @@ class Piece:
         return self._tracks
 
     @property
-    def translation(self) -> tuple[tuple[list[float], list[float]], Translation] | None:
-        """The rest positions x and y as doubles, and what is added to them.
+    def translation(self) -> tuple[Places, Translation] | None:
+        """The rest positions in doubles, and what is added to them.
 
-        None if they are no doubles, or the motion is no translation.
+        None if they are not constant, or out of range, or the motion is no translation.
         """
         if not isinstance(self.motion, Translation):
             return None
-        rest = self._shape.at_rest
-        return None if rest is None else (rest, self.motion)
+        places = self._shape.near
+        return None if places is None else (places, self.motion)
 
     def position(self, vertex: int, t: QQ) -> tuple[QQ, QQ]:
         """The position of a vertex at a rational time of the piece."""
         moved = self.translation
-        if moved is None:
+        if moved is None or not moved[0].is_exact:
             return self.track(vertex)._at(t)
-        (xs, ys), translation = moved
+        places, translation = moved
         dx, dy = translation._at(t)
-        return _exact(xs[vertex]) + dx, _exact(ys[vertex]) + dy
+        return _exact(places.xs[vertex]) + dx, _exact(places.ys[vertex]) + dy
 
     def positions(self, t: QQ) -> list[tuple[QQ, QQ]]:
         """The positions of all vertices at a rational time of the piece."""
         moved = self.translation
-        if moved is None:
+        if moved is None or not moved[0].is_exact:
             return [track._at(t) for track in self.tracks]
-        dx, dy = moved[1]._at(t)
-        return [(_exact(x) + dx, _exact(y) + dy) for x, y in zip(*moved[0], strict=True)]
+        (xs, ys, _), translation = moved
+        dx, dy = translation._at(t)
+        return [(_exact(x) + dx, _exact(y) + dy) for x, y in zip(xs, ys, strict=True)]
 
     def corners(self, t: QQ) -> list[tuple[QQ, QQ]]:
-        """Points with the bounding box of the body at a rational time of the piece."""
+        """Points whose bounding box is that of the body at a rational time, rounding aside."""
         moved = self.translation
         if moved is None:
             return self.positions(t)
-        (xs, ys), translation = moved
+        (xs, ys, _), translation = moved
         dx, dy = translation._at(t)
         return [(_exact(of(xs)) + dx, _exact(of(ys)) + dy) for of in (min, max)]
 

@@ -12,7 +12,7 @@ from exactpt.kernel.numbers import QQ, ZZ, nearest_float, power_of_two
 from exactpt.kernel.polynomial import ONE
 from exactpt.kernel.rounding import U
 from exactpt.motion.frame import Frame, binary_exponent, combined
-from exactpt.motion.image import LARGEST, SMALLEST, Arm, Image, translated
+from exactpt.motion.image import LARGEST, SMALLEST, Arm, Image, constant_error, translated
 from exactpt.motion.track import Turning
 
 if TYPE_CHECKING:
@@ -75,9 +75,9 @@ class Enclosures:
         return self._translated(piece) or self.images(piece.tracks)
 
     def _translated(self, piece: Piece) -> list[Image] | None:
-        """The same as `images` of doubles that are translated, without their trajectories.
+        """The enclosures of vertices that are translated, without their trajectories.
 
-        None if the positions are not doubles, or what is added to them is not one.
+        None if doubles are not known, or would lose digits when they are added.
         """
         moved = piece.translation
         if moved is None or max(map(abs, self._frame.scale)) > MOST_SCALED:
@@ -90,19 +90,23 @@ class Enclosures:
         x_shift, x = self._path(paths[0], size, sx, cx)
         y_shift, y = self._path(paths[1], size, sy, cy)
         shift = nearest_float(x_shift), nearest_float(y_shift)
-        if shift[0] != x_shift or shift[1] != y_shift:
+        if not (_is_near(shift[0], x_shift) and _is_near(shift[1], y_shift)):
             return None
+        is_exact = places.is_exact and shift[0] == x_shift and shift[1] == y_shift
         motion = self._number((paths[0][1:], paths[1][1:]))
         tails = _floats(x, size - 1), _floats(y, size - 1)
         self.errors += [0.0] * (size - len(self.errors))
         if not (_moderate(tails[0]) and _moderate(tails[1])):
             nan = [math.nan] * size
             return [Image(nan, nan, [], motion)] * len(places[0])
-        images, largest = translated(places, shift, (2.0**-sx, 2.0**-sy), tails, motion)
-        self.errors[0] = max(self.errors[0], largest * (2.0 * U))
+        units = 2.0**-sx, 2.0**-sy
+        error = constant_error((places.xs, places.ys), shift, units, is_exact=is_exact)
+        if error < 0.0:
+            return None
+        self.errors[0] = max(self.errors[0], error)
         self._note_errors(x, tails[0], first=1)
         self._note_errors(y, tails[1], first=1)
-        return images
+        return translated((places.xs, places.ys), shift, units, tails, motion)
 
     def _path(
         self, path: Sequence[QQ], size: int, scale: int, center: QQ
@@ -274,6 +278,11 @@ def _moderate(values: list[float]) -> bool:
         if v != 0.0 and not SMALLEST <= abs(v) <= LARGEST:
             return False
     return True
+
+
+def _is_near(near: float, exact: QQ) -> bool:
+    """Whether the relative error of the nearest double is at most a unit."""
+    return near == exact or SMALLEST <= abs(near) <= LARGEST
 
 
 def _fits_in_arms(v: float) -> bool:

@@ -42,8 +42,9 @@ def _turns_left(body: Body, ring: range, t: QQ) -> bool:
     """Whether a ring is counter-clockwise at a time."""
     moved = body._piece_after(t).translation
     if moved is not None:
-        xs, ys = moved[0]
-        turn = turn_of_doubles(xs[ring.start : ring.stop], ys[ring.start : ring.stop])
+        xs, ys, is_exact = moved[0]
+        some = slice(ring.start, ring.stop)
+        turn = turn_of_doubles(xs[some], ys[some], is_exact=is_exact)
         if turn:
             return turn > 0
     return is_counter_clockwise(body._at(t)[ring.start : ring.stop])
