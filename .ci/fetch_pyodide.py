@@ -24,7 +24,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name, parse_wheel_filename
 
 ROOT = Path(__file__).parents[1]
-TESTED_WITH = ("pytest", "hypothesis", "sympy", "python-flint")
+TESTED_WITH = ("pytest", "pytest-xdist", "hypothesis", "sympy", "python-flint")
 
 
 def fetch(folder: Path, address: str) -> None:

@@ -134,7 +134,7 @@ class Certifier:
         self.made += 1
         a, b, c = least_first(a, b, c)
         va, vb, vc = self.all[a], self.all[b], self.all[c]
-        if self.exact_only or va.track is vb.track or vb.track is vc.track or va.track is vc.track:
+        if self.exact_only or va.is_copy_of(vb) or vb.is_copy_of(vc) or va.is_copy_of(vc):
             return self._exact_orientation(va, vb, vc)
         horizon = min(self._horizon(va, vb), vc.horizon)
         s, low, high = coefficients.orientation(
@@ -232,7 +232,7 @@ class Certifier:
         with a contact.
         """
         first: AlgebraicNumber | None = None
-        vertices = list({id(self.all[v].track): self.all[v] for v in ids}.values())
+        vertices = list({(self.all[v].body, self.all[v].index): self.all[v] for v in ids}.values())
         until = self._until(*vertices)
         for i, u in enumerate(vertices):
             for v in vertices[:i]:
@@ -265,7 +265,7 @@ class Certifier:
         """
         self.made += 1
         va, vb = self.all[a], self.all[b]
-        if self.exact_only or va.track is vb.track:
+        if self.exact_only or va.is_copy_of(vb):
             return self._exact_x_order(va, vb, touching=touching)
         horizon = self._horizon(va, vb)
         s, low, high = coefficients.x_difference(
