@@ -156,6 +156,18 @@ def test_bad_input_gets_the_line_of_the_command_and_no_answer(opened, text):
     assert complaints(opened) == []
 
 
+def test_it_fits_a_phone(opened):
+    ask(opened, "demo")
+    emulated = {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True}
+    opened.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", emulated)
+    wide = opened.execute_script(
+        "return [document.documentElement.scrollWidth, document.documentElement.clientWidth]"
+    )
+    opened.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+    assert wide == [390, 390]
+
+
 def test_a_link_contains_the_scene(opened, address):
     given = {"scene": '{"exactpt": 1}', "method": "pairs", "tiling": "no such"}
 

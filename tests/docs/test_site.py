@@ -77,7 +77,9 @@ def test_the_page_for_the_browser_has_its_wheel_and_its_scenes(site):
     assert (site / "browser" / settings["wheel"]).stat().st_size > 100_000
     options = re.findall(r'<option value="([^"]+)"', page(site, "browser/index.html"))
     assert len(options) == 4
-    assert all((site / "browser" / option).is_file() for option in options)
+    links = re.findall(r'href="(\.\.[^"]+)"', page(site, "browser/index.html"))
+    assert len(links) == 2
+    assert all((site / "browser" / path).is_file() for path in options + links)
 
 
 def test_nothing_is_fetched_from_elsewhere(site):
