@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from exactpt.collision.row_boxes import RowBoxes, near_boxes, pairs_at
 from exactpt.collision.straight_search import MOST_VERTICES, Row, rows_during
 from exactpt.kernel.budget import ask
+from exactpt.kernel.doubles import native
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.kernel.rounding import TINY, U
 from exactpt.motion.body import Body
@@ -94,8 +95,8 @@ def _of_arrays(bodies: BodyArrays) -> Floats | None:
     bends = bodies.coefficients[:, :, 2:].any()
     if bends or np.diff(bodies.offsets).max(initial=0) > MOST_VERTICES:
         return None
-    low = np.minimum.reduceat(bodies.vertices, bodies.offsets[:-1])
-    high = np.maximum.reduceat(bodies.vertices, bodies.offsets[:-1])
+    first = native(bodies.offsets[:-1])
+    low, high = (f.reduceat(bodies.vertices, first) for f in (np.minimum, np.maximum))
     radii = np.where(bodies.radii, bodies.radii * ROUNDED_UP + TINY, 0.0)[:, None]
     straight = np.zeros((len(bodies), 2, 2))
     straight[:, :, : bodies.coefficients.shape[2]] = bodies.coefficients[:, :, :2]
