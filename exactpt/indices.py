@@ -7,18 +7,32 @@ each of these would be a conversion, while hardly a function takes it beside ano
 
 from __future__ import annotations
 
-from typing import Final, NewType, TypeAlias
+from typing import Final, NewType, TypeAlias, TypeVar
 
-__all__ = ["NO_HALF_EDGE", "NO_VERTEX", "CertificateId", "Ends", "HalfEdge", "Triple", "VertexId"]
+from mypy_extensions import i64
 
-VertexId = NewType("VertexId", int)
+__all__ = [
+    "NO_HALF_EDGE",
+    "NO_VERTEX",
+    "CertificateId",
+    "Ends",
+    "HalfEdge",
+    "Node",
+    "Triple",
+    "VertexId",
+]
+
+VertexId = NewType("VertexId", i64)
 """A vertex: its position among the moving vertices of a scene, or in a planar map."""
 
-HalfEdge = NewType("HalfEdge", int)
+HalfEdge = NewType("HalfEdge", i64)
 """A half-edge of a planar map; its twin is h ^ 1."""
 
-CertificateId = NewType("CertificateId", int)
+CertificateId = NewType("CertificateId", i64)
 """A certificate in the queue: its kind and its part (`exactpt.certificates.certificate`)."""
+
+Node = TypeVar("Node", bound=i64)
+"""A type of vertices: `VertexId`, or int where they are numbered in a snapshot."""
 
 Ends: TypeAlias = tuple[VertexId, VertexId]
 """The ends of an edge."""

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, final
 
+from mypy_extensions import i64
+
 from exactpt.certificates import coefficients
 from exactpt.certificates.batches import linear_orientations
 from exactpt.certificates.moment import Moment, exact_time
@@ -73,7 +75,7 @@ class Certifier:
         self.zeros: int = 0
         self.counters: Counters = vertices.counters
         self.errors: list[float] = vertices.enclosures.errors
-        self.roots_now: list[tuple[int, int, int]] = []
+        self.roots_now: list[tuple[i64, i64, i64]] = []
         low, high = vertices.frame.time(start)
         self.now: EventTime = EventTime(low, high, -1, -1, -1, AlgebraicNumber(start))
         self.now_low: float = low
@@ -81,7 +83,7 @@ class Certifier:
         self.positions: Positions = Positions(self.errors)
         self.positions.move_to(low, high)
 
-    def move_to(self, time: EventTime, roots: list[tuple[int, int, int]]) -> None:
+    def move_to(self, time: EventTime, roots: list[tuple[i64, i64, i64]]) -> None:
         """Make this the current time; ``roots`` are the triples whose function vanishes then."""
         self.now = time
         self.now_low = time.low
@@ -248,7 +250,7 @@ class Certifier:
         return self._event_time(first, (ids[0], ids[1], ids[-1]), crossing=False)
 
     def _event_time(
-        self, number: AlgebraicNumber, key: tuple[int, int, int], *, crossing: bool
+        self, number: AlgebraicNumber, key: tuple[i64, i64, i64], *, crossing: bool
     ) -> EventTime:
         low, high = self._vertices.frame.enclosure(number)
         return EventTime(low, high, *key, number, crossing)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from heapq import heappop, heappush
 from typing import Final, Protocol, final
 
-from mypy_extensions import mypyc_attr
+from mypy_extensions import i64, mypyc_attr
 
 from exactpt.indices import CertificateId
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -45,17 +45,17 @@ class EventTime:
         self,
         low: float,
         high: float,
-        a: int,
-        b: int,
-        c: int,
+        a: i64,
+        b: i64,
+        c: i64,
         exact: AlgebraicNumber | None = None,
         crossing: bool = True,  # noqa: FBT001, FBT002 - positional for speed
     ) -> None:
         self.low: float = low
         self.high: float = high
-        self.a: int = a
-        self.b: int = b
-        self.c: int = c
+        self.a: i64 = a
+        self.b: i64 = b
+        self.c: i64 = c
         self.exact: AlgebraicNumber | None = exact
         self.crossing: bool = crossing
 

@@ -73,7 +73,7 @@ class SweptEdges:
         """Read the enclosures of a body that has entered a piece; false if there is no room."""
         moving = self.vertices.bodies[i]
         images = [self.vertices.all[v].image for v in moving.ring]
-        first = moving.ring[0]  # ids are numbered in order
+        first = int(moving.ring[0])  # ids are numbered in order
         self.motion[first : first + len(images)] = [image.motion for image in images]
         self.deforms[i] = moving.deforms
         return self.boxes.replace(first, images, self.vertices.enclosures.errors)

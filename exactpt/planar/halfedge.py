@@ -13,7 +13,7 @@ from collections.abc import Iterable
 from typing import final
 
 from exactpt.errors import AuditError
-from exactpt.indices import NO_VERTEX, HalfEdge, VertexId
+from exactpt.indices import NO_VERTEX, HalfEdge, Node, VertexId
 
 __all__ = ["PlanarMap", "edge_key", "twin", "without_steps_back"]
 
@@ -224,6 +224,6 @@ def without_steps_back(half_edges: Iterable[HalfEdge]) -> list[HalfEdge]:
     return kept
 
 
-def edge_key(u: int, v: int) -> tuple[int, int]:
+def edge_key(u: Node, v: Node) -> tuple[Node, Node]:
     """The ends of an edge, the smaller one first."""
     return (u, v) if u < v else (v, u)

@@ -6,7 +6,7 @@ in the face on the left.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from typing import Any, Final, NamedTuple
 
 from exactpt.errors import AuditError
@@ -262,9 +262,9 @@ class Mesh:
         self.boundary = [bool(b) for b in state["boundary"]]
         self.ring_edge = state["ring_edge"]
 
-    def labelling(self) -> Sequence[frozenset[int]]:
+    def labelling(self) -> list[frozenset[int]]:
         """Of each half-edge, the geodesics that run along it; empty if none are kept."""
-        return ()
+        return []
 
     def relative_hulls(self) -> Callable[[int], list[VertexId]] | None:
         """The shortest loop around each body, as vertex ids; None if the mesh does not know."""

@@ -18,7 +18,7 @@ whose event changes the vertex of an arc and no cell.
 from __future__ import annotations
 
 from bisect import bisect_left
-from typing import Final, final
+from typing import Any, Final, final
 
 from exactpt.certificates.at_time import PredicatesAt, sorted_by_x
 from exactpt.indices import NO_VERTEX, VertexId
@@ -62,7 +62,7 @@ class VerticalDecomposition:
         other.right_up, other.right_down = self.right_up[:], self.right_down[:]
         return other
 
-    def state(self) -> dict[str, list[int]]:
+    def state(self) -> dict[str, list[Any]]:
         """The cells and arcs, as a JSON object."""
         return {
             "vertex": list(self.vertex),
