@@ -7,8 +7,10 @@ each of these would be a conversion, while hardly a function takes it beside ano
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Final, NewType, TypeAlias, TypeVar
 
+from librt.vecs import vec
 from mypy_extensions import i64
 
 __all__ = [
@@ -17,9 +19,11 @@ __all__ = [
     "CertificateId",
     "Ends",
     "HalfEdge",
-    "Node",
+    "Index",
     "Triple",
     "VertexId",
+    "half_edge_vec",
+    "vertex_vec",
 ]
 
 VertexId = NewType("VertexId", i64)
@@ -31,8 +35,8 @@ HalfEdge = NewType("HalfEdge", i64)
 CertificateId = NewType("CertificateId", i64)
 """A certificate in the queue: its kind and its part (`exactpt.certificates.certificate`)."""
 
-Node = TypeVar("Node", bound=i64)
-"""A type of vertices: `VertexId`, or int where they are numbered in a snapshot."""
+Index = TypeVar("Index", bound=i64)
+"""One of these types, or int."""
 
 Ends: TypeAlias = tuple[VertexId, VertexId]
 """The ends of an edge."""
@@ -42,3 +46,13 @@ Triple: TypeAlias = tuple[VertexId, VertexId, VertexId]
 
 NO_VERTEX: Final = VertexId(-1)
 NO_HALF_EDGE: Final = HalfEdge(-1)
+
+
+def vertex_vec(vertices: Iterable[VertexId] = ()) -> vec[VertexId]:
+    """A vector of vertices; at run time a type of vectors has no item types but i64."""
+    return vec[i64](vertices)  # type: ignore[return-value]
+
+
+def half_edge_vec(half_edges: Iterable[HalfEdge] = ()) -> vec[HalfEdge]:
+    """A vector of half-edges, as `vertex_vec`."""
+    return vec[i64](half_edges)  # type: ignore[return-value]

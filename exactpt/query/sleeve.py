@@ -19,7 +19,7 @@ from typing import Final, TypeAlias, final
 
 from exactpt.errors import AuditError
 from exactpt.geometry.predicates import Point, between, side
-from exactpt.indices import NO_HALF_EDGE, NO_VERTEX, Ends, HalfEdge, Node, Triple, VertexId
+from exactpt.indices import NO_HALF_EDGE, NO_VERTEX, Ends, HalfEdge, Index, Triple, VertexId
 from exactpt.query.subdivision import Subdivision
 
 __all__ = ["Sleeves", "Triangle", "bends", "pull_tight", "triangulated"]
@@ -126,7 +126,7 @@ class Sleeves:
         return portals[::-1]
 
 
-def triangulated(cycle: Sequence[Node], points: list[Point]) -> list[tuple[Node, Node, Node]]:
+def triangulated(cycle: Sequence[Index], points: list[Point]) -> list[tuple[Index, Index, Index]]:
     """A triangulation of a simple polygon, given counter-clockwise, by ear clipping.
 
     The boundary may touch itself at vertices and along edges. Vertices with an angle of pi are
@@ -134,7 +134,7 @@ def triangulated(cycle: Sequence[Node], points: list[Point]) -> list[tuple[Node,
     vertices, if the number of candidate ears tested in a row is bounded.
     """
     nodes = list(cycle)
-    triangles: list[tuple[Node, Node, Node]] = []
+    triangles: list[tuple[Index, Index, Index]] = []
     i = misses = 0
     while len(nodes) > 3:
         n = len(nodes)
@@ -151,7 +151,7 @@ def triangulated(cycle: Sequence[Node], points: list[Point]) -> list[tuple[Node,
     return triangles
 
 
-def _is_ear(nodes: Sequence[Node], a: Node, b: Node, c: Node, points: list[Point]) -> bool:
+def _is_ear(nodes: Sequence[Index], a: Index, b: Index, c: Index, points: list[Point]) -> bool:
     p, q, r = points[a], points[b], points[c]
     if side(p, q, r) <= 0:
         return False
