@@ -53,7 +53,7 @@ class Certifier:
     Attributes:
         all: the moving vertices, by id.
         now: the current time; ``now_low`` and ``now_high`` enclose it.
-        roots_now: triples of vertices whose function vanishes now.
+        roots_now: the event times that are now, for the functions that vanish now.
         end: the last time of interest.
         exact_only: whether the float filters are switched off.
         made: the number of certificates computed.
@@ -75,7 +75,7 @@ class Certifier:
         self.zeros: int = 0
         self.counters: Counters = vertices.counters
         self.errors: list[float] = vertices.enclosures.errors
-        self.roots_now: list[tuple[i64, i64, i64]] = []
+        self.roots_now: list[EventTime] = []
         low, high = vertices.frame.time(start)
         self.now: EventTime = EventTime(low, high, -1, -1, -1, AlgebraicNumber(start))
         self.now_low: float = low
@@ -83,8 +83,8 @@ class Certifier:
         self.positions: Positions = Positions(self.errors)
         self.positions.move_to(low, high)
 
-    def move_to(self, time: EventTime, roots: list[tuple[i64, i64, i64]]) -> None:
-        """Make this the current time; ``roots`` are the triples whose function vanishes then."""
+    def move_to(self, time: EventTime, roots: list[EventTime]) -> None:
+        """Make this the current time; the functions of which ``roots`` are roots vanish then."""
         self.now = time
         self.now_low = time.low
         self.now_high = time.high
@@ -135,10 +135,13 @@ class Certifier:
         """
         self.made += 1
         a, b, c = least_first(a, b, c)
-        va, vb, vc = self.all[a], self.all[b], self.all[c]
+        every = self.all
+        va, vb, vc = every[a], every[b], every[c]
         if self.exact_only or va.track is vb.track or vb.track is vc.track or va.track is vc.track:
             return self._exact_orientation(va, vb, vc)
-        horizon = min(self._horizon(va, vb), vc.horizon)
+        horizon = self._horizon(va, vb)
+        if vc.horizon < horizon:  # noqa: PLR1730 - `min` is a call in plain Python
+            horizon = vc.horizon
         s, low, high = coefficients.orientation(
             va.image,
             vb.image,
@@ -181,16 +184,20 @@ class Certifier:
 
     def vanishes_now(self, a: VertexId, b: VertexId, c: VertexId) -> bool:
         """Whether the function of these vertices is known to vanish now."""
-        for i, j, k in self.roots_now:
+        for time in self.roots_now:
+            i, j, k = time.a, time.b, time.c
             if a in (i, j, k) and b in (i, j, k) and c in (i, j, k):
                 return True
         return False
 
     def _horizon(self, a: Vertex, b: Vertex) -> float:
         """An upper bound of the time until which the motions of two vertices are known."""
-        # The minimum of two compiles to a comparison, that of three to a call.
-        of_both = min(a.horizon, b.horizon)
-        return min(self._end_high, of_both)
+        high = self._end_high
+        if a.horizon < high:  # noqa: PLR1730 - `min` is a call in plain Python
+            high = a.horizon
+        if b.horizon < high:  # noqa: PLR1730
+            high = b.horizon
+        return high
 
     def _until(self, *vertices: Vertex) -> QQ:
         until = self.end

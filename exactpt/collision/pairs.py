@@ -278,7 +278,7 @@ class PairsSearch:
         while pending and pending[0][0] <= best_high:
             ask()
             _, k, time, triple = heapq.heappop(pending)
-            certifier.move_to(time, [triple])
+            certifier.move_to(time, [time])
             a, v, b = (vertices.all[i] for i in triple)
             if not lies_on(certifier, v, a, b):
                 _, following = certifier.orientation(*triple)

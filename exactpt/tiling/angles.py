@@ -127,10 +127,12 @@ class CertifiedMesh:
 
     def _shares_certificate(self, h: HalfEdge) -> bool:
         """Whether the angle belongs to a triangle whose certificate is that of another angle."""
+        if not self.mesh.corner[h]:
+            return False
         m = self.mesh.map
         g = m.following[h]
         k = m.following[g]
-        return m.following[k] == h and (g < h or k < h) and self.mesh.corner[h]
+        return m.following[k] == h and (g < h or k < h)
 
     def recertify(self, half_edges: list[HalfEdge]) -> None:
         """Certify changed angles, and all angles of faces that are or were triangles."""
