@@ -80,7 +80,7 @@ class VerticalRules(Rules):
     def audit(self, instant: PredicatesAt) -> None:
         """See `Rules.audit`."""
         static = VerticalDecomposition.at(instant)
-        if static.vertex != self.cells.now.vertex:
+        if list(static.vertex) != list(self.cells.now.vertex):
             raise AuditError(f"t = {instant.time}: the extreme vertices are not the static ones")
         pairs = [sorted(zip(c.left, c.right, strict=True)) for c in (self.cells.now, static)]
         if pairs[0] != pairs[1]:
