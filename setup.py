@@ -22,6 +22,7 @@ ROOMS = [
     "exactpt/certificates/*.py",
     "exactpt/indices.py",
     "exactpt/kernel/counters.py",
+    "exactpt/kernel/error_free.py",
     "exactpt/kernel/filters.py",
     "exactpt/kernel/rounding.py",
     "exactpt/kernel/sextics.py",

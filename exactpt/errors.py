@@ -71,10 +71,15 @@ def carrying(scene: Callable[[], Scene]) -> Iterator[None]:
     try:
         yield
     except AuditError as error:
-        if error.scene is None:
-            error.scene = scene()
-            error.add_note('To report it, save the scene: error.scene.save("bug.json")')
+        carry(error, scene)
         raise
+
+
+def carry(error: AuditError, scene: Callable[[], Scene]) -> None:
+    """Give an error a scene, if it has none yet."""
+    if error.scene is None:
+        error.scene = scene()
+        error.add_note('To report it, save the scene: error.scene.save("bug.json")')
 
 
 class BudgetExceeded(ExactPTError):  # noqa: N818 - an outcome, named as one

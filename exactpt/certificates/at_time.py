@@ -17,6 +17,7 @@ from typing import Final, final
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.certificates.exact_places import ExactPlaces
 from exactpt.certificates.perturbation import copies_first, cross, orientation, x_order_terms
 from exactpt.certificates.positions import K, cross_sign, positions_at
 from exactpt.certificates.predicates import Predicates
@@ -26,6 +27,7 @@ from exactpt.indices import Triple, VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.counters import Counters
+from exactpt.kernel.error_free import NOT_EXACT
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, sign
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
@@ -75,6 +77,8 @@ class PredicatesAt(Predicates):
         self._x: list[float] = self._xs.tolist()
         self._y: list[float] = self._ys.tolist()
         d = self._d = 2.0 * error
+        is_exact = d == 0.0 and not exact_only
+        self._places = ExactPlaces(vertices, self._x, self._y, are_exact=is_exact, after=after)
         # The bound of `cross_sign` for the largest differences among these positions.
         width, height = _extent(self._xs), _extent(self._ys)
         self._largest_bound: float = (
@@ -87,7 +91,8 @@ class PredicatesAt(Predicates):
         """The exact unperturbed position of a vertex."""
         found = self._exact.get(v)
         if found is None:
-            found = self._exact[v] = self.vertices.all[v].track._at(self.time)
+            vertex = self.vertices.all[v]
+            found = self._exact[v] = vertex.piece.position(vertex.index, self.time)
         return found
 
     def sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
@@ -139,8 +144,13 @@ class PredicatesAt(Predicates):
     def _exact_sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
         ask()
         u, v, w = (self.vertices.all[i] for i in (a, b, c))
-        are_copies = u.track is v.track or v.track is w.track or w.track is u.track
-        s = 0 if are_copies else side(self.position(a), self.position(b), self.position(c))
+        are_copies = u.is_copy_of(v) or v.is_copy_of(w) or w.is_copy_of(u)
+        s = 0 if are_copies else self._places.turn(a, b, a, c)
+        if s in (1, -1):
+            self._counters.filtered += 1
+            return s
+        if s == NOT_EXACT:
+            s = side(self.position(a), self.position(b), self.position(c))
         is_zero = s == 0 and not are_copies
         self._count(u, v, w, is_zero=is_zero)
         if not are_copies:
@@ -160,7 +170,7 @@ class PredicatesAt(Predicates):
         a, b, c = copies_first(u, v, w)
         (ax, ay), (bx, by) = self.offset(a.id), self.offset(b.id)
         (px, py), (qx, qy) = (
-            (self.offset(i) if a.track is c.track else self.position(i)) for i in (a.id, c.id)
+            (self.offset(i) if a.is_copy_of(c) else self.position(i)) for i in (a.id, c.id)
         )
         return sign((bx - ax) * (qy - py) - (by - ay) * (qx - px))
 
@@ -183,6 +193,9 @@ class PredicatesAt(Predicates):
             if difference < -bound:
                 self._counters.filtered += 1
                 return False
+            if s := self._places.order(a, b):
+                self._counters.filtered += 1
+                return s > 0
         (ax, _), (bx, _) = self.position(a), self.position(b)
         u, v = self.vertices.all[a], self.vertices.all[b]
         self._count(u, v, is_zero=ax == bx)
@@ -223,6 +236,8 @@ class PredicatesAt(Predicates):
         ex, ey = self._d + K * abs(dx), self._d + K * abs(dy)
         if dx > 2.0 * ex and dx > SMALL and not self._exact_only:
             q = -dy / dx
+            if self._places.is_slope(a, b, q):
+                return q * STEPS // 1.0
             error = ((ey + abs(q) * ex) / (dx - ex) + 4.0 * U * abs(q)) * SLACK + TINY
             low = (q - error) * STEPS // 1.0
             if low == (q + error) * STEPS // 1.0:
@@ -250,6 +265,10 @@ class PredicatesAt(Predicates):
             if now:
                 self._counters.filtered += 1
                 return now
+        now = self._places.turn(a, b, c, d)
+        if now != NOT_EXACT:
+            self._counters.filtered += 1
+            return now
         p, q, r, s = (self.position(i) for i in (a, b, c, d))
         now = sign((q[0] - p[0]) * (s[1] - r[1]) - (q[1] - p[1]) * (s[0] - r[0]))
         self._count(*[self.vertices.all[i] for i in (a, b, c, d)], is_zero=now == 0)

@@ -30,11 +30,11 @@ def linear_orientations(
     Unsure unless the three trajectories of a triple are different, and linear.
     """
     horizons = np.array([min(end, v.horizon) for v in vertices.all])
-    tracks = np.array([id(v.track) for v in vertices.all])
+    nodes = np.array(vertices.nodes())
     is_linear = np.array([v.image.degree <= 1 and not v.image.ws for v in vertices.all])
     count = 3 * len(triples)
     ids = np.fromiter(chain.from_iterable(triples), np.int64, count).reshape(-1, 3)
-    a, b, c = tracks[ids].T
+    a, b, c = nodes[ids].T
     are_linear = is_linear[ids].all(axis=1) & (a != b) & (b != c) & (c != a)
     signs, lows, highs = _linear_orientations(
         [v.image for v in vertices.all],

@@ -137,7 +137,7 @@ class Certifier:
         a, b, c = least_first(a, b, c)
         every = self.all
         va, vb, vc = every[a], every[b], every[c]
-        if self.exact_only or va.track is vb.track or vb.track is vc.track or va.track is vc.track:
+        if self.exact_only or va.is_copy_of(vb) or vb.is_copy_of(vc) or va.is_copy_of(vc):
             return self._exact_orientation(va, vb, vc)
         horizon = self._horizon(va, vb)
         if vc.horizon < horizon:  # noqa: PLR1730 - `min` is a call in plain Python
@@ -241,7 +241,7 @@ class Certifier:
         with a contact.
         """
         first: AlgebraicNumber | None = None
-        vertices = list({id(self.all[v].track): self.all[v] for v in ids}.values())
+        vertices = list({(self.all[v].body, self.all[v].index): self.all[v] for v in ids}.values())
         until = self._until(*vertices)
         for i, u in enumerate(vertices):
             for v in vertices[:i]:
@@ -274,7 +274,7 @@ class Certifier:
         """
         self.made += 1
         va, vb = self.all[a], self.all[b]
-        if self.exact_only or va.track is vb.track:
+        if self.exact_only or va.is_copy_of(vb):
             return self._exact_x_order(va, vb, touching=touching)
         horizon = self._horizon(va, vb)
         s, low, high = coefficients.x_difference(

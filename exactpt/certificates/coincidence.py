@@ -35,7 +35,7 @@ __all__ = [
 
 def coordinate_order(certifier: Certifier, a: Vertex, b: Vertex, axis: int) -> int:
     """The sign of x(b) - x(a) (axis 0) or of y(b) - y(a) (axis 1) at the current time."""
-    if a.track is b.track:
+    if a.is_copy_of(b):
         return 0
     s = _filtered_order(certifier, a, b, axis)
     if s:
@@ -98,7 +98,7 @@ def nearer(certifier: Certifier, p: Vertex, a: Vertex, b: Vertex) -> int:
 
 def nearer_copy(certifier: Certifier, p: Vertex, a: Vertex, b: Vertex) -> int:
     """The order of `nearer` for two infinitesimal copies a and b of one vertex."""
-    if a.offset is None or b.offset is None or a.track is not b.track:
+    if a.offset is None or b.offset is None or not a.is_copy_of(b):
         return 0
     (ax, ay), (bx, by) = a.offset, b.offset
     t, o = a.track, p.track
@@ -116,9 +116,9 @@ def strictly_between(certifier: Certifier, a: Vertex, p: Vertex, b: Vertex) -> b
     Of two infinitesimal copies of one vertex, the one displaced towards the third vertex
     lies between.
     """
-    if a.track is p.track:
+    if a.is_copy_of(p):
         return nearer_copy(certifier, b, p, a) > 0
-    if p.track is b.track:
+    if p.is_copy_of(b):
         return nearer_copy(certifier, a, p, b) > 0
     for axis in (0, 1):  # by doubles first, as in `nearer`
         ap = _filtered_order(certifier, a, p, axis)

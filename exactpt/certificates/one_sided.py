@@ -48,7 +48,7 @@ class OneSided(Predicates):
         """The sign of the orientation, one that vanishes now included; 0 if it is not certain."""
         certifier, v = self._certifier, self._all
         va, vb, vc = v[a], v[b], v[c]
-        if va.track is vb.track or vb.track is vc.track or va.track is vc.track:
+        if va.is_copy_of(vb) or vb.is_copy_of(vc) or va.is_copy_of(vc):
             return 0
         vanishes = certifier.vanishes_now(a, b, c)
         if vanishes and self._before:
@@ -75,7 +75,7 @@ class OneSided(Predicates):
                 certifier.counters.filtered += 1
                 return s > 0
         vanishes = certifier.vanishes_now(a, b, X_ORDER)
-        copies = va.track is vb.track
+        copies = va.is_copy_of(vb)
         if not (certifier.exact_only or copies or (vanishes and self._before)):
             s, _, _ = coefficients.x_difference(
                 va.image,

@@ -78,9 +78,9 @@ def cross(a: Track, b: Track, c: Track, d: Track) -> IntPoly:
 
 def copies_first(a: Vertex, b: Vertex, c: Vertex) -> tuple[Vertex, Vertex, Vertex]:
     """Three vertices, rotated so that the first two are copies of one, if any two are."""
-    if a.track is c.track and b.track is not c.track:
+    if a.is_copy_of(c) and not b.is_copy_of(c):
         return c, a, b
-    if b.track is c.track and a.track is not c.track:
+    if b.is_copy_of(c) and not a.is_copy_of(c):
         return b, c, a
     return a, b, c
 
@@ -94,7 +94,7 @@ def copy_orientation(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
     a, b, c = copies_first(a, b, c)
     p, q = a.track, c.track
     dx, dy = _offset_difference(a, b)
-    if p is q:
+    if a.is_copy_of(c):
         ex, ey = _offset_difference(a, c)
         return subtract(multiply(dx, ey), multiply(dy, ex))
     length = max(len(dx), len(dy), 1) + p.length + q.length - 2
@@ -113,7 +113,7 @@ def _offset_difference(a: Vertex, b: Vertex) -> tuple[IntPoly, IntPoly]:
 
 def orientation(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
     """A function with the sign of the orientation; ``()`` if zero for ever (counts as -1)."""
-    if a.track is b.track or b.track is c.track or c.track is a.track:
+    if a.is_copy_of(b) or b.is_copy_of(c) or c.is_copy_of(a):
         return copy_orientation(a, b, c)
     return base_orientation(a.track, b.track, c.track)
 

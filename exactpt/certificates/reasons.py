@@ -28,6 +28,6 @@ def reason(*vertices: Vertex, is_zero: bool, exact_only: bool) -> str:
         return "asked"
     if is_zero:
         return "zero"
-    if len({id(v.track) for v in vertices}) < len({v.id for v in vertices}):
+    if len({(v.body, v.index) for v in vertices}) < len({v.id for v in vertices}):
         return "copies"
     return "range" if any(isnan(v.image.x0) for v in vertices) else "close"

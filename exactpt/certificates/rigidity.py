@@ -17,10 +17,10 @@ def rigid(bodies: list[MovingBody], a: Vertex, b: Vertex, c: Vertex) -> bool:
     """
     motion = a.image.motion
     if motion >= 0 and motion == b.image.motion and motion == c.image.motion:
-        if a.track is b.track or a.track is c.track:
+        if a.is_copy_of(b) or a.is_copy_of(c):
             turns_apart = _turns_apart(bodies, a)
         else:
-            turns_apart = b.track is c.track and _turns_apart(bodies, b)
+            turns_apart = b.is_copy_of(c) and _turns_apart(bodies, b)
         if not turns_apart:
             return True
     return a.offset is not None and a.body == b.body == c.body and bodies[a.body].body.size < 3

@@ -19,9 +19,11 @@ def groups_of(scene: Scene, ignoring: Iterable[Collection[str]]) -> list[int]:
     """
     if isinstance(ignoring, str):
         raise InputError(f"ignoring: groups of names, not the text {shorten(ignoring)}")
+    if not (groups := list(ignoring)):
+        return list(range(len(scene.bodies)))
     number = {body.name: i for i, body in enumerate(scene.bodies)}
     group = list(range(len(number)))
-    for k, names in enumerate(ignoring, start=len(group)):
+    for k, names in enumerate(groups, start=len(group)):
         if isinstance(names, str):
             raise InputError(f"ignoring: a group of names, not the text {shorten(names)}")
         for name in names:

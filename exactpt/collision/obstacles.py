@@ -45,7 +45,7 @@ class SlabBoxes:
     """
 
     def __init__(self, bodies: Sequence[Body], start: QQ, end: QQ) -> None:
-        points = [point for body in bodies for point in body._at(start)]
+        points = [p for body in bodies for p in body._piece_after(start).corners(start)]
         self._frame: Frame = frame_for(points or [(QQ(0), QQ(0))], start, end)
         self._enclosures = Enclosures(self._frame)
         self._cuts = [start + (end - start) * k / SLABS for k in range(SLABS + 1)]
@@ -63,7 +63,7 @@ class SlabBoxes:
         for since, until in pairwise([start, *inner, end]):
             low, high = self._frame.time(since)[0], self._frame.time(until)[1]
             during = np.nonzero((self._lows <= high) & (self._highs >= low))[0]
-            images = self._enclosures.images(body._piece_after(since).tracks)
+            images = self._enclosures.of_piece(body._piece_after(since))
             swept = SweptBoxes(images, self._enclosures.errors, drifting=False)
             lows, highs = np.maximum(self._lows[during], low), np.minimum(self._highs[during], high)
             places = swept.during(lows, highs)

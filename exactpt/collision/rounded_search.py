@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from exactpt.collision.ignoring import groups_of
 from exactpt.collision.incidences import tracks_just_before
 from exactpt.collision.meeting import Span, span_of
-from exactpt.collision.rounded_rows import RoundedRows, rounded_rows
 from exactpt.collision.rounded_straight import first_touch
+from exactpt.collision.scene_rows import SceneRows, scene_rows
 from exactpt.geometry.boxes import Indices
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
@@ -42,7 +42,7 @@ class RoundedSearch:
         self._radii = [body._radius for body in scene.bodies]
         self._groups = groups_of(scene, groups)
         self._group: Indices = np.array(self._groups, dtype=np.int64)
-        self._rows = None if exact_only else rounded_rows(scene)
+        self._rows = None if exact_only else scene_rows(scene)
         self._is_rounded: NDArray[np.bool_] = np.array([r > 0 for r in self._radii], np.bool_)
 
     def at_start(self) -> Iterator[tuple[tuple[int, int], bool]]:
@@ -93,7 +93,7 @@ class RoundedSearch:
         i, j = ij
         return bool(self._radii[i] or self._radii[j]) and self._groups[i] != self._groups[j]
 
-    def _of_rows(self, rows: RoundedRows, before: float) -> Nearest | None:
+    def _of_rows(self, rows: SceneRows, before: float) -> Nearest | None:
         """As `after_start`, for bodies that all move straight."""
         spans: dict[tuple[QQ, QQ], Span] = {}
         best: AlgebraicNumber | None = None

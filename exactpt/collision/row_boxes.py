@@ -20,7 +20,7 @@ from exactpt.kernel.rounding import SLACK, TINY, U
 if TYPE_CHECKING:
     from exactpt.collision.straight_search import Row
 
-__all__ = ["RowBoxes", "near_at_once", "near_boxes", "near_rows", "pairs_at"]
+__all__ = ["RowBoxes", "near_boxes", "near_rows", "pairs_at"]
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
@@ -161,11 +161,6 @@ class RowBoxes:
         there = 0.5 * (self._low + self._high) + self._c + self._v * now
         gap = np.hypot(*np.ptp(there, axis=0)) / np.sqrt(len(there))
         return float(gap / np.hypot(*(self._v - self.drift).T).mean())
-
-
-def near_at_once(rows: Sequence[Row], time: QQ) -> list[tuple[int, int]]:
-    """The pairs i < j of bodies whose boxes meet at a time at which each has one row."""
-    return pairs_at(RowBoxes(rows), time)
 
 
 def pairs_at(boxes: RowBoxes, time: QQ) -> list[tuple[int, int]]:

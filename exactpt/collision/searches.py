@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from exactpt.collision.search import Search
-from exactpt.collision.straight_search import StraightSearch, rows_of
+from exactpt.collision.straight_search import StraightSearch, straight_rows
 from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.scene.scene import Scene
@@ -62,7 +62,7 @@ def search_for(scene: Scene, question: Question, *, counting: bool = True) -> Se
         method = "kinetic"
     seconds = question.max_seconds
     if searches_pairs(method, tiling, groups):
-        rows = None if counting or exact_only or scene.is_rounded else rows_of(scene)
+        rows = None if counting or exact_only or scene.is_rounded else straight_rows(scene)
         if rows is not None:
             return StraightSearch(scene, rows, groups)
         from exactpt.collision.pairs import PairsSearch

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from itertools import combinations
-from typing import Final, NamedTuple, final
+from typing import TYPE_CHECKING, Final, NamedTuple, final
 
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.ignoring import groups_of
@@ -24,16 +24,20 @@ from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Straight, straight_pieces
 from exactpt.scene.scene import Scene
 
+if TYPE_CHECKING:
+    from exactpt.collision.scene_rows import SceneRows
+
 __all__ = [
     "MOST_VERTICES",
+    "FewRows",
     "Row",
     "StraightSearch",
     "Touching",
     "first_of_pairs",
     "first_touching",
-    "near_at",
     "rows_during",
     "rows_of",
+    "straight_rows",
 ]
 
 FEW: Final = 10
@@ -70,7 +74,7 @@ class StraightSearch:
 
     Args:
         scene: the bodies, their motions and the time span.
-        rows: the rows of the bodies, see `rows_of`.
+        rows: the rows of the bodies.
         ignoring: groups of body names; contacts within a group are ignored.
 
     Attributes:
@@ -80,7 +84,7 @@ class StraightSearch:
     name = None
 
     def __init__(
-        self, scene: Scene, rows: Sequence[Row], ignoring: Iterable[Collection[str]] = ()
+        self, scene: Scene, rows: FewRows | SceneRows, ignoring: Iterable[Collection[str]] = ()
     ) -> None:
         self._scene = scene
         self._rows = rows
@@ -102,13 +106,17 @@ class StraightSearch:
             BudgetExceeded: if the time or memory of this thread is used up.
         """
         scene, rows = self._scene, self._rows
-        near = [(i, j) for i, j in near_at(rows, scene._start) if self._counts(i, j)]
+        near = [(i, j) for i, j in rows.near_at_start() if self._counts(i, j)]
         if near:
             touches, overlaps = initial_touches(scene, near)
             if overlaps:
                 return contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)
         try:
-            found = first_touching(rows, scene._start, scene._end, self._counts)
+            found = first_of_pairs(
+                (enter, rows[k], rows[l])
+                for enter, k, l in rows.near()
+                if self._counts(rows.body(k), rows.body(l))
+            )
         except BudgetExceeded as spent:
             spent.reached = scene.start
             raise
@@ -118,6 +126,59 @@ class StraightSearch:
 
     def _counts(self, i: int, j: int) -> bool:
         return self._group[i] != self._group[j]
+
+
+@final
+class FewRows:
+    """The rows of a scene of which all pairs are compared, without numpy.
+
+    Args:
+        rows: the rows.
+        start: the start of the scene.
+    """
+
+    def __init__(self, rows: Sequence[Row], start: QQ) -> None:
+        self._rows = rows
+        self._start = start
+
+    def near_at_start(self) -> list[tuple[int, int]]:
+        """The pairs i < j of bodies whose boxes meet at the start."""
+        low, high = enclosing_floats(self._start)
+        near: list[tuple[int, int]] = []
+        for a, b in combinations([row for row in self._rows if row.start == self._start], 2):
+            enter, leave = window(a.straight, b.straight, low, high)
+            if not enter > leave:
+                near.append((a.body, b.body))
+        return near
+
+    def near(self) -> Iterator[tuple[float, int, int]]:
+        """All pairs of rows of two bodies, each with a time before which they do not touch."""
+        for i, j in combinations(range(len(self._rows)), 2):
+            if self.body(i) != self.body(j):
+                yield -math.inf, i, j
+
+    def body(self, k: int) -> int:
+        """The body of a row."""
+        return self._rows[k].body
+
+    def __getitem__(self, k: int) -> Row:
+        return self._rows[k]
+
+
+def straight_rows(scene: Scene) -> FewRows | SceneRows | None:
+    """The rows of all bodies; None unless all of them move straight and are not large."""
+    if len(scene.bodies) > FEW:
+        from exactpt.collision.scene_rows import scene_rows
+
+        return scene_rows(scene)
+    rows = rows_of(scene)
+    if rows is None:
+        return None
+    if len(rows) > FEW:
+        from exactpt.collision.scene_rows import boxed
+
+        return boxed(scene, rows)
+    return FewRows(rows, scene._start)
 
 
 def rows_of(scene: Scene) -> list[Row] | None:
@@ -146,22 +207,6 @@ def rows_during(
         if until > since:
             yield Row(body, straight, since, until)
             since = until
-
-
-def near_at(rows: Sequence[Row], start: QQ) -> list[tuple[int, int]]:
-    """The pairs i < j of bodies whose boxes meet at a time at which their first rows begin."""
-    first = [row for row in rows if row.start == start]
-    if len(first) > FEW:
-        from exactpt.collision.row_boxes import near_at_once
-
-        return near_at_once(first, start)
-    low, high = enclosing_floats(start)
-    near: list[tuple[int, int]] = []
-    for a, b in combinations(first, 2):
-        enter, leave = window(a.straight, b.straight, low, high)
-        if not enter > leave:
-            near.append((a.body, b.body))
-    return near
 
 
 def first_touching(

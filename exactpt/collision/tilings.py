@@ -99,7 +99,8 @@ def tiling_for_contact(scene: Scene, name: str) -> str:
 
 def start_tiling(scene: Scene, name: str, start: QQ, *, exact_only: bool = False) -> Tiling:
     """The kinetic tiling of a scene just after a time at which its bodies are disjoint."""
-    return plan_tiling(scene, name, start).start(start, exact_only=exact_only)
+    with collector_at_rest():  # in one piece: at its end all that is new is visited once
+        return plan_tiling(scene, name, start).start(start, exact_only=exact_only)
 
 
 def _are_points(scene: Scene) -> bool:

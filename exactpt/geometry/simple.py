@@ -1,4 +1,4 @@
-"""A float filter for simple polygons and chains: what it accepts is simple, and has an area.
+"""Float filters for simple polygons and chains: what one accepts is simple, and has an area.
 
 The sign of an orientation. With coordinates off by at most e, a rounded difference u has an
 error of at most 2 e + U |u|, so the determinant p - q of two differences u, v one of at most
@@ -19,7 +19,7 @@ from exactpt.geometry.boxes import overlapping_pairs
 from exactpt.geometry.polygon import edges
 from exactpt.kernel.rounding import SLACK, TINY, U
 
-__all__ = ["is_surely_simple"]
+__all__ = ["is_surely_simple", "turn_of_doubles"]
 
 Edge = tuple[float, float, float, float]
 
@@ -48,6 +48,31 @@ def is_surely_simple(
         if n == 3:
             return False
     return _no_edges_meet(xs, ys, error, closed=closed)
+
+
+def turn_of_doubles(xs: Sequence[float], ys: Sequence[float], *, is_exact: bool) -> int:
+    """1 if a simple polygon is counter-clockwise, -1 if it is clockwise, 0 if not certain.
+
+    It is oriented as it turns at its leftmost vertex (`exactpt.geometry.polygon`). Numbers keep
+    their order when they are rounded, but may become equal.
+
+    Args:
+        xs: coordinates.
+        ys: the other coordinates.
+        is_exact: whether they are exact; else they are the nearest doubles.
+    """
+    x = min(xs)
+    i = xs.index(x)
+    if xs.count(x) > 1:
+        if not is_exact:
+            return 0
+        i = min(range(len(xs)), key=lambda k: (xs[k], ys[k]))
+    j = i + 1 if i + 1 < len(xs) else 0
+    error = 0.0
+    if not is_exact:
+        error = 2.0 * U * max(abs(v) for k in (i - 1, i, j) for v in (xs[k], ys[k]))
+    vx, vy = xs[j] - x, ys[j] - ys[i]
+    return _cross_sign(x - xs[i - 1], ys[i] - ys[i - 1], vx, vy, error)
 
 
 def _turns_once(xs: Sequence[float], ys: Sequence[float], error: float) -> bool:

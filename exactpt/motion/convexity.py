@@ -37,7 +37,7 @@ def stays_convex(body: Body, ring: Sequence[int], start: QQ, end: QQ) -> bool:
         now = AlgebraicNumber(time)
         for a, b, c in triples:
             ask()
-            f = orientation(*(piece.tracks[i] for i in (a, b, c)))
+            f = orientation(*(piece.track(i) for i in (a, b, c)))
             if not f or now.sign_after(f) < 0 or any(roots_after(f, now, until)):
                 return False
         if until == end:

@@ -5,28 +5,96 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import NamedTuple, final
+from typing import final
 
 from exactpt.errors import InputError
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, show
 from exactpt.motion.motions import Motion, Pieces, Position, SimpleMotion, Translation
-from exactpt.motion.shape import Shape
+from exactpt.motion.shape import Places, Shape
 from exactpt.motion.track import Track
 
 __all__ = ["Course", "Piece"]
 
 
-class Piece(NamedTuple):
-    """The motion of a body up to a time.
+@final
+class Piece:
+    """The motion of a body up to a time, by one formula.
+
+    Args:
+        shape: the shape of the body.
+        since: a time of the piece, for the shape.
+        motion: the formula.
+        until: the last time of the piece; None if it has no end.
 
     Attributes:
-        until: the last time of the piece; None if it has no end.
-        tracks: the trajectory of each vertex, in the order of the scene.
+        motion, until: as given.
     """
 
-    until: QQ | None
-    tracks: tuple[Track, ...]
+    __slots__ = ("_made", "_shape", "_since", "_tracks", "motion", "until")
+
+    def __init__(self, shape: Shape, since: QQ, motion: SimpleMotion, until: QQ | None) -> None:
+        self.motion = motion
+        self.until = until
+        self._shape = shape
+        self._shape = shape
+        self._since = since
+        self._made: dict[int, Track] = {}
+        self._tracks: tuple[Track, ...] | None = None
+
+    def track(self, vertex: int) -> Track:
+        """The trajectory of a vertex, numbered as in the scene; made when first asked for."""
+        made = self._made.get(vertex)
+        if made is None:
+            ask()
+            position = self._shape.after(self._since)[vertex]
+            made = self._made.setdefault(vertex, self.motion.track(position))
+        return made
+
+    @property
+    def tracks(self) -> tuple[Track, ...]:
+        """The trajectory of each vertex, in the order of the scene."""
+        if self._tracks is None:
+            self._tracks = tuple(map(self.track, range(self._shape.size)))
+        return self._tracks
+
+    @property
+    def translation(self) -> tuple[Places, Translation] | None:
+        """The rest positions in doubles, and what is added to them.
+
+        None if they are not constant, or out of range, or the motion is no translation.
+        """
+        if not isinstance(self.motion, Translation):
+            return None
+        places = self._shape.near
+        return None if places is None else (places, self.motion)
+
+    def position(self, vertex: int, t: QQ) -> tuple[QQ, QQ]:
+        """The position of a vertex at a rational time of the piece."""
+        moved = self.translation
+        if moved is None or not moved[0].is_exact:
+            return self.track(vertex)._at(t)
+        places, translation = moved
+        dx, dy = translation._at(t)
+        return _exact(places.xs[vertex]) + dx, _exact(places.ys[vertex]) + dy
+
+    def positions(self, t: QQ) -> list[tuple[QQ, QQ]]:
+        """The positions of all vertices at a rational time of the piece."""
+        moved = self.translation
+        if moved is None or not moved[0].is_exact:
+            return [track._at(t) for track in self.tracks]
+        (xs, ys, _), translation = moved
+        dx, dy = translation._at(t)
+        return [(_exact(x) + dx, _exact(y) + dy) for x, y in zip(xs, ys, strict=True)]
+
+    def corners(self, t: QQ) -> list[tuple[QQ, QQ]]:
+        """Points whose bounding box is that of the body at a rational time, rounding aside."""
+        moved = self.translation
+        if moved is None:
+            return self.positions(t)
+        (xs, ys, _), translation = moved
+        dx, dy = translation._at(t)
+        return [(_exact(of(xs)) + dx, _exact(of(ys)) + dy) for of in (min, max)]
 
 
 @final
@@ -62,14 +130,14 @@ class Course:
             motion = self.motion
             if isinstance(motion, Pieces):
                 motion = motion.motions[bisect_right(motion._until, t)]
-            self._pieces[end] = Piece(end, _tracks(self._shape.after(t), motion))
+            self._pieces[end] = Piece(self._shape, t, motion, end)
         return self._pieces[end]
 
     def at(self, t: QQ) -> list[tuple[QQ, QQ]]:
         """The positions at a time; those at the last time asked for are cached."""
         last = self._last  # one read: other threads may share the body
         if last is None or last[0] != t:
-            self._last = last = t, [track._at(t) for track in self.after(t).tracks]
+            self._last = last = t, self.after(t).positions(t)
         return last[1][:]
 
     def _check_continuity(self, motion: Pieces) -> None:
@@ -81,18 +149,22 @@ class Course:
             ):
                 continue
             shape = self._shape.after(t)
-            both = zip(_tracks(shape, before), _tracks(shape, after), strict=True)
+            both = zip(_places(shape, before, t), _places(shape, after, t), strict=True)
             for i, (a, b) in enumerate(both):
-                if a._at(t) != b._at(t):
+                if a != b:
                     raise InputError(
-                        f"vertex {i} jumps at t = {show(t)} "
-                        f"from {show(*a._at(t))} to {show(*b._at(t))}"
+                        f"vertex {i} jumps at t = {show(t)} from {show(*a)} to {show(*b)}"
                     )
 
 
-def _tracks(shape: Sequence[Position], motion: SimpleMotion) -> tuple[Track, ...]:
-    tracks = []
+def _exact(x: float) -> QQ:
+    return QQ(*x.as_integer_ratio())
+
+
+def _places(shape: Sequence[Position], motion: SimpleMotion, t: QQ) -> list[tuple[QQ, QQ]]:
+    """The positions of vertices at a time."""
+    places = []
     for position in shape:
         ask()
-        tracks.append(motion.track(position))
-    return tuple(tracks)
+        places.append(motion.track(position)._at(t))
+    return places

@@ -12,27 +12,24 @@ from exactpt.kernel.numbers import QQ, ZZ, nearest_float, power_of_two
 from exactpt.kernel.polynomial import ONE
 from exactpt.kernel.rounding import U
 from exactpt.motion.frame import Frame, binary_exponent, combined
-from exactpt.motion.image import Arm, Image
+from exactpt.motion.image import LARGEST, SMALLEST, Arm, Image, constant_error, translated
 from exactpt.motion.track import Turning
 
 if TYPE_CHECKING:
+    from exactpt.motion.course import Piece
     from exactpt.motion.track import Track
 
 __all__ = ["Enclosures"]
 
-SMALLEST: Final = 2.0**-300
-LARGEST: Final = 2.0**100
-"""Range of the size of nonzero coefficients that the filters accept.
-
-Certificates are sums of products of two differences, or of three coefficients. A difference
-of doubles of size 2^-300 or more is 0 or at least 2^-352. So no product underflows.
-"""
+MOST_SCALED: Final = 900
+"""Largest absolute value of a scale 2^s by which doubles are multiplied."""
 SMALLEST_OF_ARMS: Final = 2.0**-100
 """The same for `Arm`: certificates with arms have products of four coefficients."""
 INTEGERS: Final = 2.0**53
 """All integers of smaller absolute value are doubles."""
 
 _ONE: Final = (ZZ(1),)
+_ZERO: Final = QQ(0)
 
 
 class _Common(NamedTuple):
@@ -72,6 +69,57 @@ class Enclosures:
         self._turning: Turning | None = None  # of the last arm, and what it has in common
         self._common: _Common | None = None
         self.errors: list[float] = [0.0, 0.0]
+
+    def of_piece(self, piece: Piece) -> list[Image]:
+        """The enclosures of the trajectories of a piece of motion."""
+        return self._translated(piece) or self.images(piece.tracks)
+
+    def _translated(self, piece: Piece) -> list[Image] | None:
+        """The enclosures of vertices that are translated, without their trajectories.
+
+        None if doubles are not known, or would lose digits when they are added.
+        """
+        moved = piece.translation
+        if moved is None or max(map(abs, self._frame.scale)) > MOST_SCALED:
+            return None
+        ask()
+        places, translation = moved
+        paths = translation.x._coefficients, translation.y._coefficients
+        size = max(*map(len, paths), 1)
+        (sx, sy), (cx, cy) = self._frame.scale, self._frame.center
+        x_shift, x = self._path(paths[0], size, sx, cx)
+        y_shift, y = self._path(paths[1], size, sy, cy)
+        shift = nearest_float(x_shift), nearest_float(y_shift)
+        if not (_is_near(shift[0], x_shift) and _is_near(shift[1], y_shift)):
+            return None
+        is_exact = places.is_exact and shift[0] == x_shift and shift[1] == y_shift
+        motion = self._number((paths[0][1:], paths[1][1:]))
+        tails = _floats(x, size - 1), _floats(y, size - 1)
+        self.errors += [0.0] * (size - len(self.errors))
+        if not (_moderate(tails[0]) and _moderate(tails[1])):
+            nan = [math.nan] * size
+            return [Image(nan, nan, [], motion)] * len(places[0])
+        units = 2.0**-sx, 2.0**-sy
+        error = constant_error((places.xs, places.ys), shift, units, is_exact=is_exact)
+        if error < 0.0:
+            return None
+        self.errors[0] = max(self.errors[0], error)
+        self._note_errors(x, tails[0], first=1)
+        self._note_errors(y, tails[1], first=1)
+        return translated((places.xs, places.ys), shift, units, tails, motion)
+
+    def _path(
+        self, path: Sequence[QQ], size: int, scale: int, center: QQ
+    ) -> tuple[QQ, Sequence[QQ]]:
+        """A coordinate of a translation in normalised time.
+
+        Returns:
+            What is added, less the center; and the coefficients of t, t^2, ..., scaled.
+        """
+        if self._frame.is_identity:
+            return (path[0], path[1:]) if path else (_ZERO, path)
+        shift, *tail = self._frame.in_time([*path, *[_ZERO] * (size - len(path))])
+        return shift - center, [c * power_of_two(-scale) for c in tail]
 
     def images(self, tracks: Sequence[Track]) -> list[Image]:
         """The enclosures of trajectories, fast if most successive ones share their motion."""
@@ -191,13 +239,13 @@ class Enclosures:
         """Forget all motions but those in ``kept``: no enclosure has them any more."""
         self._motions = {key: i for key, i in self._motions.items() if i in kept}
 
-    def _note_errors(self, exact: Sequence[QQ], floats: list[float]) -> None:
+    def _note_errors(self, exact: Sequence[QQ], floats: list[float], first: int = 0) -> None:
         # Rounding to nearest errs by at most U |c| / (1 + U), and so by at most U times the
         # double; doubled, for a margin. A third of it would be wrong: 1 + U (1 - epsilon)
         # becomes 1, with an error of nearly U. (gmpy2 compares a rational with a double exactly.)
-        for i, c in enumerate(exact):
-            error = abs(floats[i]) * (2.0 * U)
-            if error > self.errors[i] and c != floats[i]:
+        for i, (c, near) in enumerate(zip(exact, floats, strict=False), start=first):
+            error = abs(near) * (2.0 * U)
+            if error > self.errors[i] and c != near:
                 self.errors[i] = error
 
 
@@ -230,6 +278,11 @@ def _moderate(values: list[float]) -> bool:
         if v != 0.0 and not SMALLEST <= abs(v) <= LARGEST:
             return False
     return True
+
+
+def _is_near(near: float, exact: QQ) -> bool:
+    """Whether the relative error of the nearest double is at most a unit."""
+    return near == exact or SMALLEST <= abs(near) <= LARGEST
 
 
 def _fits_in_arms(v: float) -> bool:

@@ -2,11 +2,26 @@
 
 from __future__ import annotations
 
-from typing import final
+import math
+from typing import Final, final
 
 from mypy_extensions import mypyc_attr
 
-__all__ = ["Arm", "Image"]
+from exactpt.kernel.error_free import is_exact_sum
+from exactpt.kernel.rounding import U
+
+__all__ = ["LARGEST", "SMALLEST", "Arm", "Image", "translated"]
+
+SMALLEST: Final = 2.0**-300
+LARGEST: Final = 2.0**100
+"""Range of the size of nonzero coefficients that the filters accept.
+
+Certificates are sums of products of two differences, or of three coefficients. A difference
+of doubles of size 2^-300 or more is 0 or at least 2^-352. So no product underflows.
+"""
+
+CANCELLING: Final = 64.0
+"""Sums of terms that are larger by this factor, and not exact, lose too many digits."""
 
 
 @final
@@ -74,6 +89,8 @@ class Image:
     """
 
     __slots__ = (
+        "_xs",
+        "_ys",
         "arm",
         "degree",
         "motion",
@@ -82,12 +99,10 @@ class Image:
         "x1",
         "x2",
         "x3",
-        "xs",
         "y0",
         "y1",
         "y2",
         "y3",
-        "ys",
     )
 
     def __init__(self, xs: list[float], ys: list[float], ws: list[float], motion: int) -> None:
@@ -103,6 +118,98 @@ class Image:
         self.y2: float = ys[2] if len(ys) > 2 else 0.0
         self.x3: float = xs[3] if len(xs) > 3 else 0.0
         self.y3: float = ys[3] if len(ys) > 3 else 0.0
-        self.xs: list[float] = xs
-        self.ys: list[float] = ys
+        is_linear = len(xs) <= 2 and not ws
+        self._xs: list[float] | None = None if is_linear else xs
+        self._ys: list[float] | None = None if is_linear else ys
         self.arm: Arm | None = None
+
+    @property
+    def xs(self) -> list[float]:
+        """The coefficients of x."""
+        return [self.x0, self.x1][: self.degree + 1] if self._xs is None else self._xs
+
+    @property
+    def ys(self) -> list[float]:
+        """The coefficients of y."""
+        return [self.y0, self.y1][: self.degree + 1] if self._ys is None else self._ys
+
+
+def translated(
+    places: tuple[list[float], list[float]],
+    shift: tuple[float, float],
+    units: tuple[float, float],
+    tails: tuple[list[float], list[float]],
+    motion: int,
+) -> list[Image]:
+    """The enclosures of vertices that are translated: constants (place + shift) unit, and tails.
+
+    Args:
+        places: the coordinates x and y of the vertices.
+        shift: what is added to them.
+        units: powers of two by which the sums are multiplied.
+        tails: the coefficients of t, t^2, ... in x and in y.
+        motion: the number of the motion.
+    """
+    (xs, ys), (dx, dy), (x_unit, y_unit), (x_tail, y_tail) = places, shift, units, tails
+    images: list[Image] = []
+    for i in range(len(xs)):
+        x, y = xs[i] + dx, ys[i] + dy
+        x0, y0 = x * x_unit, y * y_unit
+        if _in_range(x, x0) and _in_range(y, y0):
+            images.append(Image([x0, *x_tail], [y0, *y_tail], [], motion))
+        else:
+            nan = [math.nan] * (len(x_tail) + 1)
+            images.append(Image(nan, nan, [], motion))
+    return images
+
+
+def constant_error(
+    places: tuple[list[float], list[float]],
+    shift: tuple[float, float],
+    units: tuple[float, float],
+    *,
+    is_exact: bool,
+) -> float:
+    """A bound on the errors of the constants of `translated` that are in range.
+
+    A sum of exact doubles is rounded once, by at most U |x|; multiplying by a power of two
+    rounds nothing. If the terms a and b are the nearest doubles, the error is at most
+    U (|a| + |b| + |x|), apart from a factor 1 + 2 U. The bounds are twice as large.
+
+    Args:
+        places: the coordinates x and y of the vertices.
+        shift: what is added to them.
+        units: powers of two by which the sums are multiplied.
+        is_exact: whether the places and the shift are exact; else they are the nearest doubles.
+
+    Returns:
+        0 if nothing is rounded; -1 if terms that are not exact cancel, so that the bound would be
+        much larger than the rounding of the result.
+    """
+    (xs, ys), (dx, dy), (x_unit, y_unit) = places, shift, units
+    some = [
+        i
+        for i in range(len(xs))
+        if _in_range(xs[i] + dx, (xs[i] + dx) * x_unit)
+        and _in_range(ys[i] + dy, (ys[i] + dy) * y_unit)
+    ]
+    of_x = _axis_error([xs[i] for i in some], dx, x_unit, is_exact)
+    of_y = _axis_error([ys[i] for i in some], dy, y_unit, is_exact)
+    return -1.0 if of_x < 0.0 or of_y < 0.0 else max(of_x, of_y)
+
+
+def _axis_error(values: list[float], d: float, unit: float, is_exact: bool) -> float:  # noqa: FBT001
+    """`constant_error` of one coordinate."""
+    terms, largest = 0.0, 0.0
+    for a in values:
+        x = a + d
+        if not (is_exact and is_exact_sum(a, d, x)):
+            largest = max(largest, abs(x))
+            terms = max(terms, abs(a) + abs(d))
+    if is_exact:
+        return 2.0 * U * (largest * unit)
+    return -1.0 if terms > CANCELLING * largest else 2.0 * U * ((largest + terms) * unit)
+
+
+def _in_range(before: float, scaled: float) -> bool:
+    return before == 0.0 or SMALLEST <= abs(scaled) <= LARGEST

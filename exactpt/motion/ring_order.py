@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from exactpt.geometry.polygon import is_counter_clockwise
+from exactpt.geometry.simple import turn_of_doubles
 from exactpt.indices import VertexId
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.infinitesimal import ring_of_copies
@@ -16,22 +16,38 @@ if TYPE_CHECKING:
 __all__ = ["ring_indices", "rings_of"]
 
 
-def ring_indices(body: Body, positions: list[tuple[QQ, QQ]], *, plain: bool = False) -> list[int]:
+def ring_indices(body: Body, t: QQ, *, plain: bool = False) -> list[int]:
     """The indices of a body's vertices, with copies where it needs them, along its rings.
+
+    Outlines are counter-clockwise, holes clockwise.
 
     Args:
         body: the body.
-        positions: of its vertices, at a time.
+        t: a rational time at which its edges do not cross.
         plain: whether the vertices are taken as they are: those of points.
     """
     if plain:
         return list(range(body.size))
     if not body.has_interior:
         return ring_of_copies(body.size)
-    if body.has_rings:
-        return [i for rings in body.parts for ring in _turned(rings, positions) for i in ring]
-    ring = list(range(body.size))
-    return ring if is_counter_clockwise(positions) else ring[::-1]
+    turned: list[int] = []
+    for rings in body.parts:
+        for k, ring in enumerate(rings):
+            turns_left = _turns_left(body, ring, t)
+            turned += ring if turns_left == (k == 0) else ring[::-1]
+    return turned
+
+
+def _turns_left(body: Body, ring: range, t: QQ) -> bool:
+    """Whether a ring is counter-clockwise at a time."""
+    moved = body._piece_after(t).translation
+    if moved is not None:
+        xs, ys, is_exact = moved[0]
+        some = slice(ring.start, ring.stop)
+        turn = turn_of_doubles(xs[some], ys[some], is_exact=is_exact)
+        if turn:
+            return turn > 0
+    return is_counter_clockwise(body._at(t)[ring.start : ring.stop])
 
 
 def rings_of(body: Body, ring: list[VertexId]) -> list[list[VertexId]]:
@@ -39,13 +55,3 @@ def rings_of(body: Body, ring: list[VertexId]) -> list[list[VertexId]]:
     if not body.has_rings:
         return [ring]
     return [ring[part.start : part.stop] for part in body.rings]
-
-
-def _turned(rings: Sequence[range], positions: list[tuple[QQ, QQ]]) -> list[list[int]]:
-    """The rings of a part, the outline counter-clockwise, holes clockwise."""
-    turned = []
-    for k, ring in enumerate(rings):
-        turns_left = is_counter_clockwise([positions[i] for i in ring])
-        indices = list(ring)
-        turned.append(indices if turns_left == (k == 0) else indices[::-1])
-    return turned

@@ -6,14 +6,15 @@ from bisect import bisect_right
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any, Final, NamedTuple, TypeAlias, final
+from typing import Any, Final, Literal, NamedTuple, TypeAlias, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, Rational, as_doubles, rational, shorten, show
+from exactpt.kernel.numbers import QQ, Rational, as_doubles, nearest_float, rational, shorten, show
 from exactpt.kernel.polynomial import Polynomial, polynomial
+from exactpt.motion.image import LARGEST, SMALLEST
 from exactpt.motion.motions import Coefficients, Position
 
-__all__ = ["Keyframe", "Keyframes", "Shape", "VertexLike", "listed"]
+__all__ = ["Keyframe", "Keyframes", "Places", "Shape", "VertexLike", "listed"]
 
 VertexLike: TypeAlias = (
     "Sequence[Rational] | Mapping[str, Coefficients] | tuple[Polynomial, Polynomial]"
@@ -24,6 +25,7 @@ Keyframes: TypeAlias = "Sequence[tuple[Rational, Sequence[Sequence[Rational]]]]"
 """Keyframes as a caller may write them: pairs (t, vertices)."""
 
 _PAIRS: Final = (tuple, list)
+_ZERO: Final = QQ(0)
 
 
 class Keyframe(NamedTuple):
@@ -31,6 +33,19 @@ class Keyframe(NamedTuple):
 
     t: Fraction
     vertices: tuple[tuple[Fraction, Fraction], ...]
+
+
+class Places(NamedTuple):
+    """Points in doubles.
+
+    Attributes:
+        xs, ys: the coordinates.
+        is_exact: whether all of them are exact; else they are the nearest doubles.
+    """
+
+    xs: list[float]
+    ys: list[float]
+    is_exact: bool
 
 
 @final
@@ -50,7 +65,7 @@ class Shape:
         keyframes: in the order of time; none if vertices were given.
     """
 
-    __slots__ = ("_pieces", "_positions", "doubles", "keyframes", "size")
+    __slots__ = ("_near", "_pieces", "_positions", "doubles", "keyframes", "size")
 
     def __init__(
         self,
@@ -63,6 +78,7 @@ class Shape:
         self.keyframes: tuple[Keyframe, ...] = ()
         self._pieces: list[tuple[Position, ...]] = []
         self._positions: tuple[Position, ...] | None = None
+        self._near: Places | Literal[False] | None = False
         if keyframes is not None:
             self.keyframes = frames = _read_keyframes(keyframes)
             between = [_between(*pair) for pair in pairwise(frames)]
@@ -107,6 +123,16 @@ class Shape:
             )
         return self._positions
 
+    @property
+    def near(self) -> Places | None:
+        """The vertices in doubles; None if they are not constant, or out of range."""
+        if self._near is False:
+            known = self.doubles
+            self._near = (
+                _near(self._positions or ()) if known is None else Places(*known, is_exact=True)
+            )
+        return self._near
+
     def after(self, t: QQ) -> tuple[Position, ...]:
         """Those just after a time; before the first keyframe and after the last they rest."""
         if not self.keyframes:
@@ -123,6 +149,23 @@ class Shape:
         if self.doubles is not None:
             return {"vertices": tuple(zip(*self.doubles, strict=True))}
         return {"vertices": tuple(map(_given, self.positions))}
+
+
+def _near(positions: Sequence[Position]) -> Places | None:
+    """Vertices in doubles; None if they are not constant, out of range, or none are given."""
+    near = Places([], [], is_exact=True)
+    for vertex in positions:
+        for coordinate, values in zip(vertex, (near.xs, near.ys), strict=True):
+            coefficients = coordinate._coefficients
+            value = coefficients[0] if coefficients else _ZERO
+            values.append(nearest_float(value))
+            if len(coefficients) > 1:
+                return None
+            if values[-1] != value:
+                if not SMALLEST <= abs(values[-1]) <= LARGEST:
+                    return None
+                near = near._replace(is_exact=False)
+    return near if positions else None
 
 
 def _given(vertex: Position) -> tuple[object, object]:

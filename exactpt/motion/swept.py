@@ -41,7 +41,7 @@ class SweptBoxes:
     def __init__(
         self, images: Sequence[Image], errors: Sequence[float], *, drifting: bool = True
     ) -> None:
-        size = max(len(image.xs) for image in images)
+        size = max(image.degree for image in images) + 1
         self._xs, self._ys, self._ws = (np.zeros((len(images), size)) for _ in range(3))
         self._turning = np.zeros(len(images), dtype=np.bool_)
         self.drift = np.zeros((2, size))
@@ -61,10 +61,10 @@ class SweptBoxes:
             Whether they have been replaced.
         """
         size = self._xs.shape[1]
-        if any(len(image.xs) > size for image in images):
+        if any(image.degree >= size for image in images):
             return False
         for i, image in enumerate(images, start=first):
-            rest = [0.0] * (size - len(image.xs))
+            rest = [0.0] * (size - 1 - image.degree)
             self._turning[i] = bool(image.ws)
             self._ws[i] = image.ws + rest if image.ws else 0.0
             self._xs[i], self._ys[i] = image.xs + rest, image.ys + rest

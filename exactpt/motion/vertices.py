@@ -15,22 +15,25 @@ from mypy_extensions import mypyc_attr
 
 from exactpt.indices import NO_VERTEX, VertexId
 from exactpt.kernel.counters import Counters
-from exactpt.kernel.numbers import QQ, ZZ
+from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.convexity import stays_convex
+from exactpt.motion.course import Piece
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.image import Image
 from exactpt.motion.infinitesimal import Direction, displacements
+from exactpt.motion.motions import REST
 from exactpt.motion.ring_order import ring_indices, rings_of
-from exactpt.motion.track import Track
+from exactpt.motion.shape import Shape
 
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
+    from exactpt.motion.track import Track
 
 __all__ = ["MovingBody", "Vertex", "Vertices"]
 
-_NO_TRACK: Final = Track((), (), (ZZ(1),), None)
+_NO_PIECE: Final = Piece(Shape([(0, 0)]), QQ(0), REST, None)
 _NO_IMAGE: Final = Image([0.0], [0.0], [], -1)
 
 
@@ -43,8 +46,8 @@ class Vertex:
         id: its position in `Vertices.all`.
         body: the position of its body in the scene; -1 if it is unused.
         index: its vertex in the scene (infinitesimal copies share it).
-        track: its trajectory until the body's next breakpoint.
-        image: the float enclosure of the trajectory.
+        piece: the motion of its body until the next breakpoint.
+        image: the float enclosure of its trajectory until then.
         offset: the direction of its infinitesimal displacement; None unless the body is
             degenerate.
         horizon: a double at least ``until`` of its body, normalised; infinite if that is None.
@@ -54,15 +57,15 @@ class Vertex:
     """
 
     __slots__ = (
-        "ahead", "behind", "body", "error", "horizon", "id", "image", "index", "offset", "seen",
-        "track", "x", "y",
+        "ahead", "behind", "body", "error", "horizon", "id", "image", "index", "offset", "piece",
+        "seen", "x", "y",
     )  # fmt: skip
 
     def __init__(
-        self, vertex_id: VertexId, body: int, index: int, track: Track, image: Image
+        self, vertex_id: VertexId, body: int, index: int, piece: Piece, image: Image
     ) -> None:
         self.id: VertexId = vertex_id
-        self.track: Track = track
+        self.piece: Piece = piece
         self.image: Image = image
         self.horizon: float = INFINITY
         self.body: int = body
@@ -74,6 +77,15 @@ class Vertex:
         self.y: float = 0.0
         self.error: float = 0.0
         self.seen: object = None
+
+    @property
+    def track(self) -> Track:
+        """Its trajectory until the body's next breakpoint."""
+        return self.piece.track(self.index)
+
+    def is_copy_of(self, other: Vertex) -> bool:
+        """Whether both are one vertex of the scene, or infinitesimal copies of one."""
+        return self.index == other.index and self.body == other.body
 
 
 @final
@@ -161,14 +173,13 @@ class Vertices:
         With ``plain`` they are the vertices of the scene as they are, without infinitesimal
         copies, and no interior is tiled.
         """
-        positions = [body._at(start) for body in bodies]
-        flat = [p for points in positions for p in points]
         ids = count()
         rings = [
-            [(VertexId(next(ids)), index) for index in ring_indices(body, points, plain=plain)]
-            for body, points in zip(bodies, positions, strict=True)
+            [(VertexId(next(ids)), index) for index in ring_indices(body, start, plain=plain)]
+            for body in bodies
         ]
-        frame = frame_for(flat or [(QQ(0), QQ(0))], start, end)
+        corners = [p for body in bodies for p in body._piece_after(start).corners(start)]
+        frame = frame_for(corners or [(QQ(0), QQ(0))], start, end)
         self = cls(bodies, rings, [start] * len(bodies), frame, end, plain=plain)
         for i, moving in enumerate(self.bodies):
             moving.is_tiled = not plain and self._may_pinch(i, start, end)
@@ -176,7 +187,7 @@ class Vertices:
 
     def add(self, body: Body, t: QQ) -> int:
         """Add a body as the last one, at a rational time; returns its number."""
-        i, indices = len(self.bodies), ring_indices(body, body._at(t))
+        i, indices = len(self.bodies), ring_indices(body, t)
         while len(self._free) < len(indices):
             new = VertexId(len(self.all))
             self._free.insert(0, new)
@@ -245,7 +256,7 @@ class Vertices:
 
     def _deforms_in_pieces(self, body: Body, starts: Sequence[QQ]) -> bool:
         """Whether a body deforms in one of the pieces that begin at these times."""
-        return any(_deforms(self.enclosures.images(body._piece_after(t).tracks)) for t in starts)
+        return any(_deforms(self.enclosures.of_piece(body._piece_after(t))) for t in starts)
 
     def begins_inside(self, i: int, body: Body, t: QQ) -> bool:
         """Whether the interior of several rings would have to be tiled by a plan, and is not yet.
@@ -266,11 +277,11 @@ class Vertices:
         piece = moving.body._piece_after(t)
         moving.since = t
         moving.until = piece.until
-        images = self.enclosures.images(piece.tracks)
+        images = self.enclosures.of_piece(piece)
         moving.deforms = _deforms(images)
         for vertex_id in moving.ring:
             vertex = self.all[vertex_id]
-            vertex.track = piece.tracks[vertex.index]
+            vertex.piece = piece
             vertex.image = images[vertex.index]
         if not self._plain and not moving.body.has_interior and len(moving.ring) > 1:
             end = self._end if piece.until is None else min(piece.until, self._end)
@@ -307,7 +318,7 @@ class Vertices:
 
 def _unused(vertex_id: VertexId) -> Vertex:
     """A vertex that belongs to no body."""
-    return Vertex(vertex_id, -1, -1, _NO_TRACK, _NO_IMAGE)
+    return Vertex(vertex_id, -1, -1, _NO_PIECE, _NO_IMAGE)
 
 
 def _deforms(images: Sequence[Image]) -> bool:

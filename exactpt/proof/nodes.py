@@ -64,7 +64,7 @@ class Nodes:
     def track(self, v: int, after: QQ) -> Track:
         """The trajectory of a vertex just after a rational time."""
         i = self.body_of[v]
-        return self.scene.bodies[i]._piece_after(after).tracks[v - self.first[i]]
+        return self.scene.bodies[i]._piece_after(after).track(v - self.first[i])
 
     def last_break(self, i: int, time: AlgebraicNumber) -> QQ:
         """The last breakpoint of a body not after a time, or the start of the scene."""

@@ -75,7 +75,9 @@ def _first(mesh: Mesh, closed: set[HalfEdge], instant: PredicatesAt) -> HalfEdge
     p = vertices(first)
     for h in others:
         q = vertices(h)
-        if {v.track for v in p} == {v.track for v in q} and comes_first(q, -1, p, -1, number):
+        if {(v.body, v.index) for v in p} == {(v.body, v.index) for v in q} and comes_first(
+            q, -1, p, -1, number
+        ):
             first, p = h, q
     return first
 

@@ -4,11 +4,46 @@ from __future__ import annotations
 
 from contextlib import AbstractContextManager, nullcontext
 from time import monotonic
-from typing import final
+from typing import TYPE_CHECKING, final
 
 from exactpt.kernel.budget import GRACE, check_bounds, within
 
-__all__ = ["Budget"]
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from types import TracebackType
+
+__all__ = ["Budget", "Guard"]
+
+
+@final
+class Guard:
+    """A context that is in another one, and tells of the error by which it is left.
+
+    Args:
+        around: the other context; it lets errors pass.
+        failed: what is called with an error.
+    """
+
+    __slots__ = ("_around", "_failed")
+
+    def __init__(
+        self, around: AbstractContextManager[None], failed: Callable[[BaseException], None]
+    ) -> None:
+        self._around = around
+        self._failed = failed
+
+    def __enter__(self) -> None:
+        self._around.__enter__()
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._around.__exit__(kind, error, trace)
+        if error is not None:
+            self._failed(error)
 
 
 @final

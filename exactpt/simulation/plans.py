@@ -46,6 +46,8 @@ def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
             raise InputError(f"body {body.name!r}: {new!r} is no plan for {body!r}")
     else:
         new = body.with_motion(plan)
+    if _moves_on(body, new, t):
+        return new
     for i, (p, q) in enumerate(zip(body._at(t), new._at(t), strict=True)):
         if p != q:
             raise InputError(
@@ -53,6 +55,17 @@ def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
                 f"from {show(*p)} to {show(*q)}"
             )
     return new
+
+
+def _moves_on(body: Body, new: Body, t: QQ) -> bool:
+    """Whether a shape is translated, before and after a time, and by the same vector then."""
+    before, after = body._piece_after(t).motion, new._piece_after(t).motion
+    return (
+        body._shape is new._shape
+        and isinstance(before, Translation)
+        and isinstance(after, Translation)
+        and before._at(t) == after._at(t)
+    )
 
 
 def rounded(value: Rational, grid: Rational = GRID) -> QQ:

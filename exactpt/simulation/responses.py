@@ -186,7 +186,10 @@ def _velocities(pair: Pair, a: Body, b: Body, t: QQ) -> tuple[Vector, Vector]:
 
 def _velocity(body: Body, vertex: int, t: QQ) -> Vector:
     """The velocity of a vertex just after a time, in doubles."""
-    track = body._piece_after(t).tracks[vertex]
+    piece = body._piece_after(t)
+    if piece.translation is not None:
+        return _translation_speed(body, t)
+    track = piece.track(vertex)
     w, dw = evaluate(track.w, t), evaluate(derivative(track.w), t)
     x, y = (
         nearest_float((evaluate(derivative(f), t) * w - evaluate(f, t) * dw) / (w * w))

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from fractions import Fraction
 from typing import TypeAlias, final
 
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import plan_tiling
-from exactpt.errors import BudgetExceeded, InputError, carrying
+from exactpt.errors import AuditError, BudgetExceeded, InputError, carry, carrying
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, fraction, power_of_two, rational, show
 from exactpt.scene.scene import Scene
-from exactpt.simulation.budget import Budget
+from exactpt.simulation.budget import Budget, Guard
 from exactpt.simulation.event import Event
 from exactpt.simulation.history import Log
 from exactpt.simulation.living import Choice, LivingScene
@@ -135,21 +135,21 @@ class Run:
         self.recorder.advanced()
         return events
 
-    @contextmanager
-    def _guarded(self) -> Iterator[None]:
-        """Within the context, the budget holds, and a broken invariant carries the scene.
+    def _guarded(self) -> Guard:
+        """A context in which the budget holds, and a broken invariant carries the scene."""
+        return Guard(self._budget.held(), self._failed)
+
+    def _failed(self, error: BaseException) -> None:
+        """Note an error inside of the tiling.
 
         Interrupted elsewhere than between two events, the tiling is left in the middle of a
         change.
         """
-        try:
-            with carrying(self._scene), self._budget.held():
-                yield
-        except BudgetExceeded as spent:
-            if spent.reached is None:  # not between two events
-                self._is_broken = True
-                spent.reached = self.passed()
-            raise
+        if isinstance(error, AuditError):
+            carry(error, self._scene)
+        elif isinstance(error, BudgetExceeded) and error.reached is None:  # not between two events
+            self._is_broken = True
+            error.reached = self.passed()
 
     def check_whole(self) -> None:
         """Check that the run has not been interrupted in the middle of an event.

@@ -1,5 +1,7 @@
 """Polynomials packed into integers, against arithmetic coefficient by coefficient."""
 
+from types import SimpleNamespace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -53,8 +55,9 @@ def test_determinants_of_tracks(a, b, c, d):
 
 @given(a=tracks, c=tracks, offsets=st.tuples(*[polynomials] * 4))
 def test_the_orientation_of_copies(a, c, offsets):
-    copies = [Vertex(i, 0, 0, a, Image([0.0], [0.0], [], -1)) for i in (0, 1)]
-    other = Vertex(2, 1, 0, c, Image([0.0], [0.0], [], -1))
+    place = Image([0.0], [0.0], [], -1)
+    copies = [Vertex(i, 0, 0, SimpleNamespace(track=lambda _: a), place) for i in (0, 1)]
+    other = Vertex(2, 1, 0, SimpleNamespace(track=lambda _: c), place)
     copies[0].offset, copies[1].offset = offsets[:2], offsets[2:]
     turned = subtract(offsets[2], offsets[0]), subtract(offsets[3], offsets[1])
     expected = cross_of(turned, towards(a, c))

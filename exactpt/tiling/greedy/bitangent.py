@@ -6,6 +6,7 @@ its direction, in (0, pi]; pi is vertical. Larger slope means smaller theta.
 
 from __future__ import annotations
 
+from math import isinf
 from typing import final
 
 from exactpt.certificates.at_time import PredicatesAt
@@ -117,9 +118,9 @@ class Bitangent:
         now = self._instant.turn_now(self.a, self.b, other.a, other.b)
         if now:
             return now < 0
-        mine, its = self.offset(), other.offset()
-        if mine != its:
-            return mine < its
+        side = self._side_of(other)
+        if side:
+            return side > 0
         order = self._instant.first_sign(slope_terms(self._slope(), other._slope()))
         return order < 0 if order else self.number < other.number
 
@@ -128,6 +129,13 @@ class Bitangent:
         return (
             self.key == other.key and self._instant.turn_now(self.a, self.b, other.a, other.b) == 0
         )
+
+    def _side_of(self, other: Bitangent) -> int:
+        """1 if the line of a parallel bitangent has the larger `offset`, -1 if the smaller one."""
+        if isinf(self.key):  # perhaps vertical
+            mine, its = self.offset(), other.offset()
+            return (its > mine) - (its < mine)
+        return 0 if self.a == other.a else self._instant.turn_now(self.a, self.b, self.a, other.a)
 
     def offset(self) -> QQ:
         """The offset of the line among its parallels: its y at x = 0, or its x if vertical."""

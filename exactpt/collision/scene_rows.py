@@ -1,13 +1,14 @@
-"""The straight motions of rounded bodies: rows with grown boxes, and which come near each other.
+"""The straight motions of all bodies of a scene: rows in boxes, and which come near each other.
 
 A body becomes a row, with the rationals and lists that exact decisions need, when it comes near
-another one; until then, doubles in arrays are enough where these are exact.
+another one; until then, doubles in arrays are enough where these are exact. The box of a rounded
+body is grown.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TypeAlias, final
+from collections.abc import Iterator, Sequence
+from typing import Final, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,15 +21,19 @@ from exactpt.kernel.rounding import TINY, U
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.outline import Outline, Straight, rest_outline, straight_pieces
+from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene
 
-__all__ = ["RoundedRows", "rounded_rows"]
+__all__ = ["SceneRows", "boxed", "scene_rows"]
 
 Floats: TypeAlias = NDArray[np.float64]
 
+ROUNDED_UP: Final = 1.0 + 4.0 * U
+"""Factor by which a rounded number becomes one that is not less."""
+
 
 @final
-class RoundedRows:
+class SceneRows:
     """The rows of all bodies of a scene.
 
     Args:
@@ -63,18 +68,12 @@ class RoundedRows:
         return row
 
 
-def rounded_rows(scene: Scene) -> RoundedRows | None:
+def scene_rows(scene: Scene) -> SceneRows | None:
     """The rows of a scene; None unless all bodies move straight and none is large."""
-    numbers: list[tuple[float, ...]] = []
-    for body in scene.bodies:
-        ask()
-        known = _doubles_of(body)
-        if known is None:
-            break
-        numbers.append(known)
-    else:
-        boxes = RowBoxes.of_doubles(np.array(numbers).reshape(-1, 8), scene._start, scene._end)
-        return RoundedRows(scene, boxes, None)
+    bodies = scene.bodies
+    numbers = _of_arrays(bodies) if isinstance(bodies, BodyArrays) else _of_bodies(bodies)
+    if numbers is not None:
+        return SceneRows(scene, RowBoxes.of_doubles(numbers, scene._start, scene._end), None)
     rows: list[Row] = []
     for i, body in enumerate(scene.bodies):
         ask()
@@ -82,7 +81,37 @@ def rounded_rows(scene: Scene) -> RoundedRows | None:
         if pieces is None:
             return None
         rows += rows_during(i, pieces, scene._start, scene._end)
-    return RoundedRows(scene, RowBoxes(rows), rows)
+    return boxed(scene, rows)
+
+
+def boxed(scene: Scene, rows: list[Row]) -> SceneRows:
+    """The given rows of a scene."""
+    return SceneRows(scene, RowBoxes(rows), rows)
+
+
+def _of_arrays(bodies: BodyArrays) -> Floats | None:
+    """The grown box, c and v of each body; None unless all move straight and none is large."""
+    bends = bodies.coefficients[:, :, 2:].any()
+    if bends or np.diff(bodies.offsets).max(initial=0) > MOST_VERTICES:
+        return None
+    low = np.minimum.reduceat(bodies.vertices, bodies.offsets[:-1])
+    high = np.maximum.reduceat(bodies.vertices, bodies.offsets[:-1])
+    radii = np.where(bodies.radii, bodies.radii * ROUNDED_UP + TINY, 0.0)[:, None]
+    straight = np.zeros((len(bodies), 2, 2))
+    straight[:, :, : bodies.coefficients.shape[2]] = bodies.coefficients[:, :, :2]
+    return np.hstack((low - radii, high + radii, straight[:, :, 0], straight[:, :, 1]))
+
+
+def _of_bodies(bodies: Sequence[Body]) -> Floats | None:
+    """The same of bodies one by one; None also if doubles are not exact."""
+    numbers: list[tuple[float, ...]] = []
+    for body in bodies:
+        ask()
+        known = _doubles_of(body)
+        if known is None:
+            return None
+        numbers.append(known)
+    return np.array(numbers).reshape(-1, 8)
 
 
 def _doubles_of(body: Body) -> tuple[float, ...] | None:
@@ -101,8 +130,8 @@ def _doubles_of(body: Body) -> tuple[float, ...] | None:
 
 
 def _above(radius: QQ) -> float:
-    """A double that is not less."""
-    return nearest_float(radius) * (1.0 + 4.0 * U) + TINY
+    """A double that is not less; 0 for 0."""
+    return nearest_float(radius) * ROUNDED_UP + TINY if radius else 0.0
 
 
 def _pieces(body: Body) -> list[tuple[Straight, QQ | None]] | None:

@@ -1,0 +1,75 @@
+"""Positions at an instant that doubles hold exactly: ties are decided without rationals.
+
+At the time 0 of a scene of integers, or of doubles, in linear motion, the doubles are the
+positions themselves. What is computed from them without rounding is exact, zeros included
+(`exactpt.kernel.error_free`): there, most of what a filter leaves open is a tie.
+"""
+
+from __future__ import annotations
+
+from typing import final
+
+from exactpt.certificates.coefficients import K
+from exactpt.indices import VertexId
+from exactpt.kernel.error_free import NOT_EXACT, exact_turn, is_exact_product, is_exact_sum
+from exactpt.motion.vertices import Vertices
+
+__all__ = ["ExactPlaces"]
+
+
+@final
+class ExactPlaces:
+    """The positions of straight trajectories at an instant, held by doubles, where they are.
+
+    Args:
+        vertices: the moving vertices.
+        x, y: their coordinates at the instant, normalised; NaN if unknown.
+        are_exact: whether these, but for NaN, have no error.
+        after: whether orders are those just after the instant, or else those at it.
+    """
+
+    def __init__(
+        self, vertices: Vertices, x: list[float], y: list[float], *, are_exact: bool, after: bool
+    ) -> None:
+        self._vertices = vertices
+        self._x: list[float] = x
+        self._y: list[float] = y
+        self._are_exact: bool = are_exact
+        self._after: bool = after
+
+    def turn(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
+        """The sign of (b - a) x (d - c) at the instant; `NOT_EXACT` if doubles do not give it."""
+        if not self._are_exact:
+            return NOT_EXACT
+        x, y = self._x, self._y
+        return exact_turn((x[a], y[a]), (x[b], y[b]), (x[c], y[c]), (x[d], y[d]))
+
+    def is_slope(self, a: VertexId, b: VertexId, q: float) -> bool:
+        """Whether q is minus the slope of the line from a to b."""
+        if not self._are_exact:
+            return False
+        x, y = self._x, self._y
+        dx, dy = x[b] - x[a], y[b] - y[a]
+        return (
+            is_exact_product(q, dx, -dy)
+            and is_exact_sum(x[b], -x[a], dx)
+            and is_exact_sum(y[b], -y[a], dy)
+        )
+
+    def order(self, a: VertexId, b: VertexId) -> int:
+        """1 if a is left of b (`Predicates.left_of`), -1 if right, for one x; 0 if not certain.
+
+        Just after the instant x(b) - x(a) has the sign of its slope, since the trajectories are
+        straight. Where that is zero for ever, y decides.
+        """
+        if not self._are_exact or self._x[a] != self._x[b]:
+            return 0
+        if self._after:
+            u, v = self._vertices.all[a].image, self._vertices.all[b].image
+            slope, off = v.x1 - u.x1, 2.0 * self._vertices.enclosures.errors[1]
+            if abs(slope) > off + K * abs(slope):
+                return 1 if slope > 0.0 else -1
+            if off and not u.motion == v.motion >= 0:
+                return 0
+        height = self._y[a] - self._y[b]
+        return 1 if height > 0.0 else -1 if height < 0.0 else 0
