@@ -263,15 +263,17 @@ class PairsSearch:
         """The first contact in (now, later]."""
         vertices, ids, ends = self._swept.vertices, self._swept.ids, self._swept.ends
         certifier = Certifier(vertices, now, later, exact_only=self._exact_only)
-        pending: list[tuple[float, int, EventTime, Triple]] = []
-        for k, (v, e) in enumerate(zip(near[0].tolist(), near[1].tolist(), strict=True)):
-            ask()
-            a, b = ends[e].tolist()
-            triple = (ids[b], ids[v], ids[b]) if v == a else (ids[a], ids[v], ids[b])
-            _, time = certifier.orientation(*triple)
-            self.certificates += 1
-            if time is not None:
-                pending.append((time.low, k, time, triple))
+        a, b = ends[near[1]].T
+        a = np.where(near[0] == a, b, a)  # an edge that may shrink to a point, and its vertex
+        triples: list[Triple] = [
+            (ids[i], ids[j], ids[k])
+            for i, j, k in zip(a.tolist(), near[0].tolist(), b.tolist(), strict=True)
+        ]
+        self.certificates += len(triples)
+        zeros = certifier.orientations_of_any(triples)
+        pending: list[tuple[float, int, EventTime, Triple]] = [
+            (time.low, k, time, triples[k]) for k, (_, time) in enumerate(zeros) if time is not None
+        ]
         heapq.heapify(pending)
         best: AlgebraicNumber | None = None
         best_high = float("inf")
