@@ -265,10 +265,10 @@ class PairsSearch:
         certifier = Certifier(vertices, now, later, exact_only=self._exact_only)
         a, b = ends[near[1]].T
         a = np.where(near[0] == a, b, a)  # an edge that may shrink to a point, and its vertex
-        triples: list[Triple] = [
-            (ids[i], ids[j], ids[k])
-            for i, j, k in zip(a.tolist(), near[0].tolist(), b.tolist(), strict=True)
-        ]
+        numbers = np.array(ids)
+        triples: list[Triple] = list(
+            zip(*(numbers[i].tolist() for i in (a, near[0], b)), strict=True)
+        )
         self.certificates += len(triples)
         zeros = certifier.orientations_of_any(triples)
         pending: list[tuple[float, int, EventTime, Triple]] = [

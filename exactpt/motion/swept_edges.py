@@ -7,7 +7,7 @@ from typing import final
 
 import numpy as np
 
-from exactpt.geometry.boxes import Boxes, overlapping_pairs
+from exactpt.geometry.boxes import Boxes, crossing_pairs
 from exactpt.kernel.doubles import Indices
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -91,7 +91,4 @@ class SweptEdges:
 
     def meeting(self, boxes: Boxes, edge_boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
         """The pairs of a vertex and an edge whose boxes meet, in blocks."""
-        n = len(self.ids)
-        for first, second in overlapping_pairs(np.concatenate((boxes, edge_boxes))):
-            crossed = (first < n) & (second >= n)
-            yield first[crossed], second[crossed] - n
+        yield from crossing_pairs(boxes, edge_boxes)
