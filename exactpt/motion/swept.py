@@ -186,6 +186,6 @@ def _difference(
 def _quotient(low: Floats, high: Floats, w_low: Floats, w_high: Floats) -> tuple[Floats, Floats]:
     """The range of a quotient with positive denominator; NaN if it may not be positive."""
     w_low = np.where(w_low > SMALL, w_low, np.nan)
-    quotients = np.stack((low / w_low, low / w_high, high / w_low, high / w_high))
-    least, most = quotients.min(axis=0), quotients.max(axis=0)
+    least = low / np.where(low < 0.0, w_low, w_high)
+    most = high / np.where(high < 0.0, w_high, w_low)
     return least - 2.0 * U * np.abs(least) - TINY, most + 2.0 * U * np.abs(most) + TINY
