@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from exactpt.kernel.counters import Counters
-    from exactpt.motion.track import Track
     from exactpt.motion.vertices import Vertex, Vertices
 
 __all__ = ["X_ORDER", "Certifier"]
@@ -104,21 +103,22 @@ class Certifier:
         Args:
             time: of the event; its vertices still have the motions that lead up to it.
         """
-        tracks = self._tracks_of(time) if time.exact is None else ()
-        return Moment(time, tracks, self._vertices.frame)
+        of = self._vertices_of(time) if time.exact is None else ()
+        return Moment(time, tuple([(v.piece, v.index) for v in of]), self._vertices.frame)
 
     def resolve(self, time: EventTime) -> AlgebraicNumber:
         """The exact time of an event; its enclosure is narrowed as far as doubles allow."""
-        number = exact_time(time, self._tracks_of(time), self._vertices.frame)
+        tracks = tuple([v.track for v in self._vertices_of(time)])
+        number = exact_time(time, tracks, self._vertices.frame)
         if time is self.now:
             self.now_low, self.now_high = time.low, time.high
             self.positions.move_to(time.low, time.high)
         return number
 
-    def _tracks_of(self, time: EventTime) -> tuple[Track, ...]:
+    def _vertices_of(self, time: EventTime) -> tuple[Vertex, ...]:
         every = self.all
-        a, b = every[time.a].track, every[time.b].track
-        return (a, b) if time.c == X_ORDER else (a, b, every[time.c].track)
+        a, b = every[time.a], every[time.b]
+        return (a, b) if time.c == X_ORDER else (a, b, every[time.c])
 
     def rigid(self, a: VertexId, b: VertexId, c: VertexId) -> bool:
         """Whether three vertices keep their orientation for ever, so that no zero is lost."""

@@ -10,6 +10,7 @@ from exactpt.kernel.integer_polynomial import IntPoly, sign_at, square_free
 from exactpt.motion.incidence import difference, orientation
 
 if TYPE_CHECKING:
+    from exactpt.motion.course import Piece
     from exactpt.motion.frame import Frame
     from exactpt.motion.track import Track
 
@@ -20,25 +21,30 @@ __all__ = ["Moment", "exact_time"]
 class Moment:
     """The time of an event, a number on demand.
 
-    It keeps the trajectories of the event, so it is the same time whatever motions the
+    It keeps the pieces of motion of the event, so it is the same time whatever motions the
     vertices have by then, and whichever vertices have their ids.
 
     Args:
         time: the time.
-        tracks: of the vertices whose function vanishes then, see `exact_time`; none are needed
-            if the exact time is known.
+        vertices: those whose function vanishes then, as in `exact_time`: for each the piece of
+            its body and its number in the scene. None are needed if the exact time is known.
         frame: the normalisation of the enclosure.
     """
 
-    def __init__(self, time: EventTime, tracks: tuple[Track, ...], frame: Frame) -> None:
+    def __init__(
+        self, time: EventTime, vertices: tuple[tuple[Piece, int], ...], frame: Frame
+    ) -> None:
         self._time: EventTime = time
-        self._tracks: tuple[Track, ...] = tracks
+        self._vertices: tuple[tuple[Piece, int], ...] = vertices
         self._frame: Frame = frame
 
     @property
     def number(self) -> AlgebraicNumber:
         """The exact time."""
-        return self._time.exact or exact_time(self._time, self._tracks, self._frame)
+        if self._time.exact is not None:
+            return self._time.exact
+        tracks = tuple([piece.track(vertex) for piece, vertex in self._vertices])
+        return exact_time(self._time, tracks, self._frame)
 
 
 def exact_time(time: EventTime, tracks: tuple[Track, ...], frame: Frame) -> AlgebraicNumber:
