@@ -116,9 +116,11 @@ class Certifier:
 
     def _numbered(self, time: EventTime) -> tuple[Numbered, ...]:
         """The vertices of an event, as in `exact_time`."""
-        ids = (time.a, time.b) if time.c == X_ORDER else (time.a, time.b, time.c)
-        vertices = [self.all[i] for i in ids]
-        return tuple([(v.piece, v.index) for v in vertices])
+        u, v = self.all[time.a], self.all[time.b]
+        if time.c == X_ORDER:
+            return (u.piece, u.index), (v.piece, v.index)
+        w = self.all[time.c]
+        return (u.piece, u.index), (v.piece, v.index), (w.piece, w.index)
 
     def rigid(self, a: VertexId, b: VertexId, c: VertexId) -> bool:
         """Whether three vertices keep their orientation for ever, so that no zero is lost."""
