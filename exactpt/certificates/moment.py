@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeAlias, final
 
+from mypy_extensions import mypyc_attr
+
 from exactpt.certificates.queue import EventTime
 from exactpt.kernel.algebraic import AlgebraicNumber, linear_root
 from exactpt.kernel.integer_polynomial import IntPoly, sign_at, square_free
@@ -20,6 +22,7 @@ Numbered: TypeAlias = "tuple[Piece, int]"
 
 
 @final
+@mypyc_attr(acyclic=True)
 class Moment:
     """The time of an event, a number on demand.
 
