@@ -7,18 +7,36 @@ each of these would be a conversion, while hardly a function takes it beside ano
 
 from __future__ import annotations
 
-from typing import Final, NewType, TypeAlias
+from collections.abc import Iterable
+from typing import Final, NewType, TypeAlias, TypeVar
 
-__all__ = ["NO_HALF_EDGE", "NO_VERTEX", "CertificateId", "Ends", "HalfEdge", "Triple", "VertexId"]
+from librt.vecs import vec
+from mypy_extensions import i64
 
-VertexId = NewType("VertexId", int)
+__all__ = [
+    "NO_HALF_EDGE",
+    "NO_VERTEX",
+    "CertificateId",
+    "Ends",
+    "HalfEdge",
+    "Index",
+    "Triple",
+    "VertexId",
+    "half_edge_vec",
+    "vertex_vec",
+]
+
+VertexId = NewType("VertexId", i64)
 """A vertex: its position among the moving vertices of a scene, or in a planar map."""
 
-HalfEdge = NewType("HalfEdge", int)
+HalfEdge = NewType("HalfEdge", i64)
 """A half-edge of a planar map; its twin is h ^ 1."""
 
-CertificateId = NewType("CertificateId", int)
+CertificateId = NewType("CertificateId", i64)
 """A certificate in the queue: its kind and its part (`exactpt.certificates.certificate`)."""
+
+Index = TypeVar("Index", bound=i64)
+"""One of these types, or int."""
 
 Ends: TypeAlias = tuple[VertexId, VertexId]
 """The ends of an edge."""
@@ -28,3 +46,13 @@ Triple: TypeAlias = tuple[VertexId, VertexId, VertexId]
 
 NO_VERTEX: Final = VertexId(-1)
 NO_HALF_EDGE: Final = HalfEdge(-1)
+
+
+def vertex_vec(vertices: Iterable[VertexId] = ()) -> vec[VertexId]:
+    """A vector of vertices; at run time a type of vectors has no item types but i64."""
+    return vec[i64](vertices)  # type: ignore[return-value]
+
+
+def half_edge_vec(half_edges: Iterable[HalfEdge] = ()) -> vec[HalfEdge]:
+    """A vector of half-edges, as `vertex_vec`."""
+    return vec[i64](half_edges)  # type: ignore[return-value]

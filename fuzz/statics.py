@@ -111,6 +111,6 @@ def _diagonals(mesh: Mesh) -> list[Ends]:
     return sorted((u, v) if u < v else (v, u) for u, v in pairs)
 
 
-def _labels(mesh: Mesh) -> dict[tuple[int, int], object]:
+def _labels(mesh: Mesh) -> dict[Ends, object]:
     labels = mesh.labelling()
     return {mesh.ends(h): labels[h] for h in mesh.map.half_edges() if labels and labels[h]}

@@ -71,7 +71,7 @@ class PredicatesAt(Predicates):
         self._counters: Counters = vertices.counters
         self._number = AlgebraicNumber(time)
         self._exact_only: bool = exact_only
-        self._exact: dict[int, Point] = {}
+        self._exact: dict[VertexId, Point] = {}
         # The error of a difference of coordinates is at most d plus its own rounding.
         self._xs, self._ys, error = positions_at(vertices, *vertices.frame.time(time))
         self._x: list[float] = self._xs.tolist()
@@ -274,7 +274,7 @@ class PredicatesAt(Predicates):
         self._count(*[self.vertices.all[i] for i in (a, b, c, d)], is_zero=now == 0)
         return now
 
-    def middle(self, a: VertexId, b: VertexId, c: VertexId) -> int:
+    def middle(self, a: VertexId, b: VertexId, c: VertexId) -> VertexId:
         """The middle one of three collinear vertices."""
         if self.nearer(a, b, c):
             return b if self.nearer(c, b, a) else a

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exactpt.certificates.coefficients import K
+from exactpt.indices import Triple
 from exactpt.kernel.rounding import SLACK
 from exactpt.kernel.vectorized import Answers, quadratics
 from exactpt.motion.image import Image
@@ -19,7 +20,7 @@ __all__ = ["linear_orientations", "linear_parts"]
 
 def linear_orientations(
     vertices: Vertices,
-    triples: Sequence[tuple[int, int, int]],
+    triples: Sequence[Triple],
     now_low: float,
     now_high: float,
     end: float,

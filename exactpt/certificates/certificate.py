@@ -11,6 +11,8 @@ from __future__ import annotations
 from enum import IntEnum, unique
 from typing import Final, final
 
+from mypy_extensions import i64
+
 from exactpt.indices import CertificateId, VertexId
 
 __all__ = [
@@ -105,27 +107,27 @@ POINT_ORDER: Final[int] = int(PointKind.ORDER)
 POINT_MOTION: Final[int] = int(PointKind.MOTION)
 
 
-def pack(kind: int, part: int) -> CertificateId:
+def pack(kind: i64, part: i64) -> CertificateId:
     """The certificate of a kind; of a part of the mesh, as `Kind` tells."""
     return CertificateId(KIND_COUNT * part + kind)
 
 
-def kind_of(certificate: CertificateId) -> int:
+def kind_of(certificate: CertificateId) -> i64:
     """The value of its `Kind`."""
     return certificate % KIND_COUNT
 
 
-def part_of(certificate: CertificateId) -> int:
+def part_of(certificate: CertificateId) -> i64:
     """The part of the mesh that a certificate watches."""
     return certificate // KIND_COUNT
 
 
-def pack_point(kind: int, point: int) -> CertificateId:
+def pack_point(kind: i64, point: i64) -> CertificateId:
     """The certificate of a kind; of a point."""
     return CertificateId(_POINT_KINDS * point + kind)
 
 
-def point_kind_of(certificate: CertificateId) -> int:
+def point_kind_of(certificate: CertificateId) -> i64:
     """The value of its `PointKind`."""
     return certificate % _POINT_KINDS
 

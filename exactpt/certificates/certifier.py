@@ -9,9 +9,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, final
 
+from mypy_extensions import i64
+
 from exactpt.certificates import coefficients
 from exactpt.certificates.batches import linear_orientations
-from exactpt.certificates.moment import Moment, exact_time
+from exactpt.certificates.moment import Moment, Numbered, exact_time
 from exactpt.certificates.perturbation import orientation, x_order
 from exactpt.certificates.positions import Positions
 from exactpt.certificates.queue import EventTime, earlier
@@ -30,7 +32,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from exactpt.kernel.counters import Counters
-    from exactpt.motion.track import Track
     from exactpt.motion.vertices import Vertex, Vertices
 
 __all__ = ["X_ORDER", "Certifier"]
@@ -39,6 +40,8 @@ INFINITY: Final = float("inf")
 
 BATCH: Final = 50
 """Minimum batch size for which numpy is faster."""
+FEW: Final = 16
+"""Number of certificates from one look at the budget to the next."""
 
 X_ORDER: Final = VertexId(-1)
 """The third vertex of an event time that is a root of an x-order."""
@@ -51,7 +54,7 @@ class Certifier:
     Attributes:
         all: the moving vertices, by id.
         now: the current time; ``now_low`` and ``now_high`` enclose it.
-        roots_now: triples of vertices whose function vanishes now.
+        roots_now: the event times that are now, for the functions that vanish now.
         end: the last time of interest.
         exact_only: whether the float filters are switched off.
         made: the number of certificates computed.
@@ -73,7 +76,7 @@ class Certifier:
         self.zeros: int = 0
         self.counters: Counters = vertices.counters
         self.errors: list[float] = vertices.enclosures.errors
-        self.roots_now: list[tuple[int, int, int]] = []
+        self.roots_now: list[EventTime] = []
         low, high = vertices.frame.time(start)
         self.now: EventTime = EventTime(low, high, -1, -1, -1, AlgebraicNumber(start))
         self.now_low: float = low
@@ -81,8 +84,8 @@ class Certifier:
         self.positions: Positions = Positions(self.errors)
         self.positions.move_to(low, high)
 
-    def move_to(self, time: EventTime, roots: list[tuple[int, int, int]]) -> None:
-        """Make this the current time; ``roots`` are the triples whose function vanishes then."""
+    def move_to(self, time: EventTime, roots: list[EventTime]) -> None:
+        """Make this the current time; the functions of which ``roots`` are roots vanish then."""
         self.now = time
         self.now_low = time.low
         self.now_high = time.high
@@ -100,21 +103,24 @@ class Certifier:
         Args:
             time: of the event; its vertices still have the motions that lead up to it.
         """
-        tracks = self._tracks_of(time) if time.exact is None else ()
-        return Moment(time, tracks, self._vertices.frame)
+        vertices = self._numbered(time) if time.exact is None else ()
+        return Moment(time, vertices, self._vertices.frame)
 
     def resolve(self, time: EventTime) -> AlgebraicNumber:
         """The exact time of an event; its enclosure is narrowed as far as doubles allow."""
-        number = exact_time(time, self._tracks_of(time), self._vertices.frame)
+        number = exact_time(time, self._numbered(time), self._vertices.frame)
         if time is self.now:
             self.now_low, self.now_high = time.low, time.high
             self.positions.move_to(time.low, time.high)
         return number
 
-    def _tracks_of(self, time: EventTime) -> tuple[Track, ...]:
-        every = self.all
-        a, b = every[time.a].track, every[time.b].track
-        return (a, b) if time.c == X_ORDER else (a, b, every[time.c].track)
+    def _numbered(self, time: EventTime) -> tuple[Numbered, ...]:
+        """The vertices of an event, as in `exact_time`."""
+        u, v = self.all[time.a], self.all[time.b]
+        if time.c == X_ORDER:
+            return (u.piece, u.index), (v.piece, v.index)
+        w = self.all[time.c]
+        return (u.piece, u.index), (v.piece, v.index), (w.piece, w.index)
 
     def rigid(self, a: VertexId, b: VertexId, c: VertexId) -> bool:
         """Whether three vertices keep their orientation for ever, so that no zero is lost."""
@@ -133,10 +139,13 @@ class Certifier:
         """
         self.made += 1
         a, b, c = least_first(a, b, c)
-        va, vb, vc = self.all[a], self.all[b], self.all[c]
+        every = self.all
+        va, vb, vc = every[a], every[b], every[c]
         if self.exact_only or va.is_copy_of(vb) or vb.is_copy_of(vc) or va.is_copy_of(vc):
             return self._exact_orientation(va, vb, vc)
-        horizon = min(self._horizon(va, vb), vc.horizon)
+        horizon = self._horizon(va, vb)
+        if vc.horizon < horizon:  # noqa: PLR1730 - `min` is a call in plain Python
+            horizon = vc.horizon
         s, low, high = coefficients.orientation(
             va.image,
             vb.image,
@@ -156,13 +165,10 @@ class Certifier:
 
     def orientations(self, triples: Sequence[Triple]) -> list[tuple[int, EventTime | None]]:
         """The `orientation` of each triple, in numpy for those in linear motion."""
+        if len(triples) < BATCH or self.exact_only or self.roots_now:
+            return self.orientations_of_any(triples)
         answers: list[tuple[int, EventTime | None]] = []
         triples = [least_first(*triple) for triple in triples]
-        if len(triples) < BATCH or self.exact_only or self.roots_now:
-            for a, b, c in triples:
-                ask()
-                answers.append(self.orientation(a, b, c))
-            return answers
         now = self.now_low, self.now_high, self._end_high
         signs, lows, highs = linear_orientations(self._vertices, triples, *now)
         for (a, b, c), s, low, high in zip(
@@ -177,18 +183,31 @@ class Certifier:
             answers.append((s, EventTime(low, high, a, b, c) if low < INFINITY else None))
         return answers
 
+    def orientations_of_any(self, triples: Sequence[Triple]) -> list[tuple[int, EventTime | None]]:
+        """The `orientation` of each triple, one by one: faster if few move straight."""
+        answers: list[tuple[int, EventTime | None]] = []
+        for a, b, c in triples:
+            if len(answers) % FEW == 0:
+                ask()
+            answers.append(self.orientation(a, b, c))
+        return answers
+
     def vanishes_now(self, a: VertexId, b: VertexId, c: VertexId) -> bool:
         """Whether the function of these vertices is known to vanish now."""
-        for i, j, k in self.roots_now:
+        for time in self.roots_now:
+            i, j, k = time.a, time.b, time.c
             if a in (i, j, k) and b in (i, j, k) and c in (i, j, k):
                 return True
         return False
 
     def _horizon(self, a: Vertex, b: Vertex) -> float:
         """An upper bound of the time until which the motions of two vertices are known."""
-        # The minimum of two compiles to a comparison, that of three to a call.
-        of_both = min(a.horizon, b.horizon)
-        return min(self._end_high, of_both)
+        high = self._end_high
+        if a.horizon < high:  # noqa: PLR1730 - `min` is a call in plain Python
+            high = a.horizon
+        if b.horizon < high:  # noqa: PLR1730
+            high = b.horizon
+        return high
 
     def _until(self, *vertices: Vertex) -> QQ:
         until = self.end
@@ -248,7 +267,7 @@ class Certifier:
         return self._event_time(first, (ids[0], ids[1], ids[-1]), crossing=False)
 
     def _event_time(
-        self, number: AlgebraicNumber, key: tuple[int, int, int], *, crossing: bool
+        self, number: AlgebraicNumber, key: tuple[i64, i64, i64], *, crossing: bool
     ) -> EventTime:
         low, high = self._vertices.frame.enclosure(number)
         return EventTime(low, high, *key, number, crossing)

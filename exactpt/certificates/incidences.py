@@ -49,6 +49,7 @@ import numpy as np
 
 from exactpt.certificates.coincidence import boxes_now, coincide, lies_on
 from exactpt.geometry.boxes import Boxes, overlapping_pairs
+from exactpt.indices import VertexId
 from exactpt.motion.incidence import Touch
 
 if TYPE_CHECKING:
@@ -63,7 +64,9 @@ FEW: Final = 24
 _Edge: TypeAlias = "tuple[Vertex, int, Vertex]"
 
 
-def touches(certifier: Certifier, vertices: Vertices, candidates: Iterable[int]) -> list[Touch]:
+def touches(
+    certifier: Certifier, vertices: Vertices, candidates: Iterable[VertexId]
+) -> list[Touch]:
     """All touches now among these vertices and the body edges between them, in order.
 
     Two coinciding vertices count once, and not also as vertices on the edges that end there.

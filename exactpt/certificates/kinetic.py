@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Hashable
 from typing import final
 
+from mypy_extensions import i64
+
 from exactpt.certificates.queue import EventQueue, EventTime
 from exactpt.errors import InputError
 from exactpt.indices import CertificateId
@@ -26,7 +28,7 @@ class _Failures:
     """The exact times of failure by slot of the queue; the first number of an event is its slot."""
 
     def __init__(self) -> None:
-        self.times: dict[int, AlgebraicNumber] = {}
+        self.times: dict[i64, AlgebraicNumber] = {}
 
     def resolve(self, time: EventTime) -> AlgebraicNumber:
         """The exact time of an event."""

@@ -91,8 +91,12 @@ class Positions:
         m, r = self._middle, self._width
         reach = abs(m) + r
         x0, y0, x1, y1 = image.x0, image.y0, image.x1, image.y1
-        slope = max(abs(x1), abs(y1))
-        bound = slope * reach + max(abs(x0), abs(y0))
+        start, start_y, slope, slope_y = abs(x0), abs(y0), abs(x1), abs(y1)
+        if start_y > start:  # noqa: PLR1730 - `max` is a call in plain Python
+            start = start_y
+        if slope_y > slope:  # noqa: PLR1730
+            slope = slope_y
+        bound = slope * reach + start
         of_image = self._errors[0] + self._errors[1] * reach
         error = (16.0 * U * bound + of_image + r * slope) * SLACK + TINY
         vertex.x, vertex.y, vertex.error = x1 * m + x0, y1 * m + y0, min(INFINITY, error)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from heapq import heappop, heappush
 from typing import Final, Protocol, final
 
-from mypy_extensions import mypyc_attr
+from mypy_extensions import i64, mypyc_attr
 
 from exactpt.indices import CertificateId
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -25,6 +25,10 @@ DAYS: Final = 1000
 
 SAMPLE: Final = 64
 """Number of events that tell the reach of a calendar."""
+
+ROWS: Final = 16
+"""Number of rows of slots: certificates of one kind (`exactpt.certificates.certificate`) have
+slots in one row, those of neighbouring parts side by side; the row of an unused kind is empty."""
 
 
 @final
@@ -45,17 +49,17 @@ class EventTime:
         self,
         low: float,
         high: float,
-        a: int,
-        b: int,
-        c: int,
+        a: i64,
+        b: i64,
+        c: i64,
         exact: AlgebraicNumber | None = None,
         crossing: bool = True,  # noqa: FBT001, FBT002 - positional for speed
     ) -> None:
         self.low: float = low
         self.high: float = high
-        self.a: int = a
-        self.b: int = b
-        self.c: int = c
+        self.a: i64 = a
+        self.b: i64 = b
+        self.c: i64 = c
         self.exact: AlgebraicNumber | None = exact
         self.crossing: bool = crossing
 
@@ -91,7 +95,8 @@ class EventQueue:
     def __init__(self, resolver: Resolver, counters: Counters) -> None:
         self._resolver = resolver
         self._counters: Counters = counters
-        self._live: dict[CertificateId, EventTime] = {}
+        self._rows: list[list[EventTime | None]] = [[] for _ in range(ROWS)]
+        self._count: int = 0
         self._heap: list[tuple[float, int, CertificateId, EventTime]] = []
         self._sequence: int = 0
         self._days: list[list[CertificateId]] = []
@@ -102,26 +107,45 @@ class EventQueue:
         self._has_more: bool = False
 
     def __len__(self) -> int:
-        return len(self._live)
+        return self._count
 
     def schedule(self, slot: CertificateId, time: EventTime) -> None:
         """Put an event into a slot, replacing the one there."""
-        self._live[slot] = time
+        self._put(slot, time)
         self._note(slot, time)
-        if self._notes > 4 * len(self._live) + 256:
+        if self._notes > 4 * self._count + 256:
             self._make_calendar()
 
     def cancel(self, slot: CertificateId) -> None:
         """Empty a slot."""
-        self._live.pop(slot, None)
+        row, part = self._rows[slot % ROWS], slot // ROWS
+        if part < len(row) and row[part] is not None:
+            row[part] = None
+            self._count -= 1
 
     def pending(self, slot: CertificateId) -> EventTime | None:
         """The time of the event in a slot, or None."""
-        return self._live.get(slot)
+        row, part = self._rows[slot % ROWS], slot // ROWS
+        return row[part] if part < len(row) else None
 
     def slots(self) -> list[CertificateId]:
         """All slots with a pending event, in increasing order."""
-        return sorted(self._live)
+        return sorted(
+            [
+                CertificateId(ROWS * part + kind)
+                for kind, row in enumerate(self._rows)
+                for part, time in enumerate(row)
+                if time is not None
+            ]
+        )
+
+    def _put(self, slot: CertificateId, time: EventTime) -> None:
+        row, part = self._rows[slot % ROWS], slot // ROWS
+        if part >= len(row):
+            row += [None] * (part + 1 - len(row))
+        if row[part] is None:
+            self._count += 1
+        row[part] = time
 
     def _note(self, slot: CertificateId, time: EventTime) -> None:
         """Note an event on its day, or in the heap if that has come; none after the last day."""
@@ -145,16 +169,18 @@ class EventQueue:
         Few may be far later than all others, so a sample tells how far the days reach; about
         six events are noted on each, or more where there are very many.
         """
-        live, reach = self._live, self._heap[0][3].high if self._heap else -INFINITY
-        lows = [time.low for time in live.values()]
+        rows, reach = self._rows, self._heap[0][3].high if self._heap else -INFINITY
+        lows = [time.low for row in rows for time in row if time is not None]
         self._first = min(lows, default=0.0)
-        sample, days = sorted(lows[:: len(lows) // SAMPLE + 1]), min(len(live) // 8, DAYS) + 1
+        sample, days = sorted(lows[:: len(lows) // SAMPLE + 1]), min(len(lows) // 8, DAYS) + 1
         span = max(reach, sample[3 * len(sample) // 4] if sample else 0.0) - self._first
         self._per_day = (days - 0.5) / span if 0.0 < span < INFINITY else 0.0
         self._heap, self._days = [], [[] for _ in range(days)]
         self._next_day, self._notes, self._has_more = 0.0, 0, False
-        for slot, time in live.items():
-            self._note(slot, time)
+        for kind, row in enumerate(rows):
+            for part, time in enumerate(row):
+                if time is not None:
+                    self._note(CertificateId(ROWS * part + kind), time)
 
     def _begin_day(self) -> None:
         """Put what is pending on the next day into the heap.
@@ -164,8 +190,9 @@ class EventQueue:
         today = int(self._next_day)
         slots, self._days[today] = self._days[today], []
         self._next_day += 1.0
+        rows = self._rows
         for slot in dict.fromkeys(slots):
-            time = self._live.get(slot)
+            time = rows[slot % ROWS][slot // ROWS]
             if time is not None:
                 self._note(slot, time)
 
@@ -175,10 +202,9 @@ class EventQueue:
         Returns:
             Whether there is an event; then it is on top of the heap.
         """
-        live = self._live
         while True:
             heap = self._heap
-            while heap and live.get(heap[0][2]) is not heap[0][3]:
+            while heap and self.pending(heap[0][2]) is not heap[0][3]:
                 heappop(heap)
             if heap and (heap[0][3].high - self._first) * self._per_day < self._next_day:
                 return True
@@ -199,18 +225,18 @@ class EventQueue:
         """
         if not self._find_first():
             return None
-        heap, live = self._heap, self._live
+        heap = self._heap
         _, _, slot, time = heappop(heap)
         bound = time.high
         candidates: dict[CertificateId, EventTime] = {}  # a slot may be in the heap twice
         while heap and heap[0][0] <= bound:
             _, _, other, its = heappop(heap)
-            if live.get(other) is its:
+            if self.pending(other) is its:
                 candidates[other] = its
                 bound = min(bound, its.high)
         if not candidates:
             self._counters.filtered += 1
-            del live[slot]
+            self.cancel(slot)
             return time, [(slot, time)]
         candidates[slot] = time
         return self._pop_exactly(sorted(candidates.items()))
@@ -232,7 +258,7 @@ class EventQueue:
         for slot, time in later:
             self._push(slot, time)
         for slot, _ in best:
-            del self._live[slot]
+            self.cancel(slot)
         return _simplest([time for _, time in best]), best
 
     def _compare(self, s: EventTime, t: EventTime) -> int:
@@ -263,25 +289,25 @@ class ExactQueue(EventQueue):
 
     def schedule(self, slot: CertificateId, time: EventTime) -> None:
         """Put an event into a slot, replacing the one there."""
-        self._live[slot] = time
+        self._put(slot, time)
         self._sequence += 1
         number = time.exact or self._resolver.resolve(time)
         heappush(self._exact_heap, (number, self._sequence, slot, time))
 
     def pop(self) -> tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None:
         """The earliest time and all slots with an event then; None if the queue is empty."""
-        heap, live = self._exact_heap, self._live
+        heap = self._exact_heap
         entries: list[tuple[CertificateId, EventTime]] = []
         first: AlgebraicNumber | None = None
         while heap:
             number, _, slot, time = heap[0]
-            if live.get(slot) is time:
+            if self.pending(slot) is time:
                 self._counters.count_exact("time", "asked")
                 if first is not None and number.compare(first) > 0:
                     break
                 first = number
                 entries.append((slot, time))
-                del live[slot]
+                self.cancel(slot)
             heappop(heap)
         if not entries:
             return None

@@ -33,7 +33,7 @@ from exactpt.collision.rounded import first_contact_of_rounded
 from exactpt.errors import BudgetExceeded
 from exactpt.indices import Triple
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import GRACE, ask, within
+from exactpt.kernel.budget import ask, searching
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.doubles import Indices
 from exactpt.kernel.numbers import QQ, fraction, power_of_two
@@ -47,6 +47,9 @@ SLABS: Final = 32
 
 FEW: Final = 64
 """Number of pairs that are compared exactly before a tiling would have been built."""
+
+PATIENCE: Final = 8
+"""Number of slabs after which one as long as the last that was too long is tried again."""
 
 SMALLEST_SLAB: Final = 1 << 40
 """The shortest slab is the time span divided by this."""
@@ -128,13 +131,8 @@ class PairsSearch:
             BudgetExceeded: when the time limit is reached; its ``reached`` is a time up to which
                 there is no contact.
         """
-        with within(None if self._deadline is None else self._deadline + GRACE):
-            try:
-                return self._first_contact()
-            except BudgetExceeded as spent:
-                if spent.reached is None:
-                    spent.reached = self.passed()
-                raise
+        with searching(self._deadline, self.passed):
+            return self._first_contact()
 
     def _first_contact(self) -> Contact | None:
         scene = self._scene
@@ -172,19 +170,29 @@ class PairsSearch:
         return swept
 
     def _run(self) -> Contact | None:
-        """Search slab by slab."""
+        """Search slab by slab: longer ones while there are few candidates.
+
+        After a slab that was too long, the following ones are shorter than it for a while.
+        """
         now, end = self._scene._start, self._scene._end
-        step = self._first_step()
+        step, limit = self._first_step(), end - now
+        since = 0  # number of slabs since one was too long
         while now < end:
             self._passed = now
             if self._deadline is not None and clock.monotonic() > self._deadline:
                 raise BudgetExceeded("the time is used up", fraction(now))
+            tried = step
             step, later, near = self._slab(now, step, self._swept.until(end))
             contact = self._search(now, later, near)
             if contact is not None:
                 return contact
+            since += 1
+            if step < tried:
+                limit, since = tried / 2, 0
+            elif since > PATIENCE:
+                limit = end - now
             if later == now + step and 4 * len(near[0]) < self._many():
-                step *= 2
+                step = min(2 * step, limit)
             now = later
             self._swept.enter_pieces(now)
         return None
@@ -263,22 +271,24 @@ class PairsSearch:
         """The first contact in (now, later]."""
         vertices, ids, ends = self._swept.vertices, self._swept.ids, self._swept.ends
         certifier = Certifier(vertices, now, later, exact_only=self._exact_only)
-        pending: list[tuple[float, int, EventTime, Triple]] = []
-        for k, (v, e) in enumerate(zip(near[0].tolist(), near[1].tolist(), strict=True)):
-            ask()
-            a, b = ends[e].tolist()
-            triple = (ids[b], ids[v], ids[b]) if v == a else (ids[a], ids[v], ids[b])
-            _, time = certifier.orientation(*triple)
-            self.certificates += 1
-            if time is not None:
-                pending.append((time.low, k, time, triple))
+        a, b = ends[near[1]].T
+        a = np.where(near[0] == a, b, a)  # an edge that may shrink to a point, and its vertex
+        numbers = np.array(ids)
+        triples: list[Triple] = list(
+            zip(*(numbers[i].tolist() for i in (a, near[0], b)), strict=True)
+        )
+        self.certificates += len(triples)
+        zeros = certifier.orientations_of_any(triples)
+        pending: list[tuple[float, int, EventTime, Triple]] = [
+            (time.low, k, time, triples[k]) for k, (_, time) in enumerate(zeros) if time is not None
+        ]
         heapq.heapify(pending)
         best: AlgebraicNumber | None = None
         best_high = float("inf")
         while pending and pending[0][0] <= best_high:
             ask()
             _, k, time, triple = heapq.heappop(pending)
-            certifier.move_to(time, [triple])
+            certifier.move_to(time, [time])
             a, v, b = (vertices.all[i] for i in triple)
             if not lies_on(certifier, v, a, b):
                 _, following = certifier.orientation(*triple)

@@ -213,9 +213,10 @@ def outlined(shape: Shape, tolerance: float | None) -> Shape:
     Raises:
         InputError: if the tolerance is not positive, or a chord for each arc is too many.
     """
-    if not shape.radius:
-        return shape
-    (whole,) = shapes_of_geometry(_geometry(shape, tolerance), shape.where, shape.name)
+    outline = _geometry(shape, tolerance)
+    if shape.kind != "polygon" and outline.geom_type != "Polygon":
+        return shape._replace(radius=0)
+    (whole,) = shapes_of_geometry(outline, shape.where, shape.name)
     parts = [
         part._replace(points=part.points[:-1], holes=[hole[:-1] for hole in part.holes])
         for part in whole.parts
@@ -224,11 +225,12 @@ def outlined(shape: Shape, tolerance: float | None) -> Shape:
 
 
 def _geometry(shape: Shape, tolerance: float | None) -> BaseGeometry:
-    core = _core(shape)
-    if not shape.radius:
+    """The outline; the core where the radius is so small that doubles show nothing around it."""
+    core, radius = _core(shape), nearest_float(rational(shape.radius))
+    if not radius:
         return core
-    radius = nearest_float(rational(shape.radius))
-    return core.buffer(radius, quad_segs=_quarter(radius, tolerance))
+    outline = core.buffer(radius, quad_segs=_quarter(radius, tolerance))
+    return core if outline.is_empty else outline
 
 
 def _core(shape: Shape) -> BaseGeometry:

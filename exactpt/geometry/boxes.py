@@ -12,7 +12,14 @@ from numpy.typing import NDArray
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, nearest_float
 
-__all__ = ["Boxes", "Indices", "boxes_of_points", "overlapping_pairs", "widen_unknown"]
+__all__ = [
+    "Boxes",
+    "Indices",
+    "boxes_of_points",
+    "crossing_pairs",
+    "overlapping_pairs",
+    "widen_unknown",
+]
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
@@ -26,6 +33,9 @@ FAR: Final = 2.0**20
 
 _FEW: Final = 64
 """Maximum number of boxes of which all pairs are compared."""
+
+_ALL: Final = 1 << 16
+"""Maximum number of pairs of boxes of two kinds that are all compared."""
 
 _CHUNK: Final = 1 << 21
 """Maximum number of candidate pairs in a chunk, unless a single box has more."""
@@ -72,6 +82,21 @@ def overlapping_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
         yield first[above], second[above]
         return
     yield from _swept_pairs(boxes)
+
+
+def crossing_pairs(some: Boxes, others: Boxes) -> Iterator[tuple[Indices, Indices]]:
+    """All pairs of a closed box of the first and one of the second that intersect, in chunks."""
+    n = len(some)
+    if n * len(others) <= _ALL:
+        low_x, high_x, low_y, high_y = some.T[..., None]
+        meets = (low_x <= others[:, 1]) & (low_y <= others[:, 3])
+        meets &= (high_x >= others[:, 0]) & (high_y >= others[:, 2])
+        first, second = np.nonzero(meets)
+        yield first, second
+        return
+    for first, second in overlapping_pairs(np.concatenate((some, others))):
+        crossed = (first < n) & (second >= n)
+        yield first[crossed], second[crossed] - n
 
 
 def _swept_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:

@@ -51,6 +51,7 @@ class SweptBoxes:
             for drift, cs in zip(self.drift, (self._xs, self._ys), strict=True):
                 drift[1:] = middles(cs[straight, 1:])
                 cs[~self._turning] -= drift
+            self._gather()
 
     def replace(self, first: int, images: Sequence[Image], errors: Sequence[float]) -> bool:
         """Replace the enclosures from number ``first`` on, if none is of a larger degree.
@@ -72,7 +73,19 @@ class SweptBoxes:
                 self._xs[i] -= self.drift[0]
                 self._ys[i] -= self.drift[1]
         self._errors = np.array([*errors, *[0.0] * size][:size])
+        self._gather()
         return True
+
+    def _gather(self) -> None:
+        """Put all polynomials below each other: numpy computes with them at once."""
+        self._any_turning = bool(self._turning.any())
+        parts = [self._xs, self._ys]
+        if self._any_turning:
+            parts += [self._ws, self.drift]  # the drift is exact
+        self._rows: Floats = np.concatenate(parts)
+        self._are_rounded: Floats = np.ones(len(self._rows))
+        if self._any_turning:
+            self._are_rounded[-2:] = 0.0
 
     @np.errstate(all="ignore")
     def during(self, low: Floats | float, high: Floats | float) -> Boxes:
@@ -90,18 +103,19 @@ class SweptBoxes:
         term, with a coefficient of 2^-300 or more, is larger. Where a bound is NaN, the box
         is the whole plane.
         """
-        x_low, x_high = self._range(self._xs, low, high)
-        y_low, y_high = self._range(self._ys, low, high)
-        if self._turning.any():
-            w_low, w_high = self._range(self._ws, low, high)
-            drift_low, drift_high = self._range(self.drift, low, high, exact=True)
+        n = len(self._turning)
+        lows, highs = self._ranges(low, high)
+        x_low, y_low = lows[..., :n], lows[..., n : 2 * n]
+        x_high, y_high = highs[..., :n], highs[..., n : 2 * n]
+        if self._any_turning:
+            w_low, w_high = lows[..., 2 * n : -2], highs[..., 2 * n : -2]
             x, y = (
                 _difference(
                     _quotient(*place, w_low, w_high),
-                    drift_low[..., k, None],
-                    drift_high[..., k, None],
+                    lows[..., k, None],
+                    highs[..., k, None],
                 )
-                for k, place in enumerate(((x_low, x_high), (y_low, y_high)))
+                for k, place in ((-2, (x_low, x_high)), (-1, (y_low, y_high)))
             )
             x_low, x_high = np.where(self._turning, x, (x_low, x_high))
             y_low, y_high = np.where(self._turning, y, (y_low, y_high))
@@ -109,11 +123,9 @@ class SweptBoxes:
         widen_unknown(boxes)
         return boxes
 
-    def _range(
-        self, cs: Floats, low: Floats | float, high: Floats | float, *, exact: bool = False
-    ) -> tuple[Floats, Floats]:
-        """Bounds of polynomials whose coefficients are exact, or have the known errors."""
-        n = cs.shape[1]
+    def _ranges(self, low: Floats | float, high: Floats | float) -> tuple[Floats, Floats]:
+        """Bounds of all x, then all y; if a vertex turns, of all w, and the drift too."""
+        cs, n = self._rows, self._rows.shape[1]
         m = np.asarray(0.5 * (low + high))[..., None]
         r = np.maximum(high - m[..., 0], m[..., 0] - low)[..., None] * (1.0 + 4.0 * U)
         shifted = np.broadcast_to(cs, (*m.shape[:-1], *cs.shape)).copy()
@@ -125,8 +137,7 @@ class SweptBoxes:
         spread = (np.abs(shifted[..., 1:]) @ powers[..., 1:, None])[..., 0]
         reach = (np.abs(m) + r) ** np.arange(n)
         rounding = (np.abs(cs) @ reach[..., None])[..., 0] * (16.0 * n * U)
-        if not exact:
-            rounding = rounding + (reach @ self._errors)[..., None]
+        rounding += (reach @ self._errors)[..., None] * self._are_rounded
         radius = (spread + rounding) * SLACK + 4.0 * U * np.abs(shifted[..., 0]) + TINY
         return shifted[..., 0] - radius, shifted[..., 0] + radius
 
@@ -175,6 +186,6 @@ def _difference(
 def _quotient(low: Floats, high: Floats, w_low: Floats, w_high: Floats) -> tuple[Floats, Floats]:
     """The range of a quotient with positive denominator; NaN if it may not be positive."""
     w_low = np.where(w_low > SMALL, w_low, np.nan)
-    quotients = np.stack((low / w_low, low / w_high, high / w_low, high / w_high))
-    least, most = quotients.min(axis=0), quotients.max(axis=0)
+    least = low / np.where(low < 0.0, w_low, w_high)
+    most = high / np.where(high < 0.0, w_high, w_low)
     return least - 2.0 * U * np.abs(least) - TINY, most + 2.0 * U * np.abs(most) + TINY

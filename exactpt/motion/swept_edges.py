@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import final
+from typing import Final, final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from exactpt.geometry.boxes import Boxes, overlapping_pairs
+from exactpt.geometry.boxes import Boxes, crossing_pairs, overlapping_pairs
 from exactpt.kernel.doubles import Indices
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -15,6 +16,10 @@ from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.vertices import Vertices
 
 __all__ = ["SweptEdges"]
+
+
+MANY: Final = 8
+"""Number of bodies from which on those that are near no other are left out first."""
 
 
 @final
@@ -49,6 +54,7 @@ class SweptEdges:
             self.edge_index += range(len(pairs))
             base += body.size
         self.ends: Indices = np.array(ends)
+        self._first: Indices = np.cumsum([0, *(body.size for body in bodies)])[:-1]
         self._read_images()
 
     def _read_images(self) -> None:
@@ -73,7 +79,7 @@ class SweptEdges:
         """Read the enclosures of a body that has entered a piece; false if there is no room."""
         moving = self.vertices.bodies[i]
         images = [self.vertices.all[v].image for v in moving.ring]
-        first = moving.ring[0]  # ids are numbered in order
+        first = int(moving.ring[0])  # ids are numbered in order
         self.motion[first : first + len(images)] = [image.motion for image in images]
         self.deforms[i] = moving.deforms
         return self.boxes.replace(first, images, self.vertices.enclosures.errors)
@@ -90,8 +96,25 @@ class SweptEdges:
         return np.stack((low[:, 0], high[:, 1], low[:, 2], high[:, 3]), axis=1)
 
     def meeting(self, boxes: Boxes, edge_boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
-        """The pairs of a vertex and an edge whose boxes meet, in blocks."""
-        n = len(self.ids)
-        for first, second in overlapping_pairs(np.concatenate((boxes, edge_boxes))):
-            crossed = (first < n) & (second >= n)
-            yield first[crossed], second[crossed] - n
+        """The pairs of a vertex and an edge whose boxes meet, in blocks.
+
+        Pairs of one rigid body whose box meets no other may be left out: they keep their distance.
+        """
+        if len(self._first) < MANY:
+            yield from crossing_pairs(boxes, edge_boxes)
+            return
+        busy = self._busy(boxes)
+        some = np.flatnonzero(busy[self.body])
+        others = np.flatnonzero(busy[self.body[self.ends[:, 0]]])
+        for first, second in crossing_pairs(boxes[some], edge_boxes[others]):
+            yield some[first], others[second]
+
+    def _busy(self, boxes: Boxes) -> NDArray[np.bool_]:
+        """For each body, whether it deforms, or its box meets that of another one."""
+        of_bodies = np.empty((len(self._first), 4))
+        of_bodies[:, ::2] = np.minimum.reduceat(boxes[:, ::2], self._first)
+        of_bodies[:, 1::2] = np.maximum.reduceat(boxes[:, 1::2], self._first)
+        busy = self.deforms.copy()
+        for first, second in overlapping_pairs(of_bodies):
+            busy[first] = busy[second] = True
+        return busy

@@ -12,8 +12,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import final
 
+from librt.vecs import append, vec
+
 from exactpt.errors import AuditError
-from exactpt.indices import NO_VERTEX, HalfEdge, VertexId
+from exactpt.indices import NO_VERTEX, HalfEdge, Index, VertexId, half_edge_vec, vertex_vec
 
 __all__ = ["PlanarMap", "edge_key", "twin", "without_steps_back"]
 
@@ -25,7 +27,11 @@ def twin(h: HalfEdge) -> HalfEdge:
 
 @final
 class PlanarMap:
-    """Half-edges in parallel lists; a handle is an index.
+    """Half-edges in parallel vectors; a handle is an index.
+
+    A vector holds its integers themselves, one after the other, where a list points to objects:
+    so compiled code walks along a face three to five times as fast. An append may move a vector,
+    and the old one is then no longer that of the map: nobody keeps one while edges are added.
 
     Attributes:
         origin: the vertex where a half-edge starts; `NO_VERTEX` for a free handle.
@@ -34,9 +40,9 @@ class PlanarMap:
     """
 
     def __init__(self) -> None:
-        self.origin: list[VertexId] = []
-        self.following: list[HalfEdge] = []
-        self.previous: list[HalfEdge] = []
+        self.origin: vec[VertexId] = vertex_vec()
+        self.following: vec[HalfEdge] = half_edge_vec()
+        self.previous: vec[HalfEdge] = half_edge_vec()
         self._free: list[HalfEdge] = []
         self._changed: set[HalfEdge] | None = None
 
@@ -48,9 +54,9 @@ class PlanarMap:
             self.place(twin(h), v)
         else:
             h = HalfEdge(len(self.origin))
-            self.origin += (u, v)
-            self.following += (twin(h), h)
-            self.previous += (twin(h), h)
+            self.origin = append(append(self.origin, u), v)
+            self.following = append(append(self.following, twin(h)), h)
+            self.previous = append(append(self.previous, twin(h)), h)
         return h
 
     def link(self, h: HalfEdge, g: HalfEdge) -> None:
@@ -78,14 +84,16 @@ class PlanarMap:
     @classmethod
     def of(
         cls,
-        origin: list[VertexId],
-        following: list[HalfEdge],
-        previous: list[HalfEdge],
+        origin: Iterable[VertexId],
+        following: Iterable[HalfEdge],
+        previous: Iterable[HalfEdge],
         free: list[HalfEdge],
     ) -> PlanarMap:
-        """The map with these lists and these free handles, the last of which is used first."""
+        """The map with these half-edges and free handles, the last of which is used first."""
         self = cls()
-        self.origin, self.following, self.previous, self._free = origin, following, previous, free
+        self.origin = vertex_vec(origin)
+        self.following, self.previous = half_edge_vec(following), half_edge_vec(previous)
+        self._free = free
         return self
 
     @property
@@ -224,6 +232,6 @@ def without_steps_back(half_edges: Iterable[HalfEdge]) -> list[HalfEdge]:
     return kept
 
 
-def edge_key(u: int, v: int) -> tuple[int, int]:
+def edge_key(u: Index, v: Index) -> tuple[Index, Index]:
     """The ends of an edge, the smaller one first."""
     return (u, v) if u < v else (v, u)

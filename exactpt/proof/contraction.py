@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias, final
 
+from exactpt.indices import HalfEdge
 from exactpt.kernel.numbers import QQ
 from exactpt.planar.halfedge import edge_key
 
@@ -49,27 +50,27 @@ class Contraction:
 
     def __init__(self, is_flat: Callable[[int, int, int], bool]) -> None:
         self._is_flat = is_flat
-        self._whole: dict[int, tuple[str, list[int]]] = {}
-        self._cycles: dict[int, Cycle] = {}
-        self._cuts: dict[Edge, dict[int, list[int]]] = {}
-        self._cutting: dict[int, list[Edge]] = {}
-        self._users: dict[Edge, set[int]] = {}
-        self._used: dict[int, list[Edge]] = {}
+        self._whole: dict[HalfEdge, tuple[str, list[int]]] = {}
+        self._cycles: dict[HalfEdge, Cycle] = {}
+        self._cuts: dict[Edge, dict[HalfEdge, list[int]]] = {}
+        self._cutting: dict[HalfEdge, list[Edge]] = {}
+        self._users: dict[Edge, set[HalfEdge]] = {}
+        self._used: dict[HalfEdge, list[Edge]] = {}
 
     def update(
         self,
-        gone: Iterable[int],
-        come: Iterable[tuple[int, Face]],
+        gone: Iterable[HalfEdge],
+        come: Iterable[tuple[HalfEdge, Face]],
         place: Callable[[int], tuple[QQ, QQ]],
     ) -> tuple[set[Cycle], set[Cycle]]:
         """Replace faces, and return the cycles removed and added.
 
         Args:
-            gone: the numbers of the faces removed.
-            come: the faces added, without the interiors of rigid bodies, with their numbers.
+            gone: the faces removed, each by one of its half-edges.
+            come: the faces added, likewise, without the interiors of rigid bodies.
             place: the position of a vertex at some time at which the mesh is valid.
         """
-        before, changed, new = set[Cycle](), set[Edge](), list[int]()
+        before, changed, new = set[Cycle](), set[Edge](), list[HalfEdge]()
         for key in gone:
             self._whole.pop(key, None)
             self._forget(key, before)
@@ -87,7 +88,7 @@ class Contraction:
         after = {self._contract(key, place) for key in again.union(new)}
         return before - after, after - before
 
-    def _forget(self, key: int, before: set[Cycle]) -> None:
+    def _forget(self, key: HalfEdge, before: set[Cycle]) -> None:
         """Forget the cycle of a face, if it has one; what has gone is added to ``before``."""
         if key in self._cycles:
             before.add(self._cycles.pop(key))
@@ -96,7 +97,7 @@ class Contraction:
                 if not self._users[edge]:
                     del self._users[edge]
 
-    def _contract(self, key: int, place: Callable[[int], tuple[QQ, QQ]]) -> Cycle:
+    def _contract(self, key: HalfEdge, place: Callable[[int], tuple[QQ, QQ]]) -> Cycle:
         label, nodes = self._whole[key]
         used = self._used[key] = []
         edges = pairwise([*nodes, nodes[0]]) if len(nodes) > 1 else ()
@@ -106,7 +107,9 @@ class Contraction:
         self._cycles[key] = cycle = Cycle(label, _from_least(path or nodes))
         return cycle
 
-    def _cut(self, key: int, nodes: list[int], place: Callable[[int], tuple[QQ, QQ]]) -> list[Edge]:
+    def _cut(
+        self, key: HalfEdge, nodes: list[int], place: Callable[[int], tuple[QQ, QQ]]
+    ) -> list[Edge]:
         """Split the edges of a face without area at its vertices in their interiors."""
         ordered = sorted(set(nodes), key=place)
         rank = {v: i for i, v in enumerate(ordered)}
@@ -118,7 +121,7 @@ class Contraction:
                 self._cuts.setdefault(cut[-1], {})[key] = ordered[low + 1 : high]
         return cut
 
-    def _uncut(self, key: int) -> list[Edge]:
+    def _uncut(self, key: HalfEdge) -> list[Edge]:
         """Undo `_cut`."""
         cut = self._cutting.pop(key, [])
         for edge in set(cut):

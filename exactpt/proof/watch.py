@@ -88,8 +88,7 @@ class Watch:
     def names(self) -> list[tuple[int, ...]]:
         """The vertices whose function may vanish now, as in `Step`."""
         certifier, node = self.kinetic.certifier, self._node
-        cause = certifier.now
-        triples = [(cause.a, cause.b, cause.c), *certifier.roots_now]
+        triples = [(t.a, t.b, t.c) for t in (certifier.now, *certifier.roots_now)]
         return [tuple([node[v] for v in t if v >= 0]) for t in triples if t[0] >= 0]
 
     def _of_new_pieces(self) -> set[HalfEdge]:

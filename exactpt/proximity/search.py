@@ -41,6 +41,8 @@ FEW: Final = 4
 """Number of pairs of a vertex and an edge that exact arithmetic takes over."""
 DEPTH: Final = 12
 """Maximum number of bisections of a slab."""
+LARGEST_UNIT: Final = 900
+"""Largest binary exponent of a unit: boxes in smaller ones, below 2^110, stay doubles in it."""
 LASTING: Final = 2
 """Number of bisections, one after the other, that exclude too little to go on."""
 
@@ -103,7 +105,7 @@ class ApproachSearch:
         frame = self._swept.vertices.frame
         # Units of both axes, relative to the smaller one: powers of two.
         unit = min(frame.scale)
-        self._units = np.array([math.ldexp(1.0, s - unit) for s in frame.scale])
+        self._units = [s - unit for s in frame.scale]
         near = [nearest_float(d * power_of_two(-unit)) for d in reach]
         self._grown = np.array(near)[self._swept.body] * (1.0 + 4.0 * U)
 
@@ -142,9 +144,17 @@ class ApproachSearch:
         return None
 
     def _boxes(self, now: QQ, later: QQ) -> Boxes:
-        """The boxes of the vertices in the smaller unit; the products are exact."""
+        """The boxes of the vertices in the smaller unit; the products are exact.
+
+        An axis whose unit is out of the range of doubles then has no bounds.
+        """
         boxes = self._swept.during(now, later)
-        boxes *= np.repeat(self._units, 2)
+        for axis, unit in enumerate(self._units):
+            sides = boxes[:, 2 * axis : 2 * axis + 2]
+            if unit <= LARGEST_UNIT:
+                sides *= math.ldexp(1.0, unit)
+            else:
+                sides[:] = -np.inf, np.inf
         return boxes
 
     @staticmethod

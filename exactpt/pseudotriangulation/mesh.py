@@ -6,11 +6,14 @@ in the face on the left.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from typing import Any, Final, NamedTuple
 
+from librt.vecs import append, vec
+from mypy_extensions import u8
+
 from exactpt.errors import AuditError
-from exactpt.indices import NO_HALF_EDGE, Ends, HalfEdge, VertexId
+from exactpt.indices import NO_HALF_EDGE, Ends, HalfEdge, VertexId, half_edge_vec
 from exactpt.planar.halfedge import PlanarMap, twin
 
 __all__ = ["F2", "FREE", "INSIDE", "OUTER", "SOLID", "Diagonal", "Mesh", "Tile"]
@@ -57,10 +60,10 @@ class Mesh:
 
     def __init__(self, vertices: int) -> None:
         self.map = PlanarMap()
-        self.region: list[int] = []
-        self.corner: list[bool] = []
-        self.boundary: list[bool] = []
-        self.ring_edge: list[HalfEdge] = [NO_HALF_EDGE] * vertices
+        self.region: vec[u8] = vec[u8]()
+        self.corner: vec[bool] = vec[bool]()
+        self.boundary: vec[bool] = vec[bool]()
+        self.ring_edge: vec[HalfEdge] = half_edge_vec([NO_HALF_EDGE] * vertices)
 
     def add_edge(self, u: VertexId, v: VertexId, *, boundary: bool) -> HalfEdge:
         """Add an edge, not linked yet, with free space on both sides; returns a half-edge."""
@@ -70,9 +73,9 @@ class Mesh:
 
     def _mark(self, h: HalfEdge, *, boundary: bool) -> None:
         if h == len(self.region):
-            self.region += (FREE, FREE)
-            self.corner += (False, False)
-            self.boundary.append(boundary)
+            self.region = append(append(self.region, FREE), FREE)
+            self.corner = append(append(self.corner, False), False)
+            self.boundary = append(self.boundary, boundary)
         else:
             self.region[h] = self.region[h + 1] = FREE
             self.boundary[h >> 1] = boundary
@@ -257,14 +260,14 @@ class Mesh:
         self.map = PlanarMap.of(
             state["origin"], state["following"], state["previous"], state["free"]
         )
-        self.region = state["region"]
-        self.corner = [bool(c) for c in state["corner"]]
-        self.boundary = [bool(b) for b in state["boundary"]]
-        self.ring_edge = state["ring_edge"]
+        self.region = vec[u8](state["region"])
+        self.corner = vec[bool](map(bool, state["corner"]))
+        self.boundary = vec[bool](map(bool, state["boundary"]))
+        self.ring_edge = half_edge_vec(state["ring_edge"])
 
-    def labelling(self) -> Sequence[frozenset[int]]:
+    def labelling(self) -> list[frozenset[int]]:
         """Of each half-edge, the geodesics that run along it; empty if none are kept."""
-        return ()
+        return []
 
     def relative_hulls(self) -> Callable[[int], list[VertexId]] | None:
         """The shortest loop around each body, as vertex ids; None if the mesh does not know."""

@@ -13,6 +13,8 @@ from functools import cmp_to_key
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
+from librt.vecs import extend
+
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
 from exactpt.indices import NO_HALF_EDGE, Ends, HalfEdge, Triple, VertexId
@@ -95,7 +97,8 @@ class Region:
     def add_ring(self, vertices: Vertices, moving: MovingBody) -> None:
         """Add the ring of a new body to the region."""
         mesh, m = self.mesh, self.mesh.map
-        mesh.ring_edge += [NO_HALF_EDGE] * (len(vertices.all) - len(mesh.ring_edge))
+        more = len(vertices.all) - len(mesh.ring_edge)
+        mesh.ring_edge = extend(mesh.ring_edge, [NO_HALF_EDGE] * more)
         for v in moving.ring:
             h = mesh.add_edge(v, vertices.all[v].ahead, boundary=True)
             mesh.ring_edge[v] = h

@@ -13,14 +13,14 @@ from typing import final
 
 from exactpt.errors import AuditError, InputError, UnreachableError
 from exactpt.geometry.predicates import Point
-from exactpt.indices import HalfEdge
+from exactpt.indices import NO_VERTEX, Ends, HalfEdge, VertexId
 from exactpt.kernel.numbers import QQ, place
 from exactpt.planar.halfedge import twin, without_steps_back
 from exactpt.query.answers import Path, VertexName
 from exactpt.query.locate import find, place_of
 from exactpt.query.shortest import last_step
 from exactpt.query.sight import FreeTriangles
-from exactpt.query.sleeve import Sleeves, bends, pull_tight
+from exactpt.query.sleeve import NOWHERE, Sleeves, bends, pull_tight
 from exactpt.query.subdivision import OUTSIDE, Subdivision
 from exactpt.query.walk import On, Ray, Spot, next_step
 
@@ -56,7 +56,7 @@ class ShortestPaths:
         if step is None:
             raise self._unreachable(p, q)
         nodes = step.nodes()
-        way = [(p, -1), *((free.points[v], v) for v in nodes[1:-1]), (q, -1)]
+        way = [(p, NO_VERTEX), *((free.points[v], v) for v in nodes[1:-1]), (q, NO_VERTEX)]
         return self._named(p, bends(way), q, step.crossed)
 
     def shorten(self, points: Sequence[Point]) -> Path:
@@ -75,13 +75,13 @@ class ShortestPaths:
     def _triangles(self) -> FreeTriangles:
         return FreeTriangles(self._plane, self._sleeves)
 
-    def _ends_of(self, spot: Spot, p: Point) -> tuple[Point, Spot, tuple[int, int]]:
+    def _ends_of(self, spot: Spot, p: Point) -> tuple[Point, Spot, Ends]:
         """A point, its spot, and the ends of the edge that it is on, for an insertion."""
         plane = self._plane
         if spot.on is On.FACE and spot.handle < OUTSIDE:
             raise _not_free(p, place_of(plane, spot).body)
         if spot.on is not On.EDGE:
-            return p, spot, (-1, -1)
+            return p, spot, NOWHERE
         return p, spot, (plane.map.origin[spot.handle], plane.map.origin[spot.handle ^ 1])
 
     def _tile(self, p: Point) -> int:
@@ -120,7 +120,7 @@ class ShortestPaths:
                 raise InputError(f"the walk meets body {place.body!r} at ({x}, {y})")
             spot, at = step.end, step.at
 
-    def _tight(self, start: Point, tile: int, crossed: Sequence[int], goal: Point) -> Path:
+    def _tight(self, start: Point, tile: int, crossed: Sequence[HalfEdge], goal: Point) -> Path:
         plane = self._plane
         portals = self._sleeves.portals(start, tile, crossed, goal)
         nodes = pull_tight(start, goal, portals, plane.points)
@@ -137,7 +137,7 @@ class ShortestPaths:
             raise AuditError(what)
         return UnreachableError(f"{what}: a body is around one of them")
 
-    def _named(self, start: Point, nodes: Sequence[int], goal: Point, crossed: int) -> Path:
+    def _named(self, start: Point, nodes: Sequence[VertexId], goal: Point, crossed: int) -> Path:
         """The path that bends at these nodes."""
         plane = self._plane
         points = (start, *(plane.points[v] for v in nodes), goal)

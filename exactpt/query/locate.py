@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from exactpt.geometry.predicates import Point
-from exactpt.indices import HalfEdge
+from exactpt.indices import HalfEdge, VertexId
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.kernel.numbers import place as in_fractions
 from exactpt.query.answers import Hit, Place
@@ -91,7 +91,8 @@ def cast(
 
 def _cast_at_point(plane: Subdivision, ray: Ray, limit: QQ | None) -> Hit | None:
     """`cast` in a scene that consists of a single point."""
-    at = ray.reaches(0)
-    if ray.side(0) != 0 or at < 0 or (limit is not None and at > limit):
+    node = VertexId(0)
+    at = ray.reaches(node)
+    if ray.side(node) != 0 or at < 0 or (limit is not None and at > limit):
         return None
     return Hit(plane.names[0], 0, None, in_fractions(plane.points[0]), fraction(at), 0)

@@ -12,6 +12,7 @@ from __future__ import annotations
 from heapq import heappop, heappush
 from typing import final
 
+from exactpt.indices import VertexId
 from exactpt.query.lengths import Length, squared_distance
 from exactpt.query.sight import Corner, FreeTriangles
 
@@ -48,7 +49,7 @@ class Step:
     def __lt__(self, other: Step) -> bool:
         return self._total < other._total
 
-    def nodes(self) -> list[int]:
+    def nodes(self) -> list[VertexId]:
         """The nodes of the path, from its start to here."""
         nodes = []
         step: Step | None = self
@@ -58,7 +59,7 @@ class Step:
         return nodes[::-1]
 
 
-def last_step(free: FreeTriangles, start: int, goal: int) -> Step | None:
+def last_step(free: FreeTriangles, start: VertexId, goal: VertexId) -> Step | None:
     """The last step of a shortest path from a node to another; None if there is none."""
     points = free.points
     target = points[goal]
@@ -87,7 +88,7 @@ def last_step(free: FreeTriangles, start: int, goal: int) -> Step | None:
     return None
 
 
-def _leads_on(free: FreeTriangles, step: Step, corner: Corner, goal: int) -> bool:
+def _leads_on(free: FreeTriangles, step: Step, corner: Corner, goal: VertexId) -> bool:
     """Whether a shortest path may go on from a step to a corner."""
     there = corner[0]
     if there != goal and not free.may_pass(step.corner[0], corner):

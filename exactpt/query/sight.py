@@ -19,13 +19,14 @@ from typing import NamedTuple, TypeAlias, final
 
 from exactpt.errors import AuditError
 from exactpt.geometry.predicates import Point, between, side
+from exactpt.indices import NO_VERTEX, Ends, HalfEdge, VertexId
 from exactpt.query.sleeve import Sleeves, Triangle
 from exactpt.query.subdivision import OUTSIDE, Subdivision
 from exactpt.query.walk import On, Spot
 
 __all__ = ["Corner", "FreeTriangles", "Seen"]
 
-Corner: TypeAlias = tuple[int, int]
+Corner: TypeAlias = Ends
 """A vertex, and the other end of the first wall of the corner: the free space is counter-clockwise
 from it. Around a vertex without walls, the least of its neighbours."""
 
@@ -50,12 +51,12 @@ class FreeTriangles:
         origin = plane.map.origin
         self._sleeves = sleeves
         self.points = list(plane.points)
-        self._apex: dict[tuple[int, int], int] = {}
+        self._apex: dict[Ends, VertexId] = {}
         """For each directed edge the third vertex of the triangle on its left."""
         self._added: list[Triangle] = []
-        self._walls: set[tuple[int, int]] = set()
-        self._diagonals: set[tuple[int, int]] = set()
-        for h in range(len(origin)):
+        self._walls: set[Ends] = set()
+        self._diagonals: set[Ends] = set()
+        for h in map(HalfEdge, range(len(origin))):
             is_wall = plane.boundary[h >> 1] or OUTSIDE in (plane.face[h], plane.face[h ^ 1])
             (self._walls if is_wall else self._diagonals).add((origin[h], origin[h ^ 1]))
         for tile in range(len(plane.snapshot.faces)):
@@ -73,7 +74,7 @@ class FreeTriangles:
 
     # Insertion
 
-    def inserted(self, p: Point, spot: Spot, ends: tuple[int, int]) -> int:
+    def inserted(self, p: Point, spot: Spot, ends: Ends) -> VertexId:
         """The node of a point that no body has in its interior; a new one if need be.
 
         Args:
@@ -82,13 +83,13 @@ class FreeTriangles:
             ends: the ends of the edge, if it is on one.
         """
         if spot.on is On.NODE:
-            return spot.handle
+            return VertexId(spot.handle)
         if spot.on is On.EDGE:
-            known = [(u, v, self._apex.get((u, v), -1)) for u, v in (ends, ends[::-1])]
+            known = [(u, v, self._apex.get((u, v), NO_VERTEX)) for u, v in (ends, ends[::-1])]
         else:
-            known = self._sleeves.triangles(spot.handle)
+            known = self._sleeves.triangles(int(spot.handle))
         a, b, c = self._holding([*known, *self._added], p)
-        node = len(self.points)
+        node = VertexId(len(self.points))
         self.points.append(p)
         edges = ((a, b), (b, c), (c, a))
         on = [(u, v) for u, v in edges if side(self.points[u], self.points[v], p) == 0]
@@ -108,7 +109,7 @@ class FreeTriangles:
                     return a, b, c
         raise AuditError(f"no triangle has the point {p}")
 
-    def _split(self, u: int, v: int, node: int) -> None:
+    def _split(self, u: VertexId, v: VertexId, node: VertexId) -> None:
         """Split the edge uv at a node, and the triangles next to it."""
         for a, b in ((u, v), (v, u)):
             c = self._apex.pop((a, b), None)
@@ -119,17 +120,17 @@ class FreeTriangles:
                 self._walls.remove((a, b))
                 self._walls |= {(a, node), (node, b)}
 
-    def _add(self, a: int, b: int, c: int) -> None:
+    def _add(self, a: VertexId, b: VertexId, c: VertexId) -> None:
         self._apex[a, b], self._apex[b, c], self._apex[c, a] = c, a, b
         self._added.append((a, b, c))
 
     # Corners
 
-    def corners_at(self, node: int) -> list[Corner]:
+    def corners_at(self, node: VertexId) -> list[Corner]:
         """All corners at a node."""
         return sorted({self._corner(u, v) for u, v in self._apex if u == node})
 
-    def _corner(self, node: int, a: int) -> Corner:
+    def _corner(self, node: VertexId, a: VertexId) -> Corner:
         """The corner that has the triangle on the left of the edge from a node to a."""
         around = [a]
         while (node, a) not in self._walls:
@@ -139,7 +140,7 @@ class FreeTriangles:
             around.append(a)
         return node, a
 
-    def _fan(self, corner: Corner) -> Iterator[tuple[int, int]]:
+    def _fan(self, corner: Corner) -> Iterator[Ends]:
         """The edges opposite to a corner, in the triangles around it, counter-clockwise."""
         node, a = corner
         while True:
@@ -149,14 +150,14 @@ class FreeTriangles:
                 return
             a = b
 
-    def walls(self, corner: Corner) -> tuple[int, ...]:
+    def walls(self, corner: Corner) -> tuple[VertexId, ...]:
         """The other ends of the walls of a corner: none, or the first and the last."""
         if corner not in self._walls:
             return ()
         *_, (_, last) = self._fan(corner)
         return corner[1], last
 
-    def may_pass(self, before: int, corner: Corner) -> bool:
+    def may_pass(self, before: VertexId, corner: Corner) -> bool:
         """Whether a shortest path from a node may go on beyond a corner.
 
         Not where the free space has an angle less than pi, and not where the walls are on both
@@ -168,7 +169,7 @@ class FreeTriangles:
             return True
         return side(here, *ends) <= 0 and side(p, here, ends[0]) * side(p, here, ends[1]) >= 0
 
-    def is_taut(self, before: int, corner: Corner, after: int) -> bool:
+    def is_taut(self, before: VertexId, corner: Corner, after: VertexId) -> bool:
         """Whether a path is straight at a corner, or bends around its walls."""
         p, here, q = (self.points[v] for v in (before, corner[0], after))
         turn = side(p, here, q)

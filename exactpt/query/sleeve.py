@@ -15,17 +15,20 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from typing import TypeAlias, final
+from typing import Final, TypeAlias, final
 
 from exactpt.errors import AuditError
 from exactpt.geometry.predicates import Point, between, side
+from exactpt.indices import NO_HALF_EDGE, NO_VERTEX, Ends, HalfEdge, Index, Triple, VertexId
 from exactpt.query.subdivision import Subdivision
 
 __all__ = ["Sleeves", "Triangle", "bends", "pull_tight", "triangulated"]
 
-Triangle: TypeAlias = tuple[int, int, int]
-Portal: TypeAlias = tuple[int, int]
+Triangle: TypeAlias = Triple
+Portal: TypeAlias = Ends
 """The left and the right end, as nodes, of an edge that a path crosses."""
+
+NOWHERE: Final = (NO_VERTEX, NO_VERTEX)
 
 
 @final
@@ -36,7 +39,7 @@ class Sleeves:
         self._plane = plane
         self._tiles: dict[int, list[Triangle]] = {}
 
-    def dual_path(self, start: int, goal: int) -> list[int] | None:
+    def dual_path(self, start: int, goal: int) -> list[HalfEdge] | None:
         """A shortest path in the dual graph: the fewest diagonals to cross between two tiles.
 
         Returns:
@@ -44,7 +47,7 @@ class Sleeves:
             None if the tiles are in different components of the free space.
         """
         plane, m = self._plane, self._plane.map
-        came: dict[int, int] = {start: -1}
+        came: dict[int, HalfEdge] = {start: NO_HALF_EDGE}
         queue = deque([start])
         while queue and goal not in came:
             tile = queue.popleft()
@@ -62,7 +65,9 @@ class Sleeves:
             tile = plane.face[came[tile]]
         return crossed[::-1]
 
-    def portals(self, start: Point, tile: int, crossed: Sequence[int], goal: Point) -> list[Portal]:
+    def portals(
+        self, start: Point, tile: int, crossed: Sequence[HalfEdge], goal: Point
+    ) -> list[Portal]:
         """The portals from ``start`` in ``tile`` across half-edges ``crossed`` to ``goal``."""
         plane, origin = self._plane, self._plane.map.origin
         portals: list[Portal] = []
@@ -92,7 +97,7 @@ class Sleeves:
                 return i
         raise AuditError(f"no triangle of tile {tile} has the point {p}")
 
-    def _triangle_at(self, tile: int, u: int, v: int) -> int:
+    def _triangle_at(self, tile: int, u: VertexId, v: VertexId) -> int:
         for i, (a, b, c) in enumerate(self.triangles(tile)):
             if (u, v) in ((a, b), (b, c), (c, a)):
                 return i
@@ -104,7 +109,7 @@ class Sleeves:
         owner = {
             edge: i for i, (a, b, c) in enumerate(triangles) for edge in ((a, b), (b, c), (c, a))
         }
-        came: dict[int, tuple[int, Portal]] = {start: (-1, (-1, -1))}
+        came: dict[int, tuple[int, Portal]] = {start: (-1, NOWHERE)}
         queue = [start]
         while goal not in came:
             i = queue.pop()
@@ -121,7 +126,7 @@ class Sleeves:
         return portals[::-1]
 
 
-def triangulated(cycle: Sequence[int], points: Sequence[Point]) -> list[Triangle]:
+def triangulated(cycle: Sequence[Index], points: list[Point]) -> list[tuple[Index, Index, Index]]:
     """A triangulation of a simple polygon, given counter-clockwise, by ear clipping.
 
     The boundary may touch itself at vertices and along edges. Vertices with an angle of pi are
@@ -129,7 +134,7 @@ def triangulated(cycle: Sequence[int], points: Sequence[Point]) -> list[Triangle
     vertices, if the number of candidate ears tested in a row is bounded.
     """
     nodes = list(cycle)
-    triangles: list[Triangle] = []
+    triangles: list[tuple[Index, Index, Index]] = []
     i = misses = 0
     while len(nodes) > 3:
         n = len(nodes)
@@ -146,7 +151,7 @@ def triangulated(cycle: Sequence[int], points: Sequence[Point]) -> list[Triangle
     return triangles
 
 
-def _is_ear(nodes: Sequence[int], a: int, b: int, c: int, points: Sequence[Point]) -> bool:
+def _is_ear(nodes: Sequence[Index], a: Index, b: Index, c: Index, points: list[Point]) -> bool:
     p, q, r = points[a], points[b], points[c]
     if side(p, q, r) <= 0:
         return False
@@ -158,15 +163,15 @@ def _is_ear(nodes: Sequence[int], a: int, b: int, c: int, points: Sequence[Point
 
 
 def pull_tight(
-    start: Point, goal: Point, portals: Sequence[Portal], points: Sequence[Point]
-) -> list[int]:
+    start: Point, goal: Point, portals: Sequence[Portal], points: list[Point]
+) -> list[VertexId]:
     """The nodes at which the shortest path through portals bends, in order.
 
     The funnel algorithm. Nodes that the path passes straight on are left out.
     """
     ends = [(points[l], points[r]) for l, r in portals] + [(goal, goal)]
-    nodes = [*portals, (-1, -1)]
-    path: list[tuple[Point, int]] = [(start, -1)]
+    nodes = [*portals, NOWHERE]
+    path: list[tuple[Point, VertexId]] = [(start, NO_VERTEX)]
     apex = left = right = start
     left_at = right_at = -1
     i = 0
@@ -189,7 +194,7 @@ def pull_tight(
                 i, left_at = right_at + 1, right_at
                 continue
         i += 1
-    path.append((goal, -1))
+    path.append((goal, NO_VERTEX))
     return bends(path)
 
 
@@ -202,9 +207,9 @@ def _opens(apex: Point, left: Point, right: Point) -> bool:
     return turn < 0 or (turn == 0 and between(left, right, apex))
 
 
-def bends(path: Sequence[tuple[Point, int]]) -> list[int]:
+def bends(path: Sequence[tuple[Point, VertexId]]) -> list[VertexId]:
     """The nodes, if not -1, at which a path turns, its start and its goal left out."""
-    kept: list[tuple[Point, int]] = []
+    kept: list[tuple[Point, VertexId]] = []
     for p, node in path:
         if kept and kept[-1][0] == p:
             continue

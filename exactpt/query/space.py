@@ -16,6 +16,8 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TypeAlias, final
 
+from mypy_extensions import i64
+
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
@@ -181,7 +183,7 @@ class FreeSpace:
         """
         return [self._plane.node_name(v) for v in self._hull_nodes()]
 
-    def _hull_nodes(self) -> Sequence[int]:
+    def _hull_nodes(self) -> Sequence[i64]:
         plane = self._plane
         if OUTSIDE not in plane.cycles:
             return range(len(plane.points))

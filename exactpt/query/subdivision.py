@@ -13,6 +13,8 @@ from functools import cmp_to_key
 from itertools import pairwise
 from typing import Final, final
 
+from mypy_extensions import i64
+
 from exactpt.geometry.polygon import signed_area2
 from exactpt.geometry.predicates import Point
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId
@@ -92,7 +94,7 @@ class Subdivision:
         u, v = sorted((self.map.origin[h], self.map.origin[h ^ 1]))
         return (u if v == u + 1 else v) - self.first[self.body[u]]
 
-    def node_name(self, node: int) -> tuple[str, int]:
+    def node_name(self, node: i64) -> tuple[str, int]:
         """The name of the body and the number of the vertex of a node."""
         body = self.body[node]
         return self.names[body], node - self.first[body]
@@ -127,7 +129,7 @@ class Subdivision:
         return sorted(edges, key=cmp_to_key(order))
 
     def _name_faces(self, bodies: Sequence[Body]) -> None:
-        names: dict[tuple[int, int], int] = {}
+        names: dict[tuple[i64, i64], int] = {}
         for i, body in enumerate(bodies):
             if body.has_interior:
                 names.update(dict.fromkeys(self._inner_edges(i, body), -2 - i))

@@ -10,8 +10,10 @@ from __future__ import annotations
 from enum import Enum
 from typing import NamedTuple, final
 
+from mypy_extensions import i64
+
 from exactpt.geometry.predicates import Point
-from exactpt.indices import HalfEdge
+from exactpt.indices import HalfEdge, VertexId
 from exactpt.kernel.numbers import QQ, sign
 from exactpt.planar.halfedge import twin
 from exactpt.query.subdivision import Subdivision, cross
@@ -36,7 +38,7 @@ class Spot(NamedTuple):
     """
 
     on: On
-    handle: int
+    handle: i64
 
 
 class RayStep(NamedTuple):
@@ -65,9 +67,9 @@ class Ray:
         self.direction = direction
         self._norm = direction[0] * direction[0] + direction[1] * direction[1]
         self._points = plane.points
-        self._sides: dict[int, int] = {}
+        self._sides: dict[VertexId, int] = {}
 
-    def side(self, node: int) -> int:
+    def side(self, node: VertexId) -> int:
         """1, 0 or -1 if a node is to the left of, on, or to the right of the line of the ray."""
         known = self._sides.get(node)
         if known is None:
@@ -75,12 +77,12 @@ class Ray:
             known = self._sides[node] = sign(dx * (y - oy) - dy * (x - ox))
         return known
 
-    def reaches(self, node: int) -> QQ:
+    def reaches(self, node: VertexId) -> QQ:
         """The parameter of a node on the line of the ray."""
         (x, y), (ox, oy), (dx, dy) = self._points[node], self.origin, self.direction
         return ((x - ox) * dx + (y - oy) * dy) / self._norm
 
-    def crosses(self, u: int, v: int) -> QQ:
+    def crosses(self, u: VertexId, v: VertexId) -> QQ:
         """The parameter at which the line of the ray crosses the edge from u to v."""
         a, b = self._points[u], self._points[v]
         along = b[0] - a[0], b[1] - a[1]
@@ -107,7 +109,7 @@ def next_step(plane: Subdivision, ray: Ray, spot: Spot, at: QQ) -> RayStep:
             return _along(plane, ray, h if _ahead(plane, ray, h) else twin(h))
         h = h if turn > 0 else twin(h)
         return _through_face(plane, ray, plane.face[h], at)
-    h, along = _sector(plane, ray, spot.handle)
+    h, along = _sector(plane, ray, VertexId(spot.handle))
     if along:
         return _along(plane, ray, h)
     return _through_face(plane, ray, plane.face[h], at)
@@ -124,7 +126,7 @@ def _along(plane: Subdivision, ray: Ray, h: HalfEdge) -> RayStep:
     return RayStep(Spot(On.EDGE, h), Spot(On.NODE, end), ray.reaches(end))
 
 
-def _sector(plane: Subdivision, ray: Ray, node: int) -> tuple[HalfEdge, bool]:
+def _sector(plane: Subdivision, ray: Ray, node: VertexId) -> tuple[HalfEdge, bool]:
     """The half-edge out of a node whose sector contains the direction; whether it is along it.
 
     The sector of h lies between h and the next half-edge counter-clockwise: the corner of the

@@ -85,7 +85,7 @@ class Tracker:
     def __init__(self, kinetic: Tiling, node: list[int]) -> None:
         self._kinetic = kinetic
         self._node = node
-        self._seen: list[list[int]] = [[], [], [], []]
+        self._seen: list[Sequence[object]] = [[], [], [], []]
         self._labels: list[frozenset[int]] = []
         self._tile_of: list[int] = []
         self._tiles: dict[int, _Tile] = {}
@@ -113,7 +113,7 @@ class Tracker:
     def update(self, step: int) -> None:
         """Record the changes since the last call; the present state holds from ``step`` on."""
         mesh = self._kinetic.mesh_after()
-        now: list[list[int]] = [
+        now: list[Sequence[object]] = [
             list(mesh.map.origin),
             list(mesh.map.following),
             list(mesh.region),
@@ -140,7 +140,7 @@ class Tracker:
         for h in changed:
             if h in found or m.origin[h] < 0 or mesh.region[h] in (OUTER, SOLID):
                 continue
-            cycle: list[int] = list(m.face(HalfEdge(h)))
+            cycle = [int(g) for g in m.face(HalfEdge(h))]
             found.update(cycle)
             old.update((g, self._tile_of[g]) for g in cycle)
             cycles.append(cycle)

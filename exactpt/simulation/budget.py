@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contextlib import AbstractContextManager, nullcontext
 from time import monotonic
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, Final, final
 
 from exactpt.kernel.budget import GRACE, check_bounds, within
 
@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from types import TracebackType
 
 __all__ = ["Budget", "Guard"]
+
+_UNLIMITED: Final = nullcontext()
 
 
 @final
@@ -90,7 +92,7 @@ class Budget:
         go on.
         """
         if self._deadline is None and self._memory is None:
-            return nullcontext()
+            return _UNLIMITED
         deadline = None if self._deadline is None else self._deadline + GRACE
         return within(deadline, self._memory)
 

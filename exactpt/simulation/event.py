@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar, final
 
+from mypy_extensions import mypyc_attr
+
 from exactpt.certificates.moment import Moment
 from exactpt.kernel.algebraic import AlgebraicNumber
 
@@ -11,6 +13,7 @@ __all__ = ["Event"]
 
 
 @final
+@mypyc_attr(acyclic=True)
 class Event:
     """A change of the tiling, or a contact.
 

@@ -110,15 +110,18 @@ class Run:
     def _advance(self, end: QQ, respond: Response | None, grid: QQ) -> bool:
         """Advance to the next time with events; False if there is none up to the end."""
         self.check_whole()
-        teller = self.living.teller
-        with self._guarded():
-            try:
+        try:
+            with self._budget.held():
                 events = self._pass(end)
-                if events is not None:
-                    self.pending.extend(teller.told(events))
-                return events is not None
-            except ContactFound as contact:
-                found = contact
+                if events is None:
+                    return False
+                self.pending.extend(self.living.teller.told(events))
+                return True
+        except ContactFound as contact:
+            found = contact
+        except BaseException as error:
+            self._failed(error)
+            raise
         if respond is None:
             with self._guarded():
                 self._end_with(found)
@@ -128,11 +131,12 @@ class Run:
 
     def _pass(self, end: QQ) -> list[TilingEvent] | None:
         """Advance the tiling to its next event up to a time, see `Tiling.advance`."""
-        if self.recorder is None:
-            return self.living.teller.advance(end)
-        self.recorder.begin(self.living.scene, self.living.kinetic)
-        events = self.living.teller.advance(end)
-        self.recorder.advanced()
+        recorder, teller = self.recorder, self.living.teller
+        if recorder is None:
+            return teller.advance(end)
+        recorder.begin(self.living.scene, self.living.kinetic)
+        events = teller.advance(end)
+        recorder.advanced()
         return events
 
     def _guarded(self) -> Guard:

@@ -45,6 +45,10 @@ Data: TypeAlias = "dict[str, Any]"
 
 _STATS = ("batches", "rebuilds", "flips", "most")
 
+_SLOTS = 1024
+"""A bound, a vertex, on the slots of a queue (which has room for all up to the largest): 64 parts
+of each of 16 kinds; a planar map of n vertices has less than 6 n half-edges."""
+
 
 def tiling_to_json(kinetic: Tiling) -> Data:
     """The state of a tiling between two events."""
@@ -56,7 +60,7 @@ def tiling_to_json(kinetic: Tiling) -> Data:
         "convex": kinetic.entry.is_for_convex,
         "end": str(certifier.end),
         "now": _time_to_json(certifier.now),
-        "roots_now": [list(key) for key in certifier.roots_now],
+        "roots_now": [[t.a, t.b, t.c] for t in certifier.roots_now],
         "bodies": [
             {
                 "since": str(moving.since),
@@ -111,7 +115,8 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], last: QQ, *, exact_only
     for moving, body in zip(vertices.bodies, data["bodies"], strict=True):
         moving.is_tiled = body["tiled"]
     certifier = Certifier(vertices, QQ(0), parse_rational(data["end"]), exact_only=exact_only)
-    certifier.move_to(_time_from_json(data["now"]), [(a, b, c) for a, b, c in data["roots_now"]])
+    now = _time_from_json(data["now"])
+    certifier.move_to(now, [EventTime(now.low, now.high, *of) for of in data["roots_now"]])
     certifier.made, certifier.skipped, certifier.zeros = data["counts"]
     stats = Stats()
     stats.events = dict(data["stats"]["events"])
@@ -120,7 +125,10 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], last: QQ, *, exact_only
     entry = catalogue.find(data["kind"], convex=data["convex"])
     kinetic = loading.make(entry, vertices, certifier, stats)
     kinetic.resume(data)
+    most = _SLOTS * (len(vertices.all) + 1)
     for slot, time in data["queue"]:
+        if not 0 <= slot < most:
+            raise InputError(f"{shorten(slot)} is no certificate")
         kinetic.queue.schedule(slot, _time_from_json(time))
     return kinetic
 

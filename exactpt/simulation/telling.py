@@ -33,7 +33,7 @@ class Teller:
     def __init__(self, tiling: Tiling) -> None:
         self.tiling: Tiling = tiling
         self.passed: EventTime | None = None
-        self._names: dict[int, str] = {}
+        self._names: dict[VertexId, str] = {}
 
     def advance(self, until: QQ) -> list[TilingEvent] | None:
         """As `Tiling.advance`."""
@@ -52,14 +52,14 @@ class Teller:
     def _named(self, edges: Edges) -> tuple[tuple[str, str], ...]:
         return tuple([(self.name(u), self.name(v)) for u, v in edges])
 
-    def name(self, vertex_id: int) -> str:
+    def name(self, vertex_id: VertexId) -> str:
         """The name of a vertex in events; of a removed one, as long as its id is not used again."""
         name = self._names.get(vertex_id)
         if name is None:
-            name = self._names[vertex_id] = self.tiling.vertices.name(VertexId(vertex_id))
+            name = self._names[vertex_id] = self.tiling.vertices.name(vertex_id)
         return name
 
-    def forget(self, ring: Iterable[int]) -> None:
+    def forget(self, ring: Iterable[VertexId]) -> None:
         """Forget the names of the vertices whose ids a new body has."""
         for vertex_id in ring:
             self._names.pop(vertex_id, None)

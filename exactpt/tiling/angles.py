@@ -14,6 +14,7 @@ from exactpt.certificates.certificate import ANGLE, MOTION, SHRINK, pack
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.one_sided import OneSided
 from exactpt.certificates.queue import EventTime
+from exactpt.certificates.rigidity import rigid
 from exactpt.certificates.table import CertificateTable
 from exactpt.indices import HalfEdge, Triple, VertexId
 from exactpt.motion.vertices import Vertex, Vertices
@@ -110,7 +111,10 @@ class CertifiedMesh:
 
     def _cannot_fail(self, h: HalfEdge, a: VertexId, p: VertexId, b: VertexId) -> bool:
         """Whether the angle of h, at p between a and b, needs no certificate of its own."""
-        return a == b or self._shares_certificate(h) or self.certifier.rigid(a, p, b)
+        if a == b or self._shares_certificate(h):
+            return True
+        every = self.vertices.all
+        return rigid(self.vertices.bodies, every[a], every[p], every[b])
 
     def _keep(self, h: HalfEdge, s: int, time: EventTime | None) -> None:
         """Schedule the failure of an angle, or record it as violated just after now."""
@@ -127,10 +131,12 @@ class CertifiedMesh:
 
     def _shares_certificate(self, h: HalfEdge) -> bool:
         """Whether the angle belongs to a triangle whose certificate is that of another angle."""
+        if not self.mesh.corner[h]:
+            return False
         m = self.mesh.map
         g = m.following[h]
         k = m.following[g]
-        return m.following[k] == h and (g < h or k < h) and self.mesh.corner[h]
+        return m.following[k] == h and (g < h or k < h)
 
     def recertify(self, half_edges: list[HalfEdge]) -> None:
         """Certify changed angles, and all angles of faces that are or were triangles."""

@@ -78,7 +78,7 @@ class Clock:
     def enter(self, time: EventTime, entries: list[tuple[CertificateId, EventTime]]) -> None:
         """Advance to a time at which some certificates fail."""
         self._undo = self.certifier.now, entries
-        self.certifier.move_to(time, [(t.a, t.b, t.c) for _, t in entries])
+        self.certifier.move_to(time, [t for _, t in entries])
 
     def move_to(self, t: QQ) -> None:
         """Move to a rational time; no unprocessed event may lie before it."""

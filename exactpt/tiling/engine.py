@@ -18,7 +18,7 @@ from exactpt.certificates.certificate import ANGLE, MOTION, SHRINK, kind_of, pac
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
 from exactpt.errors import AuditError
-from exactpt.indices import CertificateId, HalfEdge
+from exactpt.indices import CertificateId, Ends, HalfEdge
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key
@@ -281,7 +281,7 @@ class Engine(Tiling):
         after = self._diagonals()
         self.log.record("reflex", tuple(sorted(before - after)), tuple(sorted(after - before)))
 
-    def _diagonals(self) -> set[tuple[int, int]]:
+    def _diagonals(self) -> set[Ends]:
         return {edge_key(*self.mesh.ends(h)) for h in self.mesh.diagonals()}
 
     def _build_anew(self, later: QQ) -> bool:

@@ -6,12 +6,13 @@ from typing import TypeAlias, final
 
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
+from exactpt.indices import Ends
 from exactpt.motion.incidence import Touch
 
 __all__ = ["ContactFound", "Edges", "Log", "Stats", "TilingEvent"]
 
 
-Edges: TypeAlias = "tuple[tuple[int, int], ...]"
+Edges: TypeAlias = tuple[Ends, ...]
 """Edges, as pairs of vertex ids."""
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from exactpt.errors import AuditError
-from exactpt.indices import NO_HALF_EDGE
+from exactpt.indices import NO_HALF_EDGE, Ends
 from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.conflict_zone import ConflictZone
 from exactpt.pseudotriangulation.inside import tile_inside
@@ -78,8 +78,8 @@ def _retile(certified: CertifiedMesh, log: Log, region: Region) -> bool:
 
 
 def _by_scene_edge(
-    vertices: Vertices, edges: Iterable[tuple[int, int]]
-) -> dict[frozenset[tuple[int, int]], tuple[int, int]]:
+    vertices: Vertices, edges: Iterable[Ends]
+) -> dict[frozenset[tuple[int, int]], Ends]:
     """Edges by their ends in the scene, one for all its infinitesimal copies.
 
     Edges between copies of one vertex are left out.

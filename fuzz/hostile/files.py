@@ -11,15 +11,18 @@ from typing import Final, NamedTuple
 
 from exactpt.exchange.files import write_shapes
 from exactpt.proof.written import write_proof
-from exactpt.scene.generate import FAMILIES, POINTS
+from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED, SPINNING
 from exactpt.simulation.simulation import Simulation
 from exactpt.simulation.store import sealed
 from fuzz.hostile.wounds import damaged, with_another_value, with_another_word
 from fuzz.subscene import scene_of
 
-__all__ = ["FORMATS", "Hostile", "hostile", "scene_text"]
+__all__ = ["FORMATS", "SCENES", "Hostile", "hostile", "scene_text"]
 
-FORMATS: Final = ("scene", "geojson", "wkt", "svg", "saved", "proof")
+SCENES: Final = ("scene", "special")
+"""Formats of scene files: "special" ones have holes, parts, radii or spin."""
+
+FORMATS: Final = (*SCENES, "geojson", "mfjson", "wkt", "svg", "saved", "proof")
 SEEDS: Final = 40
 """Number of valid files of each format."""
 
@@ -30,6 +33,13 @@ DRAWING: Final = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 90 60" 
 <rect x="1" y="2" width="3" height="4" rx="1"/></g><ellipse cx="40" cy="9" rx="5" ry="3"/>
 <path d="M60 10 C 70 0 80 20 70 30 S 50 30 60 10 Z M63 12 a2 1 20 1 0 4 4 z"/>
 <polyline points="5,50 9,55 14,50"/><line x1="20" y1="50" x2="29" y2="59"/></svg>"""
+
+TRIP: Final = """{"type": "Feature", "properties": {"name": "ship"}, "temporalGeometry":
+{"type": "MovingRigidGeometry", "geometry": {"type": "Polygon", "coordinates":
+[[[0, 0], [4, 0], [4, 4], [0, 0]], [[2, 1], [3, 1], [3, 2], [2, 1]]]}, "sequences": [{"values":
+[{"position": {"lat": 0, "lon": 1.5}, "rotation": 0}, {"position": {"lat": 9, "lon": -2}}],
+"datetimes": ["1999-12-31T20:30:00.25-0330", "2000-01-01 00:00:30Z"]}],
+"interpolations": ["Linear"]}}"""
 
 
 class Hostile(NamedTuple):
@@ -77,13 +87,15 @@ def scene_text(which: int) -> str:
 @cache
 def _valid(kind: str, which: int) -> str:
     """A valid file of a format, made from a scene of a family."""
-    families = [*FAMILIES, *POINTS]
+    if which % 2 and kind in ("svg", "mfjson"):
+        return DRAWING if kind == "svg" else TRIP
+    special = [*RINGS, *ROUNDED, *SPINNING]
+    straight = ["chains_on_grid", "bodies_on_grid", "linear_points", "piecewise_points"]
+    families = {"special": special, "mfjson": straight}.get(kind, [*FAMILIES, *POINTS])
     scene = scene_of(families[which % len(families)], 1 + which)
-    if kind == "svg" and which % 2:
-        return DRAWING
     with TemporaryDirectory() as folder:
         path = Path(folder) / f"file.{kind}"
-        if kind == "scene":
+        if kind in SCENES:
             scene.save(path)
         elif kind == "saved":
             simulation = Simulation(scene)

@@ -17,7 +17,7 @@ from exactpt.cli import main
 from exactpt.errors import BudgetExceeded, ExactPTError
 from exactpt.exchange.files import read_shapes
 from exactpt.simulation.simulation import Simulation
-from fuzz.hostile.files import Hostile, scene_text
+from fuzz.hostile.files import SCENES, Hostile, scene_text
 from fuzz.limits import TooSlow, limit
 
 __all__ = ["Ended", "read"]
@@ -47,6 +47,7 @@ COMMANDS: Final = (
     "convert {0} out.wkt --at 1/3",
     "convert {0} out.svg",
     "convert {0} out.json",
+    "convert {0} out.mfjson",
 )
 CONVERSIONS: Final = (
     "convert {0} out.json",
@@ -75,7 +76,7 @@ class Ended(NamedTuple):
 
 def read(kind: str, file: Hostile, rng: Random, folder: Path) -> Ended:
     """Have one command or reader, chosen at random, read a file in an empty folder."""
-    path = Path(f"file.{'json' if kind in ('scene', 'saved') else kind}")
+    path = Path(f"file.{'json' if kind in (*SCENES, 'saved') else kind}")
     with _inside(folder):
         path.write_bytes(file.content)
         reader = _reader_of(kind, rng)
@@ -114,9 +115,9 @@ def _reader_of(kind: str, rng: Random) -> _Reader:
         return _Reader("restore", _restored)
     if kind == "proof":
         return _Reader("proof_check", _checked)
-    if kind != "scene" and rng.random() < 0.2:
+    if kind not in SCENES and rng.random() < 0.2:
         return _Reader("read_shapes", _shapes)
-    line = rng.choice(COMMANDS if kind == "scene" else CONVERSIONS)
+    line = rng.choice(COMMANDS if kind in SCENES else CONVERSIONS)
     return _Reader(line.split("{0}")[0].strip(), lambda _, path: _run(line, path))
 
 

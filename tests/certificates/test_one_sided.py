@@ -35,7 +35,8 @@ def certifier_of(bodies, *, exact_only):
 def turns(bodies, triple, *, exact_only, before):
     """The turns of all pairs of segments that share an end, and what was decided exactly."""
     certifier = certifier_of(bodies, exact_only=exact_only)
-    certifier.move_to(certifier.orientation(*triple)[1], [triple])
+    time = certifier.orientation(*triple)[1]
+    certifier.move_to(time, [time])
     signs = OneSided(certifier, before=before)
     ends = [
         segments

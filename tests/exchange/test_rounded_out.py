@@ -92,3 +92,19 @@ def test_the_command_takes_a_tolerance(tmp_path):
         assert end.value.code == 0
 
     assert len(fine.read_text()) > 3 * len(coarse.read_text())
+
+
+@pytest.mark.parametrize("radius", ["1e-40", "1e-400"])
+@pytest.mark.parametrize("ending", ["geojson", "wkt", "svg"])
+def test_bug_radii_that_no_double_shows(tmp_path, ending, radius):
+    """The core is written: shapely's outline around it is empty."""
+    scene = Scene(
+        [Body("dot", [(1, -3)], radius=radius), Body("bar", [(5, 0), (9, 1)], radius=radius)]
+    )
+    path = tmp_path / f"shapes.{ending}"
+
+    write_shapes(scene, path)
+
+    if ending != "svg":
+        assert [body.size for body in read_shapes(path).bodies] == [1, 2]
+    assert [g.geom_type for g in scene.to_shapely(0).values()] == ["Point", "LineString"]

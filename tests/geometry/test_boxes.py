@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exactpt.geometry import boxes as boxes_module
-from exactpt.geometry.boxes import overlapping_pairs
+from exactpt.geometry.boxes import crossing_pairs, overlapping_pairs
 
 sides = st.tuples(st.integers(-9, 9), st.integers(0, 18)).map(lambda s: (s[0], s[0] + s[1]))
 without_end = st.just((-np.inf, np.inf))
@@ -39,6 +39,23 @@ def test_every_pair_that_meets_is_told_once(few, boxes):
 
     assert len(found) == len(set(found))
     assert set(found) == all_pairs(boxes)
+
+
+@pytest.mark.parametrize("many", [0, 1 << 16])
+@given(some=st.lists(box, max_size=20), others=st.lists(box, max_size=20))
+def test_pairs_of_boxes_of_two_kinds(many, some, others):
+    arrays = [np.array(boxes, dtype=float).reshape(-1, 4) for boxes in (some, others)]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(boxes_module, "_ALL", many - 1)
+        found = [
+            (int(i), int(j))
+            for first, second in crossing_pairs(*arrays)
+            for i, j in zip(first, second, strict=True)
+        ]
+
+    n = len(some)
+    expected = {(i, j - n) for i, j in all_pairs(some + others) if i < n <= j}
+    assert sorted(found) == sorted(expected)
 
 
 @given(st.lists(box, min_size=2, max_size=40))

@@ -33,7 +33,8 @@ def frames(draw):
 
 
 def contents(images):
-    return [(i.xs, i.ys, i.ws, i.degree, i.motion) for i in images]
+    """The digits of all enclosures; as text, in which undefined numbers are equal."""
+    return [repr((i.xs, i.ys, i.ws, i.degree, i.motion)) for i in images]
 
 
 IDENTITY = Frame((QQ(0), QQ(0)), (0, 0), QQ(0), 0)

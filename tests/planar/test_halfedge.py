@@ -93,6 +93,35 @@ def test_a_slid_target_mirrors_a_slid_origin():
         assert len(moved) == len(before)
 
 
+def test_a_copy_and_its_original_grow_apart():
+    """Vectors share their room as long as nobody appends: a copy shares none."""
+    m = polygon(3)
+    other = m.copy()
+    m.add_edge(0, 2)
+    other.add_edge(1, 0)
+
+    assert list(m.origin) == [0, 1, 1, 2, 2, 0, 0, 2]
+    assert list(other.origin) == [0, 1, 1, 2, 2, 0, 1, 0]
+
+
+def test_a_map_does_not_share_the_lists_that_it_is_made_of():
+    m = polygon(3)
+    origin, following, previous = list(m.origin), list(m.following), list(m.previous)
+    other = PlanarMap.of(origin, following, previous, [])
+    other.place(0, 5)
+
+    assert origin == list(m.origin)
+    assert faces(m) == {(0, 1, 2), (0, 2, 1)}
+
+
+def test_half_edges_are_integers_side_by_side():
+    m = polygon(3)
+
+    for numbers in (m.origin, m.following, m.previous):
+        seen = memoryview(numbers)
+        assert (seen.itemsize, seen.nbytes) == (8, 48)
+
+
 def test_a_copy_is_independent():
     m = polygon(4)
     other = m.copy()

@@ -132,3 +132,15 @@ def test_refusals(arguments, options, message):
 
     with pytest.raises(InputError, match=message):
         first_within(scene, *arguments, **{"norm": "euclidean"} | options)
+
+
+@pytest.mark.parametrize("digits", [300, 400, 2000])
+def test_bug_axes_of_which_one_is_out_of_the_range_of_doubles_beside_the_other(digits):
+    floor = Body("floor", [(-(10**digits), 0), (10**digits, 0)])
+    wide = [floor, Body("point", [(0, 5)], Translation([0], [0, -1]))]
+    round_one = [floor, Body("disc", [(0, 5)], Translation([0], [0, -1]), radius=1)]
+
+    assert exactpt.first_contact(Scene(round_one, (0, 9))).time == 4
+    assert exactpt.first_within(Scene(wide, (0, 9)), distance="1/2", norm="euclidean").time == QQ(
+        9, 2
+    )

@@ -218,6 +218,17 @@ def test_a_far_end_is_refused(tmp_path):
         Simulation.restore(tmp_path / "run.json")
 
 
+@pytest.mark.parametrize("slot", [-1, 10**12, 2**70])
+def test_a_certificate_of_nothing_is_refused(tmp_path, slot):
+    """The queue would have room for all certificates up to it."""
+    data = without_seal(Simulation(generate("convex", 2), tiling="greedy").to_json())
+    forged = changed(data, ("state", "queue", 0, 0), slot)
+    (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
+
+    with pytest.raises(InputError, match=r"run\.json: .*is no certificate"):
+        Simulation.restore(tmp_path / "run.json")
+
+
 @pytest.mark.parametrize(
     "place, value, message",
     [

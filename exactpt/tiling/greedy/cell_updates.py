@@ -14,7 +14,7 @@ from itertools import pairwise
 
 from exactpt.certificates.predicates import Predicates
 from exactpt.indices import Ends, VertexId
-from exactpt.tiling.greedy.vertical import NO_ARC, NO_CELL, VerticalDecomposition
+from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition
 
 __all__ = ["add_body", "cell_along", "remove_body", "rename_body", "rename_cell"]
 
@@ -58,17 +58,18 @@ def add_body(
     """
     l = len(cells.vertex)
     r = l + 1
-    cells.vertex += extremes
-    for of_arc in (cells.left_up, cells.left_down, cells.right_up, cells.right_down):
-        of_arc.extend((NO_CELL, NO_CELL))
+    for v in extremes:
+        cells.add_arc(v)
     row, tops, bottoms = _crossed(cells, predicates, first, extremes[1], is_above)
     spare = row[1:-1][::-1]
     if len(row) > 1:
         last = row[-1]
     else:
-        last = _new_cell(cells)
+        last = cells.add_cell(NO_ARC)
         _take_right_end(cells, first, last)
-    rows = [[spare.pop() if spare else _new_cell(cells) for _ in [l, *w]] for w in (tops, bottoms)]
+    rows = [
+        [spare.pop() if spare else cells.add_cell(NO_ARC) for _ in [l, *w]] for w in (tops, bottoms)
+    ]
     _link_row(cells, rows[0], [l, *tops, r], from_above=True)
     _link_row(cells, rows[1], [l, *bottoms, r], from_above=False)
     cells.left_up[l] = cells.left_down[l] = first
@@ -136,11 +137,8 @@ def rename_body(cells: VerticalDecomposition, old: int, new: int) -> None:
                     cells.left[cell] = b
                 if cells.right[cell] == a:
                     cells.right[cell] = b
-    cells.vertex[2 * new : 2 * new + 2] = cells.vertex[2 * old :]
-    del cells.vertex[-2:]
-    for of_arc in (cells.left_up, cells.left_down, cells.right_up, cells.right_down):
-        of_arc[2 * new : 2 * new + 2] = of_arc[2 * old :]
-        del of_arc[-2:]
+    for side in (1, 0):
+        cells.remove_arc(2 * new + side)
 
 
 def rename_cell(cells: VerticalDecomposition, new: int) -> int:
@@ -152,14 +150,8 @@ def rename_cell(cells: VerticalDecomposition, new: int) -> int:
             for arc in (cells.left[new], cells.right[new]):
                 if arc != NO_ARC and of_arc[arc] == old:
                     of_arc[arc] = new
-    del cells.left[old], cells.right[old]
+    cells.remove_cell()
     return old
-
-
-def _new_cell(cells: VerticalDecomposition) -> int:
-    cells.left.append(NO_ARC)
-    cells.right.append(NO_ARC)
-    return len(cells.left) - 1
 
 
 def _take_right_end(cells: VerticalDecomposition, old: int, new: int) -> None:

@@ -134,7 +134,9 @@ class CertifiedCells:
                 arc = 2 * self._certified.vertices.all[self._certified.mesh.map.origin[h]].body
                 row = self.now.right_down if up else self.now.right_up
                 return cell_updates.cell_along(self.now, after, v, row[arc], over=not up)
-        return cell_updates.cell_along(self.now, after, v, self.now.left.index(NO_ARC), over=True)
+        return cell_updates.cell_along(
+            self.now, after, v, list(self.now.left).index(NO_ARC), over=True
+        )
 
     def leave(self, i: int) -> None:
         """Remove a body from the decomposition; the last body takes over its number."""

@@ -33,7 +33,7 @@ MANY: Final = 48
 
 def greedy_diagonals(
     instant: PredicatesAt, decomposition: VerticalDecomposition
-) -> tuple[list[Diagonal], set[tuple[int, int]]]:
+) -> tuple[list[Diagonal], set[Ends]]:
     """The 3k - 3 bitangents of the pseudo-triangulation, each directed from left to right.
 
     The second result is the set of the ends of those that share a line with another one. Their
@@ -65,7 +65,7 @@ class _Sweep:
         self.dead: list[bool] = [False] * len(cells.left)
         self.heap: list[tuple[float, Bitangent]] = []
         self.pushed = 0
-        self.tied: set[tuple[int, int]] = set()
+        self.tied: set[Ends] = set()
         self._chains: dict[int, tuple[Chain, Chain]] = {}
 
     def run(self) -> list[Diagonal]:

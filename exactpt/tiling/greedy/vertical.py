@@ -18,10 +18,13 @@ whose event changes the vertex of an arc and no cell.
 from __future__ import annotations
 
 from bisect import bisect_left
-from typing import Final, final
+from typing import Any, Final, final
+
+from librt.vecs import append, pop, vec
+from mypy_extensions import i64
 
 from exactpt.certificates.at_time import PredicatesAt, sorted_by_x
-from exactpt.indices import NO_VERTEX, VertexId
+from exactpt.indices import NO_VERTEX, VertexId, vertex_vec
 from exactpt.kernel.budget import ask
 from exactpt.tiling.greedy.convex_ring import Chain, chains_of, is_above
 
@@ -45,13 +48,13 @@ class VerticalDecomposition:
 
     def __init__(self, bodies: int) -> None:
         arcs = 2 * bodies
-        self.vertex: list[VertexId] = [NO_VERTEX] * arcs
-        self.left: list[int] = []
-        self.right: list[int] = []
-        self.left_up: list[int] = [NO_CELL] * arcs
-        self.left_down: list[int] = [NO_CELL] * arcs
-        self.right_up: list[int] = [NO_CELL] * arcs
-        self.right_down: list[int] = [NO_CELL] * arcs
+        self.vertex: vec[VertexId] = vertex_vec([NO_VERTEX] * arcs)
+        self.left: vec[i64] = vec[i64]()
+        self.right: vec[i64] = vec[i64]()
+        self.left_up: vec[i64] = vec[i64]([NO_CELL] * arcs)
+        self.left_down: vec[i64] = vec[i64]([NO_CELL] * arcs)
+        self.right_up: vec[i64] = vec[i64]([NO_CELL] * arcs)
+        self.right_down: vec[i64] = vec[i64]([NO_CELL] * arcs)
 
     def copy(self) -> VerticalDecomposition:
         """An independent copy."""
@@ -62,31 +65,58 @@ class VerticalDecomposition:
         other.right_up, other.right_down = self.right_up[:], self.right_down[:]
         return other
 
-    def state(self) -> dict[str, list[int]]:
+    def state(self) -> dict[str, list[Any]]:
         """The cells and arcs, as a JSON object."""
         return {
             "vertex": list(self.vertex),
-            "left": self.left[:],
-            "right": self.right[:],
-            "left_up": self.left_up[:],
-            "left_down": self.left_down[:],
-            "right_up": self.right_up[:],
-            "right_down": self.right_down[:],
+            "left": list(self.left),
+            "right": list(self.right),
+            "left_up": list(self.left_up),
+            "left_down": list(self.left_down),
+            "right_up": list(self.right_up),
+            "right_down": list(self.right_down),
         }
 
     def resume(self, state: dict[str, list[int]]) -> None:
         """Restore these cells and arcs."""
-        self.vertex = list(map(VertexId, state["vertex"]))
-        self.left, self.right = state["left"], state["right"]
-        self.left_up, self.left_down = state["left_up"], state["left_down"]
-        self.right_up, self.right_down = state["right_up"], state["right_down"]
+        self.vertex = vertex_vec(map(VertexId, state["vertex"]))
+        self.left, self.right = vec[i64](state["left"]), vec[i64](state["right"])
+        self.left_up, self.left_down = vec[i64](state["left_up"]), vec[i64](state["left_down"])
+        self.right_up, self.right_down = vec[i64](state["right_up"]), vec[i64](state["right_down"])
 
-    def _new_cell(self, left: int) -> int:
-        self.left.append(left)
-        self.right.append(NO_ARC)
+    def add_cell(self, left: int) -> int:
+        """Add a cell with an arc at its left end, and none yet at its right end; returns it."""
+        self.left = append(self.left, left)
+        self.right = append(self.right, NO_ARC)
         return len(self.left) - 1
 
-    def cells_of(self, arc: int) -> set[int]:
+    def remove_cell(self) -> None:
+        """Remove the last cell."""
+        self.left, _ = pop(self.left)
+        self.right, _ = pop(self.right)
+
+    def add_arc(self, v: VertexId) -> None:
+        """Add an arc with its extreme vertex, and no cells yet."""
+        self.vertex = append(self.vertex, v)
+        self.left_up, self.left_down = (
+            append(self.left_up, NO_CELL),
+            append(self.left_down, NO_CELL),
+        )
+        self.right_up = append(self.right_up, NO_CELL)
+        self.right_down = append(self.right_down, NO_CELL)
+
+    def remove_arc(self, arc: int) -> None:
+        """Remove an arc; the last one takes over its number, but the cells keep it."""
+        self.vertex[arc] = self.vertex[-1]
+        self.left_up[arc], self.left_down[arc] = self.left_up[-1], self.left_down[-1]
+        self.right_up[arc], self.right_down[arc] = self.right_up[-1], self.right_down[-1]
+        self.vertex, _ = pop(self.vertex)
+        self.left_up, _ = pop(self.left_up)
+        self.left_down, _ = pop(self.left_down)
+        self.right_up, _ = pop(self.right_up)
+        self.right_down, _ = pop(self.right_down)
+
+    def cells_of(self, arc: int) -> set[i64]:
         """The cells on both sides of the wall of an arc."""
         return {
             self.left_up[arc],
@@ -113,16 +143,29 @@ class VerticalDecomposition:
         """
         l, r = self.left[cell], self.right[cell]
         # What is "up" for l is "down" for r.
-        a = (self.left_up if left_is_lower else self.left_down)[l]
-        b = (self.right_down if left_is_lower else self.right_up)[r]
-        lefts, rights = (self.left_up, self.left_down), (self.right_up, self.right_down)
-        _replace(lefts, r, cell, a)
-        _replace(rights, l, cell, b)
-        _replace(lefts, l, a, cell)
-        _replace(rights, r, b, cell)
+        a = self.left_up[l] if left_is_lower else self.left_down[l]
+        b = self.right_down[r] if left_is_lower else self.right_up[r]
+        self._replace_left(r, cell, a)
+        self._replace_right(l, cell, b)
+        self._replace_left(l, a, cell)
+        self._replace_right(r, b, cell)
         self.right[a], self.left[b] = r, l
         self.left[cell], self.right[cell] = r, l
         return a, b
+
+    def _replace_left(self, arc: i64, old: i64, new: i64) -> None:
+        """Replace a cell on the left of a wall, in its upper and its lower half."""
+        if self.left_up[arc] == old:
+            self.left_up[arc] = new
+        if self.left_down[arc] == old:
+            self.left_down[arc] = new
+
+    def _replace_right(self, arc: i64, old: i64, new: i64) -> None:
+        """As `_replace_left`, on the right."""
+        if self.right_up[arc] == old:
+            self.right_up[arc] = new
+        if self.right_down[arc] == old:
+            self.right_down[arc] = new
 
     @classmethod
     def at(cls, instant: PredicatesAt) -> VerticalDecomposition:
@@ -139,8 +182,8 @@ class VerticalDecomposition:
             self.vertex[2 * i], self.vertex[2 * i + 1] = chain.ends
         arc_of = {v: arc for arc, v in enumerate(self.vertex)}
         active: list[int] = []  # bodies on the sweep line, from bottom to top
-        gaps = [self._new_cell(NO_ARC)]  # the cells between them
-        for v in sorted_by_x(instant, self.vertex):
+        gaps = [self.add_cell(NO_ARC)]  # the cells between them
+        for v in sorted_by_x(instant, list(self.vertex)):
             ask()
             arc = arc_of[v]
             own = arc >> 1
@@ -159,7 +202,7 @@ class VerticalDecomposition:
     def _open(self, arc: int, cell: int) -> list[int]:
         """End a cell at a left extreme; the cells below and above its body begin there."""
         self.right[cell] = arc
-        below, above = self._new_cell(arc), self._new_cell(arc)
+        below, above = self.add_cell(arc), self.add_cell(arc)
         self.left_up[arc] = self.left_down[arc] = cell
         self.right_down[arc], self.right_up[arc] = below, above
         return [below, above]
@@ -167,14 +210,7 @@ class VerticalDecomposition:
     def _close(self, arc: int, below: int, above: int) -> int:
         """End the cells below and above a body at its right extreme; one cell begins there."""
         self.right[below] = self.right[above] = arc
-        cell = self._new_cell(arc)
+        cell = self.add_cell(arc)
         self.left_down[arc], self.left_up[arc] = below, above
         self.right_up[arc] = self.right_down[arc] = cell
         return cell
-
-
-def _replace(halves: tuple[list[int], list[int]], arc: int, old: int, new: int) -> None:
-    """Replace a cell on one side of a wall, in its upper and its lower half."""
-    for half in halves:
-        if half[arc] == old:
-            half[arc] = new

@@ -54,7 +54,9 @@ def coinciding(
         height = cmp_to_key(height_order)
         for _, equal in groupby(sorted(column, key=height), key=height):
             group = sorted(equal)
-            found += [Touch(p, 0, q, -1, 0) for j, q in enumerate(group) for p in group[:j]]
+            found += [
+                Touch(int(p), 0, int(q), -1, 0) for j, q in enumerate(group) for p in group[:j]
+            ]
     return sorted(found)
 
 

@@ -57,7 +57,7 @@ class Fan:
     """
 
     def __init__(self) -> None:
-        self.edges: set[tuple[int, int]] = set()
+        self.edges: set[Ends] = set()
         self.changes: int = 0
 
     def begin(self, structure: IncrementalStructure) -> None:

@@ -167,7 +167,7 @@ class IncrementalTiling(Tiling):
         self.clock.move_to(t)
         self._is_current = False
         for p in map(VertexId, sorted(plans)):
-            self.vertices.set_plan(p, plans[p], t, self.certifier.end)
+            self.vertices.set_plan(int(p), plans[int(p)], t, self.certifier.end)
             self._schedule_piece(p)
             self.log.record("motion", (), ())
         for p in map(VertexId, sorted(plans)):
@@ -220,7 +220,7 @@ class IncrementalTiling(Tiling):
         moving = self.vertices.bodies[p]
         if moving.until is None:
             raise AuditError(f"body {p} has no next piece")
-        self.vertices.enter_piece(p, moving.until)
+        self.vertices.enter_piece(int(p), moving.until)
         self._schedule_piece(p)
         self.log.record("motion", (), ())
         self._certified.certify_point(p)

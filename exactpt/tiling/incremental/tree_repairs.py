@@ -22,7 +22,7 @@ from typing import final
 from exactpt.certificates.certificate import POINT_ORDER
 from exactpt.certificates.certifier import Certifier
 from exactpt.errors import AuditError
-from exactpt.indices import VertexId
+from exactpt.indices import Ends, VertexId
 from exactpt.kernel.budget import ask
 from exactpt.planar.halfedge import edge_key
 from exactpt.tiling.events import Log
@@ -165,7 +165,7 @@ class TreeRepairs:
                 certified.certify_order(c)
         return found
 
-    def _edges_of(self, *points: VertexId) -> set[tuple[int, int]]:
+    def _edges_of(self, *points: VertexId) -> set[Ends]:
         """The edges from some points to the left."""
         return {
             edge_key(p, tree.parent[p])

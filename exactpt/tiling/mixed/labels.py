@@ -24,7 +24,7 @@ angles of which neither edge, or both edges, are removed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from typing import Any, final
 
 from exactpt.errors import AuditError
@@ -195,7 +195,7 @@ class LabelledMesh(Mesh):
         super().resume(state)
         self.labels = [frozenset(label) for label in state["labels"]]
 
-    def labelling(self) -> Sequence[Label]:
+    def labelling(self) -> list[Label]:
         """The labels."""
         return self.labels
 

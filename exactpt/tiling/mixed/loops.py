@@ -7,8 +7,6 @@ it closes a pocket; the free side, on its left, then determines the next half-ed
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from exactpt.errors import AuditError
 from exactpt.indices import VertexId
 from exactpt.planar.halfedge import PlanarMap
@@ -16,7 +14,7 @@ from exactpt.planar.halfedge import PlanarMap
 __all__ = ["loop_along"]
 
 
-def loop_along(m: PlanarMap, labels: Sequence[frozenset[int]], top: int) -> list[VertexId]:
+def loop_along(m: PlanarMap, labels: list[frozenset[int]], top: int) -> list[VertexId]:
     """The vertex ids along the unpinned cycle of a body, counter-clockwise, by its node.
 
     Raises:
