@@ -13,7 +13,7 @@ for (const [place, folder] of Object.entries({ "/checkout": root, "/wheels": `${
   python.FS.mkdir(place);
   python.mountNodeFS(place, folder);
 }
-await python.loadPackage(["micropip", "numpy", "gmpy2", "click", "mypy-extensions"], { messageCallback() {} });
+await python.loadPackage(["micropip", "numpy", "gmpy2", "click", "mypy-extensions", "librt"], { messageCallback() {} });
 const wheels = readdirSync(`${root}.pyodide/tests`).filter((name) => name.endsWith(".whl"));
 const install = python.pyimport("micropip").install;
 await install.callKwargs(wheels.map((name) => `emfs:/wheels/${name}`), { deps: false });
