@@ -1,0 +1,317 @@
+"""Certified shadow edges: of each diagonal, what its six certificates are about.
+
+Let Q be the pseudo-quadrangle around a diagonal s, and xy a segment between two of its visits, no
+edge of Q, that is *tangent* at both ends: at a corner of Q it is inside the angle, at a reflex
+vertex both neighbours are on one side of it.
+
+**xy lies in Q.** A side chain bends towards its solid side. So one with the reflex vertex x inside
+is on one side of the line xy, which it touches at x only; one that begins at the corner x leaves
+the ray from x through y for good. Hence no chain contains both x and y, and one that contains
+either does not cross xy, nor the ray beyond its other end. If x and y are corners, they are
+opposite ones, and no chain is left that could. If x is a corner and y is reflex, one chain is
+left; it crosses the ray behind y, since the ray continues in Q there, and xy an even number of
+times: at most two in all, so never xy. If both are reflex, two chains are left; the line is crossed
+before x and behind y, and if xy is crossed, then twice at least: so each chain crosses the line
+twice, and both its ends are on one side. Then all four corners, and so Q, are on one side of the
+line: a contradiction.
+
+**xy is the shadow edge of s**, unless it is s. It divides Q into two faces with six corners
+together, that is two pseudo-triangles, and Q has no third diagonal. So no walk need find it,
+whatever has changed: which diagonal s is, where Q has its corners, or other vertices. Signs tell
+whether it is tangent; none are needed where both neighbours and the kind of angle are as certified.
+
+**theta(s) < theta(xy) needs no test** if both edges are as at the last test, and neither has been
+vertical since (`exactpt.tiling.greedy.flipping`).
+"""
+
+from __future__ import annotations
+
+from typing import Final, final
+
+from mypy_extensions import i64, mypyc_attr
+
+from exactpt.certificates.certificate import SHADOW, kind_of, pack, part_of
+from exactpt.certificates.predicates import Predicates
+from exactpt.indices import NO_HALF_EDGE, NO_VERTEX, CertificateId, HalfEdge, VertexId
+from exactpt.pseudotriangulation.flip import Shadows
+from exactpt.pseudotriangulation.mesh import Mesh
+from exactpt.pseudotriangulation.shadow import (
+    are_opposite,
+    has_visits,
+    is_corner_without,
+    shadow,
+    visit_before,
+)
+from exactpt.tiling.angles import CertifiedMesh
+
+__all__ = ["CertifiedShadows"]
+
+COUNT: Final = 6
+"""Number of certificates of a diagonal; bit k of a set of them is that of kind SHADOW + k."""
+
+ALL: Final = (1 << COUNT) - 1
+DIAGONAL: Final = 1
+CROSSING: Final = 2
+TANGENCIES: Final = ALL - DIAGONAL - CROSSING
+
+SAME: Final = 0
+OTHER_NEIGHBOUR: Final = 1
+OTHER_ANGLE: Final = 2
+
+
+@final
+@mypyc_attr(acyclic=True)
+class _End:
+    """One end of a shadow edge.
+
+    Attributes:
+        visit: the half-edge that the shadow edge joins there.
+        vertex, after, before, is_corner: the certified vertex, its neighbours around both faces
+            of the diagonal, and whether it is at a corner of these together.
+    """
+
+    __slots__ = ("after", "before", "is_corner", "vertex", "visit")
+
+    def __init__(self) -> None:
+        self.visit: HalfEdge = NO_HALF_EDGE
+        self.vertex: VertexId = NO_VERTEX
+        self.after: VertexId = NO_VERTEX
+        self.before: VertexId = NO_VERTEX
+        self.is_corner: bool = False
+
+
+@final
+@mypyc_attr(acyclic=True)
+class _Shadow:
+    """A diagonal and its shadow edge.
+
+    Attributes:
+        u, v: the certified ends of the diagonal.
+        first, second: the ends of the shadow edge.
+        failed: the set of its certificates that have failed, or have not been computed.
+        is_found: whether it has been found since it was certified.
+    """
+
+    __slots__ = ("failed", "first", "is_found", "second", "u", "v")
+
+    def __init__(self) -> None:
+        self.u: VertexId = NO_VERTEX
+        self.v: VertexId = NO_VERTEX
+        self.first: _End = _End()
+        self.second: _End = _End()
+        self.failed: i64 = ALL
+        self.is_found: bool = False
+
+
+@final
+class CertifiedShadows(Shadows):
+    """The shadow edges of all flippable diagonals, with their certificates."""
+
+    def __init__(self, certified: CertifiedMesh) -> None:
+        self._certified: CertifiedMesh = certified
+        self._of: list[_Shadow | None] = []  # by edge: half of the handle
+        self._found: list[HalfEdge] = []
+
+    def clear(self) -> None:
+        """Forget all, without their certificates."""
+        self._of.clear()
+        self._found.clear()
+
+    def _get(self, h: HalfEdge) -> _Shadow | None:
+        k = h >> 1
+        return self._of[k] if k < len(self._of) else None
+
+    def fail(self, certificate: CertificateId) -> None:
+        """Note that a certificate has failed."""
+        known = self._get(HalfEdge(part_of(certificate)))
+        if known is not None:
+            known.failed |= 1 << (kind_of(certificate) - SHADOW)
+
+    def fail_all(self, h: HalfEdge) -> None:
+        """Note that a body at the tiles of a diagonal moves anew."""
+        known = self._get(h)
+        if known is not None:
+            known.failed = ALL
+
+    def cancel(self, h: HalfEdge) -> None:
+        """Forget the shadow edge of a diagonal, if there is one, with its certificates."""
+        if self._get(h) is not None:
+            self._of[h >> 1] = None
+            for i in range(COUNT):
+                self._certified.table.pending.cancel(pack(SHADOW + i, h))
+
+    # What `flip_until_greedy` asks
+
+    def is_greedy(self, h: HalfEdge) -> bool:
+        """See `Shadows.is_greedy`: whether all is as certified, but for neighbours and angles."""
+        known, m = self._get(h), self._certified.mesh.map
+        if known is None or known.failed != 0:
+            return False
+        x, y = known.first, known.second
+        if not (
+            m.origin[h] == known.u
+            and m.origin[h ^ 1] == known.v
+            and m.origin[x.visit] == x.vertex
+            and m.origin[y.visit] == y.vertex
+            and has_visits(self._certified.mesh, h, x.visit, y.visit)
+        ):
+            return False
+        x_change, y_change = self._change(h, x), self._change(h, y)
+        if x_change == SAME and y_change == SAME:
+            return True
+        if OTHER_ANGLE in (x_change, y_change):
+            return False
+        for change, end, other in ((x_change, x, y), (y_change, y, x)):
+            if change != SAME and not self._is_tangent(h, end, other):
+                return False
+        self._note(h, known)
+        return True
+
+    def find(
+        self, mesh: Mesh, h: HalfEdge, predicates: Predicates
+    ) -> tuple[HalfEdge, HalfEdge] | None:
+        """See `Shadows.find`: the visits found last, if the segment between them is tangent.
+
+        Only if none of them is at an end of h, so that the first is that in the face of h, as it
+        is after a walk.
+        """
+        known = self._get(h)
+        if known is not None and known.failed & TANGENCIES == 0:
+            x, y, origin = known.first, known.second, mesh.map.origin
+            u, v = origin[h], origin[h ^ 1]
+            if (
+                origin[x.visit] not in (u, v)
+                and origin[y.visit] not in (u, v)
+                and are_opposite(mesh, h, x.visit, y.visit)
+                and self._is_tangent(h, x, y)
+                and self._is_tangent(h, y, x)
+            ):
+                return x.visit, y.visit
+        return shadow(mesh, h, predicates)
+
+    def keep(self, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge]) -> None:
+        """See `Shadows.keep`."""
+        known = self._get(h)
+        if known is None:
+            known = _Shadow()
+            k = h >> 1
+            if k >= len(self._of):
+                self._of += [None] * (k + 1 - len(self._of))
+            self._of[k] = known
+        known.first.visit, known.second.visit = visits
+        self._note(h, known)
+
+    def _note(self, h: HalfEdge, known: _Shadow) -> None:
+        if not known.is_found:
+            known.is_found = True
+            self._found.append(h)
+
+    def _change(self, h: HalfEdge, end: _End) -> i64:
+        """What at an end is not as certified, its vertex apart."""
+        mesh, visit = self._certified.mesh, end.visit
+        origin = mesh.map.origin
+        if is_corner_without(mesh, h, visit, self._certified.after()) != end.is_corner:
+            return OTHER_ANGLE
+        before = origin[visit_before(mesh, h, visit)]
+        return SAME if origin[visit ^ 1] == end.after and before == end.before else OTHER_NEIGHBOUR
+
+    def _is_tangent(self, h: HalfEdge, end: _End, other: _End) -> bool:
+        """Whether the segment between two visits is tangent at the first one.
+
+        At a corner it is inside the angle; at a reflex vertex both neighbours are on one side,
+        and so is the solid angle between them.
+        """
+        mesh, predicates, visit = self._certified.mesh, self._certified.after(), end.visit
+        origin = mesh.map.origin
+        x, y = origin[visit], origin[other.visit]
+        after, before = origin[visit ^ 1], origin[visit_before(mesh, h, visit)]
+        if y in (x, after, before):
+            return False
+        first, second = predicates.sign(x, after, y), predicates.sign(x, y, before)
+        if first > 0 and second > 0:
+            return is_corner_without(mesh, h, visit, predicates)
+        return first * second < 0 and not is_corner_without(mesh, h, visit, predicates)
+
+    # Certificates
+
+    def certify(self) -> None:
+        """Certify the shadow edges found since the last time, as far as they have changed."""
+        self._found.sort()
+        for h in self._found:
+            known = self._get(h)
+            if known is not None:
+                known.is_found = False
+                changed = self._update(h, known)
+                if changed != 0:
+                    self._schedule(h, known, changed)
+        self._found.clear()
+
+    def resume(self, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge]) -> None:
+        """Remember a shadow edge whose certificates are pending already."""
+        self.keep(h, visits)
+        known = self._get(h)
+        if known is not None:
+            known.is_found = False
+            self._update(h, known)
+        self._found.clear()
+
+    def _update(self, h: HalfEdge, known: _Shadow) -> i64:
+        """Make everything as it is in the mesh; returns the set of certificates to compute.
+
+        A certificate of the same vertices as before that has not failed is pending still.
+        """
+        origin, x, y = self._certified.mesh.map.origin, known.first, known.second
+        u, v, changed = origin[h], origin[h ^ 1], known.failed
+        if u != known.u or v != known.v:
+            changed |= DIAGONAL
+        if origin[x.visit] != x.vertex or origin[y.visit] != y.vertex:
+            changed |= CROSSING | TANGENCIES
+        changed |= self._update_end(h, x) << 2 | self._update_end(h, y) << 4
+        known.u, known.v, known.failed = u, v, 0
+        return changed
+
+    def _update_end(self, h: HalfEdge, end: _End) -> i64:
+        """As `_update` for one end: 1 if it has another neighbour after it, 2 if before it."""
+        mesh, visit = self._certified.mesh, end.visit
+        origin = mesh.map.origin
+        after, before = origin[visit ^ 1], origin[visit_before(mesh, h, visit)]
+        changed: i64 = 0
+        if after != end.after:
+            changed += 1
+        if before != end.before:
+            changed += 2
+        end.vertex, end.after, end.before = origin[visit], after, before
+        end.is_corner = is_corner_without(mesh, h, visit, self._certified.after())
+        return changed
+
+    def _schedule(self, h: HalfEdge, known: _Shadow, changed: i64) -> None:
+        """Compute a set of certificates: that s < s' by theta, and that s' is tangent."""
+        x, y = known.first, known.second
+        if changed & DIAGONAL:
+            self._certify_x_order(pack(SHADOW, h), known.u, known.v)
+        if changed & CROSSING:
+            self._certify_x_order(pack(SHADOW + 1, h), x.vertex, y.vertex)
+        if changed & 4:
+            self._certify_tangency(pack(SHADOW + 2, h), x.vertex, x.after, y.vertex)
+        if changed & 8:
+            self._certify_tangency(pack(SHADOW + 3, h), x.vertex, y.vertex, x.before)
+        if changed & 16:
+            self._certify_tangency(pack(SHADOW + 4, h), y.vertex, y.after, x.vertex)
+        if changed & 32:
+            self._certify_tangency(pack(SHADOW + 5, h), y.vertex, x.vertex, y.before)
+
+    def _certify_x_order(self, certificate: CertificateId, u: VertexId, v: VertexId) -> None:
+        certifier, time = self._certified.certifier, None
+        if not self._certified.after().left_of(u, v):
+            u, v = v, u
+        if not certifier.keeps_x_order(u, v):
+            _, time = certifier.x_order(u, v)
+        self._certified.table.schedule(certificate, time)
+
+    def _certify_tangency(
+        self, certificate: CertificateId, a: VertexId, b: VertexId, c: VertexId
+    ) -> None:
+        certifier, time = self._certified.certifier, None
+        if a not in (b, c) and b != c and not certifier.rigid(a, b, c):
+            _, time = certifier.orientation(a, b, c)
+        self._certified.table.schedule(certificate, time)
