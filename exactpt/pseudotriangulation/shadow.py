@@ -18,7 +18,6 @@ from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import Mesh
 
 __all__ = [
-    "are_opposite",
     "crosses",
     "has_visits",
     "is_corner_without",
@@ -179,11 +178,6 @@ def has_visits(mesh: Mesh, h: HalfEdge, i: HalfEdge, j: HalfEdge) -> bool:
     return (_is_after(mesh, h, i) or _is_after(mesh, t, i)) and (
         _is_after(mesh, h, j) or _is_after(mesh, t, j)
     )
-
-
-def are_opposite(mesh: Mesh, h: HalfEdge, i: HalfEdge, j: HalfEdge) -> bool:
-    """Whether i is a half-edge of the face of h, and j one of the face of its twin."""
-    return _is_after(mesh, h, i) and _is_after(mesh, twin(h), j)
 
 
 def _is_after(mesh: Mesh, h: HalfEdge, i: HalfEdge) -> bool:

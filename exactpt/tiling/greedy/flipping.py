@@ -88,8 +88,9 @@ class FlippingRules(Rules):
 
     def certify_body(self, i: int) -> None:
         """See `Rules.certify_body`."""
-        self._changed += self.certified.ring_angles(i)
-        for h in self._edges_of_tiles(self._changed):
+        angles = self.certified.ring_angles(i)
+        self._changed += angles
+        for h in self._edges_of_tiles(angles):
             self._moved.append(h)
             self._shadows.fail_all(h)
 
@@ -109,16 +110,21 @@ class FlippingRules(Rules):
 
     def restore(self) -> None:
         """See `Rules.restore`."""
-        if self._changed or self._moved:
-            nearby = self._edges_of_tiles(self._changed)
-            self._restore_greedy(sorted({*nearby, *self._moved}))
+        edges = self._edges_of_tiles(self._changed)
+        marks, search = self._marks, self._searches
+        for h in self._moved:
+            if marks[h] != search and marks[h ^ 1] != search:
+                marks[h] = search
+                edges.append(h)
+        edges.sort()
+        self._restore_greedy(edges)
 
     def _restore_greedy(self, edges: list[HalfEdge]) -> None:
         """Flip the diagonals that are no longer greedy, and certify shadow edges again.
 
         Args:
-            edges: the even half-edges of changed tiles, and of failed certificates, in
-                increasing order.
+            edges: even half-edges in increasing order: those of changed tiles, body edges
+                apart, and those with failed certificates.
         """
         certified, mesh, after = self.certified, self.certified.mesh, self.certified.after()
         origin = mesh.map.origin
@@ -142,8 +148,12 @@ class FlippingRules(Rules):
         self._moved.clear()
 
     def _edges_of_tiles(self, half_edges: list[HalfEdge]) -> list[HalfEdge]:
-        """The edges (even half-edges) of the tiles on both sides of some half-edges."""
-        origin, following = self.certified.mesh.map.origin, self.certified.mesh.map.following
+        """The edges (even half-edges) of the tiles on both sides of some half-edges.
+
+        Without body edges. `_marks` of one half-edge of each, at least, is `_searches` then.
+        """
+        mesh, origin = self.certified.mesh, self.certified.mesh.map.origin
+        following, boundary = mesh.map.following, mesh.boundary
         if len(self._marks) != len(following):
             self._marks = vec[i64]([0] * len(following))
         self._searches += 1
@@ -155,7 +165,7 @@ class FlippingRules(Rules):
                     g = side
                     while marks[g] != search:
                         marks[g] = search
-                        if marks[g ^ 1] != search:
+                        if marks[g ^ 1] != search and not boundary[g >> 1]:
                             edges.append(min(g, twin(g)))
                         g = following[g]
         return edges

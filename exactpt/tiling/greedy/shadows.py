@@ -33,10 +33,10 @@ from mypy_extensions import i64, mypyc_attr
 from exactpt.certificates.certificate import SHADOW, kind_of, pack, part_of
 from exactpt.certificates.predicates import Predicates
 from exactpt.indices import NO_HALF_EDGE, NO_VERTEX, CertificateId, HalfEdge, VertexId
+from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.flip import Shadows
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.pseudotriangulation.shadow import (
-    are_opposite,
     has_visits,
     is_corner_without,
     shadow,
@@ -161,32 +161,25 @@ class CertifiedShadows(Shadows):
             return True
         if OTHER_ANGLE in (x_change, y_change):
             return False
-        for change, end, other in ((x_change, x, y), (y_change, y, x)):
-            if change != SAME and not self._is_tangent(h, end, other):
-                return False
+        if x_change != SAME and not self._is_tangent(h, x.visit, y.visit):
+            return False
+        if y_change != SAME and not self._is_tangent(h, y.visit, x.visit):
+            return False
         self._note(h, known)
         return True
 
     def find(
         self, mesh: Mesh, h: HalfEdge, predicates: Predicates
     ) -> tuple[HalfEdge, HalfEdge] | None:
-        """See `Shadows.find`: the visits found last, if the segment between them is tangent.
+        """See `Shadows.find`: the ends certified last, if the segment between them is tangent.
 
-        Only if none of them is at an end of h, so that the first is that in the face of h, as it
-        is after a walk.
+        Only if none is an end of h, so that the first is in the face of h, as after a walk.
         """
         known = self._get(h)
         if known is not None and known.failed & TANGENCIES == 0:
-            x, y, origin = known.first, known.second, mesh.map.origin
-            u, v = origin[h], origin[h ^ 1]
-            if (
-                origin[x.visit] not in (u, v)
-                and origin[y.visit] not in (u, v)
-                and are_opposite(mesh, h, x.visit, y.visit)
-                and self._is_tangent(h, x, y)
-                and self._is_tangent(h, y, x)
-            ):
-                return x.visit, y.visit
+            i, j = _visit_in_face(mesh, h, known.first), _visit_in_face(mesh, twin(h), known.second)
+            if i >= 0 <= j and self._is_tangent(h, i, j) and self._is_tangent(h, j, i):
+                return i, j
         return shadow(mesh, h, predicates)
 
     def keep(self, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge]) -> None:
@@ -215,22 +208,22 @@ class CertifiedShadows(Shadows):
         before = origin[visit_before(mesh, h, visit)]
         return SAME if origin[visit ^ 1] == end.after and before == end.before else OTHER_NEIGHBOUR
 
-    def _is_tangent(self, h: HalfEdge, end: _End, other: _End) -> bool:
+    def _is_tangent(self, h: HalfEdge, i: HalfEdge, j: HalfEdge) -> bool:
         """Whether the segment between two visits is tangent at the first one.
 
         At a corner it is inside the angle; at a reflex vertex both neighbours are on one side,
         and so is the solid angle between them.
         """
-        mesh, predicates, visit = self._certified.mesh, self._certified.after(), end.visit
+        mesh, predicates = self._certified.mesh, self._certified.after()
         origin = mesh.map.origin
-        x, y = origin[visit], origin[other.visit]
-        after, before = origin[visit ^ 1], origin[visit_before(mesh, h, visit)]
+        x, y = origin[i], origin[j]
+        after, before = origin[i ^ 1], origin[visit_before(mesh, h, i)]
         if y in (x, after, before):
             return False
         first, second = predicates.sign(x, after, y), predicates.sign(x, y, before)
         if first > 0 and second > 0:
-            return is_corner_without(mesh, h, visit, predicates)
-        return first * second < 0 and not is_corner_without(mesh, h, visit, predicates)
+            return is_corner_without(mesh, h, i, predicates)
+        return first * second < 0 and not is_corner_without(mesh, h, i, predicates)
 
     # Certificates
 
@@ -315,3 +308,21 @@ class CertifiedShadows(Shadows):
         if a not in (b, c) and b != c and not certifier.rigid(a, b, c):
             _, time = certifier.orientation(a, b, c)
         self._certified.table.schedule(certificate, time)
+
+
+def _visit_in_face(mesh: Mesh, h: HalfEdge, end: _End) -> HalfEdge:
+    """A visit in the face of h of the vertex at an end, the last one there if it is one still.
+
+    `NO_HALF_EDGE` if there is none, and at an end of h.
+    """
+    origin, following = mesh.map.origin, mesh.map.following
+    vertex, found = end.vertex, NO_HALF_EDGE
+    if vertex not in (origin[h], origin[h ^ 1]):
+        g = following[h]
+        while g != h:
+            if origin[g] == vertex:
+                found = g
+                if g == end.visit:
+                    break
+            g = following[g]
+    return found
