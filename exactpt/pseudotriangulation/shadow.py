@@ -21,6 +21,7 @@ __all__ = [
     "crosses",
     "has_visits",
     "is_corner_without",
+    "is_tangent",
     "opposite_corner",
     "shadow",
     "visit_after",
@@ -141,6 +142,39 @@ def crosses(x: VertexId, y: VertexId, u: VertexId, v: VertexId, predicates: Pred
     if predicates.sign(x, y, u) == predicates.sign(x, y, v):
         return False
     return predicates.sign(u, v, x) != predicates.sign(u, v, y)
+
+
+def is_tangent(mesh: Mesh, h: HalfEdge, i: HalfEdge, j: HalfEdge, predicates: Predicates) -> bool:
+    """Whether the segment between two visits of the two faces of h is tangent at the first one.
+
+    At a corner it is inside the angle; at a reflex vertex both neighbours are on one side of it.
+    Vertices that are collinear for ever are no tangency.
+
+    A segment xy that is tangent at both ends is the shadow edge of h, unless it is h:
+
+    **It lies in the pseudo-quadrangle Q.** A side chain bends towards its solid side. So one with
+    the reflex vertex x inside is on one side of the line xy, which it touches at x only; one that
+    begins at the corner x leaves the ray from x through y for good. Hence no chain contains both
+    x and y, and only the others can cross xy, or the line beyond an end that is reflex. If x and y
+    are corners, they are opposite ones, and there is no other chain. If only x is a corner, there
+    is one; it crosses the line behind y, since this continues in Q there, and crosses xy an even
+    number of times, since this begins and ends in Q: at most two times in all, so never xy. If
+    both are reflex, there are two; they cross the line before x and behind y, and if they cross
+    xy, then twice at least: so each crosses the line twice, and both its ends are on one side.
+    Then all four corners, and so Q, are on one side of the line: a contradiction.
+
+    **It is a diagonal of Q.** It divides Q into two faces with six corners together, two
+    pseudo-triangles; and Q has two diagonals.
+    """
+    origin = mesh.map.origin
+    x, y = origin[i], origin[j]
+    after, before = origin[i ^ 1], origin[visit_before(mesh, h, i)]
+    if y in (x, after, before):
+        return False
+    first, second = predicates.sign(x, after, y), predicates.sign(x, y, before)
+    if first > 0 and second > 0:
+        return is_corner_without(mesh, h, i, predicates)
+    return first * second < 0 and not is_corner_without(mesh, h, i, predicates)
 
 
 # The boundary of the two faces of a diagonal together

@@ -1,26 +1,12 @@
 """Certified shadow edges: of each diagonal, what its six certificates are about.
 
-Let Q be the pseudo-quadrangle around a diagonal s, and xy a segment between two of its visits, no
-edge of Q, that is *tangent* at both ends: at a corner of Q it is inside the angle, at a reflex
-vertex both neighbours are on one side of it.
+A shadow edge s' of a diagonal s remains the same as long as it is tangent at both ends
+(`exactpt.pseudotriangulation.shadow.is_tangent`), whatever else changes: which diagonal s is,
+where the two faces have corners, or other vertices. So the ends certified last are tried first.
+Signs tell whether s' is tangent there; none are needed where both neighbours and the kind of angle
+are as certified.
 
-**xy lies in Q.** A side chain bends towards its solid side. So one with the reflex vertex x inside
-is on one side of the line xy, which it touches at x only; one that begins at the corner x leaves
-the ray from x through y for good. Hence no chain contains both x and y, and one that contains
-either does not cross xy, nor the ray beyond its other end. If x and y are corners, they are
-opposite ones, and no chain is left that could. If x is a corner and y is reflex, one chain is
-left; it crosses the ray behind y, since the ray continues in Q there, and xy an even number of
-times: at most two in all, so never xy. If both are reflex, two chains are left; the line is crossed
-before x and behind y, and if xy is crossed, then twice at least: so each chain crosses the line
-twice, and both its ends are on one side. Then all four corners, and so Q, are on one side of the
-line: a contradiction.
-
-**xy is the shadow edge of s**, unless it is s. It divides Q into two faces with six corners
-together, that is two pseudo-triangles, and Q has no third diagonal. So no walk need find it,
-whatever has changed: which diagonal s is, where Q has its corners, or other vertices. Signs tell
-whether it is tangent; none are needed where both neighbours and the kind of angle are as certified.
-
-**theta(s) < theta(xy) needs no test** if both edges are as at the last test, and neither has been
+theta(s) < theta(s') needs no test if both edges are as at the last test, and neither has been
 vertical since (`exactpt.tiling.greedy.flipping`).
 """
 
@@ -39,6 +25,7 @@ from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.pseudotriangulation.shadow import (
     has_visits,
     is_corner_without,
+    is_tangent,
     shadow,
     visit_before,
 )
@@ -144,26 +131,27 @@ class CertifiedShadows(Shadows):
 
     def is_greedy(self, h: HalfEdge) -> bool:
         """See `Shadows.is_greedy`: whether all is as certified, but for neighbours and angles."""
-        known, m = self._get(h), self._certified.mesh.map
+        known, mesh = self._get(h), self._certified.mesh
         if known is None or known.failed != 0:
             return False
-        x, y = known.first, known.second
+        i, j, origin = known.first.visit, known.second.visit, mesh.map.origin
         if not (
-            m.origin[h] == known.u
-            and m.origin[h ^ 1] == known.v
-            and m.origin[x.visit] == x.vertex
-            and m.origin[y.visit] == y.vertex
-            and has_visits(self._certified.mesh, h, x.visit, y.visit)
+            origin[h] == known.u
+            and origin[h ^ 1] == known.v
+            and origin[i] == known.first.vertex
+            and origin[j] == known.second.vertex
+            and has_visits(mesh, h, i, j)
         ):
             return False
-        x_change, y_change = self._change(h, x), self._change(h, y)
-        if x_change == SAME and y_change == SAME:
+        first, second = self._change(h, known.first), self._change(h, known.second)
+        if first == SAME and second == SAME:
             return True
-        if OTHER_ANGLE in (x_change, y_change):
+        if OTHER_ANGLE in (first, second):
             return False
-        if x_change != SAME and not self._is_tangent(h, x.visit, y.visit):
+        after = self._certified.after()
+        if first != SAME and not is_tangent(mesh, h, i, j, after):
             return False
-        if y_change != SAME and not self._is_tangent(h, y.visit, x.visit):
+        if second != SAME and not is_tangent(mesh, h, j, i, after):
             return False
         self._note(h, known)
         return True
@@ -178,7 +166,11 @@ class CertifiedShadows(Shadows):
         known = self._get(h)
         if known is not None and known.failed & TANGENCIES == 0:
             i, j = _visit_in_face(mesh, h, known.first), _visit_in_face(mesh, twin(h), known.second)
-            if i >= 0 <= j and self._is_tangent(h, i, j) and self._is_tangent(h, j, i):
+            if (
+                i >= 0 <= j
+                and is_tangent(mesh, h, i, j, predicates)
+                and is_tangent(mesh, h, j, i, predicates)
+            ):
                 return i, j
         return shadow(mesh, h, predicates)
 
@@ -207,23 +199,6 @@ class CertifiedShadows(Shadows):
             return OTHER_ANGLE
         before = origin[visit_before(mesh, h, visit)]
         return SAME if origin[visit ^ 1] == end.after and before == end.before else OTHER_NEIGHBOUR
-
-    def _is_tangent(self, h: HalfEdge, i: HalfEdge, j: HalfEdge) -> bool:
-        """Whether the segment between two visits is tangent at the first one.
-
-        At a corner it is inside the angle; at a reflex vertex both neighbours are on one side,
-        and so is the solid angle between them.
-        """
-        mesh, predicates = self._certified.mesh, self._certified.after()
-        origin = mesh.map.origin
-        x, y = origin[i], origin[j]
-        after, before = origin[i ^ 1], origin[visit_before(mesh, h, i)]
-        if y in (x, after, before):
-            return False
-        first, second = predicates.sign(x, after, y), predicates.sign(x, y, before)
-        if first > 0 and second > 0:
-            return is_corner_without(mesh, h, i, predicates)
-        return first * second < 0 and not is_corner_without(mesh, h, i, predicates)
 
     # Certificates
 
