@@ -129,7 +129,8 @@ def _theta_is_smaller(mesh: Mesh, s: Ends, t: Ends, predicates: Predicates) -> b
     then changes the slope by (h(b) - h(a)) / L, where h is +1 for a body below the line
     (`exactpt.tiling.greedy.slope`); larger slope is smaller theta.
     """
-    (a, b), (c, d) = s, t
+    a, b = s
+    c, d = t
     if not predicates.left_of(a, b):
         a, b = b, a
     if not predicates.left_of(c, d):

@@ -19,7 +19,10 @@ from exactpt.tiling.greedy.greedy import VerticalRules
 from exactpt.tiling.greedy.shadowed import ShadowRules
 
 RUNS = [
-    *((family, "mixed") for family in ("pieces", "mirrored", "chains", "lakes", "ballistic_points")),
+    *(
+        (family, "mixed")
+        for family in ("pieces", "mirrored", "chains", "lakes", "ballistic_points")
+    ),
     *((family, "greedy") for family in ("turning_stars", "blobs", "chains", "gears", "lakes")),
 ]
 

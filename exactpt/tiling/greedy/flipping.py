@@ -160,12 +160,11 @@ class FlippingRules(Rules):
         marks, search = self._marks, self._searches
         edges: list[HalfEdge] = []
         for h in half_edges:
-            if origin[h] >= 0:
-                for side in (h, twin(h)):
-                    g = side
-                    while marks[g] != search:
-                        marks[g] = search
-                        if marks[g ^ 1] != search and not boundary[g >> 1]:
-                            edges.append(min(g, twin(g)))
-                        g = following[g]
+            for side in range(2):
+                g = twin(h) if side else h
+                while origin[g] >= 0 and marks[g] != search:
+                    marks[g] = search
+                    if marks[g ^ 1] != search and not boundary[g >> 1]:
+                        edges.append(min(g, twin(g)))
+                    g = following[g]
         return edges
