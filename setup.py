@@ -27,6 +27,7 @@ ROOMS = [
     "exactpt/kernel/rounding.py",
     "exactpt/kernel/sextics.py",
     "exactpt/kernel/windows.py",
+    "exactpt/motion/course.py",
     "exactpt/motion/image.py",
     "exactpt/motion/ring_order.py",
     "exactpt/motion/vertices.py",

@@ -13,7 +13,7 @@ from mypy_extensions import i64
 
 from exactpt.certificates import coefficients
 from exactpt.certificates.batches import linear_orientations
-from exactpt.certificates.moment import Moment, exact_time
+from exactpt.certificates.moment import Moment, Numbered, exact_time
 from exactpt.certificates.perturbation import orientation, x_order
 from exactpt.certificates.positions import Positions
 from exactpt.certificates.queue import EventTime, earlier
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from exactpt.kernel.counters import Counters
-    from exactpt.motion.track import Track
     from exactpt.motion.vertices import Vertex, Vertices
 
 __all__ = ["X_ORDER", "Certifier"]
@@ -104,21 +103,22 @@ class Certifier:
         Args:
             time: of the event; its vertices still have the motions that lead up to it.
         """
-        tracks = self._tracks_of(time) if time.exact is None else ()
-        return Moment(time, tracks, self._vertices.frame)
+        vertices = self._numbered(time) if time.exact is None else ()
+        return Moment(time, vertices, self._vertices.frame)
 
     def resolve(self, time: EventTime) -> AlgebraicNumber:
         """The exact time of an event; its enclosure is narrowed as far as doubles allow."""
-        number = exact_time(time, self._tracks_of(time), self._vertices.frame)
+        number = exact_time(time, self._numbered(time), self._vertices.frame)
         if time is self.now:
             self.now_low, self.now_high = time.low, time.high
             self.positions.move_to(time.low, time.high)
         return number
 
-    def _tracks_of(self, time: EventTime) -> tuple[Track, ...]:
-        every = self.all
-        a, b = every[time.a].track, every[time.b].track
-        return (a, b) if time.c == X_ORDER else (a, b, every[time.c].track)
+    def _numbered(self, time: EventTime) -> tuple[Numbered, ...]:
+        """The vertices of an event, as in `exact_time`."""
+        ids = (time.a, time.b) if time.c == X_ORDER else (time.a, time.b, time.c)
+        vertices = [self.all[i] for i in ids]
+        return tuple([(v.piece, v.index) for v in vertices])
 
     def rigid(self, a: VertexId, b: VertexId, c: VertexId) -> bool:
         """Whether three vertices keep their orientation for ever, so that no zero is lost."""

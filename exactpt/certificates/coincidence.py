@@ -71,6 +71,11 @@ def boxes_now(certifier: Certifier, vertices: Sequence[Vertex]) -> Boxes:
 
 def coincide(certifier: Certifier, a: Vertex, b: Vertex) -> bool:
     """Whether two vertices coincide now."""
+    if a.is_copy_of(b):
+        return True
+    # Doubles are tried on both axes first, as in `nearer`.
+    if _filtered_order(certifier, a, b, 0) or _filtered_order(certifier, a, b, 1):
+        return False
     return coordinate_order(certifier, a, b, 0) == 0 and coordinate_order(certifier, a, b, 1) == 0
 
 
@@ -134,9 +139,10 @@ def strictly_between(certifier: Certifier, a: Vertex, p: Vertex, b: Vertex) -> b
 
 def lies_on(certifier: Certifier, v: Vertex, a: Vertex, b: Vertex) -> bool:
     """Whether v lies in the closed segment ab now."""
-    for axis in (0, 1):
-        if coordinate_order(certifier, a, v, axis) * coordinate_order(certifier, v, b, axis) < 0:
-            return False
+    for order in (_filtered_order, coordinate_order):  # by doubles first, as in `nearer`
+        for axis in (0, 1):
+            if order(certifier, a, v, axis) * order(certifier, v, b, axis) < 0:
+                return False
     if coincide(certifier, v, a) or coincide(certifier, v, b):
         return True
     is_on = incidence.lies_on(v.track, a.track, b.track, certifier.exact_now)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, TypeAlias, final
 
 from exactpt.certificates.queue import EventTime
 from exactpt.kernel.algebraic import AlgebraicNumber, linear_root
@@ -10,56 +10,68 @@ from exactpt.kernel.integer_polynomial import IntPoly, sign_at, square_free
 from exactpt.motion.incidence import difference, orientation
 
 if TYPE_CHECKING:
+    from exactpt.motion.course import Piece
     from exactpt.motion.frame import Frame
-    from exactpt.motion.track import Track
 
-__all__ = ["Moment", "exact_time"]
+__all__ = ["Moment", "Numbered", "exact_time"]
+
+Numbered: TypeAlias = "tuple[Piece, int]"
+"""A vertex: the piece of motion of its body, and its number in the scene."""
 
 
 @final
 class Moment:
     """The time of an event, a number on demand.
 
-    It keeps the trajectories of the event, so it is the same time whatever motions the
+    It keeps the pieces of motion of the event, so it is the same time whatever motions the
     vertices have by then, and whichever vertices have their ids.
 
     Args:
         time: the time.
-        tracks: of the vertices whose function vanishes then, see `exact_time`; none are needed
-            if the exact time is known.
+        vertices: those whose function vanishes then, as in `exact_time`. None are needed if the
+            exact time is known.
         frame: the normalisation of the enclosure.
     """
 
-    def __init__(self, time: EventTime, tracks: tuple[Track, ...], frame: Frame) -> None:
+    def __init__(self, time: EventTime, vertices: tuple[Numbered, ...], frame: Frame) -> None:
         self._time: EventTime = time
-        self._tracks: tuple[Track, ...] = tracks
+        self._vertices: tuple[Numbered, ...] = vertices
         self._frame: Frame = frame
 
     @property
     def number(self) -> AlgebraicNumber:
         """The exact time."""
-        return self._time.exact or exact_time(self._time, self._tracks, self._frame)
+        return self._time.exact or exact_time(self._time, self._vertices, self._frame)
 
 
-def exact_time(time: EventTime, tracks: tuple[Track, ...], frame: Frame) -> AlgebraicNumber:
+def exact_time(time: EventTime, vertices: tuple[Numbered, ...], frame: Frame) -> AlgebraicNumber:
     """Compute ``time.exact``, and narrow the enclosure as far as doubles allow.
 
     Args:
-        time: a root, alone in its enclosure, of the function of ``tracks``. A filter has found
+        time: a root, alone in its enclosure, of the function of ``vertices``. A filter has found
             it, so the function is not zero for ever.
-        tracks: three for their orientation, two for their x-order.
+        vertices: three for their orientation, two for their x-order.
         frame: the normalisation of the enclosure.
     """
-    if len(tracks) == 3:
-        f = orientation(tracks[0], tracks[1], tracks[2])
-    else:
-        f = difference(tracks[0].x, tracks[0].w, tracks[1].x, tracks[1].w)
-    number = linear_root(f)
+    number = _crossing(*vertices) if len(vertices) == 2 else None
     if number is None:
-        number = _isolated(f, time, frame)
+        tracks = [piece.track(vertex) for piece, vertex in vertices]
+        if len(tracks) == 3:
+            f = orientation(tracks[0], tracks[1], tracks[2])
+        else:
+            f = difference(tracks[0].x, tracks[0].w, tracks[1].x, tracks[1].w)
+        number = linear_root(f) or _isolated(f, time, frame)
     time.exact = number
     time.low, time.high = frame.enclosure(number)
     return number
+
+
+def _crossing(a: Numbered, b: Numbered) -> AlgebraicNumber | None:
+    """The time at which two vertices have one x, if `Piece.straight_x` knows both."""
+    of_a, of_b = a[0].straight_x(a[1]), b[0].straight_x(b[1])
+    if of_a is None or of_b is None:
+        return None
+    return AlgebraicNumber((of_a[0] - of_b[0]) / (of_b[1] - of_a[1]))
 
 
 def _isolated(f: IntPoly, time: EventTime, frame: Frame) -> AlgebraicNumber:

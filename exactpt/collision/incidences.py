@@ -8,13 +8,14 @@ from dataclasses import dataclass
 from typing import final
 
 from exactpt.collision.rounded_touch import place_of
-from exactpt.geometry.polygon import signed_area2
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly, greatest_common_divisor, multiply, scale
 from exactpt.kernel.numbers import QQ, ZZ, finite
 from exactpt.kernel.quotients import exponent, nearest_quotient
 from exactpt.motion.body import Body
+from exactpt.motion.course import Piece
 from exactpt.motion.incidence import Touch, difference, orientation
+from exactpt.motion.ring_order import turns_left
 from exactpt.motion.track import Track
 from exactpt.proximity.features import excess
 from exactpt.scene.scene import Scene
@@ -76,20 +77,27 @@ def tracks_before(scene: Scene, time: AlgebraicNumber) -> list[tuple[Track, ...]
 
 def tracks_just_before(body: Body, time: AlgebraicNumber, start: QQ) -> tuple[Track, ...]:
     """Those of one body; at the start, in the piece just after it."""
+    return _piece_before(body, time, start).tracks
+
+
+def _piece_before(body: Body, time: AlgebraicNumber, start: QQ) -> Piece:
+    """The motion of a body just before a time; at the start, just after it."""
     since = max((b for b in body._breakpoints if time.compare_rational(b) > 0), default=start)
-    return body._piece_after(since).tracks
+    return body._piece_after(since)
 
 
 def details(
     scene: Scene, time: AlgebraicNumber, touches: Sequence[Touch]
 ) -> tuple[AlgebraicNumber, tuple[Pair, ...]]:
     """The time in the form that does not depend on the search, and the incidences."""
-    outward = {i: _outward(scene, i) for i in {touch.other for touch in touches}}
-    involved = sorted({i for touch in touches for i in (touch.body, touch.other)})
-    tracks = {i: tracks_just_before(scene.bodies[i], time, scene._start) for i in involved}
-    number = _as_root(scene, time, tracks, touches)
+    involved = {i for touch in touches for i in (touch.body, touch.other)}
+    pieces = {i: _piece_before(scene.bodies[i], time, scene._start) for i in involved}
+    number = _as_root(scene, time, pieces, touches)
+    rings = [_touched_ring(scene, touch) for touch in touches]
+    outward = {ring: _outward(scene, ring) for ring in set(rings)}
     pairs = tuple(
-        _pair(scene, tracks, touch, number, _side(outward[touch.other], touch)) for touch in touches
+        _pair(scene, pieces, touch, number, outward[ring])
+        for touch, ring in zip(touches, rings, strict=True)
     )
     return number, pairs
 
@@ -97,31 +105,30 @@ def details(
 def _as_root(
     scene: Scene,
     time: AlgebraicNumber,
-    tracks: Mapping[int, tuple[Track, ...]],
+    pieces: Mapping[int, Piece],
     touches: Sequence[Touch],
 ) -> AlgebraicNumber:
     """The time as a root of the first incidence's polynomial, whichever search has found it."""
     if time.simplified().is_rational or not touches:
         return time
     touch = touches[0]
-    v, other = tracks[touch.body][touch.vertex], tracks[touch.other]
+    v, other = pieces[touch.body].track(touch.vertex), pieces[touch.other]
     reach = scene.bodies[touch.body]._radius + scene.bodies[touch.other]._radius
     if reach:
         f = excess(v, _ends(scene, touch, other), reach * reach)
     elif touch.edge >= 0:
         f = orientation(v, *_ends(scene, touch, other))
     else:
-        f = _coincidence(v, other[touch.other_vertex])
+        f = _coincidence(v, other.track(touch.other_vertex))
     return time._as_root_of(f) if f else time
 
 
-def _ends(
-    scene: Scene, touch: Touch, other: tuple[Track, ...]
-) -> tuple[Track] | tuple[Track, Track]:
+def _ends(scene: Scene, touch: Touch, other: Piece) -> tuple[Track] | tuple[Track, Track]:
     """The vertex that is touched, or the ends of the edge."""
     if touch.edge < 0:
-        return (other[touch.other_vertex],)
-    return other[touch.edge], other[scene.bodies[touch.other].end_of_edge(touch.edge)]
+        return (other.track(touch.other_vertex),)
+    end = scene.bodies[touch.other].end_of_edge(touch.edge)
+    return other.track(touch.edge), other.track(end)
 
 
 def _coincidence(v: Track, w: Track) -> IntPoly:
@@ -132,12 +139,12 @@ def _coincidence(v: Track, w: Track) -> IntPoly:
 
 def _pair(
     scene: Scene,
-    tracks: Mapping[int, tuple[Track, ...]],
+    pieces: Mapping[int, Piece],
     touch: Touch,
     time: AlgebraicNumber,
     outward: int,
 ) -> Pair:
-    v, ends = tracks[touch.body][touch.vertex], _ends(scene, touch, tracks[touch.other])
+    v, ends = pieces[touch.body].track(touch.vertex), _ends(scene, touch, pieces[touch.other])
     normal = None
     x, y, w = v.x, v.y, v.w
     radii = scene.bodies[touch.body]._radius, scene.bodies[touch.other]._radius
@@ -158,25 +165,23 @@ def _pair(
     )
 
 
-def _outward(scene: Scene, i: int) -> list[tuple[range, int]]:
-    """For each ring of a body, the side of its edges on which the exterior lies.
+def _touched_ring(scene: Scene, touch: Touch) -> tuple[int, range] | None:
+    """The body and the ring of the edge that is touched; None if a vertex is."""
+    if touch.edge < 0:
+        return None
+    return touch.other, next(r for r in scene.bodies[touch.other].rings if touch.edge in r)
 
-    That is 1 for the right one, -1 for the left one, 0 for both.
+
+def _outward(scene: Scene, touched: tuple[int, range] | None) -> int:
+    """The side of the edges of a ring on which the exterior of its body lies.
+
+    That is 1 for the right one, -1 for the left one, 0 for both, or if there is no ring.
     """
-    body = scene.bodies[i]
-    if not body.has_interior:
-        return [(range(body.size), 0)]
-    points = body._at(scene._start)
-    return [
-        (ring, 1 if (signed_area2(points[ring.start : ring.stop]) > 0) == (k == 0) else -1)
-        for rings in body.parts
-        for k, ring in enumerate(rings)
-    ]
-
-
-def _side(outward: Sequence[tuple[range, int]], touch: Touch) -> int:
-    """The side on which the exterior lies at the edge that is touched; 0 if it is a vertex."""
-    return next((side for ring, side in outward if touch.edge in ring), 0)
+    if touched is None or not scene.bodies[touched[0]].has_interior:
+        return 0
+    body, ring = scene.bodies[touched[0]], touched[1]
+    is_outline = ring in [outline for outline, *_ in body.parts]
+    return 1 if turns_left(body, ring, scene._start) == is_outline else -1
 
 
 def _normal(

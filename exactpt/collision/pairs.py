@@ -33,7 +33,7 @@ from exactpt.collision.rounded import first_contact_of_rounded
 from exactpt.errors import BudgetExceeded
 from exactpt.indices import Triple
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import GRACE, ask, within
+from exactpt.kernel.budget import ask, searching
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.doubles import Indices
 from exactpt.kernel.numbers import QQ, fraction, power_of_two
@@ -131,13 +131,8 @@ class PairsSearch:
             BudgetExceeded: when the time limit is reached; its ``reached`` is a time up to which
                 there is no contact.
         """
-        with within(None if self._deadline is None else self._deadline + GRACE):
-            try:
-                return self._first_contact()
-            except BudgetExceeded as spent:
-                if spent.reached is None:
-                    spent.reached = self.passed()
-                raise
+        with searching(self._deadline, self.passed):
+            return self._first_contact()
 
     def _first_contact(self) -> Contact | None:
         scene = self._scene

@@ -11,7 +11,7 @@ from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import start_tiling, tiling_for_contact
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import GRACE, within
+from exactpt.kernel.budget import searching
 from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import fraction
 from exactpt.motion.body import refuse_rounded
@@ -88,13 +88,8 @@ class TilingSearch:
             BudgetExceeded: if the events or the time are used up; its ``reached`` is a time up to
                 which there is no contact.
         """
-        with within(None if self._deadline is None else self._deadline + GRACE):
-            try:
-                return self._first_contact()
-            except BudgetExceeded as spent:
-                if spent.reached is None:
-                    spent.reached = self.passed()
-                raise
+        with searching(self._deadline, self.passed):
+            return self._first_contact()
 
     def _first_contact(self) -> Contact | None:
         scene = self._scene

@@ -11,14 +11,15 @@ import os
 import sys
 import threading
 import time as clock
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from fractions import Fraction
 from numbers import Real
 from pathlib import Path
 from typing import Final, final
 
 from exactpt.errors import BudgetExceeded, InputError
 
-__all__ = ["GRACE", "LONG", "ask", "check_bounds", "resident_memory", "within"]
+__all__ = ["GRACE", "LONG", "ask", "check_bounds", "resident_memory", "searching", "within"]
 
 LONG: Final = 64
 """Number of coefficients from which on loops over the coefficients of a polynomial ask."""
@@ -77,6 +78,24 @@ def within(deadline: float | None, memory: int | None = None) -> Iterator[None]:
         yield
     finally:
         _LIMITS.deadline, _LIMITS.memory, _LIMITS.look = old
+
+
+@contextlib.contextmanager
+def searching(deadline: float | None, passed: Callable[[], Fraction | None]) -> Iterator[None]:
+    """As `within`, `GRACE` after a deadline, for a search that tells how far it has come.
+
+    Args:
+        deadline: as for `within`.
+        passed: a time up to which the search has found no contact, or None: ``reached`` of an
+            error that has none.
+    """
+    with within(None if deadline is None else deadline + GRACE):
+        try:
+            yield
+        except BudgetExceeded as spent:
+            if spent.reached is None:
+                spent.reached = passed()
+            raise
 
 
 def check_bounds(**bounds: object) -> None:

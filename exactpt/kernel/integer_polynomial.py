@@ -139,8 +139,14 @@ def sign_on(f: IntPoly, low: QQ, high: QQ) -> int:
 
 def range_on(f: IntPoly, low: QQ, high: QQ) -> tuple[QQ, QQ]:
     """Bounds of f on [low, high], by Horner's rule in interval arithmetic."""
-    a = b = QQ(0)
-    for c in reversed(f):
+    if not f:
+        return QQ(0), QQ(0)
+    a = b = QQ(f[-1])
+    if low >= 0:
+        for c in f[-2::-1]:
+            a, b = a * (low if a >= 0 else high) + c, b * (high if b >= 0 else low) + c
+        return a, b
+    for c in f[-2::-1]:
         products = (a * low, a * high, b * low, b * high)
         a, b = min(products) + c, max(products) + c
     return a, b

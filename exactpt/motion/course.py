@@ -87,6 +87,21 @@ class Piece:
         dx, dy = translation._at(t)
         return [(_exact(x) + dx, _exact(y) + dy) for x, y in zip(xs, ys, strict=True)]
 
+    def straight_x(self, vertex: int) -> tuple[QQ, QQ] | None:
+        """The coefficients of x = x0 + x1 t of a vertex, without its trajectory.
+
+        None if the motion is no linear translation of positions that doubles hold.
+        """
+        moved = self.translation
+        if moved is None or not moved[0].is_exact:
+            return None
+        places, translation = moved
+        path = translation.x._coefficients
+        if len(path) > 2:
+            return None
+        x = _exact(places.xs[vertex])
+        return (x + path[0] if path else x), (path[1] if len(path) == 2 else QQ(0))
+
     def corners(self, t: QQ) -> list[tuple[QQ, QQ]]:
         """Points whose bounding box is that of the body at a rational time, rounding aside."""
         moved = self.translation

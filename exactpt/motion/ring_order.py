@@ -13,7 +13,7 @@ from exactpt.motion.infinitesimal import ring_of_copies
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
 
-__all__ = ["ring_indices", "rings_of"]
+__all__ = ["ring_indices", "rings_of", "turns_left"]
 
 
 def ring_indices(body: Body, t: QQ, *, plain: bool = False) -> list[int]:
@@ -33,13 +33,13 @@ def ring_indices(body: Body, t: QQ, *, plain: bool = False) -> list[int]:
     turned: list[int] = []
     for rings in body.parts:
         for k, ring in enumerate(rings):
-            turns_left = _turns_left(body, ring, t)
-            turned += ring if turns_left == (k == 0) else ring[::-1]
+            is_outline = k == 0
+            turned += ring if turns_left(body, ring, t) == is_outline else ring[::-1]
     return turned
 
 
-def _turns_left(body: Body, ring: range, t: QQ) -> bool:
-    """Whether a ring is counter-clockwise at a time."""
+def turns_left(body: Body, ring: range, t: QQ) -> bool:
+    """Whether a ring of a body with interior is counter-clockwise at a time."""
     moved = body._piece_after(t).translation
     if moved is not None:
         xs, ys, is_exact = moved[0]

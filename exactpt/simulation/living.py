@@ -155,13 +155,13 @@ class LivingScene:
         """Changes motions, see `Simulation.set_motions`; returns the events caused at once."""
         t = self.rational_now()
         new = {self._index(name): planned(self.body(name), plan, t) for name, plan in plans.items()}
-        bodies = self._bodies[:]
-        for i, body in new.items():
-            bodies[i] = body
         events = self.kinetic.change_plans(new, t)
         if events is None:
+            bodies = [new.get(i, body) for i, body in enumerate(self._bodies)]
             return self._restart(bodies, t, len(new))
-        self._bodies, self._since, self._scene = bodies, t, None
+        for i, body in new.items():
+            self._bodies[i] = body
+        self._since, self._scene = t, None
         self.changes += len(new)
         return self.teller.told(events)
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
-from typing import TYPE_CHECKING, Final, final
+from typing import TYPE_CHECKING, Final, NamedTuple, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.integer_polynomial import derivative, evaluate
@@ -22,7 +22,6 @@ from exactpt.simulation.plans import GRID, onward, translation_at
 
 if TYPE_CHECKING:
     from exactpt.collision.contact import Contact, Pair
-    from exactpt.geometry.predicates import Point
     from exactpt.simulation.simulation import Simulation
 
 __all__ = ["Bounce", "stop"]
@@ -36,6 +35,20 @@ def stop(simulation: Simulation, contact: Contact) -> None:
     t = simulation.now._low
     names = sorted({name for pair in contact.pairs for name in (pair.body, pair.other)})
     simulation.set_motions({name: simulation.body(name).halted(t) for name in names})
+
+
+class _Push(NamedTuple):
+    """One direction in which the first body of a pair is pushed, the other one opposite.
+
+    Attributes:
+        pair: the pair.
+        normal: the direction, a unit vector.
+        approach: the speed along it at which the bodies approach before the contact.
+    """
+
+    pair: Pair
+    normal: Vector
+    approach: float
 
 
 @final
@@ -95,12 +108,10 @@ class Bounce:
         names = sorted({name for pair in contact.pairs for name in (pair.body, pair.other)})
         bodies = {name: simulation.body(name) for name in names}
         change = {name: [0.0, 0.0] for name in names}
-        pushes = [
-            (pair, normal) for pair in contact.pairs for normal in self._normals(pair, bodies, t)
-        ]
+        pushes = [push for pair in contact.pairs for push in self._pushes(pair, bodies, t)]
         for _ in range(ROUNDS):
             # Incidence by incidence until all separate: a vertex may touch several edges.
-            pushed = [self._push(*push, bodies, change, t) for push in pushes]
+            pushed = [self._push(push, change) for push in pushes]
             if not any(pushed):
                 break
         plans = {}
@@ -126,24 +137,20 @@ class Bounce:
         }  # fmt: skip
         return made, (Bounce, (tuple(sorted(self._fixed)),), options)
 
-    def _normals(self, pair: Pair, bodies: dict[str, Body], t: QQ) -> list[Vector]:
-        """The directions in which the first body of a pair is to be pushed; none if both stay."""
+    def _pushes(self, pair: Pair, bodies: dict[str, Body], t: QQ) -> list[_Push]:
+        """How the first body of a pair is to be pushed; nothing if both stay."""
         if pair.body == pair.other or self._fixed.issuperset((pair.body, pair.other)):
             return []
-        if pair.normal is not None:
-            return [pair.normal]
         a, b = bodies[pair.body], bodies[pair.other]
         (ux, uy), (vx, vy) = _velocities(pair, a, b, t)
-        return normals_at((a, pair.vertex), (b, pair.other_vertex or 0), (ux - vx, uy - vy), t)
+        if pair.normal is not None:
+            normals = [pair.normal]
+        else:
+            vertices = (a, pair.vertex), (b, pair.other_vertex or 0)
+            normals = normals_at(*vertices, (ux - vx, uy - vy), t)
+        return [_Push(pair, (nx, ny), nx * (vx - ux) + ny * (vy - uy)) for nx, ny in normals]
 
-    def _push(
-        self,
-        pair: Pair,
-        normal: Vector,
-        bodies: dict[str, Body],
-        change: dict[str, list[float]],
-        t: QQ,
-    ) -> bool:
+    def _push(self, push: _Push, change: dict[str, list[float]]) -> bool:
         """Push one pair apart, by opposite impulses along a normal, if needed.
 
         An impulse changes a velocity in inverse proportion to the mass; a fixed body's is infinite.
@@ -151,15 +158,13 @@ class Bounce:
         Returns:
             Whether an impulse was applied: not to a pair that separates.
         """
-        free = [name for name in (pair.body, pair.other) if name not in self._fixed]
-        nx, ny = normal
-        (ux, uy), (vx, vy) = _velocities(pair, bodies[pair.body], bodies[pair.other], t)
+        pair, (nx, ny), approach = push
         a, b = change[pair.body], change[pair.other]
-        approach = nx * (vx - ux) + ny * (vy - uy)
         parting = nx * (a[0] - b[0]) + ny * (a[1] - b[1]) - approach
-        goal = max(self._restitution * abs(approach), self._slowest)
         if parting >= self._slowest / 2:
             return False
+        goal = max(self._restitution * abs(approach), self._slowest)
+        free = [name for name in (pair.body, pair.other) if name not in self._fixed]
         inverse = {name: 1.0 / self._masses.get(name, 1.0) for name in free}
         impulse = (goal - parting) / sum(inverse.values())
         for name, way in ((pair.body, 1.0), (pair.other, -1.0)):
@@ -181,7 +186,7 @@ def _velocities(pair: Pair, a: Body, b: Body, t: QQ) -> tuple[Vector, Vector]:
     first = _velocity(a, pair.vertex, t)
     if pair.edge is None:
         return first, _velocity(b, pair.other_vertex or 0, t)
-    return first, _velocity_beside(b, pair.edge, a._at(t)[pair.vertex], t)
+    return first, _velocity_beside(b, pair.edge, (a, pair.vertex), t)
 
 
 def _velocity(body: Body, vertex: int, t: QQ) -> Vector:
@@ -198,10 +203,13 @@ def _velocity(body: Body, vertex: int, t: QQ) -> Vector:
     return x, y
 
 
-def _velocity_beside(body: Body, edge: int, place: Point, t: QQ) -> Vector:
-    """The velocity of the point of an edge that is nearest to a given point."""
+def _velocity_beside(body: Body, edge: int, vertex: tuple[Body, int], t: QQ) -> Vector:
+    """The velocity of the point of an edge that is nearest to a vertex of a body."""
+    if body._piece_after(t).translation is not None:
+        return _translation_speed(body, t)
     points = body._at(t)
     a, b = points[edge], points[(edge + 1) % len(points)]
+    place = vertex[0]._at(t)[vertex[1]]
     dx, dy = b[0] - a[0], b[1] - a[1]
     along = ((place[0] - a[0]) * dx + (place[1] - a[1]) * dy) / (dx * dx + dy * dy)
     s = nearest_float(min(max(along, QQ(0)), QQ(1)))

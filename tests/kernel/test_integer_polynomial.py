@@ -30,6 +30,7 @@ from exactpt.kernel.integer_polynomial import (
     positive_remainder,
     primitive,
     quotient,
+    range_on,
     scale,
     sign_at,
     square_free,
@@ -94,6 +95,20 @@ def test_values_and_signs(f, t):
 
     assert exact(evaluate(f, as_rational(t))) == expected
     assert sign_at(f, as_rational(t)) == (expected > 0) - (expected < 0)
+
+
+@given(f=polys, ends=st.tuples(wide_fractions, wide_fractions).map(sorted))
+@example(f=(), ends=[Fraction(-1), Fraction(1)])
+@example(f=as_int_poly([1, -2, 1]), ends=[Fraction(0), Fraction(2)])
+def test_a_range_is_that_of_horners_rule_on_intervals(f, ends):
+    """The best bounds of each product and sum, whatever the signs of the ends."""
+    low, high = ends
+    a = b = Fraction(0)
+    for c in reversed(f):
+        products = [x * t for x in (a, b) for t in (low, high)]
+        a, b = min(products) + int(c), max(products) + int(c)
+
+    assert tuple(map(exact, range_on(f, as_rational(low), as_rational(high)))) == (a, b)
 
 
 @given(f=polys, k=st.integers(1, 10**20))

@@ -109,6 +109,8 @@ class VerticalRules(Rules):
 
     def allows_plan(self, body: Body, t: QQ) -> bool:
         """See `Rules.allows_plan`: it must stay convex."""
+        if _is_only_translated(body, t):
+            return True
         alone = Vertices.of([body], t, self.certified.certifier.end)
         return not alone.bodies[0].is_tiled
 
@@ -293,6 +295,12 @@ class VerticalRules(Rules):
             f"t = {float(self.certified.certifier.exact_now)}: "
             "this greedy tiling is for bodies that stay convex"
         )
+
+
+def _is_only_translated(body: Body, t: QQ) -> bool:
+    """Whether a body keeps its shape and its directions from a time on."""
+    is_last = all(end <= t for end in body._breakpoints)
+    return is_last and body._piece_after(t).translation is not None
 
 
 def _is_visited(mesh: Mesh, v: VertexId, h: HalfEdge) -> bool:
