@@ -34,7 +34,8 @@ from exactpt.tiling.angles import CertifiedMesh
 __all__ = ["CertifiedShadows"]
 
 COUNT: Final = 6
-"""Number of certificates of a diagonal; bit k of a set of them is that of kind SHADOW + k."""
+"""Number of certificates of a diagonal; bit k of a set of them is that of kind SHADOW + k: the
+x-orders of s and s', then at each end of s' the neighbour after it and that before it."""
 
 ALL: Final = (1 << COUNT) - 1
 DIAGONAL: Final = 1
@@ -161,7 +162,8 @@ class CertifiedShadows(Shadows):
     ) -> tuple[HalfEdge, HalfEdge] | None:
         """See `Shadows.find`: the ends certified last, if the segment between them is tangent.
 
-        Only if none is an end of h, so that the first is in the face of h, as after a walk.
+        Not after a failed tangency, which would be tried in vain; and only if none is an end of h,
+        so that the first is in the face of h, as after a walk.
         """
         known = self._get(h)
         if known is not None and known.failed & TANGENCIES == 0:
