@@ -130,8 +130,10 @@ class Positions:
 
     def turn(self, a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> int:
         """The sign of (b - a) x (d - c) now, or 0 if it is not certain."""
-        for vertex in (a, b, c, d):
-            self.find(vertex)
+        self.find(a)
+        self.find(b)
+        self.find(c)
+        self.find(d)
         du, dv = a.error + b.error, c.error + d.error
         return cross_sign(b.x - a.x, b.y - a.y, du, d.x - c.x, d.y - c.y, dv)
 

@@ -169,18 +169,23 @@ class EventQueue:
         Few may be far later than all others, so a sample tells how far the days reach; about
         six events are noted on each, or more where there are very many.
         """
-        rows, reach = self._rows, self._heap[0][3].high if self._heap else -INFINITY
-        lows = [time.low for row in rows for time in row if time is not None]
+        reach = self._heap[0][3].high if self._heap else -INFINITY
+        slots: list[CertificateId] = []
+        times: list[EventTime] = []
+        for kind, row in enumerate(self._rows):  # most slots are empty
+            for part, time in enumerate(row):
+                if time is not None:
+                    slots.append(CertificateId(ROWS * part + kind))
+                    times.append(time)
+        lows = [time.low for time in times]
         self._first = min(lows, default=0.0)
         sample, days = sorted(lows[:: len(lows) // SAMPLE + 1]), min(len(lows) // 8, DAYS) + 1
         span = max(reach, sample[3 * len(sample) // 4] if sample else 0.0) - self._first
         self._per_day = (days - 0.5) / span if 0.0 < span < INFINITY else 0.0
         self._heap, self._days = [], [[] for _ in range(days)]
         self._next_day, self._notes, self._has_more = 0.0, 0, False
-        for kind, row in enumerate(rows):
-            for part, time in enumerate(row):
-                if time is not None:
-                    self._note(CertificateId(ROWS * part + kind), time)
+        for k, slot in enumerate(slots):  # compiled, a zip would be slower
+            self._note(slot, times[k])
 
     def _begin_day(self) -> None:
         """Put what is pending on the next day into the heap.

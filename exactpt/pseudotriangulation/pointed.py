@@ -24,8 +24,9 @@ from exactpt.errors import AuditError
 from exactpt.indices import Ends, HalfEdge
 from exactpt.kernel.budget import ask
 from exactpt.planar.halfedge import twin
-from exactpt.pseudotriangulation.flip import flip, shadow
+from exactpt.pseudotriangulation.flip import flip
 from exactpt.pseudotriangulation.mesh import OUTER, Mesh
+from exactpt.pseudotriangulation.shadow import shadow
 
 __all__ = ["Change", "make_pointed", "point_vertex"]
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TypeAlias, final
 
+from mypy_extensions import mypyc_attr
+
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
 from exactpt.indices import Ends
@@ -17,6 +19,7 @@ Edges: TypeAlias = tuple[Ends, ...]
 
 
 @final
+@mypyc_attr(acyclic=True)
 class TilingEvent:
     """A change of a tiling.
 

@@ -15,7 +15,7 @@ from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.proximity.clearance import clearance
-from exactpt.pseudotriangulation.flip import shadow
+from exactpt.pseudotriangulation.shadow import shadow
 from exactpt.render.film import film_of
 from exactpt.render.fixed import near
 from exactpt.render.frame import frame_of

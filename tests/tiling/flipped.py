@@ -1,7 +1,8 @@
 """Scattered bodies, and tilings of them that no construction makes."""
 
 from exactpt.motion.body import Body
-from exactpt.pseudotriangulation.flip import flip, shadow
+from exactpt.pseudotriangulation.flip import flip
+from exactpt.pseudotriangulation.shadow import shadow
 from exactpt.scene.families.shapes import convex_polygon
 
 

@@ -16,9 +16,10 @@ from exactpt.motion.motions import Translation
 from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.audit import audit_angles
 from exactpt.pseudotriangulation.build import build_mesh
-from exactpt.pseudotriangulation.flip import flip, shadow
+from exactpt.pseudotriangulation.flip import flip
 from exactpt.pseudotriangulation.mesh import FREE
 from exactpt.pseudotriangulation.plane_sweep import Sweep, body_edges
+from exactpt.pseudotriangulation.shadow import shadow
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation

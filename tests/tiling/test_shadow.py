@@ -9,7 +9,8 @@ from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.predicates import Predicates
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.vertices import Vertices
-from exactpt.pseudotriangulation.flip import flip_until_greedy, shadow, tangency
+from exactpt.pseudotriangulation.flip import flip_until_greedy
+from exactpt.pseudotriangulation.shadow import has_visits, shadow, visit_after, visit_before
 from exactpt.scene.generate import generate
 from exactpt.tiling.greedy.greedy import VerticalRules
 
@@ -38,16 +39,10 @@ def test_flips_lead_from_any_tiling_back_to_the_greedy_one():
             continue
         greedy = diagonals(mesh)
         flipped_at_random(mesh, instant, Random(seed), 30)
-        shadows = {}
 
-        flips += len(flip_until_greedy(mesh, instant, mesh.diagonals(), shadows))
+        flips += len(flip_until_greedy(mesh, instant, mesh.diagonals()))
 
         assert diagonals(mesh) == greedy
-        assert shadows == {
-            h: shadow(mesh, h, instant)
-            for h in mesh.diagonals()
-            if not mesh.is_fixed(h) and not mesh.is_hull(h)
-        }
     assert flips > 100
 
 
@@ -78,28 +73,21 @@ def boundary(mesh, h):
     return following + mesh.map.face(h ^ 1)[1:]
 
 
-def test_the_neighbours_of_a_shadow_are_those_on_the_boundary_of_both_faces():
-    """Also of other visits of these faces; there are none of half-edges elsewhere."""
+def test_visits_are_those_on_the_boundary_of_both_faces_in_its_order():
+    """Half-edges elsewhere are none, nor is the diagonal itself."""
     at_ends = elsewhere = 0
     for instant in instants(2):
         mesh = VerticalRules.build(instant)
-        origin = mesh.map.origin
         half_edges = mesh.map.half_edges()
         for h in mesh.flippable():
             around = boundary(mesh, h)
-            points = [origin[g] for g in around]
-            for i, g in enumerate(around):
-                k = (2 * i + 1) % len(around)
-                x, y = points[i], points[k]
+            for k, g in enumerate(around):
                 at_ends += g in (mesh.map.following[h], mesh.map.following[h ^ 1])
-                assert tangency(mesh, h, (g, around[k])) == [
-                    (x, points[(i + 1) % len(points)], y),
-                    (x, y, points[i - 1]),
-                    (y, points[(k + 1) % len(points)], x),
-                    (y, x, points[k - 1]),
-                ]
+                assert visit_before(mesh, h, g) == around[k - 1]
+                assert visit_after(mesh, h, around[k - 1]) == g
+                assert has_visits(mesh, h, g, around[(2 * k + 1) % len(around)])
             for g in (h, h ^ 1, *(g for g in half_edges[:40] if g not in around)):
                 elsewhere += 1
-                assert tangency(mesh, h, (around[0], g)) == []
-                assert tangency(mesh, h, (g, around[0])) == []
+                assert not has_visits(mesh, h, around[0], g)
+                assert not has_visits(mesh, h, g, around[0])
     assert at_ends > 50 < elsewhere

@@ -11,20 +11,21 @@ four orientations.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import final
+from librt.vecs import vec
+from mypy_extensions import i64
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.certificates.certificate import SHADOW, pack, part_of
-from exactpt.certificates.one_sided import OneSided
+from exactpt.certificates.certificate import part_of
 from exactpt.errors import AuditError
-from exactpt.indices import CertificateId, Ends, HalfEdge, Triple, VertexId
+from exactpt.indices import CertificateId, HalfEdge
 from exactpt.kernel.budget import ask
 from exactpt.planar.halfedge import twin
-from exactpt.pseudotriangulation.flip import flip, flip_until_greedy, shadow, tangency
+from exactpt.pseudotriangulation.flip import flip, flip_until_greedy
 from exactpt.pseudotriangulation.mesh import Mesh
+from exactpt.pseudotriangulation.shadow import shadow
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.events import Log
+from exactpt.tiling.greedy.shadows import CertifiedShadows
 from exactpt.tiling.repairs import RebuildNeeded
 from exactpt.tiling.rules import Rules
 from exactpt.tiling.tiling import State
@@ -32,54 +33,16 @@ from exactpt.tiling.tiling import State
 __all__ = ["FlippingRules"]
 
 
-@final
-class _Shadow:
-    """The certified data of a diagonal and its shadow edge.
-
-    Attributes:
-        diagonal: the ends of the diagonal.
-        visits: the half-edges that the shadow edge joins.
-        corners: whether each of these is at a corner of both faces together.
-        crossing: the ends of the shadow edge.
-        tangencies: the triples that certify its tangencies.
-    """
-
-    __slots__ = ("corners", "crossing", "diagonal", "tangencies", "visits")
-
-    def __init__(
-        self,
-        diagonal: Ends,
-        visits: tuple[HalfEdge, HalfEdge],
-        corners: tuple[bool, bool],
-        crossing: Ends,
-        tangencies: list[Triple],
-    ) -> None:
-        self.diagonal: Ends = diagonal
-        self.visits: tuple[HalfEdge, HalfEdge] = visits
-        self.corners: tuple[bool, bool] = corners
-        self.crossing: Ends = crossing
-        self.tangencies: list[Triple] = tangencies
-
-    def is_same_edge(self, other: _Shadow) -> bool:
-        """Whether all but the tangencies is equal."""
-        return (
-            self.diagonal == other.diagonal
-            and self.visits == other.visits
-            and self.corners == other.corners
-            and self.crossing == other.crossing
-        )
-
-
 class FlippingRules(Rules):
     """The rules of a tiling all of whose flippable diagonals are greedy."""
 
     def __init__(self, certified: CertifiedMesh, log: Log) -> None:
         super().__init__(certified, log)
-        self._changed: set[HalfEdge] = set()  # half-edges with new angles
-        self._moved: set[HalfEdge] = set()  # diagonals of bodies that move anew, or with failures
-        self._failed: set[CertificateId] = set()
-        self._shadows: dict[HalfEdge, _Shadow] = {}
-        self._kept: dict[HalfEdge, tuple[HalfEdge, HalfEdge]] = {}
+        self._shadows: CertifiedShadows = CertifiedShadows(certified)
+        self._changed: list[HalfEdge] = []  # half-edges with new angles
+        self._moved: list[HalfEdge] = []  # diagonals of bodies that move anew, or with failures
+        self._marks: vec[i64] = vec[i64]()  # of half-edges: the last search that met each
+        self._searches: i64 = 0
 
     def close(self, mesh: Mesh, instant: PredicatesAt) -> None:
         """See `Rules.close`."""
@@ -114,182 +77,94 @@ class FlippingRules(Rules):
             ask()
             visits = shadow(mesh, h, after)
             if visits is not None:  # it is None only at a contact, which ends the run
-                self._shadows[h] = self._shadow_of(h, visits)
+                self._shadows.resume(h, visits)
 
     def certify(self) -> None:
         """See `Rules.certify`."""
         self._changed.clear()
         self._moved.clear()
-        self._failed.clear()
         self._shadows.clear()
         self._restore_greedy(self.certified.mesh.flippable())
 
     def certify_body(self, i: int) -> None:
         """See `Rules.certify_body`."""
-        self._changed.update(self.certified.ring_angles(i))
-        nearby = self._edges_of_tiles(self._changed)
-        self._moved.update(nearby)
-        self._failed.update(pack(SHADOW + i, h) for h in nearby for i in range(6))
+        angles = self.certified.ring_angles(i)
+        self._changed += angles
+        for h in self._edges_of_tiles(angles):
+            self._moved.append(h)
+            self._shadows.fail_all(h)
 
     def changed(self, half_edges: list[HalfEdge]) -> None:
         """See `Rules.changed`."""
-        self._changed.update(half_edges)
+        self._changed += half_edges
 
     def cancelled(self, h: HalfEdge) -> None:
         """See `Rules.cancelled`."""
-        self._cancel_shadow(min(h, twin(h)))
+        self._shadows.cancel(min(h, twin(h)))
 
     def failed(self, certificates: list[CertificateId]) -> None:
         """See `Rules.failed`."""
-        self._moved.update(HalfEdge(part_of(c)) for c in certificates)
-        self._failed.update(certificates)
+        for certificate in certificates:
+            self._moved.append(HalfEdge(part_of(certificate)))
+            self._shadows.fail(certificate)
 
     def restore(self) -> None:
         """See `Rules.restore`."""
-        self._restore_greedy()
+        edges = self._edges_of_tiles(self._changed)
+        marks, search = self._marks, self._searches
+        for h in self._moved:
+            if marks[h] != search and marks[h ^ 1] != search:
+                marks[h] = search
+                edges.append(h)
+        edges.sort()
+        self._restore_greedy(edges)
 
-    def _restore_greedy(self, diagonals: Iterable[HalfEdge] = ()) -> None:
+    def _restore_greedy(self, edges: list[HalfEdge]) -> None:
         """Flip the diagonals that are no longer greedy, and certify shadow edges again.
 
-        Diagonals of changed tiles are examined, and those whose certificates have failed.
+        Args:
+            edges: even half-edges in increasing order: those of changed tiles, body edges
+                apart, and those with failed certificates.
         """
         certified, mesh, after = self.certified, self.certified.mesh, self.certified.after()
-        m = mesh.map
-        nearby = self._edges_of_tiles(self._changed)
-        nearby.update(min(h, twin(h)) for h in self._moved)
-        nearby.update(diagonals)
-        shadows: dict[HalfEdge, tuple[HalfEdge, HalfEdge]] = {}
-        kept = self._kept
-        kept.clear()
-        candidates = [h for h in sorted(nearby) if m.origin[h] >= 0 and mesh.is_flippable(h)]
+        origin = mesh.map.origin
+        candidates: list[HalfEdge] = []
+        for h in edges:
+            if origin[h] >= 0 and mesh.is_flippable(h):
+                candidates.append(h)
+            else:
+                self._shadows.cancel(h)
         try:
-            flips = flip_until_greedy(mesh, after, candidates, shadows, self._is_certified)
+            flips = flip_until_greedy(mesh, after, candidates, self._shadows)
         except AuditError:
             raise RebuildNeeded from None
         for old, new, changed in flips:
             self.log.record("diagonal", (old,), (new,))
-            certified.recertify([h for h in changed if m.origin[h] >= 0])
+            certified.recertify([h for h in changed if mesh.map.origin[h] >= 0])
         self._changed.clear()  # by the flips; the diagonals there have been examined
         if certified.table.angles:
             raise RebuildNeeded
-        for h in sorted(nearby | shadows.keys() | kept.keys()):
-            if m.origin[h] < 0 or not mesh.is_flippable(h):
-                self._cancel_shadow(h)
-            elif h in shadows or h in kept:
-                self._certify_shadow(h, shadows.get(h) or kept[h], after)
+        self._shadows.certify()
         self._moved.clear()
-        self._failed.clear()
 
-    def _is_certified(self, h: HalfEdge) -> bool:
-        """Whether the shadow of a diagonal is still what it was, and none of the two vertical.
+    def _edges_of_tiles(self, half_edges: list[HalfEdge]) -> list[HalfEdge]:
+        """The edges (even half-edges) of the tiles on both sides of some half-edges.
 
-        A pseudo-quadrangle has two diagonals only. So what is tangent at both ends is the other
-        one still, whatever has changed elsewhere in the two tiles; and that it is greater is
-        certified. Where the neighbours of an end have changed, signs tell whether it is tangent
-        there.
+        Without body edges. `_marks` of one half-edge of each, at least, is `_searches` then.
         """
-        old = self._shadows.get(h)
-        if old is None or h in self._moved:
-            return False
-        new = self._shadow_of(h, old.visits)
-        before, now = old.tangencies, new.tangencies
-        if not new.is_same_edge(old):
-            return False
-        if before == now:
-            return True
-        if not now:
-            return False
-        if not all(
-            before[2 * e : 2 * e + 2] == now[2 * e : 2 * e + 2]
-            or self._is_tangent(now[2 * e], now[2 * e + 1], new.corners[e])
-            for e in (0, 1)
-        ):
-            return False
-        self._kept[h] = old.visits
-        return True
-
-    def _is_tangent(
-        self,
-        after: Triple,
-        before: Triple,
-        is_corner: bool,  # noqa: FBT001
-    ) -> bool:
-        """Whether a segment xy is tangent at x, by (x, after, y) and (x, y, before).
-
-        At a corner it is inside the angle; at a reflex vertex both neighbours are on one side,
-        and so is the solid angle between them.
-        """
-        instant = self.certified.after()
-        first, second = instant.sign(*after), instant.sign(*before)
-        return first > 0 and second > 0 if is_corner else first * second < 0
-
-    def _edges_of_tiles(self, half_edges: Iterable[HalfEdge]) -> set[HalfEdge]:
-        """The edges of the tiles on both sides of some half-edges."""
-        m = self.certified.mesh.map
-        found: set[HalfEdge] = set()
+        mesh, origin = self.certified.mesh, self.certified.mesh.map.origin
+        following, boundary = mesh.map.following, mesh.boundary
+        if len(self._marks) != len(following):
+            self._marks = vec[i64]([0] * len(following))
+        self._searches += 1
+        marks, search = self._marks, self._searches
+        edges: list[HalfEdge] = []
         for h in half_edges:
-            if m.origin[h] >= 0:
-                for side in (h, twin(h)):
-                    if side not in found:
-                        found.update(m.face(side))
-        return {min(g, twin(g)) for g in found}
-
-    def _certify_shadow(
-        self, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge], after: OneSided
-    ) -> None:
-        """Certify that a diagonal has smaller theta than its shadow edge, and the tangencies.
-
-        Certificates that are the same as before, and have not failed, are pending still.
-        """
-        new, old = self._shadow_of(h, visits), self._shadows.get(h)
-        self._shadows[h] = new
-        spin, failed = pack(SHADOW, h), self._failed
-        if old is None or old.diagonal != new.diagonal or spin in failed:
-            self._certify_x_order(spin, *new.diagonal, after)
-        spin = pack(SHADOW + 1, h)
-        if old is None or old.crossing != new.crossing or spin in failed:
-            self._certify_x_order(spin, *new.crossing, after)
-        known = [] if old is None else old.tangencies
-        for i, triple in enumerate(new.tangencies):
-            there = pack(SHADOW + 2 + i, h)
-            if i >= len(known) or known[i] != triple or there in failed:
-                self._certify_tangency(there, triple)
-
-    def _shadow_of(self, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge]) -> _Shadow:
-        mesh = self.certified.mesh
-        first, second = visits
-        there = tangency(mesh, h, visits)
-        corners = self._is_corner(h, first, there[:2]), self._is_corner(h, second, there[2:])
-        crossing = mesh.map.origin[first], mesh.map.origin[second]
-        return _Shadow(mesh.ends(h), visits, corners, crossing, there)
-
-    def _is_corner(self, h: HalfEdge, visit: HalfEdge, tangencies: list[Triple]) -> bool:
-        """Whether a visit is at a corner of both faces of a diagonal together."""
-        following = self.certified.mesh.map.following
-        if tangencies and (visit == following[h] or visit == following[h ^ 1]):
-            # At an end of the diagonal itself the angles of the two faces are one.
-            (x, after, _), (_, _, before) = tangencies
-            return self.certified.after().sign(before, x, after) > 0
-        return self.certified.mesh.corner[visit]
-
-    def _certify_x_order(
-        self, certificate: CertificateId, u: VertexId, v: VertexId, after: OneSided
-    ) -> None:
-        a, b = (u, v) if after.left_of(u, v) else (v, u)
-        certifier, time = self.certified.certifier, None
-        if not certifier.keeps_x_order(a, b):
-            _, time = certifier.x_order(a, b)
-        self.certified.table.schedule(certificate, time)
-
-    def _certify_tangency(self, certificate: CertificateId, triple: Triple) -> None:
-        a, b, c = triple
-        certifier, time = self.certified.certifier, None
-        if len({a, b, c}) == 3 and not certifier.rigid(a, b, c):
-            _, time = certifier.orientation(a, b, c)
-        self.certified.table.schedule(certificate, time)
-
-    def _cancel_shadow(self, h: HalfEdge) -> None:
-        if self._shadows.pop(h, None) is None:
-            return
-        for i in range(6):
-            self.certified.table.pending.cancel(pack(SHADOW + i, h))
+            for side in range(2):
+                g = twin(h) if side else h
+                while origin[g] >= 0 and marks[g] != search:
+                    marks[g] = search
+                    if marks[g ^ 1] != search and not boundary[g >> 1]:
+                        edges.append(min(g, twin(g)))
+                    g = following[g]
+        return edges

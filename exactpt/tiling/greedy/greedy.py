@@ -20,8 +20,9 @@ from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key, twin
 from exactpt.pseudotriangulation.build import build_mesh
-from exactpt.pseudotriangulation.flip import crosses, flip, flip_until_greedy, shadow
+from exactpt.pseudotriangulation.flip import flip, flip_until_greedy
 from exactpt.pseudotriangulation.mesh import Mesh
+from exactpt.pseudotriangulation.shadow import crosses, shadow
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.events import Log
 from exactpt.tiling.greedy.certified_cells import CertifiedCells
@@ -200,10 +201,10 @@ class VerticalRules(Rules):
     def check(self, touched: list[HalfEdge]) -> None:
         """See `Rules.check`."""
         m = self.certified.mesh.map
-        nearby = [g for h in touched if m.origin[h] >= 0 for g in (*m.face(h), h)]
+        nearby = [min(g, twin(g)) for h in touched if m.origin[h] >= 0 for g in (*m.face(h), h)]
         after = self.certified.after()
         try:
-            flips = flip_until_greedy(self.certified.mesh, after, nearby)
+            flips = flip_until_greedy(self.certified.mesh, after, list(dict.fromkeys(nearby)))
         except AuditError:
             raise RebuildNeeded from None
         for old, new, changed in flips:

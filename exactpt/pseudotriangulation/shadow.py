@@ -1,0 +1,223 @@
+"""Shadow edges: the other diagonal of a pseudo-quadrangle.
+
+Removing a diagonal s between two pseudo-triangles leaves a pseudo-quadrangle, a face with
+four corners. The two corners opposite to s are joined by a geodesic inside; its one edge
+that is not a boundary edge is the shadow of s (paper, section 2.2; checked against the
+definition in the tests). The boundary of a pseudo-quadrangle may visit a vertex twice, so
+this module works with visits, that is half-edges: those of the two faces of s, except for
+s itself.
+"""
+
+from __future__ import annotations
+
+from mypy_extensions import i64
+
+from exactpt.certificates.predicates import Predicates
+from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId
+from exactpt.planar.halfedge import twin
+from exactpt.pseudotriangulation.mesh import Mesh
+
+__all__ = [
+    "crosses",
+    "has_visits",
+    "is_corner_without",
+    "is_tangent",
+    "opposite_corner",
+    "shadow",
+    "visit_after",
+    "visit_before",
+]
+
+
+def opposite_corner(mesh: Mesh, h: HalfEdge) -> HalfEdge:
+    """The corner of the face of h opposite to the side chain with h.
+
+    `NO_HALF_EDGE` if the face does not have exactly three corners, as may happen between the
+    repairs of one time.
+    """
+    following, corner = mesh.map.following, mesh.corner
+    count: i64 = 0
+    found, g = NO_HALF_EDGE, h
+    while True:
+        g = following[g]
+        if corner[g]:
+            count += 1
+            if count == 2:
+                found = g
+        if g == h:
+            return found if count == 3 else NO_HALF_EDGE
+
+
+def shadow(mesh: Mesh, h: HalfEdge, predicates: Predicates) -> tuple[HalfEdge, HalfEdge] | None:
+    """The visits (half-edges of the two faces of h) that the shadow edge of h joins.
+
+    The ends start at the two opposite corners and move away from them along their side
+    chains until the segment between them is tangent at both. None if the result does not
+    cross h: the mesh is then not a pseudo-triangulation just after now.
+    """
+    here, there = opposite_corner(mesh, h), opposite_corner(mesh, twin(h))
+    if here < 0 or there < 0:
+        return None
+    origin = mesh.map.origin
+    # Visit i moves, visit j waits; then they change their parts.
+    i, j = here, there
+    distance: i64 = 0  # from the corner of i, negative: backwards
+    other_distance: i64 = 0
+    stuck: i64 = 0
+    moved: i64 = 0
+    left: i64 = 8 * _size(mesh, h)
+    is_tangent, is_turned = True, False
+    while stuck < 2 and left > 0:
+        left -= 1
+        y = origin[j]
+        at_other = origin[i] == y  # then the other end must move
+        step: i64 = 0 if at_other else _step(mesh, h, i, distance, moved, y, predicates)
+        if step != 0:
+            g = visit_after(mesh, h, i) if step > 0 else visit_before(mesh, h, i)
+            if distance + step == 0 or not is_corner_without(mesh, h, g, predicates):
+                i, distance, moved = g, distance + step, step
+                stuck, is_tangent = 0, True
+                continue
+        stuck, moved = stuck + 1, 0
+        is_tangent = is_tangent and step == 0 and not at_other
+        i, j, distance, other_distance = j, i, other_distance, distance
+        is_turned = not is_turned
+    if is_turned:
+        i, j = j, i
+    u, v = mesh.ends(h)
+    if not (stuck == 2 and is_tangent and crosses(origin[i], origin[j], u, v, predicates)):
+        return None
+    return i, j
+
+
+def _size(mesh: Mesh, h: HalfEdge) -> i64:
+    """The number of visits of the two faces of h without h."""
+    following = mesh.map.following
+    size: i64 = -2
+    for k in range(2):
+        start = h ^ k
+        g = following[start]
+        size += 1
+        while g != start:
+            size += 1
+            g = following[g]
+    return size
+
+
+def _step(
+    mesh: Mesh,
+    h: HalfEdge,
+    i: HalfEdge,
+    distance: i64,
+    moved: i64,
+    y: VertexId,
+    predicates: Predicates,
+) -> i64:
+    """The direction in which visit i must move for tangency to the segment to y: 1, -1 or 0.
+
+    At its corner (distance 0) the segment must be inside the angle. On the chain after
+    the corner both neighbours must be on the right of the segment, on the chain before
+    it on the left: the solid side. A neighbour farther from the corner that is on the
+    line for ever is nearer to y and sticks out: the end moves there. (A neighbour may be
+    another visit of the vertex of y; then the other end must move.) The test that moved the
+    visit here, away from its corner, shows that it need not move back.
+    """
+    origin = mesh.map.origin
+    x, after, before = origin[i], origin[i ^ 1], origin[visit_before(mesh, h, i)]
+    if distance >= 0 and y != after and predicates.sign(x, after, y) <= 0:
+        return 1
+    if distance <= 0 and y != before and predicates.sign(x, y, before) <= 0:
+        return -1
+    if distance > 0 and moved <= 0 and predicates.sign(x, y, before) > 0:
+        return -1
+    if distance < 0 and moved >= 0 and predicates.sign(x, y, after) < 0:
+        return 1
+    return 0
+
+
+def crosses(x: VertexId, y: VertexId, u: VertexId, v: VertexId, predicates: Predicates) -> bool:
+    """Whether segments xy and uv cross in their interiors, or share one end."""
+    if x in (u, v) or y in (u, v):
+        return not ((x == u and y == v) or (x == v and y == u))
+    if predicates.sign(x, y, u) == predicates.sign(x, y, v):
+        return False
+    return predicates.sign(u, v, x) != predicates.sign(u, v, y)
+
+
+def is_tangent(mesh: Mesh, h: HalfEdge, i: HalfEdge, j: HalfEdge, predicates: Predicates) -> bool:
+    """Whether the segment between two visits of the two faces of h is tangent at the first one.
+
+    At a corner it is inside the angle; at a reflex vertex both neighbours are on one side of it.
+    Vertices that are collinear for ever are no tangency.
+
+    A segment xy that is tangent at both ends is the shadow edge of h, unless it is h:
+
+    **It lies in the pseudo-quadrangle Q.** A side chain bends towards its solid side. So one with
+    the reflex vertex x inside is on one side of the line xy, which it touches at x only; one that
+    begins at the corner x leaves the ray from x through y for good. Hence no chain contains both
+    x and y, and only the others can cross xy, or the line beyond an end that is reflex. If x and y
+    are corners, they are opposite ones, and there is no other chain. If only x is a corner, there
+    is one; it crosses the line behind y, since this continues in Q there, and crosses xy an even
+    number of times, since this begins and ends in Q: at most two times in all, so never xy. If
+    both are reflex, there are two; they cross the line before x and behind y, and if they cross
+    xy, then twice at least: so each crosses the line twice, and both its ends are on one side.
+    Then all four corners, and so Q, are on one side of the line: a contradiction.
+
+    **It is a diagonal of Q.** It divides Q into two faces with six corners together, two
+    pseudo-triangles; and Q has two diagonals.
+    """
+    origin = mesh.map.origin
+    x, y = origin[i], origin[j]
+    after, before = origin[i ^ 1], origin[visit_before(mesh, h, i)]
+    if y in (x, after, before):
+        return False
+    first, second = predicates.sign(x, after, y), predicates.sign(x, y, before)
+    if first > 0 and second > 0:
+        return is_corner_without(mesh, h, i, predicates)
+    return first * second < 0 and not is_corner_without(mesh, h, i, predicates)
+
+
+# The boundary of the two faces of a diagonal together
+
+
+def visit_after(mesh: Mesh, h: HalfEdge, visit: HalfEdge) -> HalfEdge:
+    """The visit after one, counter-clockwise around the two faces of h without h."""
+    following = mesh.map.following
+    g = following[visit]
+    return following[g ^ 1] if g | 1 == h | 1 else g
+
+
+def visit_before(mesh: Mesh, h: HalfEdge, visit: HalfEdge) -> HalfEdge:
+    """The visit before one, counter-clockwise around the two faces of h without h."""
+    previous = mesh.map.previous
+    g = previous[visit]
+    return previous[g ^ 1] if g | 1 == h | 1 else g
+
+
+def is_corner_without(mesh: Mesh, h: HalfEdge, visit: HalfEdge, predicates: Predicates) -> bool:
+    """Whether a visit of the two faces of h is at a corner of their union.
+
+    At an end of h itself the angles of the two faces are one.
+    """
+    m = mesh.map
+    if visit == m.following[h] or visit == m.following[h ^ 1]:
+        before = m.origin[visit_before(mesh, h, visit)]
+        return predicates.sign(before, m.origin[visit], m.origin[visit ^ 1]) > 0
+    return mesh.corner[visit]
+
+
+def has_visits(mesh: Mesh, h: HalfEdge, i: HalfEdge, j: HalfEdge) -> bool:
+    """Whether two half-edges are visits of the two faces of h without h."""
+    t = twin(h)
+    return (_is_after(mesh, h, i) or _is_after(mesh, t, i)) and (
+        _is_after(mesh, h, j) or _is_after(mesh, t, j)
+    )
+
+
+def _is_after(mesh: Mesh, h: HalfEdge, i: HalfEdge) -> bool:
+    """Whether i is another half-edge of the face of h."""
+    following = mesh.map.following
+    g = following[h]
+    while g not in (h, i):
+        g = following[g]
+    return g != h
