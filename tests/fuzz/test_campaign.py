@@ -24,6 +24,10 @@ from fuzz.limits import TooSlow, limit
 from fuzz.planted import PLANTED, hunt, table
 from fuzz.witnesses import WITNESSES
 
+pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+"""A signal that comes during a collection is handled in Hypothesis's callback of the collector,
+which drops the exception, with a warning; the next signal ends the work."""
+
 ROOT = Path(__file__).parents[2]
 FAMILIES = ("row", "grazing", "clamps")
 SMALL = Campaign(FAMILIES, ("reference",), seed=5, count=12)
