@@ -42,8 +42,9 @@ def pieces_of(motion: Motion) -> list[tuple[SimpleMotion, QQ | None]]:
 
 def rest_outline(body: Body) -> Outline | None:
     """The vertices in the rest frame; None if the body deforms there, or is out of range."""
-    if body._shape.doubles is not None:
-        return _outline(*body._shape.doubles, exact=True)
+    near = body._shape.near
+    if near is not None:
+        return _outline(near.xs, near.ys, exact=near.is_exact)
     points: list[tuple[QQ, QQ]] = []
     for x, y in body.vertices:
         if x.degree > 0 or y.degree > 0:
