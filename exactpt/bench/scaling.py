@@ -12,12 +12,14 @@ from functools import partial
 from random import Random
 from typing import Final, NamedTuple
 
+from exactpt.bench.floor import floor
 from exactpt.bench.methods.own import fresh
 from exactpt.bench.output import Output, Row
 from exactpt.bench.plots import series_of
 from exactpt.bench.shapes import TANGLES, TangleFamily, crowd, tangle
 from exactpt.bench.timing import exponent, memory_of, per_event, resident, timed
 from exactpt.collision.tilings import TILINGS, start_tiling
+from exactpt.kernel.numbers import QQ
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.events import ContactFound
@@ -59,6 +61,9 @@ FULL: Final = Sizes(
 
 LARGE_TILINGS: Final = ("lazy", "greedy")
 """The tilings that large crowds of convex bodies are given."""
+
+ALONE: Final = "seven certificates alone"
+"""Name of the line for what is not the tiling's: as many certificates as an event makes."""
 
 
 class Measured(NamedTuple):
@@ -123,15 +128,17 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
         for tiling in LARGE_TILINGS:
             output.progress(f"convex crowd, {tiling}, size {n}")
             large.append(_large(n, tiling, 20 * sizes.events, seed, kept))
+    floors = [_floor(n, sizes.events, seed) for n in (*sizes.bodies, *sizes.large)]
     output.table("scaling", rows)
     output.table("scaling-large", large)
+    output.table("scaling-floor", floors)
     output.table("scaling-exponents", fits)
     crowds = [row for row in rows if row["family"] == "convex crowd"]
-    for name, column, axis in (
-        ("events", "us an event", "microseconds an event"),
-        ("certificates", "pending", "certificates"),
+    for name, column, axis, drawn in (
+        ("events", "us an event", "microseconds an event", [*crowds, *large, *floors]),
+        ("certificates", "pending", "certificates", crowds),
     ):
-        series = series_of(crowds, "tiling", "size", column)
+        series = series_of(drawn, "tiling", "size", column)
         output.lines(f"scaling-{name}", f"Convex bodies: {axis}", ("bodies", axis), series)
 
 
@@ -201,13 +208,19 @@ def _large(bodies: int, tiling: str, events: int, seed: int, kept: list[Tiling])
     _, seconds = timed(lambda: _pass(kinetic, kinetic.run(), events))
     return {
         "tiling": tiling,
-        "bodies": bodies,
+        "size": bodies,
         "start s": start,
         "events": kinetic.stats.total,
         "us an event": per_event(seconds, kinetic.stats.total),
         "kB a body, scene": (with_scene - empty) / bodies / 1000,
         "kB a body, tiling": (with_tiling - with_scene) / bodies / 1000,
     }
+
+
+def _floor(bodies: int, events: int, seed: int) -> Row:
+    """What the certificates of an event take alone, as a row beside those of the tilings."""
+    kinetic = start_tiling(_crowd(bodies, seed), "lazy", QQ(0))
+    return {"tiling": ALONE, "size": bodies, "us an event": floor(kinetic, events)}
 
 
 def _crowd(k: int, seed: int) -> Scene:

@@ -189,6 +189,9 @@ def test_scaling(results, undrawn):
     large = results.rows("scaling-large")
     assert [row["tiling"] for row in large] == ["lazy", "greedy"]
     assert all(int(row["events"]) > 0 and float(row["start s"]) > 0 for row in large)
+    floors = results.rows("scaling-floor")
+    assert [int(row["size"]) for row in floors] == [4, 8, 20]
+    assert all(float(row["us an event"]) > 0 for row in floors)
 
 
 def test_points(results, undrawn):

@@ -1,0 +1,33 @@
+"""What certificates cost alone is measured on a tiling, which goes on unchanged."""
+
+from itertools import islice
+from random import Random
+
+from exactpt.bench.floor import CERTIFICATES, floor
+from exactpt.bench.shapes import crowd
+from exactpt.collision.tilings import start_tiling
+
+
+def test_a_tiling_goes_on_unchanged():
+    scene = crowd(30, Random(1), radius=60, end=100)
+    measured, other = (start_tiling(scene, "lazy", scene._start) for _ in range(2))
+
+    assert floor(measured, 100) > 0
+
+    assert measured.queue.slots() == other.queue.slots()
+    events = [
+        [(e.kind, e.removed, e.added, e.time.low) for e in islice(kinetic.run(), 50)]
+        for kinetic in (measured, other)
+    ]
+    assert len(events[0]) == 50
+    assert events[0] == events[1]
+
+
+def test_each_event_computes_its_certificates():
+    scene = crowd(30, Random(2), radius=60, end=100)
+    kinetic = start_tiling(scene, "lazy", scene._start)
+    before = kinetic.certifier.made
+
+    floor(kinetic, 10)
+
+    assert kinetic.certifier.made == before + 10 * CERTIFICATES
