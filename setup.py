@@ -33,6 +33,7 @@ ROOMS = [
     "exactpt/motion/course.py",
     "exactpt/motion/image.py",
     "exactpt/motion/ring_order.py",
+    "exactpt/motion/vertex.py",
     "exactpt/motion/vertices.py",
     "exactpt/planar/halfedge.py",
     "exactpt/pseudotriangulation/*.py",

@@ -31,7 +31,8 @@ from exactpt.kernel.error_free import NOT_EXACT
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, sign
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
-from exactpt.motion.vertices import Vertex, Vertices
+from exactpt.motion.vertex import Vertex
+from exactpt.motion.vertices import Vertices
 
 __all__ = ["PredicatesAt", "sorted_by_x"]
 

@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from exactpt.kernel.counters import Counters
-    from exactpt.motion.vertices import Vertex, Vertices
+    from exactpt.motion.vertex import Vertex
+    from exactpt.motion.vertices import Vertices
 
 __all__ = ["X_ORDER", "Certifier"]
 

@@ -20,7 +20,7 @@ from exactpt.motion.incidence import difference
 
 if TYPE_CHECKING:
     from exactpt.certificates.certifier import Certifier
-    from exactpt.motion.vertices import Vertex
+    from exactpt.motion.vertex import Vertex
 
 __all__ = [
     "boxes_now",

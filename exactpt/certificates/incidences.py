@@ -54,7 +54,8 @@ from exactpt.motion.incidence import Touch
 
 if TYPE_CHECKING:
     from exactpt.certificates.certifier import Certifier
-    from exactpt.motion.vertices import Vertex, Vertices
+    from exactpt.motion.vertex import Vertex
+    from exactpt.motion.vertices import Vertices
 
 __all__ = ["touches"]
 

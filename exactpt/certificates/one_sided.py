@@ -15,7 +15,7 @@ from exactpt.indices import VertexId
 if TYPE_CHECKING:
     from exactpt.certificates.certifier import Certifier
     from exactpt.kernel.integer_polynomial import IntPoly
-    from exactpt.motion.vertices import Vertex
+    from exactpt.motion.vertex import Vertex
 
 __all__ = ["OneSided"]
 

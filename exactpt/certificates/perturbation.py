@@ -52,7 +52,7 @@ from exactpt.kernel.packed import coefficient_bits, pack, unpack, width_for
 from exactpt.motion.incidence import difference
 from exactpt.motion.incidence import orientation as base_orientation
 from exactpt.motion.track import Track
-from exactpt.motion.vertices import Vertex
+from exactpt.motion.vertex import Vertex
 
 __all__ = [
     "comes_first",

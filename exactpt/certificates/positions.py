@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from exactpt.certificates.batches import linear_parts
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.motion.image import Image
-from exactpt.motion.vertices import Vertex, Vertices
+from exactpt.motion.vertex import Vertex
+from exactpt.motion.vertices import Vertices
 
 __all__ = ["K", "Positions", "cross_sign", "positions_at"]
 

@@ -6,7 +6,7 @@ from math import isnan
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from exactpt.motion.vertices import Vertex
+    from exactpt.motion.vertex import Vertex
 
 __all__ = ["reason"]
 

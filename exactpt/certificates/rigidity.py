@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from exactpt.motion.vertices import MovingBody, Vertex
+from exactpt.motion.vertex import Vertex
+from exactpt.motion.vertices import MovingBody
 
 __all__ = ["keeps_x_order", "rigid"]
 

@@ -9,83 +9,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import accumulate, count
-from typing import TYPE_CHECKING, Final, final
+from typing import TYPE_CHECKING, final
 
-from mypy_extensions import mypyc_attr
-
-from exactpt.indices import NO_VERTEX, VertexId
+from exactpt.indices import VertexId
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.convexity import stays_convex
-from exactpt.motion.course import Piece
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.image import Image
-from exactpt.motion.infinitesimal import Direction, displacements
-from exactpt.motion.motions import REST
+from exactpt.motion.infinitesimal import displacements
 from exactpt.motion.ring_order import ring_indices, rings_of
-from exactpt.motion.shape import Shape
+from exactpt.motion.vertex import Vertex, unused
 
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
-    from exactpt.motion.track import Track
 
-__all__ = ["MovingBody", "Vertex", "Vertices"]
-
-_NO_PIECE: Final = Piece(Shape([(0, 0)]), QQ(0), REST, None)
-_NO_IMAGE: Final = Image([0.0], [0.0], [], -1)
-
-
-@final
-@mypyc_attr(acyclic=True)
-class Vertex:
-    """A vertex of a ring.
-
-    Attributes:
-        id: its position in `Vertices.all`.
-        body: the position of its body in the scene; -1 if it is unused.
-        index: its vertex in the scene (infinitesimal copies share it).
-        piece: the motion of its body until the next breakpoint.
-        image: the float enclosure of its trajectory until then.
-        offset: the direction of its infinitesimal displacement; None unless the body is
-            degenerate.
-        horizon: a double at least ``until`` of its body, normalised; infinite if that is None.
-        ahead, behind: the ids of its neighbours on the ring.
-        x, y, error: its last computed position, normalised, and a bound on the errors of
-            both; ``seen`` tells when (`exactpt.certificates.positions`).
-    """
-
-    __slots__ = (
-        "ahead", "behind", "body", "error", "horizon", "id", "image", "index", "offset", "piece",
-        "seen", "x", "y",
-    )  # fmt: skip
-
-    def __init__(
-        self, vertex_id: VertexId, body: int, index: int, piece: Piece, image: Image
-    ) -> None:
-        self.id: VertexId = vertex_id
-        self.piece: Piece = piece
-        self.image: Image = image
-        self.horizon: float = INFINITY
-        self.body: int = body
-        self.index: int = index
-        self.offset: Direction | None = None
-        self.ahead: VertexId = NO_VERTEX
-        self.behind: VertexId = NO_VERTEX
-        self.x: float = 0.0
-        self.y: float = 0.0
-        self.error: float = 0.0
-        self.seen: object = None
-
-    @property
-    def track(self) -> Track:
-        """Its trajectory until the body's next breakpoint."""
-        return self.piece.track(self.index)
-
-    def is_copy_of(self, other: Vertex) -> bool:
-        """Whether both are one vertex of the scene, or infinitesimal copies of one."""
-        return self.index == other.index and self.body == other.body
+__all__ = ["MovingBody", "Vertices"]
 
 
 @final
@@ -159,7 +100,7 @@ class Vertices:
         self._plain: bool = plain
         self._end: QQ = end
         self.all: list[Vertex] = [
-            _unused(VertexId(v)) for v in range(sum(map(len, rings)) + len(free))
+            unused(VertexId(v)) for v in range(sum(map(len, rings)) + len(free))
         ]
         self.bodies: list[MovingBody] = []
         self._free: list[VertexId] = list(free)
@@ -191,16 +132,23 @@ class Vertices:
         while len(self._free) < len(indices):
             new = VertexId(len(self.all))
             self._free.insert(0, new)
-            self.all.append(_unused(new))
-        self._add(body, [(self._free.pop(), index) for index in indices], t)
+            self.all.append(unused(new))
+        ring = [(self._free.pop(), index) for index in indices]
+        for v, _ in ring:
+            self.all[v] = unused(v)
+        self._add(body, ring, t)
         self.bodies[i].is_tiled = self._may_pinch(i, t, self._end)
         return i
 
     def remove(self, i: int) -> None:
-        """Remove a body; the last body takes over its number."""
+        """Remove a body; the last body takes over its number.
+
+        Its vertices, which events may keep, and the unused ones in their places have its name.
+        """
         self.changes += 1
         for v in reversed(self.bodies[i].ring):
-            self.all[v] = _unused(v)
+            removed, self.all[v] = self.all[v], unused(v)
+            self.all[v].owner, self.all[v].index = removed.owner, removed.index
             self._free.append(v)
         last = self.bodies.pop()
         if i < len(self.bodies):
@@ -213,7 +161,7 @@ class Vertices:
         self.bodies.append(moving)
         for vertex_id, index in ring:
             vertex = self.all[vertex_id]
-            vertex.body, vertex.index = i, index
+            vertex.body, vertex.index, vertex.owner = i, index, body.name
             moving.ring.append(vertex_id)
         for part in moving.rings:
             for behind, here in zip(part, [*part[1:], part[0]], strict=True):
@@ -311,14 +259,8 @@ class Vertices:
         return moving.is_tiled and not tiled
 
     def name(self, vertex_id: VertexId) -> str:
-        """The name in event logs: ``"body:vertex"``."""
-        vertex = self.all[vertex_id]
-        return f"{self.bodies[vertex.body].body.name}:{vertex.index}"
-
-
-def _unused(vertex_id: VertexId) -> Vertex:
-    """A vertex that belongs to no body."""
-    return Vertex(vertex_id, -1, -1, _NO_PIECE, _NO_IMAGE)
+        """The name of a vertex in event logs, see `Vertex.name`."""
+        return self.all[vertex_id].name
 
 
 def _deforms(images: Sequence[Image]) -> bool:

@@ -14,7 +14,7 @@ from exactpt.certificates.perturbation import comes_first
 from exactpt.errors import AuditError
 from exactpt.indices import HalfEdge, Triple
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.motion.vertices import Vertex
+from exactpt.motion.vertex import Vertex
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, Mesh
 

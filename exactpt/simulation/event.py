@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, final
+from typing import ClassVar, TypeAlias, cast, final
 
 from mypy_extensions import mypyc_attr
 
 from exactpt.certificates.moment import Moment
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.motion.vertex import Vertex
 
 __all__ = ["Event"]
+
+_Names: TypeAlias = tuple[tuple[str, str], ...]
+_Ends: TypeAlias = tuple[tuple[Vertex, Vertex], ...]
 
 
 @final
@@ -30,13 +34,13 @@ class Event:
         self,
         time: AlgebraicNumber | Moment,
         kind: str,
-        removed: tuple[tuple[str, str], ...] = (),
-        added: tuple[tuple[str, str], ...] = (),
+        removed: _Names | _Ends = (),
+        added: _Names | _Ends = (),
     ) -> None:
         self._time: AlgebraicNumber | Moment = time
-        self._kind = kind
-        self._removed = removed
-        self._added = added
+        self._kind: str = kind
+        self._removed: _Names | _Ends = removed
+        self._added: _Names | _Ends = added
 
     @property
     def time(self) -> AlgebraicNumber:
@@ -53,12 +57,14 @@ class Event:
     @property
     def removed(self) -> tuple[tuple[str, str], ...]:
         """The edges of the tiling that have been removed."""
-        return self._removed
+        self._removed = names = _named(self._removed)
+        return names
 
     @property
     def added(self) -> tuple[tuple[str, str], ...]:
         """The edges of the tiling that have been added."""
-        return self._added
+        self._added = names = _named(self._added)
+        return names
 
     def to_json(self) -> dict[str, object]:
         """The event as a JSON object, see docs/format.md (a line of ``simulate --events``)."""
@@ -77,3 +83,10 @@ class Event:
 
     def __reduce__(self) -> tuple[object, ...]:
         return Event, (self.time, self.kind, self.removed, self.added)
+
+
+def _named(edges: _Names | _Ends) -> _Names:
+    """Edges as pairs of names, which they may be already."""
+    if not edges or isinstance(edges[0][0], str):
+        return cast("_Names", edges)
+    return tuple([(u.name, v.name) for u, v in edges])

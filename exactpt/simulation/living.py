@@ -184,7 +184,6 @@ class LivingScene:
         self._bodies.append(body)
         self._since, self._scene = t, None
         self.changes += 1
-        self.teller.forget(self.kinetic.vertices.bodies[-1].ring)
         return self.teller.told(events)
 
     def remove(self, name: str) -> list[Event]:
@@ -197,8 +196,6 @@ class LivingScene:
             self._bodies[i] = last
         self._number[last.name] = i
         del self._number[name]
-        for v in kinetic.vertices.bodies[i].ring:
-            self.teller.name(v)  # to be known once it is removed
         events = None if rings else kinetic.remove_body(i, t)
         if events is None:
             return self._restart(self._bodies, t, 1)
@@ -223,6 +220,6 @@ class LivingScene:
         return [Event(AlgebraicNumber(t), "motion", tuple(removed), tuple(added))]
 
     def _diagonals(self) -> set[tuple[str, str]]:
-        name, mesh = self.teller.name, self.kinetic.mesh_after()
+        name, mesh = self.kinetic.vertices.name, self.kinetic.mesh_after()
         ends = (sorted(map(name, mesh.ends(h))) for h in mesh.diagonals())
         return {(u, v) for u, v in ends if u != v}

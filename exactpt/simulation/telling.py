@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, final
 
 from exactpt.certificates.queue import EventTime
-from exactpt.indices import VertexId
+from exactpt.motion.vertex import Vertex
 from exactpt.simulation.event import Event
 from exactpt.tiling.events import TilingEvent
 from exactpt.tiling.tiling import Tiling
@@ -20,10 +20,10 @@ __all__ = ["Teller"]
 
 @final
 class Teller:
-    """A tiling, the names of its vertices, and how far it has come.
+    """A tiling, and how far it has come.
 
-    Nothing of an event is computed until it is asked for, except the names: the id of a vertex
-    may be that of another one by then.
+    Nothing of an event is computed until it is asked for, neither its time nor the names of its
+    vertices. An event keeps the vertices, since their ids may be those of other ones by then.
 
     Attributes:
         tiling: the tiling.
@@ -33,7 +33,6 @@ class Teller:
     def __init__(self, tiling: Tiling) -> None:
         self.tiling: Tiling = tiling
         self.passed: EventTime | None = None
-        self._names: dict[VertexId, str] = {}
 
     def advance(self, until: QQ) -> list[TilingEvent] | None:
         """As `Tiling.advance`."""
@@ -42,24 +41,13 @@ class Teller:
         return events
 
     def told(self, events: Sequence[TilingEvent]) -> list[Event]:
-        """Events that have just happened, with vertices named as in the scene."""
+        """Events that have just happened, with the vertices that have their ids now."""
         certifier = self.tiling.certifier
         return [
-            Event(certifier.moment(e.time), e.kind, self._named(e.removed), self._named(e.added))
+            Event(certifier.moment(e.time), e.kind, self._ends(e.removed), self._ends(e.added))
             for e in events
         ]
 
-    def _named(self, edges: Edges) -> tuple[tuple[str, str], ...]:
-        return tuple([(self.name(u), self.name(v)) for u, v in edges])
-
-    def name(self, vertex_id: VertexId) -> str:
-        """The name of a vertex in events; of a removed one, as long as its id is not used again."""
-        name = self._names.get(vertex_id)
-        if name is None:
-            name = self._names[vertex_id] = self.tiling.vertices.name(vertex_id)
-        return name
-
-    def forget(self, ring: Iterable[VertexId]) -> None:
-        """Forget the names of the vertices whose ids a new body has."""
-        for vertex_id in ring:
-            self._names.pop(vertex_id, None)
+    def _ends(self, edges: Edges) -> tuple[tuple[Vertex, Vertex], ...]:
+        every = self.tiling.vertices.all
+        return tuple([(every[u], every[v]) for u, v in edges])

@@ -17,7 +17,8 @@ from exactpt.certificates.queue import EventTime
 from exactpt.certificates.rigidity import rigid
 from exactpt.certificates.table import CertificateTable
 from exactpt.indices import HalfEdge, Triple, VertexId
-from exactpt.motion.vertices import Vertex, Vertices
+from exactpt.motion.vertex import Vertex
+from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import SOLID, Mesh
 from exactpt.tiling.simultaneous import Batch

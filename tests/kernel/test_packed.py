@@ -12,7 +12,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.image import Image
 from exactpt.motion.incidence import orientation
 from exactpt.motion.track import Track
-from exactpt.motion.vertices import Vertex
+from exactpt.motion.vertex import Vertex
 
 numbers = st.one_of(
     st.integers(-3, 3),

@@ -235,3 +235,23 @@ def test_whether_a_time_is_over_is_decided_exactly(family, tiling):
         ]
         tight += len(set(asked)) == 2
     assert tight > 3
+
+
+@pytest.mark.parametrize("tiling", TILINGS)
+def test_the_events_of_a_removal_name_what_was_removed(tiling):
+    triangle = [(0, 0), (4, 0), (0, 4)]
+
+    def edges(*, used_again):
+        bodies = [Body(name, [(x + 9 * i, y) for x, y in triangle]) for i, name in enumerate("abc")]
+        simulation = Simulation(Scene(bodies, (0, 9)), tiling=tiling)
+        ring = list(simulation.kinetic.vertices.bodies[1].ring)
+        simulation.remove("b")
+        if used_again:
+            simulation.add(Body("new", [(x, y + 9) for x, y in triangle]))
+            assert sorted(simulation.kinetic.vertices.bodies[-1].ring) == sorted(ring)
+        return [edge for event in simulation.step() for edge in event.removed + event.added]
+
+    at_once = edges(used_again=False)
+
+    assert any(end.startswith("b:") for edge in at_once for end in edge)
+    assert edges(used_again=True)[: len(at_once)] == at_once

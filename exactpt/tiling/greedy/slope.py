@@ -13,7 +13,7 @@ from typing import final
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, negate, scale, subtract
 from exactpt.kernel.numbers import ZZ
 from exactpt.motion.incidence import difference
-from exactpt.motion.vertices import Vertex
+from exactpt.motion.vertex import Vertex
 
 __all__ = ["Slope", "slope_terms"]
 
