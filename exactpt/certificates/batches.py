@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import chain
+from typing import Final, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,29 @@ from exactpt.motion.vertices import Vertices
 
 __all__ = ["linear_orientations", "linear_parts"]
 
+BLOCK: Final = 1 << 13
+"""Number of triples whose arrays are in a processor's cache together."""
+
+
+@final
+class _Columns:
+    """What the filter needs of all vertices, by id.
+
+    Args:
+        vertices: the vertices.
+        end: the end of the time span.
+    """
+
+    def __init__(self, vertices: Vertices, end: float) -> None:
+        every = vertices.all
+        images = [v.image for v in every]
+        self.errors: list[float] = vertices.enclosures.errors
+        self.nodes = np.array(vertices.nodes())
+        self.horizons = np.array([min(end, v.horizon) for v in every])
+        self.are_linear = np.array([i.degree <= 1 and not i.ws for i in images])
+        self.motions = np.array([i.motion for i in images])
+        self.values = linear_parts(images)
+
 
 def linear_orientations(
     vertices: Vertices,
@@ -29,21 +53,21 @@ def linear_orientations(
 
     Unsure unless the three trajectories of a triple are different, and linear.
     """
-    horizons = np.array([min(end, v.horizon) for v in vertices.all])
-    nodes = np.array(vertices.nodes())
-    is_linear = np.array([v.image.degree <= 1 and not v.image.ws for v in vertices.all])
-    count = 3 * len(triples)
-    ids = np.fromiter(chain.from_iterable(triples), np.int64, count).reshape(-1, 3)
-    a, b, c = nodes[ids].T
-    are_linear = is_linear[ids].all(axis=1) & (a != b) & (b != c) & (c != a)
-    signs, lows, highs = _linear_orientations(
-        [v.image for v in vertices.all],
-        ids,
-        vertices.enclosures.errors,
-        now_low,
-        now_high,
-        horizons[ids].min(axis=1),
-    )
+    columns = _Columns(vertices, end)
+    ids = np.fromiter(chain.from_iterable(triples), np.int64, 3 * len(triples)).reshape(-1, 3)
+    blocks = [
+        _orientations(columns, ids[first : first + BLOCK], now_low, now_high)
+        for first in range(0, len(ids), BLOCK)
+    ]
+    return Answers(*(np.concatenate(parts) for parts in zip(*blocks, strict=True)))
+
+
+def _orientations(
+    columns: _Columns, ids: NDArray[np.int64], now_low: float, now_high: float
+) -> Answers:
+    a, b, c = columns.nodes[ids].T
+    are_linear = columns.are_linear[ids].all(axis=1) & (a != b) & (b != c) & (c != a)
+    signs, lows, highs = _linear_orientations(columns, ids, now_low, now_high)
     return Answers(np.where(are_linear, signs, 0), lows, highs)
 
 
@@ -60,14 +84,9 @@ def linear_parts(images: Sequence[Image]) -> NDArray[np.float64]:
 
 @np.errstate(all="ignore")
 def _linear_orientations(
-    images: Sequence[Image],
-    triples: NDArray[np.int64],
-    errors: list[float],
-    now_low: float,
-    now_high: float,
-    horizon: NDArray[np.float64],
+    columns: _Columns, triples: NDArray[np.int64], now_low: float, now_high: float
 ) -> Answers:
-    """The filter's answers for many triples (rows of indices), none at a root now.
+    """The filter's answers for many triples (rows of ids), none at a root now.
 
     Only the answers for linear motions are valid.
 
@@ -75,8 +94,7 @@ def _linear_orientations(
     triple translate together they become a and b, and the higher coefficient of their
     difference is 0 without error, as in `_pair` there.
     """
-    motions = np.array([i.motion for i in images])[triples]
-    values = linear_parts(images)[triples]
+    motions, values, errors = columns.motions[triples], columns.values[triples], columns.errors
     rows = np.arange(len(triples))
     together = (motions == np.roll(motions, -1, axis=1)) & (motions >= 0)
     first = np.where(together.any(axis=1), together.argmax(axis=1), 0)
@@ -98,4 +116,5 @@ def _linear_orientations(
     e1 = (e1 + d1 * t0 + d0 * (t1 + 4.0 * d1)) * SLACK
     e2 = np.where(linear, 0.0, (e2 + d1 * (t1 + 2.0 * d1)) * SLACK)
     at_root = np.zeros(len(triples), dtype=np.bool_)
+    horizon = columns.horizons[triples].min(axis=1)
     return quadratics(c0, c1, c2, e0, e1, e2, now_low, now_high, horizon, at_root)

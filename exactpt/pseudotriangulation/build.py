@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import cmp_to_key
-from typing import TypeAlias
+from typing import TypeAlias, final
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
 from exactpt.indices import HalfEdge, Triple, VertexId
 from exactpt.kernel.budget import ask
-from exactpt.planar.halfedge import twin
+from exactpt.planar.halfedge import PlanarMap, twin
 from exactpt.pseudotriangulation.mesh import INSIDE, OUTER, SOLID, Diagonal, Mesh
 
 __all__ = ["build_mesh", "star_order"]
@@ -90,21 +90,39 @@ def star_order(
     predicates: Predicates, mesh: Mesh, v: VertexId, reference: HalfEdge
 ) -> Callable[[HalfEdge, HalfEdge], int]:
     """A comparison of half-edges out of v by their angles in [0, 2 pi) from a reference."""
-    target, base = mesh.map.target, mesh.map.target(reference)
-    known: dict[HalfEdge, int] = {}
+    return _Around(predicates, mesh, v, reference).compare
 
-    def half(h: HalfEdge) -> int:
+
+@final
+class _Around:
+    """The order of the half-edges out of a vertex, counter-clockwise from a reference."""
+
+    __slots__ = ("_base", "_center", "_halves", "_map", "_predicates")
+
+    def __init__(
+        self, predicates: Predicates, mesh: Mesh, center: VertexId, reference: HalfEdge
+    ) -> None:
+        self._predicates = predicates
+        self._map: PlanarMap = mesh.map
+        self._center = center
+        self._base: VertexId = mesh.map.target(reference)
+        self._halves: dict[HalfEdge, int] = {}
+
+    def compare(self, g: HalfEdge, h: HalfEdge) -> int:
+        """Negative if g is before h, positive if after it."""
+        below, other = self._half(g), self._half(h)
+        if below != other:
+            return other - below
+        target = self._map.target
+        return -self._predicates.sign(self._center, target(g), target(h))
+
+    def _half(self, h: HalfEdge) -> int:
         """1 if the angle from the reference is below pi, 0 if pi, -1 if above."""
-        if h not in known:
-            known[h] = predicates.sign(v, base, target(h))
-        return known[h]
-
-    def order(g: HalfEdge, h: HalfEdge) -> int:
-        if half(g) != half(h):
-            return half(h) - half(g)
-        return -predicates.sign(v, target(g), target(h))
-
-    return order
+        known = self._halves.get(h)
+        if known is None:
+            known = self._predicates.sign(self._center, self._base, self._map.target(h))
+            self._halves[h] = known
+        return known
 
 
 def _mark_angles(instant: PredicatesAt, mesh: Mesh) -> None:
