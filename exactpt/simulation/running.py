@@ -118,7 +118,7 @@ class Run:
                 self.pending.extend(self.living.teller.told(events))
                 return True
         except ContactFound as contact:
-            found = contact
+            found = contact.with_traceback(None)  # whose frames would keep it, and all else
         except BaseException as error:
             self._failed(error)
             raise
