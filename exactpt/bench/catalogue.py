@@ -13,6 +13,7 @@ __all__ = ["BENCHMARKS", "run"]
 BENCHMARKS: Final[dict[str, str]] = {
     "first-contact": "run time against error in the time of the first contact",
     "small": "small questions, building scenes, plans among obstacles, many pieces of motion",
+    "crowds": "the first contact of crowds built from arrays and from bodies",
     "auto": "the default method beside all others, on twenty families of everyday scenes",
     "cliffs": "convoys, long spans, turning bodies, lanes: beside the best method",
     "within": "first_within beside first_contact, of the same crowds",

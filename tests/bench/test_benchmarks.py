@@ -15,6 +15,7 @@ from exactpt.bench import (
     arrays,
     auto,
     cliffs,
+    crowds,
     first_contact,
     kernel,
     living,
@@ -39,6 +40,8 @@ from exactpt.bench.planted import Planted
 from exactpt.cli import cli, main
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.motion.body import Body
+from exactpt.scene.scene import Scene
 
 NO_PEERS = ("shapely", "pymunk", "ipctk", "Box2D", "flint", "sympy", "mpmath", "matplotlib")
 
@@ -341,6 +344,24 @@ def test_small(results, alone):
     }
     assert {row["error"] for row in rows if row["method"].startswith("exactpt")} <= {"0.0", ""}
     assert len(rows) == 13
+
+
+def test_crowds(results):
+    crowds.run(results.output, crowds.Sizes((9,), (9, 16), 1), 0)
+    rows = results.rows("crowds")
+    assert [(row["crowd"], row["bodies"], row["scene of"]) for row in rows] == [
+        (crowd, bodies, way)
+        for crowd, bodies in (("dense", "9"), ("sparse", "9"), ("sparse", "16"))
+        for way in ("arrays", "bodies")
+    ]
+    assert any(row["time"] for row in rows)
+    assert all(float(row["ms to answer"]) > 0 for row in rows)
+
+
+def test_a_wrong_answer_about_a_crowd_is_an_error(results, monkeypatch):
+    monkeypatch.setattr(crowds, "_from_bodies", lambda _: Scene([Body("a", [(0, 0)])]))
+    with pytest.raises(AuditError, match="9 bodies, dense"):
+        crowds.run(results.output, crowds.Sizes((9,), (), 1), 0)
 
 
 def test_a_wrong_answer_to_a_small_question_is_an_error(results, monkeypatch, alone):
