@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Hashable, Sequence
+from functools import partial
 from itertools import chain, zip_longest
 from typing import TYPE_CHECKING, Final, NamedTuple, final
 
@@ -179,56 +180,16 @@ class Enclosures:
             self._note_errors(y, ys)
         image = Image(xs, ys, ws, motion)
         if isinstance(track.motion, Turning):
-            image.arm = self._arm(track, track.motion)
+            common = self._common_of(track.motion)
+            if common is not None:
+                image.make_arm = partial(_arm, track, common, self._frame)
         return image
-
-    def _arm(self, track: Track, turning: Turning) -> Arm | None:
-        """The trajectory as a pivot and an arm, with w = 1 + h^2 for the half turn h.
-
-        (The denominators of trajectories of one motion differ by constants.) None if the
-        degrees are too large, or a coefficient is out of range.
-        """
-        if self._turning is not turning:
-            self._turning, self._common = turning, self._common_of(turning)
-        common = self._common
-        if common is None:
-            return None
-        factor = common.w / track.w[0]
-        arms = []
-        for x, part, scale in zip(
-            (track.x, track.y), (common.part_x, common.part_y), self._frame.scale, strict=True
-        ):
-            unit = power_of_two(-scale)
-            r = [(a * factor - b) * unit for a, b in zip_longest(x[:3], part, fillvalue=QQ(0))]
-            r = self._frame.in_time(r)
-            arms.append(
-                [*_floats(_quotients(r, common.divisor), 3), *_floats([r[0] / common.w_now], 1)]
-            )
-        if not all(map(_fits_in_arms, chain(*arms))):
-            return None
-        arm_x, arm_y = arms
-        return Arm(common.pivot_x, common.pivot_y, arm_x, arm_y, common.denominator)
 
     def _common_of(self, turning: Turning) -> _Common | None:
         """What the arms of all vertices of a motion have in common; None if they are none."""
-        paths = turning.x._coefficients, turning.y._coefficients
-        h = turning.half_turn
-        w = ONE + h * h
-        if w.degree > 2 or max(map(len, paths)) > 3:
-            return None
-        w_now = self._frame.in_time(list(w._coefficients))
-        divisor = power_of_two(binary_exponent(max(map(abs, w_now))))
-        pivots = [
-            _floats(self._frame.in_time(combined(list(path), [QQ(1)], -c, power_of_two(-scale))), 3)
-            for path, c, scale in zip(paths, self._frame.center, self._frame.scale, strict=True)
-        ]
-        denominator = _floats(_quotients(w_now, divisor), 3)
-        if not all(map(_fits_in_arms, chain(denominator, *pivots))):
-            return None
-        parts = ([*(w * path)._coefficients, *[QQ(0)] * 3][:3] for path in (turning.x, turning.y))
-        (pivot_x, pivot_y), (part_x, part_y) = pivots, parts
-        constants = w._coefficients[0], w_now[0], divisor
-        return _Common(*constants, pivot_x, pivot_y, part_x, part_y, denominator)
+        if self._turning is not turning:
+            self._turning, self._common = turning, _common_of(turning, self._frame)
+        return self._common
 
     @property
     def motion_count(self) -> int:
@@ -247,6 +208,51 @@ class Enclosures:
             error = abs(near) * (2.0 * U)
             if error > self.errors[i] and c != near:
                 self.errors[i] = error
+
+
+def _arm(track: Track, common: _Common, frame: Frame) -> Arm | None:
+    """The trajectory as a pivot and an arm, with w = 1 + h^2 for the half turn h.
+
+    (The denominators of trajectories of one motion differ by constants.) None if the
+    degrees are too large, or a coefficient is out of range.
+    """
+    factor = common.w / track.w[0]
+    arms = []
+    for x, part, scale in zip(
+        (track.x, track.y), (common.part_x, common.part_y), frame.scale, strict=True
+    ):
+        unit = power_of_two(-scale)
+        r = [(a * factor - b) * unit for a, b in zip_longest(x[:3], part, fillvalue=QQ(0))]
+        r = frame.in_time(r)
+        arms.append(
+            [*_floats(_quotients(r, common.divisor), 3), *_floats([r[0] / common.w_now], 1)]
+        )
+    if not all(map(_fits_in_arms, chain(*arms))):
+        return None
+    arm_x, arm_y = arms
+    return Arm(common.pivot_x, common.pivot_y, arm_x, arm_y, common.denominator)
+
+
+def _common_of(turning: Turning, frame: Frame) -> _Common | None:
+    """What the arms of all vertices of a motion have in common; None if they are none."""
+    paths = turning.x._coefficients, turning.y._coefficients
+    h = turning.half_turn
+    w = ONE + h * h
+    if w.degree > 2 or max(map(len, paths)) > 3:
+        return None
+    w_now = frame.in_time(list(w._coefficients))
+    divisor = power_of_two(binary_exponent(max(map(abs, w_now))))
+    pivots = [
+        _floats(frame.in_time(combined(list(path), [QQ(1)], -c, power_of_two(-scale))), 3)
+        for path, c, scale in zip(paths, frame.center, frame.scale, strict=True)
+    ]
+    denominator = _floats(_quotients(w_now, divisor), 3)
+    if not all(map(_fits_in_arms, chain(denominator, *pivots))):
+        return None
+    parts = ([*(w * path)._coefficients, *[QQ(0)] * 3][:3] for path in (turning.x, turning.y))
+    (pivot_x, pivot_y), (part_x, part_y) = pivots, parts
+    constants = w._coefficients[0], w_now[0], divisor
+    return _Common(*constants, pivot_x, pivot_y, part_x, part_y, denominator)
 
 
 def _integer_image(track: Track, x: list[float], y: list[float], motion: int) -> Image | None:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import Final, final
+from typing import TYPE_CHECKING, Final, final
 
 from mypy_extensions import mypyc_attr
 
 from exactpt.kernel.error_free import is_exact_sum
 from exactpt.kernel.rounding import U
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 __all__ = ["LARGEST", "SMALLEST", "Arm", "Image", "translated"]
 
@@ -82,17 +85,18 @@ class Image:
         ws: the denominator's coefficients if the trajectory turns, up to a power of two
             that makes the largest about 1; else empty (a constant denominator is divided out).
         degree: the degree of the trajectory; of the numerators if it turns.
-        arm: the trajectory once more, if it turns with a half turn of degree 1 about a pivot
-            whose path has at most degree 2; else None.
+        make_arm: what makes ``arm`` when it is first asked for; None if there is none, or
+            it is made.
         motion: vertices of equal ``motion`` keep their difference (translating) or
             their distances (turning) for ever; -1 is equal to nothing.
     """
 
     __slots__ = (
+        "_arm",
         "_xs",
         "_ys",
-        "arm",
         "degree",
+        "make_arm",
         "motion",
         "ws",
         "x0",
@@ -121,7 +125,18 @@ class Image:
         is_linear = len(xs) <= 2 and not ws
         self._xs: list[float] | None = None if is_linear else xs
         self._ys: list[float] | None = None if is_linear else ys
-        self.arm: Arm | None = None
+        self._arm: Arm | None = None
+        self.make_arm: Callable[[], Arm | None] | None = None
+
+    @property
+    def arm(self) -> Arm | None:
+        """The trajectory once more, if it turns with a half turn of degree 1 about a pivot.
+
+        None if it does not, or the path of the pivot has a degree above 2.
+        """
+        if self.make_arm is not None:
+            self._arm, self.make_arm = self.make_arm(), None
+        return self._arm
 
     @property
     def xs(self) -> list[float]:
