@@ -87,7 +87,7 @@ class RowBoxes:
         self._c_error = self._v_error = np.zeros(n)
         self._start = np.full(n, enclosing_floats(start)[0])
         self._end = np.full(n, enclosing_floats(end)[1])
-        self.drift = np.median(self._v, axis=0)
+        self.drift = middles(self._v)
         return self
 
     def __len__(self) -> int:

@@ -7,6 +7,7 @@ body is grown.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import Final, TypeAlias, final
 
@@ -98,9 +99,12 @@ def _of_arrays(bodies: BodyArrays) -> Floats | None:
     first = native(bodies.offsets[:-1])
     low, high = (f.reduceat(bodies.vertices, first) for f in (np.minimum, np.maximum))
     radii = np.where(bodies.radii, bodies.radii * ROUNDED_UP + TINY, 0.0)[:, None]
+    # As in `_within`.
+    low = np.where(radii, np.nextafter(low - radii, -np.inf), low)
+    high = np.where(radii, np.nextafter(high + radii, np.inf), high)
     straight = np.zeros((len(bodies), 2, 2))
     straight[:, :, : bodies.coefficients.shape[2]] = bodies.coefficients[:, :, :2]
-    return np.hstack((low - radii, high + radii, straight[:, :, 0], straight[:, :, 1]))
+    return np.hstack((low, high, straight[:, :, 0], straight[:, :, 1]))
 
 
 def _of_bodies(bodies: Sequence[Body]) -> Floats | None:
@@ -123,16 +127,21 @@ def _doubles_of(body: Body) -> tuple[float, ...] | None:
     x, y = body.motion.x._doubles, body.motion.y._doubles
     if x is None or y is None or len(x) > 2 or len(y) > 2:
         return None
-    xs, ys = doubles
-    radius = _above(body._radius)
-    low_x, low_y, high_x, high_y = min(xs), min(ys), max(xs), max(ys)
+    (low_x, high_x), (low_y, high_y) = (_within(body, min(f), max(f)) for f in doubles)
     (cx, vx, *_), (cy, vy, *_) = (*x, 0.0, 0.0), (*y, 0.0, 0.0)
-    return (low_x - radius, low_y - radius, high_x + radius, high_y + radius, cx, cy, vx, vy)
+    return (low_x, low_y, high_x, high_y, cx, cy, vx, vy)
 
 
-def _above(radius: QQ) -> float:
-    """A double that is not less; 0 for 0."""
-    return nearest_float(radius) * ROUNDED_UP + TINY if radius else 0.0
+def _within(body: Body, low: float, high: float) -> tuple[float, float]:
+    """An interval that contains all within the radius of a body around one.
+
+    A sum far from 0 may lose the radius, and a bound made of differences of the two intervals
+    would not allow for that: so each end is the next double.
+    """
+    if not body._radius:
+        return low, high
+    radius = nearest_float(body._radius) * ROUNDED_UP + TINY
+    return math.nextafter(low - radius, -math.inf), math.nextafter(high + radius, math.inf)
 
 
 def _pieces(body: Body) -> list[tuple[Straight, QQ | None]] | None:
@@ -144,14 +153,7 @@ def _pieces(body: Body) -> list[tuple[Straight, QQ | None]] | None:
 
 
 def _grown(body: Body, shape: Outline) -> Outline:
-    """An outline with a box that contains the points within the radius, apart from rounding.
-
-    Bounds made of boxes allow for the rounding of a sum of sides.
-    """
-    radius = _above(body._radius)
-    return shape._replace(
-        low_x=shape.low_x - radius,
-        high_x=shape.high_x + radius,
-        low_y=shape.low_y - radius,
-        high_y=shape.high_y + radius,
-    )
+    """An outline with a box that contains the points within the radius, apart from its error."""
+    low_x, high_x = _within(body, shape.low_x, shape.high_x)
+    low_y, high_y = _within(body, shape.low_y, shape.high_y)
+    return shape._replace(low_x=low_x, high_x=high_x, low_y=low_y, high_y=high_y)

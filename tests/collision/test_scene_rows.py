@@ -85,3 +85,37 @@ def test_only_bodies_that_come_near_are_made():
         "0", "20"
     }  # fmt: skip
     assert len(scene.bodies._made) <= 4
+
+
+@pytest.mark.parametrize("form", ["arrays", "doubles", "rationals"])
+@pytest.mark.parametrize("axis", [0, 1])
+def test_bug_a_radius_that_is_lost_far_away_still_counts(form, axis):
+    """Doubles are 1/8 apart there: a box grown by a radius of 1/20 was the box of the core."""
+    far = 10.0**15
+    at = [(far, 0.0), (far + 0.125, 0.0), *((0.0, 20.0 + k) for k in range(12))]
+    motions = [([0, 0], [0, 0]), ([-0.03, 0], [-4, 1]), *[([0, 0], [0, 0])] * 12]
+    if axis:
+        at, motions = [p[::-1] for p in at], [m[::-1] for m in motions]
+    if form == "arrays":
+        scene = Scene.from_arrays(
+            at, range(len(at) + 1), coefficients=motions, radii=[0.05] * len(at), time=(0, 8)
+        )
+    else:
+        number = (lambda v: v) if form == "doubles" else exact_fraction
+        scene = Scene(
+            [
+                Body(
+                    str(k),
+                    [tuple(map(number, p))],
+                    Translation(*(list(map(number, f)) for f in m)),
+                    radius=number(0.05),
+                )
+                for k, (p, m) in enumerate(zip(at, motions, strict=True))
+            ],
+            (0, 8),
+        )
+
+    contact = first_contact(scene)
+
+    assert contact is not None
+    assert contact.time == first_contact(scene, exact_only=True).time
