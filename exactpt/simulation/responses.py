@@ -207,13 +207,13 @@ def _velocity_beside(body: Body, edge: int, vertex: tuple[Body, int], t: QQ) -> 
     """The velocity of the point of an edge that is nearest to a vertex of a body."""
     if body._piece_after(t).translation is not None:
         return _translation_speed(body, t)
-    points = body._at(t)
-    a, b = points[edge], points[(edge + 1) % len(points)]
+    points, end = body._at(t), body.end_of_edge(edge)
+    a, b = points[edge], points[end]
     place = vertex[0]._at(t)[vertex[1]]
     dx, dy = b[0] - a[0], b[1] - a[1]
     along = ((place[0] - a[0]) * dx + (place[1] - a[1]) * dy) / (dx * dx + dy * dy)
     s = nearest_float(min(max(along, QQ(0)), QQ(1)))
-    (ux, uy), (vx, vy) = (_velocity(body, v, t) for v in (edge, (edge + 1) % len(points)))
+    (ux, uy), (vx, vy) = (_velocity(body, v, t) for v in (edge, end))
     return ux + s * (vx - ux), uy + s * (vy - uy)
 
 

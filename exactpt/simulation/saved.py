@@ -116,7 +116,8 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], last: QQ, *, exact_only
         moving.is_tiled = body["tiled"]
     certifier = Certifier(vertices, QQ(0), parse_rational(data["end"]), exact_only=exact_only)
     now = _time_from_json(data["now"])
-    certifier.move_to(now, [EventTime(now.low, now.high, *of) for of in data["roots_now"]])
+    roots = [EventTime(now.low, now.high, a, b, c) for a, b, c in data["roots_now"]]
+    certifier.move_to(now, roots)
     certifier.made, certifier.skipped, certifier.zeros = data["counts"]
     stats = Stats()
     stats.events = dict(data["stats"]["events"])

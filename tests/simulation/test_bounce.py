@@ -10,12 +10,15 @@ from exactpt import (
     Body,
     Bounce,
     InputError,
+    Rigid,
     Scene,
     Simulation,
     Translation,
     Velocity,
     first_contact,
 )
+from exactpt.kernel.numbers import QQ
+from exactpt.simulation.responses import _velocity_beside
 
 BOX = [(0, 0), (1, 0), (1, 1), (0, 1)]
 EXACT = 2.0**-19  # velocities are rounded to the grid of 2^-20
@@ -145,3 +148,14 @@ def test_a_ball_comes_back_from_a_corner_of_a_frame():
     assert [e.time for e in contacts] == [8]
     motion = simulation.body("ball").motion
     assert (motion.x.coefficients[1], motion.y.coefficients[1]) == (-3, -3)
+
+
+@pytest.mark.parametrize("edge, at", [(3, (-25, 10)), (7, (-21, -20)), (1, (25, 7))])
+def test_bug_the_last_edge_of_a_ring_ends_at_its_first_vertex(edge, at):
+    """Turning at one radian a second, the point (x, y) of an edge has the velocity (-y, x)."""
+    wide = [(-25, -25), (25, -25), (25, 25), (-25, 25)]
+    narrow = [(-21, -21), (21, -21), (21, 21), (-21, 21)]
+    frame = Body("frame", wide, Rigid([0, "1/2"]), holes=[narrow])
+    ball = Body("ball", [at, (0, 0)])
+
+    assert _velocity_beside(frame, edge, (ball, 0), QQ(0)) == (-at[1], at[0])

@@ -229,6 +229,16 @@ def test_a_certificate_of_nothing_is_refused(tmp_path, slot):
         Simulation.restore(tmp_path / "run.json")
 
 
+def test_roots_of_more_than_three_vertices_are_refused(tmp_path):
+    """The fourth number would be taken for an exact time."""
+    data = without_seal(Simulation(generate("convex", 2), tiling="greedy").to_json())
+    forged = changed(data, ("state", "roots_now"), [[0, 1, 2, 3]])
+    (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
+
+    with pytest.raises(InputError, match=r"run\.json: "):
+        Simulation.restore(tmp_path / "run.json")
+
+
 @pytest.mark.parametrize(
     "place, value, message",
     [
