@@ -45,7 +45,11 @@ class ExactPlaces:
         return exact_turn((x[a], y[a]), (x[b], y[b]), (x[c], y[c]), (x[d], y[d]))
 
     def is_slope(self, a: VertexId, b: VertexId, q: float) -> bool:
-        """Whether q is minus the slope of the line from a to b."""
+        """Whether q, the double nearest to minus the slope of the line from a to b, is that.
+
+        Then q dx is -dy or differs from it by less than a unit in its last place, and all sums of
+        `is_exact_product` are exact but perhaps the last, which is 0 only if the error is.
+        """
         if not self._are_exact:
             return False
         x, y = self._x, self._y

@@ -26,7 +26,7 @@ def is_exact_sum(a: float, b: float, total: float) -> bool:
 
 
 def is_exact_product(a: float, b: float, product: float) -> bool:
-    """Whether a b is the double that it is rounded to, for numbers of at most 2^900."""
+    """Whether a b is a double next to it, for numbers of at most 2^900."""
     c = _SPLITTER * a
     a_high = c - (c - a)
     a_low = a - a_high

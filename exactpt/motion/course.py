@@ -37,7 +37,6 @@ class Piece:
         self.motion = motion
         self.until = until
         self._shape = shape
-        self._shape = shape
         self._since = since
         self._made: dict[int, Track] = {}
         self._tracks: tuple[Track, ...] | None = None

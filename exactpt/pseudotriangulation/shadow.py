@@ -152,16 +152,14 @@ def is_tangent(mesh: Mesh, h: HalfEdge, i: HalfEdge, j: HalfEdge, predicates: Pr
 
     A segment xy that is tangent at both ends is the shadow edge of h, unless it is h:
 
-    **It lies in the pseudo-quadrangle Q.** A side chain bends towards its solid side. So one with
-    the reflex vertex x inside is on one side of the line xy, which it touches at x only; one that
-    begins at the corner x leaves the ray from x through y for good. Hence no chain contains both
-    x and y, and only the others can cross xy, or the line beyond an end that is reflex. If x and y
-    are corners, they are opposite ones, and there is no other chain. If only x is a corner, there
-    is one; it crosses the line behind y, since this continues in Q there, and crosses xy an even
-    number of times, since this begins and ends in Q: at most two times in all, so never xy. If
-    both are reflex, there are two; they cross the line before x and behind y, and if they cross
-    xy, then twice at least: so each crosses the line twice, and both its ends are on one side.
-    Then all four corners, and so Q, are on one side of the line: a contradiction.
+    **It lies in the pseudo-quadrangle Q.** The line xy divides Q into parts. Each is on one side
+    of the line, and its vertex farthest from it is a corner of Q. A component of the intersection
+    of Q and the line makes one part two, and one more where it touches a reflex vertex whose
+    neighbours are on one side. If x and y were in two components, there would be
+    1 + 2 + 2 parts, but one less for each of x and y that is a corner: there, a component begins.
+    So there would be one part more than Q has corners that are not on the line. Hence x and y
+    are in one component; for the same reason it touches no third vertex. (Nothing is assumed of
+    the side chains, which may turn by more than pi.)
 
     **It is a diagonal of Q.** It divides Q into two faces with six corners together, two
     pseudo-triangles; and Q has two diagonals.
