@@ -3,7 +3,7 @@
 import pytest
 
 from exactpt.collision.tilings import TILINGS
-from exactpt.scene.generate import FAMILIES, POINTS
+from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED
 from fuzz.cases import failure_of
 from fuzz.statics import run_and_audit
 from fuzz.subscene import scene_of
@@ -19,6 +19,13 @@ def test_no_witness_objects(family):
         scene = scene_of(family, seed)
         for witness in QUICK:
             assert failure_of(witness, scene, seed) is None
+
+
+@pytest.mark.parametrize("family", [*ROUNDED, *RINGS])
+def test_variants_of_rounded_bodies_and_rings_have_the_image_of_the_contact(family):
+    """Bug: of discs that just touch, the contact was missed 2^60 from the origin."""
+    for seed in range(1, 21):
+        assert failure_of("symmetry", scene_of(family, seed), seed) is None
 
 
 @pytest.mark.parametrize("tiling", TILINGS)
