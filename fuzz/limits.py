@@ -77,7 +77,11 @@ def _over(ends: float | None) -> type[BaseException]:
 
 @contextlib.contextmanager
 def _signals(seconds: float, left: float, ends: float | None) -> Iterator[None]:
+    interrupted = False
+
     def interrupt(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001
+        nonlocal interrupted
+        interrupted = True
         raise _over(ends)
 
     old = [signal.signal(number, interrupt) for number in (signal.SIGPROF, signal.SIGALRM)]
@@ -85,6 +89,10 @@ def _signals(seconds: float, left: float, ends: float | None) -> Iterator[None]:
     signal.setitimer(signal.ITIMER_REAL, left, AGAIN)
     try:
         yield
+    except SystemError:  # C code may make one of the interrupt
+        if interrupted:
+            raise _over(ends) from None
+        raise
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
         signal.setitimer(signal.ITIMER_REAL, 0)

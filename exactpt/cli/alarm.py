@@ -52,9 +52,12 @@ def time_limit(seconds: float | None, memory: int | None = None) -> Iterator[Non
 
 @contextmanager
 def _alarm(seconds: float) -> Iterator[None]:
-    """Raise `BudgetExceeded` by a signal."""
+    """Raise `BudgetExceeded` by a signal; so it is if C code makes another error of it."""
+    rung = False
 
     def ring(signum: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001
+        nonlocal rung
+        rung = True
         raise BudgetExceeded("the time is used up", None)
 
     old = signal.signal(signal.SIGALRM, ring)
@@ -62,6 +65,10 @@ def _alarm(seconds: float) -> Iterator[None]:
     left, interval = signal.setitimer(signal.ITIMER_REAL, delay, AGAIN)
     try:
         yield
+    except SystemError:
+        if rung:
+            raise BudgetExceeded("the time is used up", None) from None
+        raise
     finally:
         signal.setitimer(signal.ITIMER_REAL, left, interval)
         signal.signal(signal.SIGALRM, old)

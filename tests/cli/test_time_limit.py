@@ -145,6 +145,18 @@ def test_what_was_set_is_set_again():
         signal.signal(signal.SIGALRM, old)
 
 
+def test_what_c_code_makes_an_error_of_is_a_time_limit(monkeypatch):
+    """Bug: gmpy2, interrupted while it reads a `Fraction`, says that it is none."""
+    monkeypatch.setattr("exactpt.cli.alarm.GRACE", 0.01)
+    with pytest.raises(BudgetExceeded), time_limit(0.01):
+        try:
+            for_ever()
+        except BudgetExceeded:
+            raise SystemError("Object does not appear to be Fraction") from None
+    with pytest.raises(SystemError), time_limit(60):
+        raise SystemError
+
+
 def test_what_a_finalizer_swallows_is_raised_again(monkeypatch):
     """Python prints and drops an exception in ``__del__``; the alarm rings again."""
     monkeypatch.setattr("exactpt.cli.alarm.AGAIN", 0.02)

@@ -99,6 +99,17 @@ def test_a_hang_is_a_finding_wherever_it_runs(monkeypatch, stuck, where):
     assert [failure.signature for failure in outcomes[0].failures] == ["hangs"]
 
 
+def test_an_interrupt_that_becomes_an_error_of_c_code_is_one():
+    """Bug: gmpy2, interrupted while it reads a `Fraction`, says that it is none."""
+    with pytest.raises(TooSlow), limit(0.01):
+        try:
+            hang()
+        except TooSlow:
+            raise SystemError("Object does not appear to be Fraction") from None
+    with pytest.raises(SystemError), limit(60):
+        raise SystemError
+
+
 def test_a_limit_in_a_thread_is_over_when_it_is_left():
     def work():
         for _ in range(200):
