@@ -240,6 +240,8 @@ VARIANTS: Final[Mapping[str, Variant]] = {
     ),
     "later": Variant(delay=QQ(355, 113)),
     "slower": Variant(rate=QQ(7, 2), delay=QQ(-1)),
+    "within an instant": Variant(rate=power_of_two(-1060)),
+    "for ages": Variant(rate=power_of_two(1060)),
     "drifting": Variant(drift=(QQ(17), QQ(-5, 3))),
     "cut": Variant(cut=True),
     "reordered": Variant(reorder=True),

@@ -181,7 +181,8 @@ class EventQueue:
         self._first = min(lows, default=0.0)
         sample, days = sorted(lows[:: len(lows) // SAMPLE + 1]), min(len(lows) // 8, DAYS) + 1
         span = max(reach, sample[3 * len(sample) // 4] if sample else 0.0) - self._first
-        self._per_day = (days - 0.5) / span if 0.0 < span < INFINITY else 0.0
+        per_day = (days - 0.5) / span if 0.0 < span < INFINITY else 0.0
+        self._per_day = per_day if per_day < INFINITY else 0.0  # infinite if the span is subnormal
         self._heap, self._days = [], [[] for _ in range(days)]
         self._next_day, self._notes, self._has_more = 0.0, 0, False
         for k, slot in enumerate(slots):  # compiled, a zip would be slower

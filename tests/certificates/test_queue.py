@@ -11,7 +11,7 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, 
 from exactpt.certificates.queue import EventQueue, EventTime, ExactQueue
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
-from exactpt.kernel.numbers import QQ, enclosing_floats
+from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
 
 # The square root of 2 by two polynomials, the double next to it, thirds, nearly a third.
 NUMBERS = [
@@ -211,3 +211,17 @@ def test_bug_ends_of_motions_within_one_double_are_told_apart():
         queue.schedule(slot, EventTime(low, high, -1, -1, -1, AlgebraicNumber(t)))
 
     assert [[s for s, _ in queue.pop()[1]] for _ in thirds] == [[1], [2], [0]]
+
+
+@pytest.mark.parametrize("exponent", [-1100, -1060, -1030, 0, 1000, 1100])
+def test_bug_a_queue_whose_events_lie_within_the_least_doubles_ends(exponent):
+    """The days of its calendar would be infinitely many in a unit of time."""
+    rationals = Rationals()
+    queue = EventQueue(rationals, Counters())
+    for slot in range(40):
+        time = (1 + slot * 17 % 40) * power_of_two(exponent)
+        queue.schedule(slot, rationals.event(time, 0.0))
+
+    popped = [queue.pop()[1][0][0] for _ in range(40)]
+    assert popped == sorted(range(40), key=lambda slot: slot * 17 % 40)
+    assert queue.pop() is None
