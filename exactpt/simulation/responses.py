@@ -90,13 +90,13 @@ class Bounce:
         positive |= {f"the mass of {shorten(name)}": mass for name, mass in masses.items()}
         for what, number in positive.items():
             if number is not None and rational(number) <= 0:
-                raise InputError(f"{what}: not positive: {number!r}")
+                raise InputError(f"{what}: not positive: {shorten(number)}")
             if number is None or what == "grid":
                 continue
             if not 0.0 < nearest_float(rational(number)) < math.inf:
                 raise InputError(f"{what}: beyond the range of doubles: {shorten(number)}")
         if not 0 <= rational(restitution) <= 1:
-            raise InputError(f"restitution: not between 0 and 1: {restitution!r}")
+            raise InputError(f"restitution: not between 0 and 1: {shorten(restitution)}")
         self._fixed = frozenset(fixed)
         # A misspelt name would be a body that is pushed away, or of another mass.
         self._unseen = dict.fromkeys(fixed, "fixed") | dict.fromkeys(masses, "masses")
