@@ -65,9 +65,8 @@ def read_spans(time: ArrayLike, count: int) -> Spans:
         raise InputError(f"{where}: the span from {a!r} to {b!r} is empty")
     shifted = bool(given[..., 0].any())
     with np.errstate(over="ignore"):
-        length = given[..., 1] - given[..., 0]
-    low, high = length, length
-    if shifted:
-        low, high = np.nextafter(length, -np.inf), np.nextafter(length, np.inf)
+        low = high = given[..., 1] - given[..., 0]
+        if shifted:
+            low, high = np.nextafter(low, -np.inf), np.nextafter(high, np.inf)
     bounds = Span(np.broadcast_to(low, (count,)), np.broadcast_to(high, (count,)))
     return Spans(start, end, bounds, shifted)

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Final, final
 
 from exactpt.errors import BudgetExceeded, InputError
+from exactpt.kernel.numbers import shorten
 
 __all__ = ["GRACE", "LONG", "ask", "check_bounds", "resident_memory", "searching", "within"]
 
@@ -105,8 +106,12 @@ def check_bounds(**bounds: object) -> None:
         InputError: if one is not; it has its name.
     """
     for name, bound in bounds.items():
-        if bound is not None and not (isinstance(bound, Real) and float(bound) >= 0):
-            raise InputError(f"{name}: not a number from 0 on: {bound!r:.60}")
+        try:
+            fits = bound is None or (isinstance(bound, Real) and float(bound) >= 0)
+        except OverflowError:
+            fits = False
+        if not fits:
+            raise InputError(f"{name}: not a number from 0 on, or no double: {shorten(bound)}")
 
 
 def resident_memory() -> int:

@@ -177,7 +177,10 @@ def parse_rational(text: str) -> QQ:
 
 def shorten(text: object, limit: int = 60) -> str:
     """The ``repr`` of a value, cut so that a message stays one readable line."""
-    shown = " ".join(repr(text).splitlines())
+    try:
+        shown = " ".join(repr(text).splitlines())
+    except ValueError:  # Python writes no integers of more than 4,300 digits
+        return f"<{type(text).__name__} with too many digits>"
     return shown if len(shown) <= limit else f"{shown[: limit - 12]}...{shown[-8:]}"
 
 

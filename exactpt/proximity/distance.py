@@ -11,7 +11,7 @@ from typing import final
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, Rational, fraction, rational
+from exactpt.kernel.numbers import QQ, Rational, fraction, rational, show
 from exactpt.kernel.square_root import exact_square_root, nearest_root_less
 from exactpt.motion.body import Body
 from exactpt.proximity.features import Feature
@@ -116,7 +116,9 @@ def _rational_time(scene: Scene, at: Rational | AlgebraicNumber) -> QQ:
     else:
         t = rational(at)
     if not scene._start <= t <= scene._end:
-        raise InputError(f"the time {t} is outside of [{scene._start}, {scene._end}]")
+        raise InputError(
+            f"the time {show(t)} is outside of [{show(scene._start)}, {show(scene._end)}]"
+        )
     return t
 
 

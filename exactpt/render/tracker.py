@@ -18,6 +18,7 @@ from exactpt.pseudotriangulation.mesh import F2, FREE, INSIDE, OUTER, SOLID, Til
 from exactpt.render.palette import TINTS
 
 if TYPE_CHECKING:
+    from exactpt.planar.halfedge import PlanarMap
     from exactpt.tiling.tiling import Tiling
 
 __all__ = ["EdgeSpan", "TileSpan", "Tracker"]
@@ -138,7 +139,7 @@ class Tracker:
         cycles: list[list[int]] = []
         found: set[int] = set()
         for h in changed:
-            if h in found or m.origin[h] < 0 or mesh.region[h] in (OUTER, SOLID):
+            if h in found or _origin(m, h) < 0 or mesh.region[h] in (OUTER, SOLID):
                 continue
             cycle = [int(g) for g in m.face(HalfEdge(h))]
             found.update(cycle)
@@ -192,7 +193,8 @@ class Tracker:
             if key is not None:
                 self._members[key].discard(edge)
                 touched[key] = None
-            u, v = (self._node[w] if w >= 0 else -1 for w in m.origin[2 * edge : 2 * edge + 2])
+            ends = _origin(m, 2 * edge), _origin(m, 2 * edge + 1)
+            u, v = (self._node[w] if w >= 0 else -1 for w in ends)
             if u != v:
                 key = (u, v) if u < v else (v, u)
                 self._key_of[edge] = key
@@ -216,6 +218,11 @@ class Tracker:
         if any(mesh.is_hull(HalfEdge(2 * e)) for e in edges):
             return "rim" if boundary else "hull"
         return None if boundary or not edges else "diagonal"
+
+
+def _origin(m: PlanarMap, h: int) -> int:
+    """The origin of a half-edge; -1 if it is gone: a mesh built anew may have fewer than before."""
+    return int(m.origin[h]) if h < len(m.origin) else -1
 
 
 def _differences(old: Sequence[object], new: Sequence[object]) -> list[int]:

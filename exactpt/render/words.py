@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import nearest_float
+from exactpt.kernel.numbers import nearest_float, rational
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -43,7 +43,7 @@ def short(text: str, limit: int = 24) -> str:
 def time_in_words(time: AlgebraicNumber | QQ) -> str:
     """``t = 5/2``, or ``t ≈ 3.1415926`` for an irrational number or a long fraction."""
     low = getattr(time, "low", time)
-    exact = str(low)
+    exact = str(rational(low))
     if low == getattr(time, "high", time) and len(exact) <= 16:
         return f"t = {exact}"
     near = float(time) if isinstance(time, AlgebraicNumber) else nearest_float(time)

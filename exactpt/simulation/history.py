@@ -10,7 +10,7 @@ from typing import NamedTuple, final
 from exactpt.collision.contact import Contact
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, fraction, show
+from exactpt.kernel.numbers import QQ, fraction, rational, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, SimpleMotion
 from exactpt.scene.scene import Scene
@@ -76,11 +76,12 @@ class History:
             InputError: if no time has passed, or a body came, went or changed its shape.
         """
         if self.start == self.end:
-            raise InputError(f"no time has passed since t = {show(self.start)}")
+            raise InputError(f"no time has passed since t = {show(rational(self.start))}")
         for body, since, until in self.lives:
             if (since, until) != (self.start, self.end):
                 raise InputError(
-                    f"body {body.name!r} was there from t = {show(since)} to t = {show(until)} "
+                    f"body {body.name!r} was there from t = {show(rational(since))} "
+                    f"to t = {show(rational(until))} "
                     f"only (or changed its shape then): no scene is this run"
                 )
         return Scene([life.body for life in self.lives], (self.start, self.end))

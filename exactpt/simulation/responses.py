@@ -68,8 +68,9 @@ class Bounce:
         grid: positive step to whose multiples velocities are rounded.
 
     Raises:
-        InputError: if ``fixed`` is a string, or a number is out of range; at the first contact,
-            if a name in ``fixed`` or ``masses`` is no body.
+        InputError: if ``fixed`` is a string, or a number is out of range (that of doubles too,
+            except for ``grid``); at the first contact, if a name in ``fixed`` or ``masses`` is no
+            body; at a contact, if a velocity leaves the range of doubles.
     """
 
     def __init__(
@@ -89,9 +90,13 @@ class Bounce:
         positive |= {f"the mass of {shorten(name)}": mass for name, mass in masses.items()}
         for what, number in positive.items():
             if number is not None and rational(number) <= 0:
-                raise InputError(f"{what}: not positive: {number!r}")
+                raise InputError(f"{what}: not positive: {shorten(number)}")
+            if number is None or what == "grid":
+                continue
+            if not 0.0 < nearest_float(rational(number)) < math.inf:
+                raise InputError(f"{what}: beyond the range of doubles: {shorten(number)}")
         if not 0 <= rational(restitution) <= 1:
-            raise InputError(f"restitution: not between 0 and 1: {restitution!r}")
+            raise InputError(f"restitution: not between 0 and 1: {shorten(restitution)}")
         self._fixed = frozenset(fixed)
         # A misspelt name would be a body that is pushed away, or of another mass.
         self._unseen = dict.fromkeys(fixed, "fixed") | dict.fromkeys(masses, "masses")
@@ -153,8 +158,6 @@ class Bounce:
     def _push(self, push: _Push, change: dict[str, list[float]]) -> bool:
         """Push one pair apart, by opposite impulses along a normal, if needed.
 
-        An impulse changes a velocity in inverse proportion to the mass; a fixed body's is infinite.
-
         Returns:
             Whether an impulse was applied: not to a pair that separates.
         """
@@ -164,20 +167,35 @@ class Bounce:
         if parting >= self._slowest / 2:
             return False
         goal = max(self._restitution * abs(approach), self._slowest)
-        free = [name for name in (pair.body, pair.other) if name not in self._fixed]
-        inverse = {name: 1.0 / self._masses.get(name, 1.0) for name in free}
-        impulse = (goal - parting) / sum(inverse.values())
-        for name, way in ((pair.body, 1.0), (pair.other, -1.0)):
-            if name in free:
-                change[name][0] += way * impulse * inverse[name] * nx
-                change[name][1] += way * impulse * inverse[name] * ny
+        for (name, share), way in zip(self._shares(pair), (1.0, -1.0), strict=True):
+            change[name][0] += way * (goal - parting) * share * nx
+            change[name][1] += way * (goal - parting) * share * ny
         return True
+
+    def _shares(self, pair: Pair) -> list[tuple[str, float]]:
+        """What each body of a pair takes of a change of the speed between them; the sum is 1.
+
+        It is in inverse proportion to the mass; that of a fixed body is infinite. Masses are
+        divided by the larger one, as neither their inverses nor their sum need be a double.
+        """
+        names = (pair.body, pair.other)
+        if not self._fixed.isdisjoint(names):
+            return [(name, 0.0 if name in self._fixed else 1.0) for name in names]
+        a, b = (self._masses.get(name, 1.0) for name in names)
+        heavy = max(a, b)
+        a, b = a / heavy, b / heavy
+        return [(pair.body, b / (a + b)), (pair.other, a / (a + b))]
 
     def _plan(self, body: Body, change: list[float], t: QQ) -> Body:
         velocity = [
             min(max(v + dv, -self._fastest), self._fastest)
             for v, dv in zip(_translation_speed(body, t), change, strict=True)
         ]
+        if not all(map(math.isfinite, velocity)):
+            raise InputError(
+                f"body {shorten(body.name)}: its velocity after the bounce is beyond the range of "
+                f"doubles"
+            )
         return body.with_motion(onward(body, t, velocity, grid=self._grid))
 
 

@@ -103,7 +103,7 @@ def assert_same_contact(scene: Scene, answer: Answer, *, tolerance: Rational = T
 def shown_time(time: AlgebraicNumber) -> str:
     """An exact time in words."""
     if time.is_rational:
-        return str(time.low)
+        return str(time._low)
     return f"{float(time)!r}, a root of {list(time.polynomial)}"
 
 

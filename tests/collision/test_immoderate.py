@@ -1,16 +1,20 @@
 """Coefficients that no double image holds: their boxes are the whole plane, never nothing."""
 
+import sys
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from exactpt.arrays import first_contacts
 from exactpt.certificates.coincidence import boxes_now
 from exactpt.collision.allpairs import first_contact_allpairs
+from exactpt.collision.approach import first_within
 from exactpt.collision.detector import first_contact
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.proximity.intervals import contacts
 from exactpt.scene.scene import Scene
 
 
@@ -56,3 +60,27 @@ def test_a_box_that_is_not_known_is_the_whole_plane():
     boxes = boxes_now(SimpleNamespace(positions=positions), [nowhere])
 
     assert boxes.tolist() == [[-np.inf, np.inf, -np.inf, np.inf]]
+
+
+LARGEST = sys.float_info.max
+
+
+@pytest.mark.parametrize("radius", [0.0, 1.0, LARGEST])
+def test_bug_no_warning_at_the_largest_doubles(radius):
+    """Infinity is what comes after the largest double, as a bound; the answers are exact."""
+    corners, speeds = [(0.0, 0.0), (LARGEST, LARGEST), (LARGEST, 0.0)], [(1.0, 0.0), (0.0, 0.0)]
+    offsets, radii, time = [0, 1, 3], [0.0, radius], (1.0, LARGEST)
+    scene = Scene.from_arrays(corners, offsets, velocities=speeds, radii=radii, time=time)
+    one_by_one = Scene(list(scene.bodies), time)
+    arrival = 1 if radius == LARGEST else QQ(LARGEST) - QQ(radius)
+
+    for asked in (scene, one_by_one):
+        assert first_contact(asked).time == arrival
+        assert first_contact(asked, exact_only=True).time == arrival
+        assert first_within(asked, distance=LARGEST, norm="euclidean").time == 1
+        assert [interval.start for interval in contacts(asked)] == [arrival]
+    found = first_contacts(
+        corners, offsets, [(0, 1)] * 2, velocities=speeds, radii=radii, time=[time, (0.0, LARGEST)]
+    )
+    assert found.found.all()
+    assert found.low[0] <= arrival <= found.high[0]

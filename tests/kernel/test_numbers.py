@@ -27,6 +27,7 @@ from exactpt.kernel.numbers import (
     parse_rational,
     power_of_two,
     rational,
+    rationals,
     shorten,
     sign,
 )
@@ -316,3 +317,8 @@ def test_a_shortened_text_is_one_line_within_the_limit(text, limit):
 
     assert len(shown) <= limit
     assert len(shown.splitlines()) == 1
+
+
+def test_bug_a_number_longer_than_python_writes_is_told_in_a_message():
+    with pytest.raises(InputError, match="int with too many digits"):
+        rationals(10**5000, 2, "a point has two coordinates")

@@ -1,5 +1,7 @@
 """Proofs of right answers are accepted: all families, all tilings, degenerate ones too."""
 
+import sys
+
 import pytest
 from proving import agrees, by_both_checkers, proof_of, verdict  # noqa: F401 - a fixture
 
@@ -158,3 +160,13 @@ def test_times_are_named_by_what_vanishes():
     events = [line for line in lines if line.startswith("event ")]
     assert sum(" @ " in line for line in events) > len(events) / 2
     assert max(map(len, events)) < 300
+
+
+def test_bug_a_proof_with_numbers_longer_than_python_reads_is_checked_in_the_same_process():
+    far = 10**5000 + 1
+    ball = Body("ball", [(0, 0)], Translation([0, 1]))
+    scene = Scene([ball, Body("wall", [(far, -1), (far, 1)])], (0, 2 * far))
+    limit = sys.get_int_max_str_digits()
+
+    assert prove(scene).check().startswith("accepted: no contact before T = 1000")
+    assert sys.get_int_max_str_digits() == limit

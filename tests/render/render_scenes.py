@@ -28,6 +28,13 @@ def apart():
     return Scene([first, second, third], time=(0, 4))
 
 
+def rebuilt():
+    """A square that passes an upright chain, all of whose vertices are on one vertical line."""
+    square = [("-11/10", 0), ("-21/10", 1), ("-31/10", 0), ("-21/10", -1)]
+    chain = Body("chain", [(-3, -2), (-3, -3), (-3, -4)], closed=False)
+    return Scene([Body("square", square, Translation([0, -2], [0, -2])), chain], time=(0, 2))
+
+
 def overlapping():
     first = Body("first", [(0, 0), (2, 0), (0, 2)])
     second = Body("second", [(1, "-1/2"), (3, "-1/2"), (1, 1)])

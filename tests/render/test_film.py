@@ -5,7 +5,7 @@ import re
 from itertools import pairwise
 
 import pytest
-from render_scenes import apart, demo, overlapping, small
+from render_scenes import apart, demo, overlapping, rebuilt, small
 
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
@@ -59,6 +59,8 @@ SCENES = [
         for family in ("stars", "turning_stars", "combs", "spirals", "nested")
         for seed in (4, 7)
     ),
+    # The mesh is built anew, and has fewer half-edges than before.
+    *(pytest.param(rebuilt(), t, id=f"bug-rebuilt-{t}") for t in ("greedy", "mixed", "lazy")),
 ]
 
 

@@ -81,11 +81,41 @@ def test_a_bounce_that_was_pickled_is_the_same():
         ({"restitution": 2}, "restitution: not between 0 and 1: 2"),
         ({"restitution": "-1/2"}, "restitution: not between 0 and 1"),
         ({"masses": {"left": 0}}, "the mass of 'left': not positive: 0"),
+        (
+            {"masses": {"left": "1e-400"}},
+            "the mass of 'left': beyond the range of doubles: '1e-400'",
+        ),
+        ({"masses": {"left": "1e400"}}, "the mass of 'left': beyond the range of doubles"),
+        ({"masses": {"left": 10**5000}}, "beyond the range of doubles: <int with too many digits"),
+        ({"slowest": "1e-400"}, "slowest: beyond the range of doubles"),
+        ({"fastest": "1e400"}, "fastest: beyond the range of doubles"),
     ],
 )
 def test_options_out_of_range_are_refused(options, message):
     with pytest.raises(InputError, match=message):
         Bounce(**options)
+
+
+@pytest.mark.parametrize("mass", [5e-324, 1e-308, 1, 1e308])
+def test_bug_only_the_ratio_of_masses_matters(mass):
+    """Neither the inverse of the least double is a double, nor twice the largest."""
+    assert velocities_after(Bounce(masses={"left": mass, "right": mass})) == [-1, 2]
+
+
+@pytest.mark.parametrize("light, heavy", [(5e-324, 1), (1, 1e308), (5e-324, 1e308)])
+def test_bug_a_body_much_heavier_than_another_goes_on(light, heavy):
+    assert velocities_after(Bounce(masses={"left": light, "right": heavy})) == [-4, -1]
+    assert velocities_after(Bounce(masses={"left": heavy, "right": light})) == [2, 5]
+
+
+def test_bug_a_velocity_beyond_the_doubles_is_told():
+    size = 10**308
+    left = Body("left", [(x * size, y * size) for x, y in BOX], Velocity(size, 0))
+    right = Body("right", [((x + 10) * size, y * size) for x, y in BOX], Velocity(-size, 0))
+    simulation = Simulation(Scene([left, right], time=(0, 20)))
+
+    with pytest.raises(InputError, match="body 'left': its velocity after the bounce is beyond"):
+        list(simulation.run(on_contact=Bounce()))
 
 
 def test_a_mass_of_no_body_is_refused():
