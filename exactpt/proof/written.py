@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, final
@@ -42,14 +41,10 @@ class Proof(NamedTuple):
         """
         from exactpt import proof_check
 
-        digits = sys.get_int_max_str_digits()
-        sys.set_int_max_str_digits(0)  # scenes have longer numbers than Python reads otherwise
         try:
             return proof_check.check(self.scene, self.text)
         except proof_check.Rejected as rejected:
             raise AuditError(str(rejected)) from None
-        finally:
-            sys.set_int_max_str_digits(digits)
 
     def save(self, path: str | Path) -> None:
         """Write the proof, and its scene beside it, with ``.scene.json`` appended to its name.
