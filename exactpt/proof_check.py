@@ -1,6 +1,6 @@
 """Checks a proof that a scene has its first contact at a time T, or none.
 
-    python -m exactpt.proof_check SCENE PROOF
+    python3 -I proof_check.py SCENE PROOF [--until T | --partial]
 
 This file imports the standard library alone, uses no floats to decide anything, and is made
 to be read. The statement, the file format and the complete argument are in docs/proofs.md.
@@ -11,15 +11,25 @@ straight: orientations of three vertices do not vanish, and these are polynomial
 counting angles, the map is drawn without crossings then, and no two bodies touch. At the times
 themselves, a touch can only be among faces with an angle that vanishes just then.
 
+A proof of "no contact" may end before the span of the scene does. It is accepted then if that is
+what is wanted: --until T, where T is not after its end, or --partial, whatever its end.
+
+Without -I, Python runs a file called fractions.py that lies in the current folder or beside this
+one; so this file refuses to run then. (-I does not keep away what the installation of Python
+itself starts, such as sitecustomize.)
+
 Exit code: 0 accepted, 1 rejected (with the first line that fails), 2 no proof of this scene.
 """
 
-from __future__ import annotations
+import sys
+
+if __name__ == "__main__" and not sys.flags.isolated:
+    sys.stderr.write("run it as python3 -I FILE SCENE PROOF: without -I, files nearby take part\n")
+    sys.exit(2)
 
 import hashlib
 import json
 import re
-import sys
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -45,6 +55,23 @@ class Rejected(Exception):  # noqa: N818 - a verdict
     """A line of the proof does not hold."""
 
 
+class Proved(str):
+    """What is proved, in words.
+
+    Attributes:
+        until: of a proof of no contact, the end of its span; else that of the scene.
+        whole: whether the answer is that of the whole span of the scene.
+    """
+
+    until: Fraction
+    whole: bool
+
+    def __new__(cls, text: str, until: Fraction, *, whole: bool) -> "Proved":  # noqa: D102
+        proved = super().__new__(cls, text)
+        proved.until, proved.whole = until, whole
+        return proved
+
+
 def require(condition: object, why: str) -> None:
     """Reject unless the condition holds."""
     if not condition:
@@ -62,19 +89,19 @@ class Poly(tuple[Any, ...]):
 
     __slots__ = ()
 
-    def __new__(cls, coefficients: Iterable[Any] = ()) -> Poly:  # noqa: D102
+    def __new__(cls, coefficients: Iterable[Any] = ()) -> "Poly":  # noqa: D102
         f = list(coefficients)
         while f and not f[-1]:
             f.pop()
         return super().__new__(cls, f)
 
-    def __add__(self, g: Poly) -> Poly:  # type: ignore[override]
+    def __add__(self, g: "Poly") -> "Poly":  # type: ignore[override]
         return Poly([a + b for a, b in zip_longest(self, g, fillvalue=0)])
 
-    def __sub__(self, g: Poly) -> Poly:
+    def __sub__(self, g: "Poly") -> "Poly":
         return Poly([a - b for a, b in zip_longest(self, g, fillvalue=0)])
 
-    def __mul__(self, g: Poly) -> Poly:  # type: ignore[override]
+    def __mul__(self, g: "Poly") -> "Poly":  # type: ignore[override]
         if len(self) == 1:
             return Poly([self[0] * b for b in g])
         product = [0] * (len(self) + len(g) - 1) if self and g else []
@@ -96,12 +123,12 @@ class Poly(tuple[Any, ...]):
         value, _ = self.scaled(t)
         return (value > 0) - (value < 0)
 
-    def primitive(self) -> Poly:
+    def primitive(self) -> "Poly":
         """Divided by what the coefficients have in common, with a positive leading one."""
         content = gcd(*self) * (-1 if self[-1] < 0 else 1) if self else 1
         return Poly([c // content for c in self])
 
-    def divided(self, g: Poly) -> tuple[Poly, Poly]:
+    def divided(self, g: "Poly") -> tuple["Poly", "Poly"]:
         """(q, r) with c f = q g + r for a number c that is not 0, and r of lower degree than g."""
         rest, quotient = list(self), [0] * max(0, len(self) - len(g) + 1)
         for i in range(len(self) - len(g), -1, -1):
@@ -112,14 +139,14 @@ class Poly(tuple[Any, ...]):
                 rest[i + j] -= top * c
         return Poly(quotient), Poly(rest)
 
-    def common_divisor(self, g: Poly) -> Poly:
+    def common_divisor(self, g: "Poly") -> "Poly":
         """The greatest common divisor, by Euclid."""
         f = self
         while g:
             f, g = g, f.divided(g)[1].primitive()
         return f.primitive()
 
-    def square_free(self) -> Poly:
+    def square_free(self) -> "Poly":
         """The polynomial with the same roots, all of them simple."""
         derivative = Poly([i * c for i, c in enumerate(self)][1:])
         return self.divided(self.common_divisor(derivative))[0].primitive()
@@ -143,7 +170,7 @@ class Poly(tuple[Any, ...]):
                 g[j] += g[j + 1]
         return sum(a != b for a, b in pairwise(c > 0 for c in g if c))
 
-    def roots(self, low: Fraction, high: Fraction) -> Iterator[Time]:
+    def roots(self, low: Fraction, high: Fraction) -> "Iterator[Time]":
         """The roots in [low, high], low < high; all roots must be simple."""
         yield from (Time(q) for q in (low, high) if self.sign_at(q) == 0)
         todo = [(low, high)]
@@ -183,7 +210,7 @@ class Time:
             self.high = q
         return order
 
-    def compare(self, other: Time) -> int:
+    def compare(self, other: "Time") -> int:
         """-1, 0 or 1 as the time is before, at or after the other."""
         if other.low == other.high:
             return self.compare_rational(other.low)
@@ -722,7 +749,7 @@ class Checker:
 
     # The lines, and step 7: times increase.
 
-    def check_rows(self, rows: list[tuple[int, list[str]]]) -> str:
+    def check_rows(self, rows: list[tuple[int, list[str]]]) -> Proved:
         """Check the lines of a proof from the third on; what is proved."""
         self.line, (_, first, last) = rows[0]
         start, self.end = Fraction(first), Fraction(last)
@@ -754,9 +781,12 @@ class Checker:
         vanishing = self.end_lives(self.life, time)
         if words == ["none"]:
             self.check_clusters(vanishing, time)
-            return f"accepted: no contact from t = {start} to t = {self.end}"
+            proved = f"accepted: no contact from t = {start} to t = {self.end}"
+            return Proved(proved, self.end, whole=self.end == self.scene.end)
         what = self.check_contact(words[k:], time)
-        return f"accepted: no contact before T = {time}; contact of {what} at T"
+        return Proved(
+            f"accepted: no contact before T = {time}; contact of {what} at T", self.end, whole=True
+        )
 
     def read_time(self, words: list[str]) -> Time:
         """The time that these words are."""
@@ -1074,7 +1104,7 @@ def read(proof: bytes) -> list[tuple[int, list[str]]]:
     return rows
 
 
-def check(scene_file: bytes, proof_file: bytes) -> str:
+def check(scene_file: bytes, proof_file: bytes) -> Proved:
     """Check a proof; what it proves. Raises `Rejected`, or `NoProofError`."""
     digits = sys.get_int_max_str_digits()
     sys.set_int_max_str_digits(0)  # the numbers of a scene are as long as its writer likes
@@ -1084,7 +1114,7 @@ def check(scene_file: bytes, proof_file: bytes) -> str:
         sys.set_int_max_str_digits(digits)
 
 
-def check_files(scene_file: bytes, proof_file: bytes) -> str:
+def check_files(scene_file: bytes, proof_file: bytes) -> Proved:
     """Check a proof whose numbers may have any length."""
     try:
         rows, text = read(proof_file), scene_file.decode("utf-8-sig")
@@ -1099,13 +1129,24 @@ def check_files(scene_file: bytes, proof_file: bytes) -> str:
         raise Rejected(f"rejected: line {checker.line}: {verdict}") from None
 
 
+USAGE = "usage: python3 -I proof_check.py SCENE PROOF [--until T | --partial]"
+
+
 def main(arguments: list[str]) -> int:
     """Check a file; the exit code."""
     try:
-        if len(arguments) != 2:
-            raise NoProofError("usage: python -m exactpt.proof_check SCENE PROOF")
-        with open(arguments[0], "rb") as scene, open(arguments[1], "rb") as proof:
-            return say(check(scene.read(), proof.read()), 0, sys.stdout)
+        paths, until = arguments[:2], arguments[2:]
+        wanted = until == ["--partial"] or (len(until) == 2 and until[0] == "--until")
+        if len(paths) != 2 or (until and not wanted):
+            raise NoProofError(USAGE)
+        if until[1:] and not re.fullmatch(R, until[1]):
+            raise NoProofError(f"--until: not a number, p or p/q: {until[1]!r:.60}")
+        with open(paths[0], "rb") as scene, open(paths[1], "rb") as proof:
+            proved = check(scene.read(), proof.read())
+        least = Fraction(until[1]) if until[1:] else None if until else inf
+        if least is not None and not proved.whole and proved.until < least:
+            raise Rejected(f"rejected: proved up to t = {proved.until} only (see --partial)")
+        return say(proved, 0, sys.stdout)
     except Rejected as verdict:
         return say(str(verdict), 1, sys.stdout)
     except (NoProofError, OSError) as error:

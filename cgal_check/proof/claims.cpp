@@ -56,9 +56,10 @@ void Checker::check_contact(const ContactText& contact, const Time& t) {
 
 void Checker::check_contact_at_start(const ContactText& contact) {
   using Kind = ContactText::Kind;
-  const Time t = time_of(contact.time);
+  const Time given = time_of(contact.time);
   const auto& [c, d] = contact.edge;
-  if (t.compare(scene_.start()) != 0) throw Rejected("there is no map");
+  if (given.compare(scene_.start()) != 0) throw Rejected("there is no map");
+  const Time t(scene_.start());  // the interval of a root has other ends
   if (contact.kind == Kind::edge || contact.kind == Kind::vertex) return check_contact(contact, t);
   const auto at = [&](int v) { return place(scene_.path(v, t), t.low()); };
   check_vertices({contact.vertex});

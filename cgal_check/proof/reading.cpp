@@ -145,6 +145,7 @@ Pieces<Motion> motions(const Json* json) {
   allow_keys(*json, {"pieces", "spin"});
   Pieces<Motion> pieces;
   const std::vector<Json>& rows = list(json->find("pieces"));
+  if (rows.empty()) throw NoProof("the scene has a motion of no pieces");
   for (const Json& row : rows) {
     allow_keys(row, {"until", "motion"});
     if ((row.find("until") == nullptr) != (&row == &rows.back()))

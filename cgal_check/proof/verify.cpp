@@ -27,6 +27,8 @@ constexpr std::size_t most_jobs = 256;
 struct Call {
   std::string scene, proof;
   std::size_t jobs = 1;
+  bool is_partial = false;        // whether a proof may end before the span of the scene
+  std::optional<Rational> until;  // the time before which it may not end
 };
 
 struct Verdict {
@@ -39,6 +41,16 @@ Call read_call(const std::vector<std::string>& words) {
   Call call;
   std::vector<std::string> paths;
   for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--partial") {
+      call.is_partial = true;
+      continue;
+    }
+    if (words[i] == "--until") {
+      const std::string number = ++i < words.size() ? words[i] : "";
+      if (!is_fraction(number)) throw NoProof("--until: not a number, p or p/q");
+      call.until = fraction(number);
+      continue;
+    }
     if (words[i] != "--jobs") {
       paths.push_back(words[i]);
       continue;
@@ -49,7 +61,8 @@ Call read_call(const std::vector<std::string>& words) {
       throw NoProof("--jobs: a number from 1 to " + std::to_string(most_jobs));
     call.jobs = std::stoul(number);
   }
-  if (paths.size() != 2) throw NoProof("usage: cgal_check proof SCENE PROOF [--jobs N]");
+  if (paths.size() != 2 || (call.is_partial && call.until))
+    throw NoProof("usage: cgal_check proof SCENE PROOF [--jobs N] [--until T | --partial]");
   call.scene = paths[0], call.proof = paths[1];
   return call;
 }
@@ -165,6 +178,11 @@ int verify(const Call& call) {
     answer("rejected: line " + std::to_string(found.failure->line) + ": " + found.failure->why);
     return 1;
   }
+  const bool is_short = !text.contact && text.end < scene.end();
+  if (is_short && !call.is_partial && !(call.until && *call.until <= text.end)) {
+    answer("rejected: proved up to t = " + text.end.get_str() + " only (see --partial)");
+    return 1;
+  }
   answer("accepted: " + found.conclusion);
   return 0;
 }
@@ -189,6 +207,7 @@ int verify(int count, const char* const* arguments) {
 
 int verify_each(std::istream& calls) {
   Call call;
+  call.is_partial = true;
   while (std::getline(calls, call.scene) && std::getline(calls, call.proof))
     guarded([&] { return verify(call); });
   return 0;

@@ -52,7 +52,7 @@ def check_proof(
         AuditError: if the program itself fails.
     """
     path = find_program() if program is None else Path(program)
-    command = [str(path), "proof", str(scene), str(proof), "--jobs", str(jobs)]
+    command = [str(path), "proof", str(scene), str(proof), "--jobs", str(jobs), "--partial"]
     try:
         done = subprocess.run(command, capture_output=True, timeout=max_seconds, check=False)
     except subprocess.TimeoutExpired:

@@ -74,7 +74,7 @@ __all__ = ["collide", "simulate"]
 @click.option(
     "--proof",
     type=click.Path(path_type=Path),
-    help="Write a proof of the answer; python -m exactpt.proof_check SCENE PROOF checks it.",
+    help="Write a proof of the answer; python3 -I exactpt/proof_check.py SCENE PROOF checks it.",
 )
 @click.option("--stats", is_flag=True, help="Print counts of events, certificates and decisions.")
 @click.option("--exit-code", is_flag=True, help="Return 1 if there is a contact.")

@@ -119,7 +119,7 @@ def test_both_checkers_agree(in_cpp, family):
             lines = proof.decode().splitlines()
             for _ in range(4):
                 mutated = text(mutant(lines, random))
-                codes = in_cpp(file, mutated)[0], in_python(file, mutated)[0]
+                codes = in_cpp(file, mutated, "--partial")[0], in_python(file, mutated)[0]
                 assert codes[0] == codes[1], mutated.decode()
                 assert codes[0] in (0, 1, 2)
                 wrong += codes[0] != 0
@@ -154,7 +154,7 @@ def test_both_checkers_agree_on_what_is_malformed(in_cpp):
         _, file, proof = prove(generate(family, 3))
         for _ in range(120):
             wrong = damaged(proof, random)
-            codes.append(in_cpp(file, wrong)[0])
+            codes.append(in_cpp(file, wrong, "--partial")[0])
             assert codes[-1] == in_python(file, wrong)[0], wrong
     assert min(codes.count(code) for code in (0, 1, 2)) > 5
 
@@ -274,6 +274,42 @@ def test_numbers_of_scenes_are_exact(in_cpp):
     assert in_python(scene, text(lines)) == (0, answer)
 
 
+FAST = b"""{"exactpt": 1, "time": [0, 1], "bodies": [
+    {"name": "a", "vertices": [[-1, 5], [-1, -5]], "motion": {"x": [0, -1152921504606846976]}},
+    {"name": "b", "vertices": [[0, -1], ["1e19", -1], ["1e19", 1], [0, 1]]}]}"""
+
+
+@pytest.mark.parametrize("claim", ["vertex 0 inside 1", "edge 0 1 edge 2 3", "vertex 0 edge 2 3"])
+def test_a_false_contact_at_the_start_whose_time_is_a_root(in_cpp, claim):
+    """The body is far to the right of the start at every time of the interval but the root."""
+    hashed = f"scene sha256 {hashlib.sha256(FAST).hexdigest()}"
+    proof = text(["exactpt-proof 1", hashed, "span 0 1", f"contact -1 2 0 1 {claim}"])
+    assert in_cpp(FAST, proof)[0] == in_python(FAST, proof)[0] == 1
+
+
+def test_a_motion_of_no_pieces(in_cpp):
+    for motion in (b'{"pieces": []}', b'{"pieces": [], "spin": 1}'):
+        scene = b'{"exactpt": 1, "time": [0, 1], "bodies": [{"name": "a", "vertices": [[0, 0]], '
+        scene += b'"motion": ' + motion + b"}]}"
+        hashed = f"scene sha256 {hashlib.sha256(scene).hexdigest()}"
+        proof = text(["exactpt-proof 1", hashed, "span 0 1", "outer 0", "none"])
+        assert in_cpp(scene, proof)[0] == in_python(scene, proof)[0] == 2
+
+
+def test_a_proof_of_less_than_the_span(in_cpp, proved):
+    scene = b'{"exactpt": 1, "time": [0, 9], "bodies": [{"name": "a", "vertices": [[0, 0]]}]}'
+    hashed = f"scene sha256 {hashlib.sha256(scene).hexdigest()}"
+    proof = text(["exactpt-proof 1", hashed, "span 0 7/2", "outer 0", "none"])
+    assert in_cpp(scene, proof) == (1, "rejected: proved up to t = 7/2 only (see --partial)")
+    accepted = (0, "accepted: no contact from t = 0 to t = 7/2")
+    assert in_cpp(scene, proof, "--partial") == accepted
+    assert in_cpp(scene, proof, "--until", "7/2") == accepted
+    assert in_cpp(scene, proof, "--until", "4")[0] == 1
+    found = proof_check.check(scene, proof)
+    assert (found.until, found.whole) == (3.5, False)
+    assert proof_check.check(*proved).whole
+
+
 def test_calls(program, proved, tmp_path):
     file, proof = proved
     (tmp_path / "s").write_bytes(file)
@@ -286,6 +322,8 @@ def test_calls(program, proved, tmp_path):
         ["proof", ".", "p"],
         ["proof", "s", "p", "--jobs"],
         ["proof", "s", "p", "--jobs", "0"],
+        ["proof", "s", "p", "--until", "x"],
+        ["proof", "s", "p", "--until", "1", "--partial"],
         ["proof", "p", "s"],
         ["prove", "s", "p"],
     ):
