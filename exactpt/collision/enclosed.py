@@ -12,6 +12,7 @@ itself when it would without turning, at a time that is known exactly.
 `exactpt.proximity.sure`: where one pair is sure to meet, the true first contact is not later; nor
 where a point is sure to have passed through an edge since a time as long before the contact of the
 given bodies. Two bodies with e_i + e_j = 0, and a body and itself, meet at a time known exactly.
+At the start of the scene a body whose true angle is 0 is at a known place, too.
 
 **Width.** Let one pair be concerned, in the approach of a vertex to an edge at a speed of at
 least v, and E = e_i + e_j. From the lower bound on, the distance falls by E to that of a contact
@@ -31,6 +32,7 @@ from typing import Final, final
 
 from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
+from exactpt.collision.initial import initial_touches
 from exactpt.collision.planner import is_rigid
 from exactpt.errors import carrying
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
@@ -39,6 +41,8 @@ from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, ceil, exponent, power_of_two
 from exactpt.motion.body import Body
 from exactpt.motion.displacement import displacement
+from exactpt.motion.motions import Rigid, Translation
+from exactpt.motion.spin import Spin
 from exactpt.proximity.sure import surely_meet, surely_passed
 from exactpt.scene.scene import Scene, a_scene, scene_of
 
@@ -127,8 +131,10 @@ class _Search:
         bodies = zip(self._scene.bodies, self._errors, strict=True)
         wide = [body.with_radius(body._radius + e) if e else body for body, e in bodies]
         touch = first_contact(scene_of(wide, self._start, self._end))
-        if touch is None or (known is not None and known <= touch.time):
+        if touch is None or (known is not None and known < touch.time):
             return None if known is None else EnclosedContact(known, known, self._pairs(*exact))
+        if touch.time == self._start and (pairs := self._at_start(touch)):
+            return EnclosedContact(touch.time, touch.time, pairs)
         sure = self._sure(touch.time, known)
         high = known if sure is None else AlgebraicNumber(sure)
         return EnclosedContact(touch.time, high, self._pairs(touch))
@@ -139,6 +145,16 @@ class _Search:
         met = {(pair.body, pair.other) for contact in contacts for pair in contact.pairs}
         met.update(pair for contact in contacts for pair in contact.overlaps)
         return tuple(sorted({(a, b) if order[a] <= order[b] else (b, a) for a, b in met}))
+
+    def _at_start(self, touch: Contact) -> tuple[tuple[str, str], ...]:
+        """Return the pairs that may meet at the start; none if it is not sure that two do."""
+        found = zip(self._scene.bodies, self._errors, strict=True)
+        known = [b for body, e in found if (b := _unturned(body, self._start) if e else body)]
+        names = {body.name for body in known}
+        meeting = initial_touches(scene_of(known, self._start, self._end))[1]
+        met = {(known[i].name, known[j].name) for i, j in meeting}
+        pairs = self._pairs(touch) if met else ()
+        return tuple(pair for pair in pairs if pair in met or not names.issuperset(pair))
 
     def _known(self) -> list[Contact]:
         """The first contacts among those whose times are exact."""
@@ -215,6 +231,16 @@ class _Search:
             for first, second in overlapping_pairs(boxes)
             for i, j in zip(first.tolist(), second.tolist(), strict=True)
         )
+
+
+def _unturned(body: Body, t: QQ) -> Body | None:
+    """Return a body that is where a turning one truly is at t; None if its angle is not 0 then."""
+    spin = body.motion
+    assert isinstance(spin, Spin), "only a Spin is out of place"
+    if spin._omega * min(max(t, spin._until[0]), spin._until[-1]):
+        return None
+    turn = next(turn for turn in spin.motions if isinstance(turn, Rigid))
+    return body.with_motion(Translation(turn.x, turn.y))
 
 
 def _corners(body: Body, t: QQ) -> list[tuple[QQ, QQ]]:

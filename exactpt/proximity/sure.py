@@ -12,11 +12,12 @@ r of each other. This is sure
 *Proof of the last two.* Parametrise P by s and Q by u, both in [0, 1], and let F(s, u) = P(s) -
 Q(u); in the last case P is the vertex, and Q the boundary. Crossing edges: F is affine and
 regular and is 0 at one inner point of the square, so on its boundary F winds once around 0. A
-vertex inside: F(u) winds once around 0. On these curves |F| >= m. Let F' be the same of the true
-places, so |F' - F| <= E, and suppose that the true bodies do not meet: |F'| > r. Then |F| + |F'|
-> E >= |F - F'|, so F and F' are nowhere opposite, and h F + (1 - h) F' is not 0 for any h in [0,
-1]: F' winds around 0 as F does. Of edges, F' then is 0 in the square, and of a vertex, it is
-inside the true polygon: contradictions.
+vertex inside: F(u) winds around 0 an odd number of times, all rings of the boundary taken
+together. On these curves |F| >= m. Let F' be the same of the true places, so |F' - F| <= E, and
+suppose that the true bodies do not meet: |F'| > r. Then |F| + |F'| > E >= |F - F'|, so F and F'
+are nowhere opposite, and h F + (1 - h) F' is not 0 for any h in [0, 1]: F' winds around 0 as F
+does, on each ring. Of edges, F' then is 0 in the square, and of a vertex, it is inside the true
+polygon: contradictions.
 
 Points correspond along edges, since a rotation maps edges to edges. Where cores meet but none of
 the above holds, the true bodies may miss each other.
@@ -36,13 +37,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
-from exactpt.geometry.polygon import contains, segments_meet
+from exactpt.geometry.polygon import segments_meet
 from exactpt.geometry.predicates import Point, side
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
+from exactpt.motion.inside import covers
 from exactpt.proximity.distance import squared_distance
 from exactpt.proximity.features import Feature, FeaturePair, excess
 from exactpt.proximity.stretches import segments_of, stretches
@@ -67,8 +69,8 @@ def surely_meet(a: Body, b: Body, t: QQ, error: QQ) -> bool:
     p, q = a._at(t), b._at(t)
     least = margin * margin
     return (
-        (b.has_interior and any(_is_deep(v, q, least) for v in p))
-        or (a.has_interior and any(_is_deep(v, p, least) for v in q))
+        any(_is_deep(v, b, q, least) for v in p)
+        or any(_is_deep(v, a, p, least) for v in q)
         or any(_cross_far(e, f, least) for e in _segments(a, p) for f in _segments(b, q))
     )
 
@@ -115,10 +117,10 @@ def _segments(body: Body, points: Sequence[Point]) -> Iterator[Segment]:
     return ((points[i], points[j]) for i, j in segments_of(body))
 
 
-def _is_deep(v: Point, ring: Sequence[Point], least: QQ) -> bool:
-    """Whether a point is in a polygon, at least at a squared distance from its boundary."""
-    return contains(ring, v) and all(
-        _squared(v, edge) >= least for edge in zip(ring, [*ring[1:], ring[0]], strict=True)
+def _is_deep(v: Point, body: Body, points: Sequence[Point], least: QQ) -> bool:
+    """Return True if v is in a polygon, at least at a squared distance from its boundary."""
+    return covers(body, points, v) and all(
+        _squared(v, edge) >= least for edge in _segments(body, points)
     )
 
 

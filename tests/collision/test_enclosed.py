@@ -93,12 +93,47 @@ def test_contained_and_overlapping_bodies_meet_at_the_start():
         assert found.low == found.high == 0
 
 
-def test_touching_at_the_start_is_not_sure():
-    """It leaves at once, and may never have touched."""
-    found = bounds_of(Body("b", [(0, 0), (2, 0)], spin()), Body("p", [(2, 0)]))
+def blade(omega=1, start=0):
+    return Body("b", [(0, 0), (2, 0)], Spin(omega, time=(start, 3), error="1/1000"))
 
-    assert found.low == 0
+
+@pytest.mark.parametrize("omega, start", [(1, 0), (1, -1), (0, 1)])
+@pytest.mark.parametrize(
+    "other",
+    [
+        Body("p", [(2, 0)]),
+        Body("p", [(1, 0), (1, -1)], Translation(0, [0, -1])),
+        Body("p", [(4, 0)], Spin(3, time=(0, 3)), radius=2),
+        Body("p", holes=[[(2, -1), (-1, -1), (-1, 1), (2, 1)]],
+             vertices=[(-9, -9), (9, -9), (9, 9), (-9, 9)]),
+    ],
+    ids=["point", "leaving", "disc", "hole"],
+)  # fmt: skip
+def test_bug_touch_at_the_start_at_angle_0_was_not_certain(omega, start, other):
+    """Each true angle is 0 at t = 0, whatever the pieces are."""
+    found = bounds_of(blade(omega, start), other, Body("far", [(99, 0)], spin()))
+
+    assert found.low == found.high == 0
+    assert found.pairs == (("b", "p"),)
+
+
+def test_touching_at_the_start_at_another_angle_is_not_sure():
+    """The tip is at a place that is not rational, and leaves at once."""
+    turning = blade()
+    tip = Body("p", [turning._at(QQ(1))[1]])
+    found = bounds_of(turning, tip, time=(1, 3))
+
+    assert found.low == 1
     assert found.high is None
+
+
+def test_touch_at_the_start_names_the_pairs_that_may_meet():
+    late = Spin(1, (0, 5), time=(1, 3), error="1/1000")
+    turning = Body("q", [(0, 5), (2, 5)], late)
+    found = bounds_of(blade(), Body("p", [(2, 0)]), turning, Body("r", [turning._at(QQ(0))[1]]))
+
+    assert found.low == found.high == 0
+    assert found.pairs == (("b", "p"), ("q", "r"))
 
 
 def test_rounded_bodies():
@@ -149,6 +184,56 @@ def test_when_bodies_are_sure_to_meet():
     assert not sure([(0, 0)], [(3, 0)], QQ(1001, 1000), radius=4)
     assert sure(square, [(1, 2)], 2, radius=1)
     assert not sure(square, [(1, 2)], QQ(2001, 1000), radius=1)
+
+
+RINGED = {
+    "hole": {"holes": [[(6, 4), (4, 4), (4, 6), (6, 6)]]},
+    "hole within a part": {
+        "parts": [
+            {"vertices": [(12, 0), (13, 0), (12, 1)]},
+            {"vertices": [(0, 0), (10, 0), (10, 10), (0, 10)],
+             "holes": [[(6, 4), (4, 4), (4, 6), (6, 6)]]},
+        ]
+    },
+}  # fmt: skip
+"""A plate of side 10 whose hole is the square from (4, 4) to (6, 6)."""
+
+
+def plate(kind, motion=None):
+    outline = [(0, 0), (10, 0), (10, 10), (0, 10)] if kind == "hole" else None
+    return Body("plate", outline, motion or Translation([0]), **RINGED[kind])
+
+
+@pytest.mark.parametrize("kind", sorted(RINGED))
+def test_bug_point_in_a_hole_was_deep_inside_the_plate(kind):
+    error = QQ(1, 100)
+
+    def sure(x, y):
+        answers = {
+            surely_meet(Body("p", [(x, y)]), plate(kind), QQ(0), error),
+            surely_meet(plate(kind), Body("p", [(x, y)]), QQ(0), error),
+        }
+        assert len(answers) == 1
+        return answers.pop()
+
+    assert not sure(QQ(11, 2), 5)
+    assert sure(3, 5)  # in the plate, away from both rings
+    assert not sure(QQ(3999, 1000), 5)  # in the plate, near the hole
+    assert not sure(11, QQ(1, 2))  # between the two parts
+    assert sure(QQ(49, 4), QQ(1, 4)) == (kind != "hole")
+
+
+@pytest.mark.parametrize("kind", sorted(RINGED))
+def test_bug_bounds_with_a_point_in_a_hole_excluded_the_contact(kind):
+    """The edge x = 0 comes to the post at t = 0.2893; the other point stays in the hole."""
+    turning = plate(kind, Spin(1, (5, 5), time=(0, 2), error="1/30"))
+    post = Body("post", [("-157/200", "6909/1000")])
+    found = bounds_of(turning, post, Body("still", [("11/2", 5)]), time=(0, 2))
+
+    x, y = -5.785, 1.909
+    time = math.acos(5 / math.hypot(x, y)) - math.atan2(y, -x)
+    assert found.low < time < found.high
+    assert found == bounds_of(turning, post, time=(0, 2))
 
 
 def test_another_radius():
