@@ -234,10 +234,9 @@ class _Search:
 
 
 def _unturned(body: Body, t: QQ) -> Body | None:
-    """Return a body that is where a turning one truly is at t; None if its angle is not 0 then."""
+    """Return a body at the true place of a `Spin` at t; None if its true angle is not 0 then."""
     spin = body.motion
-    assert isinstance(spin, Spin), "only a Spin is out of place"
-    if spin._omega * min(max(t, spin._until[0]), spin._until[-1]):
+    if not isinstance(spin, Spin) or spin._omega * min(max(t, spin._until[0]), spin._until[-1]):
         return None
     turn = next(turn for turn in spin.motions if isinstance(turn, Rigid))
     return body.with_motion(Translation(turn.x, turn.y))

@@ -107,7 +107,7 @@ class PairsSearch:
         }
 
     def passed(self) -> Fraction | None:
-        """A rational time up to which there is no contact; None if nothing has been proved."""
+        """See `Search.passed`."""
         return None if self._passed is None else fraction(self._passed)
 
     def is_blind(self) -> bool:

@@ -30,4 +30,9 @@ class Search(Protocol):
         """
 
     def passed(self) -> Fraction | None:
-        """A rational time up to which there is no contact; None if nothing has been proved."""
+        """Return a rational time such that there is provably no contact from the start to it.
+
+        The interval is closed: with a contact at t = 3, the time is less than 3. It is None if
+        nothing has been proved, as before the bodies that touch at the start are known. It is
+        right whenever it is called, also in the middle of an event and after the contact.
+        """

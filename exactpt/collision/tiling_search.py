@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, final
 
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
-from exactpt.collision.tilings import start_tiling, tiling_for_contact
+from exactpt.collision.tilings import proved_until, start_tiling, tiling_for_contact
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import searching
 from exactpt.kernel.counters import Counts
-from exactpt.kernel.numbers import fraction
 from exactpt.motion.body import refuse_rounded
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
@@ -70,16 +69,10 @@ class TilingSearch:
         return report(self._scene, kinetic, counts)
 
     def passed(self) -> Fraction | None:
-        """A rational time up to which there is no contact, also in the middle of an event.
-
-        None before the contacts at the start are known.
-        """
+        """See `Search.passed`."""
         if not self._begun:
             return None
-        start = self._scene._start
-        if self._kinetic is None or self._passed is None:
-            return fraction(start)
-        return fraction(max(start, self._kinetic.vertices.frame.exact_time(self._passed)))
+        return proved_until(self._kinetic, self._scene._start, self._passed)
 
     def run_to_contact(self) -> Contact | None:
         """The first contact in the closed time span of the scene; None if there is none.

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Final, NamedTuple
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certifier import Certifier
 from exactpt.kernel.collection import collector_at_rest
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, fraction
 from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.scene.scene import Scene
@@ -101,6 +102,20 @@ def start_tiling(scene: Scene, name: str, start: QQ, *, exact_only: bool = False
     """The kinetic tiling of a scene just after a time at which its bodies are disjoint."""
     with collector_at_rest():  # in one piece: at its end all that is new is visited once
         return plan_tiling(scene, name, start).start(start, exact_only=exact_only)
+
+
+def proved_until(kinetic: Tiling | None, start: QQ, passed: float | None) -> Fraction:
+    """Return a rational time until which a run has passed no contact, also during an event.
+
+    Args:
+        kinetic: the tiling; None before there is one.
+        start: the start of the run, at which there is no contact.
+        passed: ``certifier.now.low`` after the last completed call of `Tiling.advance`, which
+            raises at a contact; None before the first one.
+    """
+    if kinetic is None or passed is None:
+        return fraction(start)
+    return fraction(max(start, kinetic.vertices.frame.exact_time(passed)))
 
 
 def _are_points(scene: Scene) -> bool:

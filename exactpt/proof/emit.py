@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import TYPE_CHECKING, final
 
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
-from exactpt.collision.tilings import check_tiling, start_tiling, tiling_for_contact
+from exactpt.collision.tilings import check_tiling, proved_until, start_tiling, tiling_for_contact
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.body import refuse_rounded
@@ -19,7 +20,6 @@ from exactpt.scene.written import to_json
 from exactpt.tiling.events import ContactFound
 
 if TYPE_CHECKING:
-    from exactpt.kernel.numbers import QQ
     from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
 
@@ -69,13 +69,14 @@ class ProofRun:
         self.maker = Lines(self.nodes)
         self.kinetic: Tiling | None = None
         self.contact: Contact | None = None
+        self._begun = False
+        self._passed: float | None = None
 
-    def reached(self) -> QQ:
-        """A rational time before which there is provably no contact."""
-        if self.kinetic is None:
-            return self._scene._start
-        now = self.kinetic.now
-        return now._low if now.is_rational else now._canonical_interval()[0]
+    def passed(self) -> Fraction | None:
+        """See `Search.passed`."""
+        if not self._begun:
+            return None
+        return proved_until(self.kinetic, self._scene._start, self._passed)
 
     def lines(self) -> Iterator[str]:
         """The lines, without line ends."""
@@ -92,15 +93,17 @@ class ProofRun:
 
     def _run(self) -> Iterator[str]:
         scene, (exact_only, most), events = self._scene, self._options, 0
+        self._begun = True
         kinetic = start_tiling(scene, self.tiling, scene._start, exact_only=exact_only)
         self.kinetic = kinetic
         watch = Watch(kinetic, self.nodes)
         yield from self.maker.faces(watch.first())
         try:
             while (happened := kinetic.advance(scene._end)) is not None:
+                self._passed = kinetic.certifier.now.low
                 events += len(happened)
                 if most is not None and events > most:
-                    raise BudgetExceeded("the number of events is used up", self.reached())
+                    raise BudgetExceeded("the number of events is used up", self.passed())
                 if kinetic.now.compare_rational(scene._end) < 0:
                     yield from self.maker.event(watch.step())
         except ContactFound as found:

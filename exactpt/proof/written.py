@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple, final
 
 from exactpt.errors import AuditError
 from exactpt.files import write_atomically, writing
+from exactpt.kernel.budget import searching
 from exactpt.kernel.counters import Counts
-from exactpt.kernel.numbers import fraction
 from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.tiling.report import report
@@ -138,19 +138,20 @@ class ProvedSearch:
         """Write the proof, and return the first contact, or None.
 
         Raises:
-            BudgetExceeded: if there are more than ``max_events`` events.
+            BudgetExceeded: if there are more than ``max_events`` events, or the time or memory of
+                this thread is used up.
             InputError: if a file cannot be written.
         """
         if self._beside:
             write_atomically(_beside(self._path), self._file)
-        with writing(self._path) as write:
+        with searching(None, self.passed), writing(self._path) as write:
             for line in self._proof.lines():
                 write(f"{line}\n")
         return self._proof.contact
 
-    def passed(self) -> Fraction:
-        """A rational time up to which there is provably no contact."""
-        return fraction(self._proof.reached())
+    def passed(self) -> Fraction | None:
+        """See `Search.passed`."""
+        return self._proof.passed()
 
 
 def write_proof(

@@ -10,10 +10,10 @@ from typing import TypeAlias, final
 
 from exactpt.collision.contact import Contact, contact_of
 from exactpt.collision.initial import initial_touches
-from exactpt.collision.tilings import plan_tiling
+from exactpt.collision.tilings import plan_tiling, proved_until
 from exactpt.errors import AuditError, BudgetExceeded, InputError, carry, carrying
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import QQ, Rational, fraction, power_of_two, rational, show
+from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
 from exactpt.scene.scene import Scene
 from exactpt.simulation.budget import Budget, Guard
 from exactpt.simulation.event import Event
@@ -243,17 +243,19 @@ class Run:
     def _scene(self) -> Scene:
         return self.living.scene
 
-    def reached(self) -> Fraction:
-        """A rational time, at most now, up to which there is provably no contact."""
+    def reached(self) -> Fraction | None:
+        """See `Simulation.reached`."""
+        if self.contact is not None or self._is_broken:
+            return self.passed()
         now = self.living.now
         return now.low if now.is_rational else now.canonical_interval()[0]
 
-    def passed(self) -> Fraction:
-        """As `reached`, but computed at once, even in the middle of an event."""
+    def passed(self) -> Fraction | None:
+        """See `Search.passed`."""
         tiling, passed = self.living.tiling, self.living.passed
-        if tiling is None or passed is None:
-            return fraction(self._proved)
-        return fraction(max(self._proved, tiling.vertices.frame.exact_time(passed.low)))
+        if tiling is None:
+            return None
+        return proved_until(tiling, self._proved, None if passed is None else passed.low)
 
     def rest(self) -> tuple[int | None, float | None, int | None]:
         """The events, seconds and memory that are left, None for no limit."""

@@ -191,12 +191,19 @@ class Simulation:
         """
         return self._run.to_contact()
 
-    def reached(self) -> Fraction:
-        """A rational time, at most now, up to which there is provably no contact."""
+    def reached(self) -> Fraction | None:
+        """Return a rational time, at most now, up to which there is provably no contact.
+
+        As `passed`, but the time now if that is rational, and no contact.
+        """
         return self._run.reached()
 
-    def passed(self) -> Fraction:
-        """As `reached`, but computed at once, even in the middle of an event."""
+    def passed(self) -> Fraction | None:
+        """Return a rational time such that there is provably no contact from the start to it.
+
+        The interval is closed: with a contact at t = 3, the time is less than 3. It is None if
+        bodies touch at the start. It is computed at once, even in the middle of an event.
+        """
         return self._run.passed()
 
     def end_proof(self) -> None:
