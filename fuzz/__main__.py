@@ -17,12 +17,13 @@ from exactpt.collision.tilings import TILINGS
 from exactpt.errors import InputError
 from exactpt.files import write_atomically
 from exactpt.scene.generate import FAMILIES as BODIES
-from exactpt.scene.generate import POINTS, RINGS, ROUNDED
+from exactpt.scene.generate import POINTS, RINGS, ROUNDED, SPINNING
 from fuzz import battery, corpus, planted, soak
 from fuzz.campaign import Campaign, run
 from fuzz.cases import Outcome
 from fuzz.hostile import run as hostile_run
 from fuzz.hostile.files import FORMATS
+from fuzz.pair_record import pair_record
 from fuzz.proofs.command import proof_mutants
 from fuzz.questions.command import questions
 from fuzz.record import differences, record
@@ -171,9 +172,18 @@ def find_planted(words: tuple[str, ...], most: int, seed: int) -> None:
     type=click.Path(exists=True, dir_okay=False, path_type=Path),
     help="Print the differences from this record.",
 )
-def make_record(output: Path, count: int, seed: int, against: Path | None) -> None:
-    """Write a digest of all events, contacts, tilings and saved runs of many scenes."""
-    lines = list(record(FAMILIES, count, seed))
+@click.option("--pairs", is_flag=True, help="Record the questions about pairs of bodies.")
+def make_record(output: Path, count: int, seed: int, against: Path | None, *, pairs: bool) -> None:
+    """Write a digest of all events, contacts, tilings and saved runs of many scenes.
+
+    With --pairs: of the answers to all questions that need no tiling, about as many scenes of all
+    families (the seeds from 0 on) and half as many on an integer grid.
+    """
+    if pairs:
+        families = sorted({*FAMILIES, *SPINNING})
+        lines = list(pair_record(families, max(1, count // len(families)), count // 2))
+    else:
+        lines = list(record(FAMILIES, count, seed))
     write_atomically(output, "\n".join(lines) + "\n")
     click.echo(f"{len(lines)} lines")
     if against is not None:

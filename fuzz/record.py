@@ -22,7 +22,7 @@ from exactpt.simulation.simulation import Simulation
 from fuzz.subscene import scene_of
 from fuzz.witnesses import tilings_of
 
-__all__ = ["differences", "record"]
+__all__ = ["differences", "digest", "record"]
 
 SHARES: Final = (0, 1, 2, 3)
 """Quarters of the time up to the contact at which tiling and saved simulation are recorded."""
@@ -35,10 +35,10 @@ def record(families: Sequence[str], count: int, seed: int = 0) -> Iterator[str]:
         scene = scene_of(family, turn)
         contact = first_contact(scene, method="pairs")
         last = scene.end if contact is None else contact.time.canonical_interval()[0]
-        yield f"{family} {turn} pairs {_digest(_told(contact))}"
+        yield f"{family} {turn} pairs {digest(_told(contact))}"
         for tiling in tilings_of(scene):
             run = _run(scene, tiling, last)
-            told = " ".join(f"{name} {_digest(data)}" for name, data in run.items())
+            told = " ".join(f"{name} {digest(data)}" for name, data in run.items())
             yield f"{family} {turn} {tiling} {told}"
 
 
@@ -79,5 +79,6 @@ def _saved(simulation: Simulation) -> object:
     return data
 
 
-def _digest(data: object) -> str:
+def digest(data: object) -> str:
+    """Return a digest of JSON values."""
     return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:16]

@@ -2,6 +2,7 @@
 
 import pytest
 
+from fuzz.pair_record import ARRAYS, pair_record
 from fuzz.record import differences, record
 
 FAMILIES = ["convex", "chains_on_grid", "points_in_line"]
@@ -27,3 +28,14 @@ def test_another_answer_is_another_record(lines, monkeypatch):
     monkeypatch.setattr("exactpt.collision.incidences.finite", lambda x: x + 1.0)
 
     assert differences(lines, list(record(FAMILIES, 6)))
+
+
+def test_record_of_pairs_repeats_and_changes_with_an_answer(monkeypatch):
+    lines = list(pair_record(["convex", "kissing_discs"], 2, 4))
+    assert len(lines) == 6 + 4 + ARRAYS
+    assert differences(lines, list(pair_record(["convex", "kissing_discs"], 2, 4))) == []
+
+    monkeypatch.setattr("exactpt.collision.incidences.finite", lambda x: x + 1.0)
+
+    changed = differences(lines, list(pair_record(["convex", "kissing_discs"], 2, 4)))
+    assert {line.split()[1] for line in changed} >= {"kissing_discs", "arrays"}
