@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import ClassVar, NamedTuple, final
 
 from exactpt.collision.incidences import Pair, details
@@ -11,7 +11,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.incidence import Touch
 from exactpt.scene.scene import Scene
 
-__all__ = ["Contact", "Pair", "contact_of"]
+__all__ = ["Contact", "Pair", "contact_of", "touches_of"]
 
 
 class Found(NamedTuple):
@@ -122,6 +122,20 @@ def contact_of(
     touches = sorted(touches)
     names = tuple((scene.bodies[i].name, scene.bodies[j].name) for i, j in overlaps)
     return Contact(time, _kind(scene, time, touches), Found(scene, touches), names)
+
+
+def touches_of(contact: Contact, numbers: Mapping[str, int]) -> list[Touch]:
+    """Return the incidences of a contact, with the bodies numbered by ``numbers``."""
+    return [
+        Touch(
+            numbers[pair.body],
+            pair.vertex,
+            numbers[pair.other],
+            -1 if pair.edge is None else pair.edge,
+            -1 if pair.other_vertex is None else pair.other_vertex,
+        )
+        for pair in contact.pairs
+    ]
 
 
 def _kind(scene: Scene, time: AlgebraicNumber, touches: Sequence[Touch]) -> str:

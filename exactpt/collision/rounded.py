@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from typing import NamedTuple, TypeAlias
 
-from exactpt.collision.contact import Contact, contact_of
+from exactpt.collision.contact import Contact, contact_of, touches_of
 from exactpt.collision.rounded_search import RoundedSearch
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -67,14 +67,5 @@ def _first_of_plain(scene: Scene, groups: Groups, plain: Plain) -> _First:
     if contact is None:
         return _First(None, [], [])
     index = {body.name: i for i, body in enumerate(scene.bodies)}
-    touches = [
-        Touch(
-            index[pair.body],
-            pair.vertex,
-            index[pair.other],
-            -1 if pair.edge is None else pair.edge,
-            -1 if pair.other_vertex is None else pair.other_vertex,
-        )
-        for pair in contact.pairs
-    ]
+    touches = touches_of(contact, index)
     return _First(contact.time, touches, [(index[a], index[b]) for a, b in contact.overlaps])

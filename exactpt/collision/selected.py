@@ -11,13 +11,15 @@ import time as clock
 from collections.abc import Collection, Iterable, Sequence
 from typing import TypeAlias, final
 
-from exactpt.collision.allpairs import touches_at
-from exactpt.collision.contact import Contact, contact_of
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.incidences import touches
+from exactpt.certificates.queue import EventTime
+from exactpt.collision.contact import Contact, contact_of, touches_of
 from exactpt.collision.ignoring import groups_of
-from exactpt.collision.incidences import tracks_before
 from exactpt.collision.initial import initial_touches
 from exactpt.collision.pairs import PairsSearch
 from exactpt.collision.planner import is_rigid
+from exactpt.collision.rounded_search import RoundedSearch
 from exactpt.collision.straight_search import Row, first_touching, rows_of
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -25,6 +27,7 @@ from exactpt.kernel.budget import GRACE, ask, within
 from exactpt.kernel.numbers import QQ, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch
+from exactpt.motion.vertices import Vertices
 from exactpt.proximity.near import pairs_that_come_near
 from exactpt.proximity.renewed import new_contact_time
 from exactpt.scene.scene import Scene, scene_of
@@ -166,7 +169,8 @@ class SelectedSearch:
         if time is None:
             return None
         part = scene_of((a, b), scene._start, scene._end)
-        return time, _numbered_touches(part, time, (i, j))
+        touches = _touches_at(part, time, exact_only=self._exact_only)
+        return time, [t._replace(body=(i, j)[t.body], other=(i, j)[t.other]) for t in touches]
 
     def _first(self, pair: tuple[int, ...], until: QQ) -> Meeting | None:
         """The first contact of bodies that are disjoint at the start; of one, with itself."""
@@ -183,7 +187,8 @@ class SelectedSearch:
         contact = search.run_to_contact()
         if contact is None:
             return None
-        return contact.time, _numbered_touches(part, contact.time, pair)
+        numbers = {scene.bodies[i].name: i for i in pair}
+        return contact.time, touches_of(contact, numbers)
 
 
 def _numbered(scene: Scene, between: Iterable[Sequence[str]]) -> list[tuple[int, int]]:
@@ -210,14 +215,15 @@ def _move_together(a: Body, b: Body, start: QQ, end: QQ) -> bool:
     return motion is not None and all(track.motion == motion for track in tracks)
 
 
-def _numbered_touches(part: Scene, time: AlgebraicNumber, numbers: Sequence[int]) -> list[Touch]:
-    """The incidences of some bodies at a time, of bodies with numbers of the whole scene."""
+def _touches_at(part: Scene, time: AlgebraicNumber, *, exact_only: bool) -> list[Touch]:
+    """Return the incidences of two bodies with each other at a time of their scene."""
     if time.compare_rational(part._start) == 0:
-        tracks = [body._piece_after(part._start).tracks for body in part.bodies]
-    else:
-        tracks = tracks_before(part, time)
-    return [
-        touch._replace(body=numbers[touch.body], other=numbers[touch.other])
-        for touch in touches_at(part, tracks, time)
-        if len(numbers) == 1 or touch.body != touch.other
-    ]
+        return initial_touches(part)[0]
+    if part.is_rounded:
+        return list(RoundedSearch(part, ()).touches([(0, 1)], time))
+    ends = {t for body in part.bodies for t in body._breakpoints if time.compare_rational(t) > 0}
+    since = max({part._start, *ends})
+    vertices = Vertices.of(part.bodies, since, part._end, plain=True)
+    certifier = Certifier(vertices, since, part._end, exact_only=exact_only)
+    certifier.move_to(EventTime(*vertices.frame.enclosure(time), -1, -1, -1, time), [])
+    return [t for t in touches(certifier, vertices, vertices.ids()) if t.body != t.other]

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from itertools import combinations, pairwise
 from random import Random
 from typing import Final, NamedTuple
 
+from exactpt.collision.allpairs import touches_at
 from exactpt.collision.approach import Approach, first_within
+from exactpt.collision.contact import touches_of
 from exactpt.collision.detector import first_contact
+from exactpt.collision.incidences import tracks_just_before
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import quotient_at
 from exactpt.kernel.numbers import QQ, ZZ, rational
+from exactpt.motion.incidence import Touch
 from exactpt.proximity.clearance import Clearance, ClearancePiece, clearance
 from exactpt.proximity.distance import distance
 from exactpt.proximity.features import Feature
@@ -187,15 +191,25 @@ def _after_start(random: Random) -> Checked:
     if contact is None:
         fault = None if expected is None else f"no new contact, not {expected}"
         return Checked(scene, "none", fault)
-    number = {body.name: i for i, body in enumerate(scene.bodies)}
-    pairs = {
-        (min(ij), max(ij)) for p in contact.pairs for ij in [(number[p.body], number[p.other])]
-    }
+    found = touches_of(contact, {body.name: i for i, body in enumerate(scene.bodies)})
+    pairs = {_ordered(touch) for touch in found}
     kind = f"{contact.kind}, {'again' if touching else 'first'}"
     fault = None
     if (contact.time, pairs) != expected:
         fault = f"{contact.time}, {pairs}, not {expected}"
+    elif found != (touches := _touches(scene, contact.time, pairs)):
+        fault = f"{found}, not {touches}"
     return Checked(scene, kind, fault)
+
+
+def _ordered(touch: Touch) -> tuple[int, int]:
+    return min(touch.body, touch.other), max(touch.body, touch.other)
+
+
+def _touches(scene: Scene, t: AlgebraicNumber, pairs: Collection[tuple[int, int]]) -> list[Touch]:
+    """Return the incidences at a time of the pairs of bodies, from the definition."""
+    tracks = [tracks_just_before(body, t, scene._start) for body in scene.bodies]
+    return sorted(touch for touch in touches_at(scene, tracks, t) if _ordered(touch) in pairs)
 
 
 def _touching(scene: Scene) -> list[tuple[int, int]]:
