@@ -78,8 +78,8 @@ def _events_dropped(right: Function) -> Function:
     """Every fiftieth event is lost."""
     calls = count(1)
 
-    def wrong(self: EventQueue, slot: CertificateId, time: object) -> None:
-        right(self, slot, time)
+    def wrong(self: EventQueue, slot: CertificateId, *time: object) -> None:
+        right(self, slot, *time)
         if next(calls) % 50 == 0:
             self.cancel(slot)
 
@@ -213,7 +213,7 @@ PLANTED: Final[dict[str, Callable[[], Any]]] = {
         Certifier, "_exact_orientation", _sign_at_a_root
     ),
     "sign of a certificate flipped": lambda: _replaced(coefficients, "_three", _flipped),
-    "events dropped": lambda: _replaced(EventQueue, "schedule", _events_dropped),
+    "events dropped": lambda: _replaced(EventQueue, "schedule_crossing", _events_dropped),
     "equal times not equal": lambda: _replaced(EventQueue, "_compare", _order_of_ties),
     "even roots ignored": lambda: _replaced(certifier, "roots_after", _even_roots),
     "even zeros of copies ignored": lambda: _replaced(
@@ -235,7 +235,7 @@ PLANTED: Final[dict[str, Callable[[], Any]]] = {
     "root enclosures too narrow": lambda: _replaced(filters, "linear", _narrow),
     "filter bound too small": lambda: _replaced(Certifier, "__init__", _unguarded),
     "ties lost in the queue": lambda: _edited(
-        EventQueue, "pop", "heap[0][0] <= bound", "heap[0][0] < bound"
+        EventQueue, "pop", "_heap_low[0] <= bound", "_heap_low[0] < bound"
     ),
     "the wrong end of a corner gives way": lambda: _edited(
         Repairs, "_repair_corner", "if side > 0", "if side < 0"

@@ -9,8 +9,10 @@ from __future__ import annotations
 from heapq import heappop, heappush
 from typing import Final, Protocol, final
 
-from mypy_extensions import i64, mypyc_attr
+from librt.vecs import append, vec
+from mypy_extensions import i32, i64, mypyc_attr
 
+from exactpt.certificates.calendar import ROWS, Calendar
 from exactpt.indices import CertificateId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
@@ -20,15 +22,8 @@ from exactpt.kernel.rounding import INFINITY
 __all__ = ["EventQueue", "EventTime", "ExactQueue", "Resolver", "earlier"]
 
 
-DAYS: Final = 1000
-"""Maximum number of days: their lists are in a processor's cache together."""
-
-SAMPLE: Final = 64
-"""Number of events that tell the reach of a calendar."""
-
-ROWS: Final = 16
-"""Number of rows of slots: certificates of one kind (`exactpt.certificates.certificate`) have
-slots in one row, those of neighbouring parts side by side; the row of an unused kind is empty."""
+LARGEST: Final[float] = float.fromhex("0x1.fffffffffffffp+1023")
+"""The largest finite double."""
 
 
 @final
@@ -79,150 +74,72 @@ class Resolver(Protocol):
         ...
 
 
-class EventQueue:
+class EventQueue(Calendar):
     """A queue of event times with at most one pending event per slot.
 
-    A calendar: a row of days of equal length. Most certificates are cancelled long before they
-    fail; so an event is only noted by its slot on its day, and what is still pending when its
-    day has come goes to a heap. What is later than the last day is not noted: the calendar is
-    made anew at its end, and when most of its notes are of cancelled events.
-    The day of an event grows with ``low`` (each rounding is monotone), so the heap holds all
-    that begin before the next day.
-
-    Source: R. Brown, Calendar queues, Communications of the ACM 31 (1988), 1220-1227.
+    An event is an enclosure in the calendar, and the three numbers of its function. Its
+    `EventTime` is kept only if it has an exact number, or no change of sign; otherwise it is
+    made when it is needed.
     """
 
     def __init__(self, resolver: Resolver, counters: Counters) -> None:
+        super().__init__()
         self._resolver = resolver
         self._counters: Counters = counters
-        self._rows: list[list[EventTime | None]] = [[] for _ in range(ROWS)]
-        self._count: int = 0
-        self._heap: list[tuple[float, int, CertificateId, EventTime]] = []
-        self._sequence: int = 0
-        self._days: list[list[CertificateId]] = []
-        self._next_day: float = 0.0
-        self._first: float = 0.0
-        self._per_day: float = 0.0
-        self._notes: int = 0
-        self._has_more: bool = False
+        self._keys: vec[vec[i32]] = vec[vec[i32]]([vec[i32]() for _ in range(ROWS)])
+        self._kept: dict[CertificateId, EventTime] = {}
 
     def __len__(self) -> int:
-        return self._count
+        return int(self._count)
 
     def schedule(self, slot: CertificateId, time: EventTime) -> None:
         """Put an event into a slot, replacing the one there."""
-        self._put(slot, time)
-        self._note(slot, time)
-        if self._notes > 4 * self._count + 256:
-            self._make_calendar()
+        low = min(time.low, LARGEST)  # infinity stands for an empty slot
+        self.schedule_crossing(slot, low, time.high, time.a, time.b, time.c)
+        if time.exact is not None or not time.crossing:
+            self._kept[slot] = time
+
+    def schedule_crossing(
+        self, slot: CertificateId, low: float, high: float, a: i64, b: i64, c: i64
+    ) -> None:
+        """Put a change of sign, whose exact time is not known, into a slot."""
+        if self._kept:
+            self._kept.pop(slot, None)
+        row, at = slot % ROWS, 3 * (slot // ROWS)
+        key = self._keys[row]
+        if at >= len(key):
+            key = _extended(key, at + 3 * (at // 12) + 3)
+            self._keys[row] = key
+        key[at] = i32(a)
+        key[at + 1] = i32(b)
+        key[at + 2] = i32(c)
+        self._put(slot, low, high)
 
     def cancel(self, slot: CertificateId) -> None:
         """Empty a slot."""
-        row, part = self._rows[slot % ROWS], slot // ROWS
-        if part < len(row) and row[part] is not None:
-            row[part] = None
+        span, at = self._spans[slot % ROWS], 2 * (slot // ROWS)
+        if at < len(span) and span[at] != INFINITY:
+            span[at] = INFINITY
             self._count -= 1
+            if self._kept:
+                self._kept.pop(slot, None)
 
     def pending(self, slot: CertificateId) -> EventTime | None:
-        """The time of the event in a slot, or None."""
-        row, part = self._rows[slot % ROWS], slot // ROWS
-        return row[part] if part < len(row) else None
+        """Return the time of the event in a slot, or None."""
+        span, at = self._spans[slot % ROWS], 2 * (slot // ROWS)
+        return None if at >= len(span) or span[at] == INFINITY else self._time_of(slot)
 
     def slots(self) -> list[CertificateId]:
-        """All slots with a pending event, in increasing order."""
-        return sorted(
-            [
-                CertificateId(ROWS * part + kind)
-                for kind, row in enumerate(self._rows)
-                for part, time in enumerate(row)
-                if time is not None
-            ]
-        )
-
-    def _put(self, slot: CertificateId, time: EventTime) -> None:
-        row, part = self._rows[slot % ROWS], slot // ROWS
-        if part >= len(row):
-            row += [None] * (part + 1 - len(row))
-        if row[part] is None:
-            self._count += 1
-        row[part] = time
-
-    def _note(self, slot: CertificateId, time: EventTime) -> None:
-        """Note an event on its day, or in the heap if that has come; none after the last day."""
-        day = (time.low - self._first) * self._per_day
-        if not day >= self._next_day:  # nor if it is not a number
-            self._push(slot, time)
-        elif day < len(self._days):
-            self._notes += 1
-            self._days[int(day)].append(slot)
-        else:
-            self._has_more = True
-
-    def _push(self, slot: CertificateId, time: EventTime) -> None:
-        self._notes += 1
-        self._sequence += 1
-        heappush(self._heap, (time.low, self._sequence, slot, time))
-
-    def _make_calendar(self) -> None:
-        """Note anew the first three quarters of the pending events, and what the first meets.
-
-        Few may be far later than all others, so a sample tells how far the days reach; about
-        six events are noted on each, or more where there are very many.
-        """
-        reach = self._heap[0][3].high if self._heap else -INFINITY
-        slots: list[CertificateId] = []
-        times: list[EventTime] = []
-        for kind, row in enumerate(self._rows):  # most slots are empty
-            for part, time in enumerate(row):
-                if time is not None:
-                    slots.append(CertificateId(ROWS * part + kind))
-                    times.append(time)
-        lows = [time.low for time in times]
-        self._first = min(lows, default=0.0)
-        sample, days = sorted(lows[:: len(lows) // SAMPLE + 1]), min(len(lows) // 8, DAYS) + 1
-        span = max(reach, sample[3 * len(sample) // 4] if sample else 0.0) - self._first
-        per_day = (days - 0.5) / span if 0.0 < span < INFINITY else 0.0
-        self._per_day = per_day if per_day < INFINITY else 0.0  # infinite if the span is subnormal
-        self._heap, self._days = [], [[] for _ in range(days)]
-        self._next_day, self._notes, self._has_more = 0.0, 0, False
-        for k, slot in enumerate(slots):  # compiled, a zip would be slower
-            self._note(slot, times[k])
-
-    def _begin_day(self) -> None:
-        """Put what is pending on the next day into the heap.
-
-        The event of a slot may be of a later day by then, where it is noted.
-        """
-        today = int(self._next_day)
-        slots, self._days[today] = self._days[today], []
-        self._next_day += 1.0
-        rows = self._rows
-        for slot in dict.fromkeys(slots):
-            time = rows[slot % ROWS][slot // ROWS]
-            if time is not None:
-                self._note(slot, time)
-
-    def _find_first(self) -> bool:
-        """Have the first event, and all that begin within its enclosure, in the heap.
-
-        Returns:
-            Whether there is an event; then it is on top of the heap.
-        """
-        while True:
-            heap = self._heap
-            while heap and self.pending(heap[0][2]) is not heap[0][3]:
-                heappop(heap)
-            if heap and (heap[0][3].high - self._first) * self._per_day < self._next_day:
-                return True
-            if self._next_day < len(self._days):
-                self._begin_day()
-            elif self._has_more:
-                self._make_calendar()
-            else:
-                return bool(heap)
+        """Return all slots with a pending event, in increasing order."""
+        found: list[CertificateId] = []
+        for row in range(ROWS):
+            span = self._spans[row]
+            parts = range(len(span) // 2)
+            found += [CertificateId(ROWS * p + row) for p in parts if span[2 * p] != INFINITY]
+        return sorted(found)
 
     def pop(self) -> tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None:
-        """The earliest time and all slots with an event then; None if the queue is empty.
+        """Remove the earliest events; return their time and their slots, None if there are none.
 
         The slots are in increasing order, each with its own `EventTime`.
 
@@ -231,13 +148,16 @@ class EventQueue:
         """
         if not self._find_first():
             return None
-        heap = self._heap
-        _, _, slot, time = heappop(heap)
-        bound = time.high
+        slot = CertificateId(self._heap_slot[0])
+        time = self._time_of(slot)
+        self._drop_top()
         candidates: dict[CertificateId, EventTime] = {}  # a slot may be in the heap twice
-        while heap and heap[0][0] <= bound:
-            _, _, other, its = heappop(heap)
-            if self.pending(other) is its:
+        bound = time.high
+        while self._heap_size and self._heap_low[0] <= bound:
+            other, low = CertificateId(self._heap_slot[0]), self._heap_low[0]
+            self._drop_top()
+            if other != slot and self._spans[other % ROWS][2 * (other // ROWS)] == low:
+                its = self._time_of(other)
                 candidates[other] = its
                 bound = min(bound, its.high)
         if not candidates:
@@ -246,6 +166,17 @@ class EventQueue:
             return time, [(slot, time)]
         candidates[slot] = time
         return self._pop_exactly(sorted(candidates.items()))
+
+    def _time_of(self, slot: CertificateId) -> EventTime:
+        """Return the time of a slot that is not empty."""
+        if self._kept:
+            kept = self._kept.get(slot)
+            if kept is not None:
+                return kept
+        row, part = slot % ROWS, slot // ROWS
+        span, key, at = self._spans[row], self._keys[row], 3 * part
+        a, b, c = i64(key[at]), i64(key[at + 1]), i64(key[at + 2])
+        return EventTime(span[2 * part], span[2 * part + 1], a, b, c)
 
     def _pop_exactly(
         self, entries: list[tuple[CertificateId, EventTime]]
@@ -261,8 +192,8 @@ class EventQueue:
                 best.append((slot, time))
             else:
                 later.append((slot, time))
-        for slot, time in later:
-            self._push(slot, time)
+        for slot, time in later:  # a comparison may have narrowed its enclosure
+            self.schedule(slot, time)
         for slot, _ in best:
             self.cancel(slot)
         return _simplest([time for _, time in best]), best
@@ -291,14 +222,36 @@ class ExactQueue(EventQueue):
 
     def __init__(self, resolver: Resolver, counters: Counters) -> None:
         super().__init__(resolver, counters)
+        self._sequence: int = 0
         self._exact_heap: list[tuple[AlgebraicNumber, int, CertificateId, EventTime]] = []
+
+    def __len__(self) -> int:
+        return len(self._kept)
 
     def schedule(self, slot: CertificateId, time: EventTime) -> None:
         """Put an event into a slot, replacing the one there."""
-        self._put(slot, time)
+        self._kept[slot] = time
         self._sequence += 1
         number = time.exact or self._resolver.resolve(time)
         heappush(self._exact_heap, (number, self._sequence, slot, time))
+
+    def schedule_crossing(
+        self, slot: CertificateId, low: float, high: float, a: i64, b: i64, c: i64
+    ) -> None:
+        """Put a change of sign, whose exact time is not known, into a slot."""
+        self.schedule(slot, EventTime(low, high, a, b, c))
+
+    def cancel(self, slot: CertificateId) -> None:
+        """Empty a slot."""
+        self._kept.pop(slot, None)
+
+    def pending(self, slot: CertificateId) -> EventTime | None:
+        """Return the time of the event in a slot, or None."""
+        return self._kept.get(slot)
+
+    def slots(self) -> list[CertificateId]:
+        """Return all slots with a pending event, in increasing order."""
+        return sorted(self._kept)
 
     def pop(self) -> tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None:
         """The earliest time and all slots with an event then; None if the queue is empty."""
@@ -332,3 +285,10 @@ def _simplest(times: list[EventTime]) -> EventTime:
 
 def _size(number: AlgebraicNumber) -> tuple[int, IntPoly]:
     return len(number._polynomial), number._polynomial
+
+
+def _extended(key: vec[i32], length: i64) -> vec[i32]:
+    """Return a vector, filled up with zeros to a length."""
+    while len(key) < length:
+        key = append(key, 0)
+    return key

@@ -49,8 +49,13 @@ class Clock:
 
     def next_number(self) -> AlgebraicNumber | None:
         """The exact time of the next failure; None if there is none."""
-        time = self.next_time()
-        return None if time is None else time.exact or self.certifier.resolve(time)
+        popped = self.table.pending.pop()
+        if popped is None:
+            return None
+        time, entries = popped
+        number = time.exact or self.certifier.resolve(time)
+        self._put_back(entries)
+        return number
 
     def is_after(self, t: QQ) -> bool:
         """Whether now is after a rational time; exactly, but for most times by enclosures."""

@@ -12,6 +12,7 @@ from exactpt.certificates.queue import EventQueue, EventTime, ExactQueue
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
+from exactpt.kernel.rounding import INFINITY
 
 # The square root of 2 by two polynomials, the double next to it, thirds, nearly a third.
 NUMBERS = [
@@ -106,7 +107,7 @@ def test_many_replaced_events_are_dropped():
         queue.schedule(i % 3, time_of(3 + i % 6))
 
     assert len(queue) == 3
-    assert len(queue._heap) + sum(map(len, queue._days)) < 300
+    assert queue._heap_size + queue._note_size < 300
     assert queue.slots() == [0, 1, 2]
 
 
@@ -146,7 +147,7 @@ def test_a_calendar_of_many_days_is_in_order(far, seed):
     most_days = 0
     for _ in range(400):
         _, entries = queue.pop()
-        most_days = max(most_days, len(queue._days))
+        most_days = max(most_days, queue._days)
         now = min(model.values())
         expected = sorted(slot for slot, t in model.items() if t == now)
         assert [slot for slot, _ in entries] == expected
@@ -211,6 +212,45 @@ def test_bug_ends_of_motions_within_one_double_are_told_apart():
         queue.schedule(slot, EventTime(low, high, -1, -1, -1, AlgebraicNumber(t)))
 
     assert [[s for s, _ in queue.pop()[1]] for _ in thirds] == [[1], [2], [0]]
+
+
+@pytest.mark.parametrize("far", [False, True])
+def test_bug_an_enclosure_without_end_is_popped(far):
+    """Numbers beyond the doubles have infinite ends; the days of a calendar cannot reach them."""
+    rationals = Rationals()
+    queue = EventQueue(rationals, Counters())
+    times = [power_of_two(1100), *(QQ(k) for k in range(300, 0, -1))]
+    for slot, time in enumerate(times):
+        queue.schedule(slot, rationals.event(time, 0.0))
+    if far:  # a slot whose enclosure holds all others
+        queue.schedule(400, EventTime(0.5, INFINITY, 0, -1, -1))
+        rationals.times[0] = times[0]
+
+    popped = [[slot for slot, _ in queue.pop()[1]] for _ in times]
+
+    assert popped == [[slot] for slot in range(300, 0, -1)] + [[0, 400] if far else [0]]
+    assert queue.pop() is None
+
+
+def test_pending_times_equal_the_scheduled_ones():
+    """Times without an exact number are stored as numbers alone; the others as they are."""
+    queue = EventQueue(Numbers(), Counters())
+    plain = EventTime(0.25, 0.5, 7, 8, -1)
+    touching = EventTime(0.25, 0.5, 1, 2, 3, crossing=False)
+    exact = EventTime(*NUMBERS[0].enclosure(), 0, -1, -1, NUMBERS[0])
+    for slot, time in ((16, plain), (5, touching), (6, exact)):
+        queue.schedule(slot, time)
+
+    found = queue.pending(16)
+    assert (found.low, found.high, found.a, found.b, found.c) == (0.25, 0.5, 7, 8, -1)
+    assert (found.exact, found.crossing) == (None, True)
+    assert queue.pending(5) is touching
+    assert queue.pending(6) is exact
+    queue.schedule_crossing(6, 1.0, 2.0, 3, 4, 5)
+    assert (queue.pending(6).exact, queue.pending(6).low) == (None, 1.0)
+    queue.cancel(16)
+    assert queue.pending(16) is None
+    assert queue.pending(10**6) is None
 
 
 @pytest.mark.parametrize("exponent", [-1100, -1060, -1030, 0, 1000, 1100])
