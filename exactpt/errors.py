@@ -54,7 +54,7 @@ class UnreachableError(InputError):
 
 
 class AuditError(ExactPTError, AssertionError):
-    """An invariant is broken: always a bug in exactpt, never a fault of the input.
+    """An invariant is broken: a bug in exactpt, or a forged state of a saved run.
 
     Attributes:
         scene: the scene in which it broke, with the motions of that time; None if the error did
@@ -83,7 +83,7 @@ def carry(error: AuditError, scene: Callable[[], Scene]) -> None:
 
 
 class BudgetExceeded(ExactPTError):  # noqa: N818 - an outcome, named as one
-    """A bound on events or seconds was reached.
+    """A limit on events, time or memory was reached.
 
     ``reached`` is a rational time: there is no contact in the closed interval from the start
     of the scene to it. It is None if nothing has been proved.

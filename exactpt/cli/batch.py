@@ -113,7 +113,7 @@ def batch(
     with _bar(quiet=quiet) as report:
         done = run(scenes, output, question, jobs=jobs, scheduler=scheduler, report=report)
     if not quiet:
-        tell(f"{done.scenes} scenes answered")
+        tell(f"{done.scenes} scenes processed, {done.failures} failed")
     if done.failures:
         raise InputError(f"{done.failures} of {done.scenes} scenes have no answer; {done.first}")
     return 0

@@ -47,8 +47,8 @@ __all__ = ["collide", "simulate"]
     default="auto",
     show_default=True,
     type=click.Choice(["kinetic", "pairs", "auto"]),
-    help="A tiling, a search over pairs, or whichever is expected to be faster: pairs, unless "
-    "a tiling or --max-events is given.",
+    help="kinetic keeps a tiling, pairs searches pairs of features; auto is pairs unless --tiling, "
+    "--proof or --max-events is given, or many coefficients are out of the range of doubles.",
 )
 @click.option(
     "--ignore",

@@ -1,7 +1,8 @@
 """Reference search for the first contact: every vertex against every edge, in exact arithmetic.
 
-It follows the definition of a contact and uses neither a tiling nor a float filter; it shares
-only the kernel and the trajectories with the tilings. Where a body has a radius,
+It follows the definition of a contact and uses neither a tiling nor a float filter. It shares
+the kernel, the trajectories, `exactpt.geometry.polygon` and the predicates of
+`exactpt.motion.incidence` with the searches that it checks. Where a body has a radius,
 `exactpt.collision.rounded_reference` has the definition; such a body does not touch itself.
 """
 

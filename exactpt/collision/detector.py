@@ -42,8 +42,8 @@ def first_contact(
     Args:
         scene: the bodies, their motions and the time span.
         method: "kinetic" keeps a tiling; "pairs" searches pairs of features without a tiling;
-            "auto" is "pairs" unless a tiling is named, or the coefficients of many vertices
-            are out of the range of doubles.
+            "auto" is "pairs" unless a tiling is named or a proof is wanted, or the
+            coefficients of many vertices are out of the range of doubles.
         tiling: the tiling to keep, one of `TILINGS` or `POINT_TILING`; "auto" is "incremental"
             if all bodies are points, else "lazy", which has the fewest events.
         exact_only: whether exact arithmetic decides everything, without the float filters.

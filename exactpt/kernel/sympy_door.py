@@ -1,4 +1,7 @@
-"""Conversion to and from SymPy: the only module that imports it, itself imported on first use."""
+"""Conversion to and from SymPy, imported on first use.
+
+It is the only module outside `exactpt.bench` that imports SymPy.
+"""
 
 from __future__ import annotations
 

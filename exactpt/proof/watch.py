@@ -1,6 +1,6 @@
 """A tiling reduced to what a proof contains: the changes of faces, and their times.
 
-This is the only module of the package that depends on tilings. Vertices are those of the
+Vertices are those of the
 scene; infinitesimal copies and faces that have no area for ever have been contracted.
 """
 

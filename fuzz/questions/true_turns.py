@@ -1,8 +1,9 @@
 """Bodies that turn by exactly omega t: their first contact, to 200 digits.
 
-No polynomial and no code of `exactpt` takes part: positions are complex numbers, by the cosine and
-sine of the angle. Up to a distance of `NEAR` time advances by distance over speed, in doubles, so
-that nothing is passed over; there the vertices and edges that are near are followed by mpmath.
+`exactpt` serves to read the scene only, and no polynomial takes part: positions are complex
+numbers, by the cosine and sine of the angle. Up to a distance of `NEAR` time advances by
+distance over speed, in doubles, so that nothing is passed over; there the vertices and edges that
+are near are followed by mpmath.
 """
 
 from __future__ import annotations
