@@ -62,9 +62,11 @@ compiled: $(VENV)/developing ## compile the hot rooms of this checkout (setup.py
 
 plain: ## remove what `make compiled` made
 	find exactpt -name '*.so' -delete
-	rm -rf exactpt__mypyc*.so build
+	rm -rf exactpt/compiled.txt build
 
 test-compiled: compiled ## the quick tests of what is compiled
+	cd / && '$(CURDIR)/$(BIN)/exactpt' --version && '$(CURDIR)/$(BIN)/python' '$(CURDIR)/.ci/is_compiled.py'
+	test -s exactpt/compiled.txt
 	$(BIN)/python -m pytest -n $(JOBS) $(COMPILED_TESTS); status=$$?; $(MAKE) plain; exit $$status
 
 small-scope: $(VENV)/developing ## a slice of the fuzzer's small scope, another one each day: a minute

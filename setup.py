@@ -1,10 +1,14 @@
 """Compiles the hot rooms by mypyc, where mypyc and a C compiler are found.
 
 The sources are the same; without a compiler the package is plain Python and works as
-well, slower. An editable install stays plain, so that what is edited is what runs;
-`python setup.py build_ext --inplace` compiles a checkout, and `make plain` undoes it. With
-EXACTPT_PLAIN=1 in the environment nothing is compiled: the wheel is for any platform, also for
-Pyodide's (`make browser`).
+well, slower. Only commands that build a wheel compile, not those that make the sdist, metadata or
+an editable install: this stays plain, so that what is edited is what runs;
+`python setup.py build_ext --inplace` (`make compiled`) compiles a checkout, and `make plain` undoes
+it. With EXACTPT_PLAIN=1 in the environment nothing is compiled: the wheel is for any platform, also
+for Pyodide's (`make browser`).
+
+What modules share is compiled into one library, exactpt/compiled__mypyc, inside the package: there
+every install finds it.
 
 Not compiled is what computes with the integers of GMP: for the type checker they are
 ``int``, which mypyc would take at its word.
@@ -13,12 +17,14 @@ A wheel has the C++ sources of cgal_check too, in exactpt/cgal/sources: `exactpt
 """
 
 import os
+import runpy
 import shutil
 import sys
 from glob import glob
 from pathlib import Path
 
 from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
 from setuptools.command.build_py import build_py
 
 ROOMS = [
@@ -49,19 +55,26 @@ EXACT = {
 }
 
 
+COMPILING = {"bdist_wheel", "build", "build_ext", "install"}
+
+
+def sources() -> list[str]:
+    """Return the paths of the modules to compile."""
+    found = sorted(path for pattern in ROOMS for path in glob(pattern))
+    return [path for path in found if path not in EXACT and not path.endswith("__init__.py")]
+
+
 def extensions() -> list[Extension]:
-    """The compiled modules; none if mypyc is missing, or the install is editable or plain."""
-    if "editable_wheel" in sys.argv or os.environ.get("EXACTPT_PLAIN") == "1":
+    """Return the extensions; none for other commands, a plain build, or without mypyc."""
+    if COMPILING.isdisjoint(sys.argv) or os.environ.get("EXACTPT_PLAIN") == "1":
         return []
     try:
         from mypyc.build import mypycify
     except ImportError:
         return []
-    found = sorted(path for pattern in ROOMS for path in glob(pattern))
-    modules = [path for path in found if path not in EXACT and not path.endswith("__init__.py")]
     options = ["--config-file=", "--ignore-missing-imports", "--follow-imports=silent"]
     compiled: list[Extension] = mypycify(
-        [*options, *modules], opt_level="2", debug_level="0", group_name="exactpt"
+        [*options, *sources()], opt_level="2", debug_level="0", group_name="exactpt.compiled"
     )
     for extension in compiled:
         extension.optional = True
@@ -82,4 +95,21 @@ class BuildWithSources(build_py):
             shutil.copytree("cgal_check", into, ignore=leave, dirs_exist_ok=True)
 
 
-setup(ext_modules=extensions(), cmdclass={"build_py": BuildWithSources})
+class BuildExtensions(build_ext):
+    """The extensions; in a checkout also the list of sources that ``import exactpt`` compares."""
+
+    def run(self) -> None:
+        """Build them; in a checkout, remove what an earlier build left, and write the list."""
+        package, inplace = Path("exactpt"), self.inplace
+        if inplace:
+            for old in (*package.rglob("*.so"), package / "compiled.txt"):
+                old.unlink(missing_ok=True)
+        super().run()
+        if inplace and any(package.glob("compiled__mypyc.*")):
+            runpy.run_path("exactpt/compiled.py")["write"](sources())
+
+
+setup(
+    ext_modules=extensions(),
+    cmdclass={"build_ext": BuildExtensions, "build_py": BuildWithSources},
+)

@@ -9,6 +9,7 @@
 """
 
 from importlib import import_module
+from os.path import isfile
 from typing import TYPE_CHECKING, Final
 
 from exactpt.extensions import register
@@ -47,6 +48,9 @@ if TYPE_CHECKING:
     from exactpt.simulation.plans import onward
     from exactpt.simulation.responses import Bounce, stop
     from exactpt.simulation.simulation import Simulation
+
+if isfile(f"{__path__[0]}/compiled.txt"):  # a checkout after `make compiled`
+    import_module("exactpt.compiled").compare()
 
 __all__ = [
     "Affine",

@@ -3,14 +3,13 @@
 import importlib.util
 import os
 import re
-import shutil
 import subprocess
 import sys
 import tarfile
 import venv
 import zipfile
-from pathlib import Path
 
+import checkout
 import pytest
 
 pytestmark = [
@@ -18,25 +17,20 @@ pytestmark = [
     pytest.mark.xdist_group("wheel"),  # built once
 ]
 
-ROOT = Path(__file__).parents[2]
+ROOT = checkout.ROOT
 
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
     """The wheel and the sdist of this checkout, and the files of the package."""
-    source = tmp_path_factory.mktemp("source")
-    for name in ("pyproject.toml", "setup.py", "README.md", "LICENSE", "MANIFEST.in"):
-        shutil.copy(ROOT / name, source)
-    leave = shutil.ignore_patterns("__pycache__", "*.so")
-    shutil.copytree(ROOT / "exactpt", source / "exactpt", ignore=leave)
-    shutil.copytree(
-        ROOT / "cgal_check", source / "cgal_check", ignore=shutil.ignore_patterns("build")
-    )
+    source = tmp_path_factory.mktemp("source") / "checkout"
+    checkout.copy_to(source)
     files = {
         path.relative_to(source).as_posix()
         for path in (source / "exactpt").rglob("*")
         if path.is_file()
     }
+    (source / "exactpt" / "compiled.txt").write_text("of a checkout that was compiled")
     subprocess.run([sys.executable, "-m", "build", "-o", source / "dist", source], check=True)
     (wheel,) = source.glob("dist/*.whl")
     (sdist,) = source.glob("dist/*.tar.gz")
@@ -54,7 +48,8 @@ def test_nothing_is_left_out(built):
     assert "exactpt/py.typed" in files
     assert files - inside == set()
     assert files - names == set()
-    assert not any(name.startswith("fuzz/") for name in inside)
+    assert not any(name.startswith(("fuzz/", "tests/")) for name in inside)
+    assert not {"exactpt/compiled.txt"} & (inside | names)
     shipped = {
         path.relative_to(ROOT / "cgal_check").as_posix()
         for path in (ROOT / "cgal_check").rglob("*")
