@@ -10,7 +10,7 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DATE ?= $(shell date -u +%F)
 LOWEST := $(VENV)/lowest
 COMPILED_TESTS := $(addprefix tests/,kernel certificates motion planar pseudotriangulation tiling collision simulation)
-PYODIDE_TESTS := $(addprefix tests/,kernel geometry planar motion certificates tiling collision arrays query)
+PYODIDE_TESTS := $(addprefix tests/,kernel geometry planar motion certificates tiling pairs collision arrays query)
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures docs package wheels check-cgal clean

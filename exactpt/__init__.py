@@ -17,11 +17,8 @@ from exactpt.extensions import register
 if TYPE_CHECKING:
     from exactpt import arrays as arrays
     from exactpt import batch as batch
-    from exactpt.collision.approach import Approach, first_within
-    from exactpt.collision.contact import Contact, Pair
     from exactpt.collision.detector import first_contact
     from exactpt.collision.enclosed import EnclosedContact, first_contact_enclosed
-    from exactpt.collision.planner import Planner
     from exactpt.errors import (
         AuditError,
         BudgetExceeded,
@@ -36,10 +33,13 @@ if TYPE_CHECKING:
     from exactpt.motion.local_time import Velocity, in_local_time, spline
     from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
     from exactpt.motion.spin import Spin
+    from exactpt.pairs.approach import Approach, first_within
+    from exactpt.pairs.clearance import Clearance, clearance
+    from exactpt.pairs.contact import Contact, Pair
+    from exactpt.pairs.distance import Distance, distance
+    from exactpt.pairs.intervals import ContactInterval, contact_intervals, contacts
+    from exactpt.pairs.planner import Planner
     from exactpt.proof.written import Proof, prove
-    from exactpt.proximity.clearance import Clearance, clearance
-    from exactpt.proximity.distance import Distance, distance
-    from exactpt.proximity.intervals import ContactInterval, contact_intervals, contacts
     from exactpt.query.answers import Hit, Path, Place
     from exactpt.query.space import FreeSpace
     from exactpt.scene.scene import Scene
@@ -102,11 +102,11 @@ __all__ = [
 ]
 
 _ROOMS: Final = {
-    "exactpt.collision.approach": (
+    "exactpt.pairs.approach": (
         "Approach",
         "first_within",
     ),
-    "exactpt.collision.contact": (
+    "exactpt.pairs.contact": (
         "Contact",
         "Pair",
     ),
@@ -115,7 +115,7 @@ _ROOMS: Final = {
         "EnclosedContact",
         "first_contact_enclosed",
     ),
-    "exactpt.collision.planner": ("Planner",),
+    "exactpt.pairs.planner": ("Planner",),
     "exactpt.errors": (
         "AuditError",
         "BudgetExceeded",
@@ -146,15 +146,15 @@ _ROOMS: Final = {
         "Proof",
         "prove",
     ),
-    "exactpt.proximity.clearance": (
+    "exactpt.pairs.clearance": (
         "Clearance",
         "clearance",
     ),
-    "exactpt.proximity.distance": (
+    "exactpt.pairs.distance": (
         "Distance",
         "distance",
     ),
-    "exactpt.proximity.intervals": (
+    "exactpt.pairs.intervals": (
         "ContactInterval",
         "contact_intervals",
         "contacts",

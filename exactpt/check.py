@@ -16,13 +16,13 @@ from typing import final
 
 from exactpt.cgal import BodyShape, CgalCheck, IsolatedRoot, ProofVerdict, check_proof
 from exactpt.collision.comparison import contrast, in_words
-from exactpt.collision.contact import Contact, contact_of
-from exactpt.collision.initial import initial_touches
-from exactpt.collision.pairs import PairsSearch
 from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
+from exactpt.pairs.contact import Contact, contact_of
+from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.pairs.start import initial_touches
 from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.pseudotriangulation.snapshot import snapshot
 from exactpt.scene.scene import Scene

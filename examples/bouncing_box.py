@@ -18,8 +18,8 @@ from collections.abc import Sequence
 from random import Random
 
 import exactpt
-from exactpt.collision.initial import initial_touches
 from exactpt.kernel.numbers import QQ
+from exactpt.pairs.start import initial_touches
 from exactpt.simulation.plans import translation_at
 from exactpt.simulation.responses import Bounce
 

@@ -12,13 +12,13 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from exactpt.cgal import BodyShape, CgalCheck
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.comparison import contrast
-from exactpt.collision.contact import Contact
 from exactpt.errors import ExactPTError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid, Translation
+from exactpt.pairs.contact import Contact
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.families.degenerate import grids, rings
 from exactpt.scene.families.shapes import box, poly
 from exactpt.scene.scene import Scene

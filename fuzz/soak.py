@@ -20,14 +20,14 @@ from tempfile import TemporaryDirectory
 from typing import Final, NamedTuple
 
 from exactpt import proof_check
-from exactpt.collision.contact import Contact
-from exactpt.collision.initial import initial_touches
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel import budget
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.pairs.contact import Contact
+from exactpt.pairs.start import initial_touches
 from exactpt.proof.written import write_proof
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json

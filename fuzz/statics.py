@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import start_tiling
 from exactpt.errors import AuditError
 from exactpt.indices import Ends
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
+from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound

@@ -11,7 +11,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
-from exactpt.collision.contact import Contact, Pair
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, ZZ, power_of_two
 from exactpt.kernel.polynomial import Polynomial
@@ -26,6 +25,7 @@ from exactpt.motion.motions import (
     SimpleMotion,
     Translation,
 )
+from exactpt.pairs.contact import Contact, Pair
 from exactpt.scene.scene import Scene
 from fuzz.rings import parts_of
 

@@ -7,12 +7,12 @@ from typing import Final, TypeAlias
 
 from exactpt import proof_check
 from exactpt.check import check_run
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.comparison import contrast, in_words
-from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
-from exactpt.collision.pairs import PairsSearch
 from exactpt.collision.tilings import tilings_for
+from exactpt.pairs.contact import Contact
+from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof import prove
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Final, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.collision.pairs import PairsSearch
 from exactpt.geometry.ragged import Flags
 from exactpt.kernel.doubles import Floats
+from exactpt.pairs.features_sweep import PairsSearch
 
 if TYPE_CHECKING:
-    from exactpt.collision.contact import Contact
+    from exactpt.pairs.contact import Contact
     from exactpt.scene.scene import Scene
 
 __all__ = ["KINDS", "Contacts"]

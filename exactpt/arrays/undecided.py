@@ -9,12 +9,12 @@ from typing import Final
 from exactpt.arrays.answers import record
 from exactpt.arrays.contacts import Contacts
 from exactpt.arrays.exact import Incidence, Place, Translating, incidence
-from exactpt.collision.initial import Edge, incidences
-from exactpt.collision.pairs import PairsSearch
 from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.incidence import Touch
+from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.pairs.start import Edge, incidences
 
 __all__ = ["decide", "search"]
 

@@ -86,7 +86,7 @@ def _start(axis: Sequence[Raw]) -> Vector:
 def _normal(ux: QQ, uy: QQ, slope: QQ) -> list[float]:
     """The unit normal of an edge to the side from which the vertex comes.
 
-    As `exactpt.collision.contact` rounds it: coordinates of the edge are scaled by a power of
+    As `exactpt.pairs.contact` rounds it: coordinates of the edge are scaled by a power of
     two there, which cancels unless one becomes tiny.
     """
     x, y = nearest_float(ux), nearest_float(uy)

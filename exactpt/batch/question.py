@@ -7,13 +7,13 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Final, final
 
-from exactpt.collision.approach import first_within
 from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError
 from exactpt.files import MOST_BYTES
 from exactpt.kernel.budget import within
 from exactpt.kernel.numbers import Rational, rational
-from exactpt.proximity.intervals import contacts
+from exactpt.pairs.approach import first_within
+from exactpt.pairs.intervals import contacts
 from exactpt.scene.scene import Scene
 
 __all__ = ["Question"]

@@ -15,11 +15,11 @@ from exactpt.arrays import KINDS, Contacts, first_contacts, point_segment_contac
 from exactpt.bench.methods.with_box2d import time_of_impact
 from exactpt.bench.output import Output, Row
 from exactpt.bench.timing import timed
-from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError
 from exactpt.kernel.doubles import Floats
 from exactpt.kernel.numbers import rational
+from exactpt.pairs.contact import Contact
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 

@@ -12,10 +12,10 @@ from exactpt.bench.everyday_later import EVERYDAY_LATER
 from exactpt.bench.methods.own import fresh
 from exactpt.bench.output import Output, Row
 from exactpt.bench.timing import in_turn
-from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
 from exactpt.collision.tilings import tilings_for
 from exactpt.errors import AuditError
+from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
 
 __all__ = ["FULL", "QUICK", "Sizes", "beside", "run"]

@@ -15,13 +15,13 @@ import numpy as np
 from exactpt.bench.output import Output, Row
 from exactpt.bench.shapes import crowd
 from exactpt.bench.timing import timed
-from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError
 from exactpt.kernel.doubles import Floats
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]

@@ -14,12 +14,12 @@ from typing import Final, NamedTuple, final
 
 from exactpt.bench.output import Output, Row
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.collision.contact import Contact
-from exactpt.collision.initial import initial_touches
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.pairs.contact import Contact
+from exactpt.pairs.start import initial_touches
 from exactpt.scene.families.shapes import cells, convex_polygon
 from exactpt.scene.scene import Scene
 from exactpt.simulation.plans import onward

@@ -20,15 +20,15 @@ from exactpt.bench.methods.with_pymunk import with_pymunk
 from exactpt.bench.methods.with_shapely import with_shapely
 from exactpt.bench.output import Output, Row
 from exactpt.bench.timing import timed
-from exactpt.collision.allpairs import first_contact_allpairs
-from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
-from exactpt.collision.planner import Planner
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, Translation
+from exactpt.pairs.contact import Contact
+from exactpt.pairs.planner import Planner
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]

@@ -16,7 +16,6 @@ from typing import Final, NamedTuple, TypeVar
 from exactpt.bench.output import Output, Row
 from exactpt.bench.plots import series_of
 from exactpt.bench.timing import timed
-from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError
 from exactpt.geometry.predicates import Point
@@ -26,6 +25,7 @@ from exactpt.kernel.polynomial import ZERO, Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.track import track
+from exactpt.pairs.contact import Contact
 from exactpt.scene.families.shapes import cells, convex_polygon, poly
 from exactpt.scene.scene import Scene
 

@@ -14,13 +14,13 @@ from typing import Final, NamedTuple, TypeVar
 from exactpt.bench.output import Output, Row
 from exactpt.bench.shapes import crowd
 from exactpt.bench.timing import timed
-from exactpt.collision.approach import Approach, first_within
 from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.proximity.search import ApproachSearch
+from exactpt.pairs.approach import Approach, first_within
+from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.scene.scene import Scene
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]

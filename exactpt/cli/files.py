@@ -142,7 +142,7 @@ def convert(
 
 def _what_touches(scene: Scene) -> list[str]:
     """A line about the bodies that touch at the start, if there are any."""
-    from exactpt.collision.initial import initial_touches
+    from exactpt.pairs.start import initial_touches
 
     try:
         _, pairs = initial_touches(scene)

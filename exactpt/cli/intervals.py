@@ -27,7 +27,7 @@ def collide_all(
     path: Path, until: QQ | None, *, as_json: bool, exit_code: bool, max_seconds: float | None
 ) -> int:
     """Print all intervals of contact; the exit code."""
-    from exactpt.proximity.intervals import contacts
+    from exactpt.pairs.intervals import contacts
 
     _check_alone("every")
     with time_limit(max_seconds, max_memory()):

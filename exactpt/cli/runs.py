@@ -21,9 +21,9 @@ from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import QQ, rational
 
 if TYPE_CHECKING:
-    from exactpt.collision.contact import Contact
     from exactpt.collision.search import Search
     from exactpt.collision.searches import Question
+    from exactpt.pairs.contact import Contact
     from exactpt.scene.scene import Scene
     from exactpt.simulation.event import Event
     from exactpt.simulation.simulation import Simulation

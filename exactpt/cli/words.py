@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from exactpt.kernel.numbers import shorten
 
 if TYPE_CHECKING:
-    from exactpt.collision.contact import Contact
     from exactpt.collision.enclosed import EnclosedContact
     from exactpt.kernel.algebraic import AlgebraicNumber
-    from exactpt.proximity.intervals import ContactInterval
+    from exactpt.pairs.contact import Contact
+    from exactpt.pairs.intervals import ContactInterval
     from exactpt.scene.scene import Scene
     from exactpt.simulation.event import Event
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from exactpt.collision.contact import Contact
+from exactpt.pairs.contact import Contact
 
 __all__ = ["contrast", "in_words"]
 

@@ -8,11 +8,11 @@ from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
 from typing import Final
 
-from exactpt.collision.contact import Contact
 from exactpt.collision.searches import Question, search_for
 from exactpt.errors import InputError, carrying
 from exactpt.kernel.budget import check_bounds, within
 from exactpt.kernel.numbers import Rational
+from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.tiling import catalogue
 

@@ -9,7 +9,7 @@ of the bodies with these radii; nor at all, if there is none. A body that deform
 itself when it would without turning, at a time that is known exactly.
 
 **Upper bound.** At certain rational times the given bodies are tested by
-`exactpt.proximity.sure`: where one pair is sure to meet, the true first contact is not later; nor
+`exactpt.pairs.sure`: where one pair is sure to meet, the true first contact is not later; nor
 where a point is sure to have passed through an edge since a time as long before the contact of the
 given bodies. Two bodies with e_i + e_j = 0, and a body and itself, meet at a time known exactly.
 At the start of the scene a body whose true angle is 0 is at a known place, too.
@@ -30,10 +30,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final, final
 
-from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
-from exactpt.collision.initial import initial_touches
-from exactpt.collision.planner import is_rigid
 from exactpt.errors import carrying
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -43,7 +40,10 @@ from exactpt.motion.body import Body
 from exactpt.motion.displacement import displacement
 from exactpt.motion.motions import Rigid, Translation
 from exactpt.motion.spin import Spin
-from exactpt.proximity.sure import surely_meet, surely_passed
+from exactpt.pairs.contact import Contact
+from exactpt.pairs.planner import is_rigid
+from exactpt.pairs.start import initial_touches
+from exactpt.pairs.sure import surely_meet, surely_passed
 from exactpt.scene.scene import Scene, a_scene, scene_of
 
 __all__ = ["EnclosedContact", "first_contact_enclosed"]

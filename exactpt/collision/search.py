@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-    from exactpt.collision.contact import Contact
+    from exactpt.pairs.contact import Contact
 
 __all__ = ["Search"]
 

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from exactpt.collision.search import Search
-from exactpt.collision.straight_search import StraightSearch, straight_rows
 from exactpt.errors import InputError
 from exactpt.extensions import extension
+from exactpt.pairs.search import StraightSearch, straight_rows
 from exactpt.scene.scene import Scene
 
 __all__ = ["Question", "search_for", "searches_pairs"]
@@ -65,7 +65,7 @@ def search_for(scene: Scene, question: Question, *, counting: bool = True) -> Se
         rows = None if counting or exact_only or scene.is_rounded else straight_rows(scene)
         if rows is not None:
             return StraightSearch(scene, rows, groups)
-        from exactpt.collision.pairs import PairsSearch
+        from exactpt.pairs.features_sweep import PairsSearch
 
         search = PairsSearch(scene, exact_only=exact_only, max_seconds=seconds, ignoring=groups)
         if method == "pairs" or groups or not search.is_blind():
@@ -88,7 +88,7 @@ def _selected(scene: Scene, question: Question) -> Search:
             f"{what} all bodies, from the start on: contacts between some, or new ones after "
             "the start, are found by pairs alone"
         )
-    from exactpt.collision.selected import SelectedSearch
+    from exactpt.pairs.selected import SelectedSearch
 
     return SelectedSearch(
         scene,

@@ -6,14 +6,14 @@ import time as clock
 from fractions import Fraction
 from typing import TYPE_CHECKING, final
 
-from exactpt.collision.contact import Contact, contact_of
-from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import proved_until, start_tiling, tiling_for_contact
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import searching
 from exactpt.kernel.counters import Counts
 from exactpt.motion.body import refuse_rounded
+from exactpt.pairs.contact import Contact, contact_of
+from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.report import report

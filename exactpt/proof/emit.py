@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import TYPE_CHECKING, final
 
-from exactpt.collision.contact import Contact, contact_of
-from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import check_tiling, proved_until, start_tiling, tiling_for_contact
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.body import refuse_rounded
+from exactpt.pairs.contact import Contact, contact_of
+from exactpt.pairs.start import initial_touches
 from exactpt.proof.lines import Lines, header
 from exactpt.proof.nodes import Nodes
 from exactpt.proof.watch import Watch

@@ -15,7 +15,7 @@ from exactpt.scene.scene import Scene, a_scene
 from exactpt.tiling.report import report
 
 if TYPE_CHECKING:
-    from exactpt.collision.contact import Contact
+    from exactpt.pairs.contact import Contact
 
 __all__ = ["Proof", "ProvedSearch", "prove", "write_proof"]
 

@@ -15,8 +15,8 @@ from exactpt.render.palette import body_colour
 from exactpt.render.words import contact_in_words, pair_in_words, short
 
 if TYPE_CHECKING:
-    from exactpt.collision.contact import Contact
     from exactpt.kernel.algebraic import AlgebraicNumber
+    from exactpt.pairs.contact import Contact
     from exactpt.render.film import Film, Step
     from exactpt.scene.scene import Scene
 

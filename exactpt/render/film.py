@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from exactpt.certificates.queue import EventTime
-    from exactpt.collision.contact import Contact
     from exactpt.kernel.numbers import QQ
+    from exactpt.pairs.contact import Contact
     from exactpt.scene.scene import Scene
     from exactpt.simulation.event import Event
 

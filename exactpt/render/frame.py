@@ -13,7 +13,7 @@ from exactpt.render.window import Window, window_of
 from exactpt.render.words import contact_in_words, time_in_words
 
 if TYPE_CHECKING:
-    from exactpt.collision.contact import Contact, Pair
+    from exactpt.pairs.contact import Contact, Pair
     from exactpt.pseudotriangulation.snapshot import Face, Snapshot
     from exactpt.render.still import Still
     from exactpt.scene.scene import Scene

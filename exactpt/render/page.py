@@ -15,7 +15,7 @@ from exactpt.render.words import clean
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.numbers import QQ
-    from exactpt.proximity.clearance import Clearance
+    from exactpt.pairs.clearance import Clearance
     from exactpt.render.film import Film
 
 __all__ = ["page_of"]

@@ -12,7 +12,7 @@ from exactpt.render.palette import DARK, LIGHT
 from exactpt.render.words import clean, short, time_in_words
 
 if TYPE_CHECKING:
-    from exactpt.proximity.clearance import Clearance
+    from exactpt.pairs.clearance import Clearance
 
 __all__ = ["Plot", "plot_of", "strip_of", "svg_of_plot"]
 

@@ -13,8 +13,8 @@ from exactpt.render.fixed import near
 from exactpt.simulation.simulation import Simulation
 
 if TYPE_CHECKING:
-    from exactpt.collision.contact import Contact
     from exactpt.kernel.numbers import QQ
+    from exactpt.pairs.contact import Contact
     from exactpt.scene.scene import Scene
 
 __all__ = ["Still", "still", "still_of"]

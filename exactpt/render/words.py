@@ -10,8 +10,8 @@ from exactpt.kernel.numbers import nearest_float, rational
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from exactpt.collision.contact import Contact, Pair
     from exactpt.kernel.numbers import QQ
+    from exactpt.pairs.contact import Contact, Pair
 
 __all__ = [
     "clean",

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple, final
 
-from exactpt.collision.contact import Contact
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, fraction, rational, show
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, SimpleMotion
+from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
 
 __all__ = ["History", "Life", "Log", "Mark"]

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple, final
 
 from exactpt.certificates.queue import EventTime
-from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -14,6 +13,7 @@ from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.motion.body import Body, refuse_rounded
 from exactpt.motion.motions import Motion
+from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
 from exactpt.simulation.plans import planned

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from exactpt.collision.contact import Contact
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.body import Body
+from exactpt.pairs.contact import Contact
 from exactpt.simulation.living import LivingScene
 
 __all__ = ["Met", "met"]

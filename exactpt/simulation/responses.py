@@ -21,7 +21,7 @@ from exactpt.simulation.normals import Vector, normals_at
 from exactpt.simulation.plans import GRID, onward, translation_at
 
 if TYPE_CHECKING:
-    from exactpt.collision.contact import Contact, Pair
+    from exactpt.pairs.contact import Contact, Pair
     from exactpt.simulation.simulation import Simulation
 
 __all__ = ["Bounce", "stop"]

@@ -8,12 +8,12 @@ from contextlib import suppress
 from fractions import Fraction
 from typing import TypeAlias, final
 
-from exactpt.collision.contact import Contact, contact_of
-from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import plan_tiling, proved_until
 from exactpt.errors import AuditError, BudgetExceeded, InputError, carry, carrying
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
+from exactpt.pairs.contact import Contact, contact_of
+from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 from exactpt.simulation.budget import Budget, Guard
 from exactpt.simulation.event import Event

@@ -15,7 +15,6 @@ from typing import Any, TypeAlias
 
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
-from exactpt.collision.contact import Contact, Pair
 from exactpt.errors import InputError
 from exactpt.indices import VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -25,6 +24,7 @@ from exactpt.kernel.sturm import count_roots, sturm_sequence
 from exactpt.motion.body import Body
 from exactpt.motion.frame import Frame
 from exactpt.motion.vertices import Vertices
+from exactpt.pairs.contact import Contact, Pair
 from exactpt.simulation.event import Event
 from exactpt.tiling import catalogue, loading
 from exactpt.tiling.events import Stats

@@ -27,7 +27,7 @@ from exactpt.simulation.spaces import SpaceCache
 from exactpt.tiling.report import report
 
 if TYPE_CHECKING:
-    from exactpt.collision.contact import Contact
+    from exactpt.pairs.contact import Contact
     from exactpt.pseudotriangulation.snapshot import Snapshot
     from exactpt.query import answers
     from exactpt.query.answers import Hit, Place, VertexName

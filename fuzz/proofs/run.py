@@ -14,10 +14,10 @@ from random import Random
 from typing import Final, NamedTuple
 
 from exactpt import proof_check
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.tilings import tilings_for
 from exactpt.errors import InputError
 from exactpt.files import write_atomically
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof import prove
 from exactpt.proof.emit import scene_bytes
 from exactpt.scene.format import loads

@@ -7,11 +7,11 @@ from math import cos, pi, sin
 from random import Random
 from typing import Final
 
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof.changes import change, followers
 from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.proof.lines import header

@@ -12,7 +12,7 @@ from exactpt.kernel.algebraic_value import quotient_at
 from exactpt.kernel.integer_polynomial import IntPoly, derivative, multiply, subtract
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
-from exactpt.proximity.clearance import Clearance, ClearancePiece
+from exactpt.pairs.clearance import Clearance, ClearancePiece
 from exactpt.scene.scene import Scene
 from fuzz.questions import reference
 

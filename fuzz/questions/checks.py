@@ -7,19 +7,19 @@ from itertools import combinations, pairwise
 from random import Random
 from typing import Final, NamedTuple
 
-from exactpt.collision.allpairs import touches_at
-from exactpt.collision.approach import Approach, first_within
-from exactpt.collision.contact import touches_of
 from exactpt.collision.detector import first_contact
-from exactpt.collision.incidences import tracks_just_before
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import quotient_at
 from exactpt.kernel.numbers import QQ, ZZ, rational
 from exactpt.motion.incidence import Touch
-from exactpt.proximity.clearance import Clearance, ClearancePiece, clearance
-from exactpt.proximity.distance import distance
-from exactpt.proximity.features import Feature
-from exactpt.proximity.intervals import contact_intervals
+from exactpt.pairs.approach import Approach, first_within
+from exactpt.pairs.clearance import Clearance, ClearancePiece, clearance
+from exactpt.pairs.contact import touches_of
+from exactpt.pairs.distance import distance
+from exactpt.pairs.features import Feature
+from exactpt.pairs.incidences import tracks_just_before
+from exactpt.pairs.intervals import contact_intervals
+from exactpt.pairs.reference import touches_at
 from exactpt.scene.scene import Scene
 from fuzz.questions import by_cgal, reference
 from fuzz.questions.norms import Norm, first_within_norm

@@ -1,6 +1,6 @@
 """When bodies meet, and how near they are, from the definition.
 
-It shares nothing with `exactpt.proximity` but the kernel, the trajectories and orientations.
+It shares nothing with `exactpt.pairs` but the kernel, the trajectories and orientations.
 """
 
 from __future__ import annotations

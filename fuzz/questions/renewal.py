@@ -12,10 +12,10 @@ from collections.abc import Collection, Iterator
 from itertools import combinations, combinations_with_replacement, pairwise, product
 from typing import TypeAlias
 
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene, scene_of
 from fuzz.questions.reference import edges_of, meet_at, moments, pieces, tracks
 

@@ -9,15 +9,15 @@ from __future__ import annotations
 from itertools import combinations
 from random import Random
 
-from exactpt.collision.approach import first_within
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import orientation
-from exactpt.proximity.clearance import clearance
-from exactpt.proximity.distance import distance
-from exactpt.proximity.intervals import contact_intervals
+from exactpt.pairs.approach import first_within
+from exactpt.pairs.clearance import clearance
+from exactpt.pairs.distance import distance
+from exactpt.pairs.intervals import contact_intervals
 from exactpt.scene.scene import Scene
 from fuzz.questions import reference
 from fuzz.questions.reference import Interval, Tracks

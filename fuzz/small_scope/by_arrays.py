@@ -11,10 +11,10 @@ import numpy as np
 
 from exactpt.arrays import KINDS, Contacts, first_contacts
 from exactpt.arrays.exact import exact
-from exactpt.collision.contact import Contact
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
 from fuzz.limits import TooSlow, limit
 

@@ -6,11 +6,11 @@ import time as clock
 from collections.abc import Callable, Sequence
 from typing import Final, NamedTuple
 
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.comparison import contrast
-from exactpt.collision.contact import Contact
-from exactpt.collision.straight_search import rows_of
 from exactpt.kernel.numbers import ZZ
+from exactpt.pairs.contact import Contact
+from exactpt.pairs.reference import first_contact_allpairs
+from exactpt.pairs.search import rows_of
 from exactpt.scene.scene import Scene
 from exactpt.simulation.responses import stop
 from exactpt.simulation.simulation import Simulation

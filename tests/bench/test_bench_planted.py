@@ -8,9 +8,9 @@ from exactpt.bench.methods.method import Method
 from exactpt.bench.methods.own import OWN
 from exactpt.bench.planted import FAMILIES, Planted
 from exactpt.bench.wrong_answers import Wrong, count_wrong
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
+from exactpt.pairs.reference import first_contact_allpairs
 
 NO_CONTACT = {"graze, gap 2^-40", "tangential, gap 2^-47"}
 ALWAYS_CONTACT = {"exact graze", "graze, overlap 2^-40", "tangential touch"}

@@ -7,7 +7,7 @@ the place, time and scale of the scene.
 import pytest
 from random_motions import MOTIONS, NUMBERS, SETTINGS, lanes, random_scene
 
-from exactpt.collision.pairs import PairsSearch
+from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.simulation.simulation import Simulation
 
 

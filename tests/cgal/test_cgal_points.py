@@ -4,7 +4,7 @@ import pytest
 
 from exactpt.cgal import BodyShape
 from exactpt.check import check_scene
-from exactpt.collision.initial import initial_touches
+from exactpt.pairs.start import initial_touches
 from exactpt.scene.generate import POINTS, generate
 from exactpt.simulation.simulation import Simulation
 from exactpt.simulation.tile import tile_at

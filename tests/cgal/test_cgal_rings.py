@@ -5,8 +5,8 @@ import pytest
 from exactpt import Simulation
 from exactpt.cgal import BodyShape, CgalCheck
 from exactpt.check import check_scene
-from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import TILINGS
+from exactpt.pairs.start import initial_touches
 from exactpt.scene.generate import RINGS, generate
 
 pytestmark = pytest.mark.cgal

@@ -11,8 +11,8 @@ import pytest
 
 from exactpt.cli import main
 from exactpt.cli.alarm import time_limit
-from exactpt.collision import pairs
 from exactpt.errors import BudgetExceeded
+from exactpt.pairs import features_sweep as pairs
 from exactpt.scene.generate import generate
 from exactpt.scene.written import save
 from exactpt.tiling.engine import Engine

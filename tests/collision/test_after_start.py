@@ -19,7 +19,7 @@ from exactpt import (
 from exactpt.bench.shapes import clamp, crowd
 from exactpt.cli import main
 from exactpt.kernel.numbers import QQ
-from exactpt.proximity import near
+from exactpt.pairs import near
 from exactpt.scene.generate import generate
 from fuzz.questions.renewal import first_new_contact
 from fuzz.questions.tiny import pair_scene, touching_scene

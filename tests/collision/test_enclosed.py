@@ -8,7 +8,7 @@ import pytest
 from exactpt import Body, InputError, Rigid, Scene, Spin, Translation, first_contact_enclosed
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.displacement import displacement
-from exactpt.proximity.sure import surely_meet, surely_passed
+from exactpt.pairs.sure import surely_meet, surely_passed
 
 WALL = Body("wall", [(-1, 1), (1, 1), (1, 2), (-1, 2)])
 """A blade of length 2 from the origin comes to its corner (1, 1) at the angle pi / 4."""

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.detector import first_contact
 from exactpt.collision.tilings import TILINGS
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, Translation
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
 

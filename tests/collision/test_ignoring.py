@@ -4,12 +4,12 @@ import pytest
 from click.testing import CliRunner
 
 from exactpt.cli import cli, main
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 

@@ -8,13 +8,13 @@ import pytest
 
 from exactpt.arrays import first_contacts
 from exactpt.certificates.coincidence import boxes_now
-from exactpt.collision.allpairs import first_contact_allpairs
-from exactpt.collision.approach import first_within
 from exactpt.collision.detector import first_contact
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.proximity.intervals import contacts
+from exactpt.pairs.approach import first_within
+from exactpt.pairs.intervals import contacts
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene
 
 

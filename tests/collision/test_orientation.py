@@ -7,8 +7,8 @@ import pytest
 
 import exactpt
 from exactpt import Body, Pieces, Rigid, Scene
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.kernel.numbers import QQ
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.format import loads
 from exactpt.scene.written import to_json
 from exactpt.simulation.plans import onward

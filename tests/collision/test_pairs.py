@@ -5,15 +5,16 @@ from random import Random
 import pytest
 
 from exactpt.bench.everyday import EVERYDAY
-from exactpt.collision import pairs, row_boxes
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.detector import first_contact
-from exactpt.collision.pairs import PairsSearch
 from exactpt.collision.searches import searches_pairs
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.motion import swept_edges
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.pairs import boxes as row_boxes
+from exactpt.pairs import features_sweep as pairs
+from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene
 
 

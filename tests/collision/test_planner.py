@@ -6,8 +6,8 @@ from random import Random
 import pytest
 
 from exactpt import Body, InputError, Pieces, Planner, Rigid, Scene, Translation, first_contact
-from exactpt.collision import obstacles as prepared
-from exactpt.collision import planner as planners
+from exactpt.pairs import obstacles as prepared
+from exactpt.pairs import planner as planners
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 
 BOX = [(0, 0), (2, 0), (2, 1), (0, 1)]

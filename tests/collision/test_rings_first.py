@@ -5,10 +5,10 @@ from itertools import pairwise
 import pytest
 
 from exactpt import Body, Planner, Rigid, Scene, Translation, first_contact
-from exactpt.collision.allpairs import first_contact_allpairs
-from exactpt.collision.pairs import PairsSearch
 from exactpt.collision.tilings import TILINGS
 from exactpt.errors import InputError
+from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.generate import RINGS, generate
 
 FRAME = [(0, 0), (10, 0), (10, 10), (0, 10)]

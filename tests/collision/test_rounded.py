@@ -23,11 +23,11 @@ from exactpt import (
     first_within,
 )
 from exactpt.check import check_run
-from exactpt.collision import rounded_straight
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.comparison import contrast, in_words
-from exactpt.collision.pairs import PairsSearch
 from exactpt.kernel.numbers import QQ
+from exactpt.pairs import radius_filters as rounded_straight
+from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof import prove
 from exactpt.scene.generate import ROUNDED, generate
 

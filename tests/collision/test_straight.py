@@ -6,15 +6,17 @@ from random import Random
 
 import pytest
 
-from exactpt.collision import incidences, row_boxes, straight_search
-from exactpt.collision.allpairs import first_contact_allpairs
-from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
-from exactpt.collision.pairs import PairsSearch
-from exactpt.collision.straight_search import rows_of
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, Rigid, Translation
+from exactpt.pairs import boxes as row_boxes
+from exactpt.pairs import incidences
+from exactpt.pairs import search as straight_search
+from exactpt.pairs.contact import Contact
+from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.pairs.reference import first_contact_allpairs
+from exactpt.pairs.search import rows_of
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 from exactpt.scene.scene import Scene
 
@@ -230,7 +232,7 @@ def test_points_and_normals_are_computed_on_demand(monkeypatch):
         asked.append(1)
         return incidences.details(*arguments)
 
-    monkeypatch.setattr("exactpt.collision.contact.details", recorded)
+    monkeypatch.setattr("exactpt.pairs.contact.details", recorded)
     box = [(0, 0), (1, 0), (1, 1), (0, 1)]
     scene = Scene(
         [Body("a", box, Translation([0, 1])), Body("b", [(x + 3, y) for x, y in box])], (0, 9)

@@ -2,11 +2,11 @@
 
 import pytest
 
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.detector import first_contact
 from exactpt.collision.tilings import TILINGS
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene
 from fuzz.variants import VARIANTS
 

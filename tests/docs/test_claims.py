@@ -16,9 +16,10 @@ import pytest
 
 from exactpt import Body, Rigid, Scene, Simulation, Translation, cli, first_contact
 from exactpt.cli.runs import collide
-from exactpt.collision import pairs, straight_search
 from exactpt.errors import AuditError
 from exactpt.motion import swept_edges
+from exactpt.pairs import features_sweep as pairs
+from exactpt.pairs import search as straight_search
 from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED, SPINNING, generate
 
 ROOT = Path(__file__).parents[2]
@@ -193,7 +194,7 @@ def test_an_error_raised_in_python_has_its_scene(tmp_path, monkeypatch, how):
     def broken(*_, **__):
         raise AuditError("broken on purpose")
 
-    monkeypatch.setattr("exactpt.collision.pairs.PairsSearch.run_to_contact", broken)
+    monkeypatch.setattr("exactpt.pairs.features_sweep.PairsSearch.run_to_contact", broken)
     calls = {
         "simulation": partial(Simulation, scene),
         "kinetic": partial(first_contact, scene, method="kinetic"),

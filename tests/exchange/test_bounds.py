@@ -7,10 +7,10 @@ import sys
 import pytest
 
 from exactpt.cli import main
-from exactpt.collision import initial
 from exactpt.errors import InputError
 from exactpt.exchange import bodies, shapes, svg
 from exactpt.exchange.files import read_shapes
+from exactpt.pairs import start as initial
 from exactpt.scene.scene import Scene
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg">'

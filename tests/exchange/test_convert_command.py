@@ -6,10 +6,10 @@ import pytest
 from click.testing import CliRunner
 
 from exactpt.cli import cli, main
-from exactpt.collision import initial
 from exactpt.errors import BudgetExceeded
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.pairs import start as initial
 from exactpt.scene.generate import FAMILIES, POINTS
 from exactpt.scene.generate import generate as generated
 from exactpt.scene.scene import Scene

@@ -9,7 +9,7 @@ from click.testing import CliRunner
 from exactpt import Body, Scene
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
-from exactpt.proximity.clearance import Minimum
+from exactpt.pairs.clearance import Minimum
 from fuzz.questions import by_cgal, checks
 from fuzz.questions.command import questions
 from fuzz.questions.renewal import overlap

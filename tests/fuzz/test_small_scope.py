@@ -13,11 +13,11 @@ import pytest
 from click.testing import CliRunner
 
 from exactpt.arrays import first_contacts
-from exactpt.collision.allpairs import first_contact_allpairs
-from exactpt.collision.straight_search import rows_of
 from exactpt.errors import InputError
 from exactpt.geometry.polygon import contains, edges, first_self_touch, segments_meet, signed_area2
 from exactpt.kernel.numbers import QQ
+from exactpt.pairs.reference import first_contact_allpairs
+from exactpt.pairs.search import rows_of
 from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json

@@ -6,9 +6,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.format import loads
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.written import to_json

@@ -7,9 +7,9 @@ import pytest
 from proving import accepted, agrees, by_both_checkers, proof_of, verdict  # noqa: F401 - a fixture
 
 from exactpt import Body, Scene, Translation
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.scene.format import loads
 from exactpt.scene.generate import generate

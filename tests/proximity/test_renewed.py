@@ -8,8 +8,8 @@ import shapely
 
 from exactpt import Body, Pieces, Translation
 from exactpt.kernel.numbers import QQ
-from exactpt.proximity.overlap import overlap
-from exactpt.proximity.renewed import new_contact_time
+from exactpt.pairs.overlap import overlap
+from exactpt.pairs.renewed import new_contact_time
 
 BOX = [(0, 0), (2, 0), (2, 2), (0, 2)]
 FLOOR = Body("floor", [(-5, -1), (9, -1), (9, 0), (-5, 0)])

@@ -8,10 +8,9 @@ import pytest
 
 from exactpt import Approach, Body, InputError, Rigid, Scene, Translation, first_within
 from exactpt.bench.shapes import crowd
-from exactpt.collision import approach
 from exactpt.kernel.numbers import QQ
-from exactpt.proximity import near
-from exactpt.proximity.search import ApproachSearch
+from exactpt.pairs import approach, near
+from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.scene.generate import FAMILIES, generate
 from fuzz.questions import reference
 from fuzz.questions.tiny import touching_scene

@@ -6,11 +6,11 @@ import pytest
 
 import exactpt
 from exactpt import first_within
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, Rigid, Translation
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.families.shapes import convex_polygon, hull
 from exactpt.scene.scene import Scene
 

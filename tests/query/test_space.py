@@ -7,12 +7,12 @@ from random import Random
 import brute
 import pytest
 
-from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import start_tiling
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.pairs.start import initial_touches
 from exactpt.query.space import FreeSpace
 from exactpt.scene.generate import FAMILIES, RINGS, generate
 from exactpt.scene.scene import Scene

@@ -232,7 +232,7 @@ def test_in_the_search_of_straight_motion_the_start_is_proved(monkeypatch):
     def stop():
         raise BudgetExceeded("the time is used up", None)
 
-    monkeypatch.setattr("exactpt.collision.row_boxes.ask", stop)
+    monkeypatch.setattr("exactpt.pairs.boxes.ask", stop)
 
     with pytest.raises(BudgetExceeded) as spent:
         first_contact(many_moving(40))

@@ -7,9 +7,9 @@ from threading import Barrier
 import pytest
 
 import exactpt
-from exactpt.collision.pairs import PairsSearch
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation

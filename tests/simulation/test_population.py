@@ -6,11 +6,11 @@ from random import Random
 import pytest
 from test_plans import at, audit, crowd, some_plan, turn_back
 
-from exactpt.collision.initial import initial_touches
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid, Translation
+from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.region import Region
 from exactpt.scene.families.shapes import convex_polygon
 from exactpt.scene.families.simple import star

@@ -24,8 +24,8 @@ from exactpt import (
     Spin,
     Translation,
 )
-from exactpt.collision.pairs import PairsSearch
 from exactpt.errors import BudgetExceeded
+from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pseudotriangulation.snapshot import Snapshot
 
 PLAIN = {int, float, bool, str, bytes, type(None), Fraction, range}

@@ -7,11 +7,11 @@ from random import Random
 
 import pytest
 
-from exactpt.collision.initial import initial_touches
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
+from exactpt.pairs.start import initial_touches
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.plans import onward, rounded, translation_at

@@ -4,12 +4,12 @@ import json
 
 import pytest
 
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.tilings import TILINGS
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation

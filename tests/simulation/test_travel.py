@@ -305,8 +305,8 @@ def test_bug_a_pickle_tells_of_nothing_that_depends_on_the_build():
     unpickler.load()
     assert unpickler.names == {
         "builtins.getattr",
-        "exactpt.collision.contact.Contact",
-        "exactpt.collision.incidences.Pair",
+        "exactpt.pairs.contact.Contact",
+        "exactpt.pairs.incidences.Pair",
         "exactpt.kernel.algebraic.AlgebraicNumber",
         "exactpt.kernel.polynomial.Polynomial",
         "exactpt.motion.body.Body",

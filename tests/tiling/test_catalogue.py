@@ -6,11 +6,11 @@ import pytest
 from ranked import RANKED
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.detector import first_contact
 from exactpt.collision.tilings import TILINGS, start_tiling, tilings_for
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.generate import generate
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling import catalogue

@@ -9,13 +9,13 @@ import pytest
 
 from exactpt.certificates.certificate import ANGLE, pack
 from exactpt.certificates.perturbation import orientation
-from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import TILINGS, start_tiling
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.roots import common_roots, roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference
 from exactpt.motion.motions import Translation
+from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.mesh import SOLID
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene

@@ -7,13 +7,13 @@ import pytest
 from random_motions import lanes
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import start_tiling
 from exactpt.geometry.predicates import side
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.vertices import Vertices
+from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.audit import audit_angles
 from exactpt.pseudotriangulation.build import build_mesh
 from exactpt.pseudotriangulation.flip import flip

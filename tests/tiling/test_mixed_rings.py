@@ -7,12 +7,12 @@ import pytest
 from test_mixed import free, shuffled
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import start_tiling
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.vertices import Vertices
+from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.audit import audit_angles
 from exactpt.pseudotriangulation.mesh import FREE
 from exactpt.scene.families.shapes import hull

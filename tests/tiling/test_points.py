@@ -8,13 +8,13 @@ import pytest
 from point_audits import points_at, run_and_audit, started, structure_of, tangents_by_slope
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.collision.allpairs import first_contact_allpairs
 from exactpt.collision.detector import first_contact
 from exactpt.collision.tilings import plan_tiling, start_tiling
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.planar.halfedge import edge_key
 from exactpt.scene.generate import POINTS, generate
 from exactpt.scene.scene import Scene

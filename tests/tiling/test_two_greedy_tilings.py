@@ -3,10 +3,10 @@
 import pytest
 
 from exactpt.certificates.certifier import Certifier
-from exactpt.collision.initial import initial_touches
 from exactpt.collision.tilings import plan_tiling
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.motion.vertices import Vertices
+from exactpt.pairs.start import initial_touches
 from exactpt.scene.generate import CONVEX, FAMILIES, generate
 from exactpt.scene.scene import Scene
 from exactpt.tiling import catalogue, loading

@@ -20,8 +20,8 @@ from typing import Final, NamedTuple
 
 from exactpt.bench.engines.domain import kind_of
 from exactpt.kernel.numbers import QQ, rational
-from exactpt.proximity.distance import distance
-from exactpt.proximity.intervals import ContactInterval, contact_intervals
+from exactpt.pairs.distance import distance
+from exactpt.pairs.intervals import ContactInterval, contact_intervals
 from exactpt.testing import Moving, Question, Truth
 from exactpt.testing.comparing import TOLERANCE, verdict
 

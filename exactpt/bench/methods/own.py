@@ -8,9 +8,9 @@ from functools import partial
 from typing import Final
 
 from exactpt.bench.methods.method import Answer, Method
-from exactpt.collision.allpairs import first_contact_allpairs
-from exactpt.collision.contact import Contact
 from exactpt.collision.detector import first_contact
+from exactpt.pairs.contact import Contact
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json

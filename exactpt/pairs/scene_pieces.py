@@ -14,8 +14,6 @@ from typing import Final, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.collision.row_boxes import RowBoxes, near_boxes, pairs_at
-from exactpt.collision.straight_search import MOST_VERTICES, Row, rows_during
 from exactpt.kernel.budget import ask
 from exactpt.kernel.doubles import native
 from exactpt.kernel.numbers import QQ, nearest_float
@@ -23,6 +21,8 @@ from exactpt.kernel.rounding import TINY, U
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.outline import Outline, Straight, rest_outline, straight_pieces
+from exactpt.pairs.boxes import RowBoxes, near_boxes, pairs_at
+from exactpt.pairs.search import MOST_VERTICES, Row, rows_during
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene
 

@@ -3,7 +3,10 @@
 It follows the definition of a contact and uses neither a tiling nor a float filter. It shares
 the kernel, the trajectories, `exactpt.geometry.polygon` and the predicates of
 `exactpt.motion.incidence` with the searches that it checks. Where a body has a radius,
-`exactpt.collision.rounded_reference` has the definition; such a body does not touch itself.
+`exactpt.pairs.radius_reference` has the definition; such a body does not touch itself.
+It follows the definition of a contact and uses neither a tiling nor a float filter; it shares
+only the kernel and the trajectories with the tilings. Where a body has a radius,
+`exactpt.pairs.radius_reference` has the definition; such a body does not touch itself.
 """
 
 from __future__ import annotations
@@ -11,13 +14,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from exactpt.collision.contact import Contact, contact_of
-from exactpt.collision.incidences import tracks_before
-from exactpt.collision.rounded_reference import (
-    core_distance,
-    first_at_distance,
-    touches_at_distance,
-)
 from exactpt.geometry.polygon import contains, segments_meet
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -26,6 +22,13 @@ from exactpt.kernel.roots import common_roots, roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, coincide, difference, lies_on, orientation
 from exactpt.motion.track import Track
+from exactpt.pairs.contact import Contact, contact_of
+from exactpt.pairs.incidences import tracks_before
+from exactpt.pairs.radius_reference import (
+    core_distance,
+    first_at_distance,
+    touches_at_distance,
+)
 from exactpt.scene.scene import Scene
 
 __all__ = ["first_contact_allpairs", "touches_at"]

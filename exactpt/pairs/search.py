@@ -11,21 +11,21 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from itertools import combinations
 from typing import TYPE_CHECKING, Final, NamedTuple, final
 
-from exactpt.collision.contact import Contact, contact_of
-from exactpt.collision.ignoring import groups_of
-from exactpt.collision.initial import initial_touches
-from exactpt.collision.meeting import Meeting, Span, span_of
-from exactpt.collision.straight import first_meeting, window
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Straight, straight_pieces
+from exactpt.pairs.contact import Contact, contact_of
+from exactpt.pairs.filters import first_meeting, window
+from exactpt.pairs.rational import Meeting, Span, span_of
+from exactpt.pairs.selection import groups_of
+from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 
 if TYPE_CHECKING:
-    from exactpt.collision.scene_rows import SceneRows
+    from exactpt.pairs.scene_pieces import SceneRows
 
 __all__ = [
     "MOST_VERTICES",
@@ -168,14 +168,14 @@ class FewRows:
 def straight_rows(scene: Scene) -> FewRows | SceneRows | None:
     """The rows of all bodies; None unless all of them move straight and are not large."""
     if len(scene.bodies) > FEW:
-        from exactpt.collision.scene_rows import scene_rows
+        from exactpt.pairs.scene_pieces import scene_rows
 
         return scene_rows(scene)
     rows = rows_of(scene)
     if rows is None:
         return None
     if len(rows) > FEW:
-        from exactpt.collision.scene_rows import boxed
+        from exactpt.pairs.scene_pieces import boxed
 
         return boxed(scene, rows)
     return FewRows(rows, scene._start)
@@ -223,7 +223,7 @@ def first_touching(
     if len(rows) <= FEW:
         pairs = ((-math.inf, a, b) for a, b in combinations(rows, 2))
     else:
-        from exactpt.collision.row_boxes import near_rows
+        from exactpt.pairs.boxes import near_rows
 
         pairs = ((enter, rows[i], rows[j]) for enter, i, j in near_rows(rows, start, end))
     return first_of_pairs(

@@ -14,8 +14,8 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, show
 from exactpt.kernel.square_root import exact_square_root, nearest_root_less
 from exactpt.motion.body import Body
-from exactpt.proximity.features import Feature
-from exactpt.proximity.stretches import meet, two_bodies
+from exactpt.pairs.features import Feature
+from exactpt.pairs.stretches import meet, two_bodies
 from exactpt.scene.scene import Scene
 
 __all__ = ["Distance", "distance", "squared_distance", "squared_gap"]

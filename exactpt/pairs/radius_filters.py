@@ -14,15 +14,15 @@ import math
 from collections.abc import Iterator
 from typing import Final, NamedTuple
 
-from exactpt.collision.meeting import Span
-from exactpt.collision.straight import Path, relative, window
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.kernel.roots import roots_after
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 from exactpt.motion.outline import Straight
-from exactpt.proximity.features import Feature, FeaturePair
+from exactpt.pairs.features import Feature, FeaturePair
+from exactpt.pairs.filters import Path, relative, window
+from exactpt.pairs.rational import Span
 
 __all__ = ["first_touch"]
 
@@ -125,7 +125,7 @@ def _at_edges(
 ) -> Iterator[tuple[_Candidate, float]]:
     """The vertices of a and the edges of b that may touch, likewise.
 
-    u x (z + w t) = c0 + c1 t is off as in `exactpt.collision.straight`, and so is the foot.
+    u x (z + w t) = c0 + c1 t is off as in `exactpt.pairs.filters`, and so is the foot.
     """
     cx, cy, wx, wy, c_error, e = path
     xs, ys = b.shape.xs, b.shape.ys

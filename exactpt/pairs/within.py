@@ -1,7 +1,7 @@
 """The first time at which two bodies are within a distance, in a norm that is named.
 
 In the Euclidean norm, a vertex of one body is then at this distance from a vertex of the other,
-or from an edge, at the foot of the perpendicular; see `exactpt.proximity.features`.
+or from an edge, at the foot of the perpendicular; see `exactpt.pairs.features`.
 
 In the maximum norm two sets are within distance d if and only if one of them meets the
 Minkowski sum of the other with a square of half-side d. At the first such time either a vertex
@@ -31,9 +31,9 @@ from exactpt.kernel.square_root import exact_square_root
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference, lies_on, orientation
 from exactpt.motion.track import Track
-from exactpt.proximity.distance import squared_distance
-from exactpt.proximity.features import feature_pairs
-from exactpt.proximity.stretches import Stretch, meet, segments_of, stretches
+from exactpt.pairs.distance import squared_distance
+from exactpt.pairs.features import feature_pairs
+from exactpt.pairs.stretches import Stretch, meet, segments_of, stretches
 
 __all__ = ["NORMS", "Norm", "asked_distance", "of_cores", "time_within"]
 

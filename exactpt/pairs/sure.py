@@ -45,9 +45,9 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.inside import covers
-from exactpt.proximity.distance import squared_distance
-from exactpt.proximity.features import Feature, FeaturePair, excess
-from exactpt.proximity.stretches import segments_of, stretches
+from exactpt.pairs.distance import squared_distance
+from exactpt.pairs.features import Feature, FeaturePair, excess
+from exactpt.pairs.stretches import segments_of, stretches
 
 __all__ = ["surely_meet", "surely_passed"]
 

@@ -9,13 +9,13 @@ from typing import Final, NamedTuple, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.collision.row_boxes import RowBoxes
-from exactpt.collision.straight_search import Row, rows_of
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.swept import SweptBoxes
+from exactpt.pairs.boxes import RowBoxes
+from exactpt.pairs.search import Row, rows_of
 from exactpt.scene.scene import Scene
 
 __all__ = ["Obstacles", "SlabBoxes", "Stretch"]

@@ -10,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from typing import NamedTuple, TypeAlias
 
-from exactpt.collision.contact import Contact, contact_of, touches_of
-from exactpt.collision.rounded_search import RoundedSearch
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.incidence import Touch
+from exactpt.pairs.contact import Contact, contact_of, touches_of
+from exactpt.pairs.radius_search import RoundedSearch
 from exactpt.scene.scene import Scene
 
 __all__ = ["first_contact_of_rounded"]

@@ -9,17 +9,17 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.collision.ignoring import groups_of
-from exactpt.collision.incidences import tracks_just_before
-from exactpt.collision.meeting import Span, span_of
-from exactpt.collision.rounded_straight import first_touch
-from exactpt.collision.scene_rows import SceneRows, scene_rows
 from exactpt.geometry.boxes import Indices
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.incidence import Touch
-from exactpt.proximity.features import feature_pairs
-from exactpt.proximity.search import ApproachSearch, Nearest, near_at_start, within_at_start
+from exactpt.pairs.approach_search import ApproachSearch, Nearest, near_at_start, within_at_start
+from exactpt.pairs.features import feature_pairs
+from exactpt.pairs.incidences import tracks_just_before
+from exactpt.pairs.radius_filters import first_touch
+from exactpt.pairs.rational import Span, span_of
+from exactpt.pairs.scene_pieces import SceneRows, scene_rows
+from exactpt.pairs.selection import groups_of
 from exactpt.scene.scene import Scene
 
 __all__ = ["RoundedSearch"]

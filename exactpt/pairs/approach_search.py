@@ -23,8 +23,8 @@ from exactpt.kernel.roots import roots_after
 from exactpt.kernel.rounding import U
 from exactpt.motion.swept_edges import SweptEdges
 from exactpt.motion.track import Track
-from exactpt.proximity.distance import squared_distance
-from exactpt.proximity.features import Feature, FeaturePair
+from exactpt.pairs.distance import squared_distance
+from exactpt.pairs.features import Feature, FeaturePair
 from exactpt.scene.scene import Scene
 
 __all__ = ["Apart", "ApproachSearch", "Limit", "Nearest", "near_at_start", "within_at_start"]

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import ClassVar, NamedTuple, final
 
-from exactpt.collision.incidences import Pair, details
 from exactpt.extensions import extension
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.incidence import Touch
+from exactpt.pairs.incidences import Pair, details
 from exactpt.scene.scene import Scene
 
 __all__ = ["Contact", "Pair", "contact_of", "touches_of"]

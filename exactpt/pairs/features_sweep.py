@@ -26,10 +26,6 @@ from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.coincidence import lies_on
 from exactpt.certificates.incidences import touches
 from exactpt.certificates.queue import EventTime
-from exactpt.collision.contact import Contact, contact_of
-from exactpt.collision.ignoring import groups_of
-from exactpt.collision.initial import initial_touches
-from exactpt.collision.rounded import first_contact_of_rounded
 from exactpt.errors import BudgetExceeded
 from exactpt.indices import Triple
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -38,6 +34,10 @@ from exactpt.kernel.counters import Counters
 from exactpt.kernel.doubles import Indices
 from exactpt.kernel.numbers import QQ, fraction, power_of_two
 from exactpt.motion.swept_edges import SweptEdges
+from exactpt.pairs.contact import Contact, contact_of
+from exactpt.pairs.radius import first_contact_of_rounded
+from exactpt.pairs.selection import groups_of
+from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 
 __all__ = ["PairsSearch"]

@@ -68,7 +68,7 @@ def _of_rounded(
     scene: Scene, near: Sequence[tuple[int, int]] | None
 ) -> tuple[list[Touch], list[tuple[int, int]]]:
     """As `initial_touches`, where some of the bodies are rounded."""
-    from exactpt.collision.rounded_search import RoundedSearch
+    from exactpt.pairs.radius_search import RoundedSearch
 
     search, asked = RoundedSearch(scene, ()), None if near is None else set(near)
     met = {ij: deep for ij, deep in search.at_start() if asked is None or ij in asked}

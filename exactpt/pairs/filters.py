@@ -10,7 +10,7 @@ way. A vertex inside an edge at T does not move along that edge's line, or it wo
 the edge just before; so T is the one zero of its orientation. Let two vertices coincide at T.
 If w is not parallel to one of the edges at one of them, T is the zero for that edge. Otherwise
 take an edge at one of them: the other one moves along its line, and does not come along the
-edge, so it enters the edge at T, at that end. `exactpt.collision.meeting` finds both. (The edge
+edge, so it enters the edge at T, at that end. `exactpt.pairs.rational` finds both. (The edge
 of a point is a single point, with the orientation 0.)
 """
 
@@ -19,9 +19,9 @@ from __future__ import annotations
 import math
 from typing import Final, NamedTuple
 
-from exactpt.collision.meeting import Candidate, Meeting, Span, earliest
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 from exactpt.motion.outline import Outline, Straight
+from exactpt.pairs.rational import Candidate, Meeting, Span, earliest
 
 __all__ = ["Path", "first_meeting", "relative", "window"]
 

@@ -2,7 +2,7 @@
 
 They do when they touch after they have parted, or when they begin to overlap: just after a time
 they do, just before it they did not (at the start of the time span: then they did not). Whether two
-bodies meet or overlap changes only at times of incidences (`exactpt.proximity.intervals`): a
+bodies meet or overlap changes only at times of incidences (`exactpt.pairs.intervals`): a
 rational time between any two consecutive ones decides for all times between.
 """
 
@@ -13,8 +13,8 @@ from itertools import chain
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
-from exactpt.proximity.intervals import incidence_times
-from exactpt.proximity.overlap import bodies_meet, overlap
+from exactpt.pairs.intervals import incidence_times
+from exactpt.pairs.overlap import bodies_meet, overlap
 
 __all__ = ["new_contact_time"]
 

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import final
 
-from exactpt.collision.rounded_touch import place_of
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly, greatest_common_divisor, multiply, scale
 from exactpt.kernel.numbers import QQ, ZZ, finite
@@ -17,7 +16,8 @@ from exactpt.motion.course import Piece
 from exactpt.motion.incidence import Touch, difference, orientation
 from exactpt.motion.ring_order import turns_left
 from exactpt.motion.track import Track
-from exactpt.proximity.features import excess
+from exactpt.pairs.features import excess
+from exactpt.pairs.radius_touch import place_of
 from exactpt.scene.scene import Scene
 
 __all__ = ["Pair", "details", "tracks_before", "tracks_just_before"]

@@ -18,7 +18,7 @@ from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.kernel.rounding import SLACK, TINY, U
 
 if TYPE_CHECKING:
-    from exactpt.collision.straight_search import Row
+    from exactpt.pairs.search import Row
 
 __all__ = ["RowBoxes", "near_boxes", "near_rows", "pairs_at"]
 
@@ -128,7 +128,7 @@ class RowBoxes:
     def windows(self, i: Indices, j: Indices, low: float, high: float) -> tuple[Floats, Floats]:
         """Bounds of the times in [low, high] at which the boxes of two rows meet.
 
-        The bounds of `exactpt.collision.straight.window`; the first is larger than the second
+        The bounds of `exactpt.pairs.filters.window`; the first is larger than the second
         if they do not meet.
         """
         first = np.maximum(np.maximum(self._start[i], self._start[j]), low)

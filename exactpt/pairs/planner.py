@@ -6,12 +6,6 @@ import operator
 from collections.abc import Iterable, Sequence
 from typing import Final, final
 
-from exactpt.collision.contact import Contact, contact_of
-from exactpt.collision.initial import initial_touches
-from exactpt.collision.obstacles import Obstacles, Stretch
-from exactpt.collision.pairs import PairsSearch
-from exactpt.collision.straight import window
-from exactpt.collision.straight_search import MOST_VERTICES, Row, first_of_pairs, rows_during
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import Rational, enclosing_floats, shorten
@@ -19,6 +13,12 @@ from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion, Rigid, Translation
 from exactpt.motion.outline import Outline, pieces_of, rest_outline, straight_pieces
 from exactpt.motion.shape import VertexLike
+from exactpt.pairs.contact import Contact, contact_of
+from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.pairs.filters import window
+from exactpt.pairs.obstacles import Obstacles, Stretch
+from exactpt.pairs.search import MOST_VERTICES, Row, first_of_pairs, rows_during
+from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 
 __all__ = ["Planner", "is_rigid"]

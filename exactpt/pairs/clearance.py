@@ -28,10 +28,10 @@ from exactpt.kernel.numbers import QQ, ZZ, Rational, fraction, rational, show
 from exactpt.kernel.roots import roots_after
 from exactpt.kernel.square_root import nearest_root_less
 from exactpt.motion.body import Body
-from exactpt.proximity.distance import squared_gap
-from exactpt.proximity.features import Feature, FeaturePair, feature_pairs
-from exactpt.proximity.intervals import intervals
-from exactpt.proximity.stretches import stretches, two_bodies
+from exactpt.pairs.distance import squared_gap
+from exactpt.pairs.features import Feature, FeaturePair, feature_pairs
+from exactpt.pairs.intervals import intervals
+from exactpt.pairs.stretches import stretches, two_bodies
 from exactpt.scene.scene import Scene
 
 __all__ = ["Clearance", "ClearancePiece", "Minimum", "clearance"]

@@ -1,7 +1,7 @@
 """The first contact of some pairs of bodies, or the first that is new.
 
 Bodies that touch at the start come into a new contact when they touch after they have parted, or
-when they begin to overlap (`exactpt.proximity.renewed`). Each pair whose swept boxes meet is
+when they begin to overlap (`exactpt.pairs.renewed`). Each pair whose swept boxes meet is
 searched alone, up to the best time so far.
 """
 
@@ -14,13 +14,6 @@ from typing import TypeAlias, final
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.incidences import touches
 from exactpt.certificates.queue import EventTime
-from exactpt.collision.contact import Contact, contact_of, touches_of
-from exactpt.collision.ignoring import groups_of
-from exactpt.collision.initial import initial_touches
-from exactpt.collision.pairs import PairsSearch
-from exactpt.collision.planner import is_rigid
-from exactpt.collision.rounded_search import RoundedSearch
-from exactpt.collision.straight_search import Row, first_touching, rows_of
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import GRACE, ask, within
@@ -28,8 +21,15 @@ from exactpt.kernel.numbers import QQ, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch
 from exactpt.motion.vertices import Vertices
-from exactpt.proximity.near import pairs_that_come_near
-from exactpt.proximity.renewed import new_contact_time
+from exactpt.pairs.contact import Contact, contact_of, touches_of
+from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.pairs.near import pairs_that_come_near
+from exactpt.pairs.planner import is_rigid
+from exactpt.pairs.radius_search import RoundedSearch
+from exactpt.pairs.renewed import new_contact_time
+from exactpt.pairs.search import Row, first_touching, rows_of
+from exactpt.pairs.selection import groups_of
+from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene, scene_of
 
 __all__ = ["SelectedSearch"]

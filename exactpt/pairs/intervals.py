@@ -21,10 +21,10 @@ from exactpt.kernel.roots import common_roots, roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference, lies_on, orientation
 from exactpt.motion.track import Track
-from exactpt.proximity.features import feature_pairs
-from exactpt.proximity.near import pairs_that_come_near
-from exactpt.proximity.overlap import bodies_meet
-from exactpt.proximity.stretches import Stretch, segments_of, stretches, two_bodies
+from exactpt.pairs.features import feature_pairs
+from exactpt.pairs.near import pairs_that_come_near
+from exactpt.pairs.overlap import bodies_meet
+from exactpt.pairs.stretches import Stretch, segments_of, stretches, two_bodies
 from exactpt.scene.scene import Scene, a_scene
 
 __all__ = ["ContactInterval", "contact_intervals", "contacts", "incidence_times", "intervals"]

@@ -11,8 +11,8 @@ from exactpt.geometry.predicates import Point, between, side
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.rings import ring_edges
-from exactpt.proximity.distance import squared_distance
-from exactpt.proximity.stretches import meet, segments_of
+from exactpt.pairs.distance import squared_distance
+from exactpt.pairs.stretches import meet, segments_of
 
 __all__ = ["bodies_meet", "overlap"]
 

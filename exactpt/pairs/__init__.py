@@ -1,0 +1,1 @@
+"""Questions about pairs of bodies: first contacts, approaches, distances, intervals."""

@@ -1,0 +1,249 @@
+"""The first time at which two bodies, or any two of a scene, are within a distance."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import combinations, islice, pairwise, takewhile
+from typing import Final, Literal, final, overload
+
+from exactpt.errors import InputError
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, isqrt
+from exactpt.pairs.approach_search import ApproachSearch, Nearest
+from exactpt.pairs.near import pairs_that_come_near
+from exactpt.pairs.search import Row, rows_of
+from exactpt.pairs.stretches import two_bodies
+from exactpt.pairs.within import Norm, asked_distance, of_cores, time_within
+from exactpt.scene.scene import Scene, a_scene, scene_of
+
+__all__ = ["Approach", "first_within"]
+
+MANY: Final = 10
+"""Number of bodies from which on those that come near first are searched first."""
+BITS: Final = 64
+"""Bits of an upper bound of a distance, at least."""
+FIRST: Final = 8
+"""Number of pairs that are searched first; then twice as many, and so on."""
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Approach:
+    """The first time at which any two bodies are within a distance.
+
+    Attributes:
+        time: the exact time.
+        pairs: the names of all pairs that are within the distance then, each in the order of
+            the scene, sorted.
+    """
+
+    time: AlgebraicNumber
+    pairs: tuple[tuple[str, str], ...]
+
+
+@overload
+def first_within(
+    scene: Scene,
+    a: str,
+    b: str,
+    distance: Rational | None = None,
+    *,
+    norm: Norm | None = None,
+    distance_squared: Rational | None = None,
+) -> AlgebraicNumber | None: ...
+
+
+@overload
+def first_within(
+    scene: Scene,
+    *,
+    distance: Rational | None = None,
+    norm: Norm | None = None,
+    distance_squared: Rational | None = None,
+) -> Approach | None: ...
+
+
+def first_within(
+    scene: Scene,
+    a: str | None = None,
+    b: str | None = None,
+    distance: Rational | None = None,
+    *,
+    norm: Norm | None = None,
+    distance_squared: Rational | None = None,
+) -> AlgebraicNumber | Approach | None:
+    """The first time in the scene's span at which bodies are at most a distance apart.
+
+    >>> from exactpt import Body, Scene, Translation
+    >>> ball = Body("ball", [(0, 0), (1, 0), (0, 1)], Translation([0, 2]))
+    >>> scene = Scene([ball, Body("wall", [(9, -5), (9, 5)])], time=(0, 10))
+    >>> first_within(scene, "ball", "wall", 1, norm="euclidean")
+    AlgebraicNumber('7/2')
+    >>> first_within(scene, distance=1, norm="euclidean")
+    Approach(time=AlgebraicNumber('7/2'), pairs=(('ball', 'wall'),))
+
+    Args:
+        scene: the bodies and the time span.
+        a: the name of a body.
+        b: the name of another body; without names, any two bodies of the scene.
+        distance: a number >= 0; 0 asks for the first contact.
+        norm: "euclidean"; "max": the larger of the distances in x and in y; "x" or "y": the gap
+            between the projections of the bodies on that axis. To leave it out for two bodies
+            means "max", and is deprecated.
+        distance_squared: the square of the distance, instead of it, so that the square root of
+            a rational number can be asked for; for the Euclidean norm. (Of rounded bodies it must
+            be the square of a rational number.)
+
+    Returns:
+        The exact time, of any two bodies with the pairs; None if the bodies stay farther apart.
+
+    Raises:
+        InputError: if there is no such body or norm, the distance is negative, or a body is
+            rounded and the norm is "max".
+    """
+    a_scene(scene)
+    if (a is None) != (b is None):
+        raise InputError(
+            "two names of bodies are given, or none for all bodies; the distance by its name"
+        )
+    if a is not None and b is not None and norm is None:
+        warnings.warn(
+            'first_within without a norm means norm="max"; name the norm',
+            DeprecationWarning,
+            stacklevel=2,
+        )
+        norm = "max"
+    norm, d = asked_distance(distance, distance_squared, norm)
+    if a is not None and b is not None:
+        first, second = two_bodies(scene, a, b)
+        return time_within(first, second, scene._start, scene._end, d, norm)
+    found: Nearest | None = None
+    if len(scene.bodies) > 1:
+        found = _first(scene, d, norm)
+    if found is None:
+        return None
+    names = [(scene.bodies[i].name, scene.bodies[j].name) for i, j in found.pairs]
+    return Approach(found.time, tuple(sorted(names)))
+
+
+def _first(scene: Scene, d: QQ, norm: Norm) -> Nearest | None:
+    """The first approach of any two bodies, of which there are two."""
+    if norm == "euclidean":
+        return _euclidean(scene, d)
+    if norm == "max":
+        return _by_pairs(scene, pairs_that_come_near(scene, d), d, norm)
+    return _on_axis(scene, d, norm)
+
+
+def _on_axis(scene: Scene, d: QQ, norm: Literal["x", "y"]) -> Nearest | None:
+    """The first approach along an axis.
+
+    If all gaps between projections are more than d at the start, the order of the projections
+    stays the same until one is d: a first approach is one of neighbours. Another pair can be
+    within d at that time only if d is 0 and points are between them.
+    """
+    axis = "xy".index(norm)
+    spans: list[tuple[QQ, QQ, int]] = []
+    for i, body in enumerate(scene.bodies):
+        places = [point[axis] for point in body._at(scene._start)]
+        spans.append((min(places) - body._radius, max(places) + body._radius, i))
+    spans.sort()
+    near: list[tuple[int, int]] = []
+    for k, (_, high, i) in enumerate(spans):
+        beside = takewhile(partial(_starts_by, high + d), islice(spans, k + 1, None))
+        near += [(min(i, j), max(i, j)) for _, _, j in beside]
+    if near:
+        return Nearest(AlgebraicNumber(scene._start), tuple(sorted(near)))
+    order = [i for _, _, i in spans]
+    found = _by_pairs(scene, pairwise(order), d, norm)
+    if found is None or d:
+        return found
+    met = sorted({i for pair in found.pairs for i in pair})
+    return _by_pairs(scene, combinations(met, 2), d, norm)
+
+
+def _starts_by(limit: QQ, span: tuple[QQ, QQ, int]) -> bool:
+    return span[0] <= limit
+
+
+def _by_pairs(
+    scene: Scene, candidates: Iterable[tuple[int, int]], d: QQ, norm: Norm
+) -> Nearest | None:
+    """The first approach of some pairs: each is searched up to the best time so far."""
+    best: AlgebraicNumber | None = None
+    pairs: list[tuple[int, int]] = []
+    for i, j in map(sorted, candidates):
+        until = scene._end if best is None else min(best._high, scene._end)
+        time = time_within(scene.bodies[i], scene.bodies[j], scene._start, until, d, norm)
+        order = -1 if best is None else 1 if time is None else time.compare(best)
+        if time is None or order > 0:
+            continue
+        best, pairs = (time, [(i, j)]) if order < 0 else (best, [*pairs, (i, j)])
+    return None if best is None else Nearest(best, tuple(pairs))
+
+
+def _euclidean(scene: Scene, squared: QQ) -> Nearest | None:
+    most = _root_above(squared)
+    if scene.is_rounded:
+        return _of_rounded(scene, squared, most)
+    rows = rows_of(scene) if len(scene.bodies) > MANY else None
+    if rows is not None:
+        return _of_rows(scene, rows, squared, most)
+    return ApproachSearch(scene, lambda _, __: squared, [most / 2] * len(scene.bodies)).run()
+
+
+def _of_rounded(scene: Scene, squared: QQ, most: QQ) -> Nearest | None:
+    """The first approach, some of the bodies being rounded."""
+    radii = [body._radius for body in scene.bodies]
+
+    def limit(i: int, j: int) -> QQ:
+        return of_cores(squared, radii[i] + radii[j], "euclidean")
+
+    return ApproachSearch(scene, limit, [most / 2 + r for r in radii]).run()
+
+
+def _root_above(squared: QQ) -> QQ:
+    """A number a little above the square root of another one; 0 for 0."""
+    n, d = squared.numerator, squared.denominator
+    shift = max(0, BITS - (n * d).bit_length() // 2)
+    return QQ(isqrt(n * d << 2 * shift) + 1, d << shift) if n else QQ(0)
+
+
+def _of_rows(scene: Scene, rows: Sequence[Row], squared: QQ, most: QQ) -> Nearest | None:
+    """The first approach of bodies that all move straight: first of those that come near first.
+
+    Before the time at which the boxes of the next pair meet, grown by the distance in all, only
+    the pairs before it can be within the distance.
+    """
+    from exactpt.pairs.boxes import near_rows
+
+    begin, among, batch = scene._start, set[int](), FIRST
+    near = near_rows(rows, scene._start, scene._end, enclosing_floats(most / 2)[1])
+    for count, (enter, i, j) in enumerate(near):
+        if count >= batch and math.isfinite(enter) and begin < QQ(enter) < scene._end:
+            until = QQ(enter)
+            found = _of_some(scene, among, begin, until, squared, most)
+            if found is not None and found.time.compare_rational(until) < 0:
+                return found
+            if found is None:
+                begin = until
+            batch *= 2
+        among |= {rows[i].body, rows[j].body}
+    return _of_some(scene, among, begin, scene._end, squared, most)
+
+
+def _of_some(
+    scene: Scene, among: Collection[int], begin: QQ, end: QQ, squared: QQ, most: QQ
+) -> Nearest | None:
+    """The first approach of some bodies, by number, in [begin, end]."""
+    numbers = sorted(among)
+    part = scene_of([scene.bodies[i] for i in numbers], begin, end)
+    half = [most / 2] * len(numbers)
+    found = ApproachSearch(part, lambda _, __: squared, half).run() if numbers else None
+    if found is None:
+        return None
+    return Nearest(found.time, tuple((numbers[i], numbers[j]) for i, j in found.pairs))
