@@ -9,8 +9,8 @@ PACKAGES := g++ cmake libcgal-dev nlohmann-json3-dev
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DATE ?= $(shell date -u +%F)
 LOWEST := $(VENV)/lowest
-COMPILED_TESTS := $(addprefix tests/,kernel certificates motion planar pseudotriangulation tiling collision simulation)
-PYODIDE_TESTS := $(addprefix tests/,kernel geometry planar motion certificates tiling pairs collision arrays query)
+COMPILED_TESTS := $(wildcard $(addprefix tests/*/,kernel certificates motion planar pseudotriangulation tiling collision simulation))
+PYODIDE_TESTS := $(wildcard $(addprefix tests/*/,kernel geometry planar motion certificates tiling pairs collision arrays query))
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures docs package wheels check-cgal clean
@@ -31,13 +31,13 @@ test-slow: $(VENV)/developing cgal_check/build/cgal_check ## the same claims on 
 test-rotating: $(VENV)/developing cgal_check/build/cgal_check ## the slow tests of a date, DATE=2026-11-22; all in a fortnight
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow --rotating $(DATE)
 
-quick: $(VENV)/developing ## the tests that take seconds
-	$(BIN)/python -m pytest
+quick: $(VENV)/developing ## the tests that take milliseconds each: a minute on two cores
+	$(BIN)/python -m pytest -n 2 tests/unit tests/api
 
-test-lowest: $(LOWEST)/installed ## the quick tests on the lowest versions that pyproject.toml allows
+test-lowest: $(LOWEST)/installed ## all tests that need no CGAL, but the slow ones, on the lowest versions that pyproject.toml allows
 	$(LOWEST)/bin/python -m pytest -n $(JOBS)
 
-test-exact: $(VENV)/developing ## the quick tests with the float filters switched off
+test-exact: $(VENV)/developing ## the same tests with the float filters switched off
 	$(BIN)/python -m pytest -n $(JOBS) --exact-only
 
 test-browser: $(VENV)/developing ## the animation in a real browser (installs chromium)
@@ -50,9 +50,9 @@ browser: $(VENV)/developing ## the page that runs exactpt in the browser, with i
 try-browser: $(VENV)/developing ## that page in a real browser (fetches Pyodide into .pyodide, 30 MB; needs npm)
 	@.ci/apt-install chromium chromium-driver
 	$(BIN)/python .ci/fetch_pyodide.py
-	$(BIN)/python -m pytest -m browser tests/docs/test_page_in_chromium.py
+	$(BIN)/python -m pytest -m browser tests/campaign/docs/test_page_in_chromium.py
 
-test-pyodide: $(VENV)/developing ## the quick tests in Pyodide, in Node.js (fetches as try-browser does): 10 minutes
+test-pyodide: $(VENV)/developing ## the tests in Pyodide, in Node.js (fetches as try-browser does): 10 minutes
 	$(BIN)/python .ci/fetch_pyodide.py
 	for room in $(PYODIDE_TESTS); do node .ci/test_in_pyodide.mjs $$room || exit 1; done
 
@@ -64,7 +64,7 @@ plain: ## remove what `make compiled` made
 	find exactpt -name '*.so' -delete
 	rm -rf exactpt/compiled.txt build
 
-test-compiled: compiled ## the quick tests of what is compiled
+test-compiled: compiled ## the tests of what is compiled
 	cd / && '$(CURDIR)/$(BIN)/exactpt' --version && '$(CURDIR)/$(BIN)/python' '$(CURDIR)/.ci/is_compiled.py'
 	test -s exactpt/compiled.txt
 	$(BIN)/python -m pytest -n $(JOBS) $(COMPILED_TESTS); status=$$?; $(MAKE) plain; exit $$status
@@ -93,7 +93,7 @@ docs: $(VENV)/developing ## the site, with tutorial, gallery, evidence and API, 
 
 package: $(VENV)/developing ## build the wheel and the sdist in dist, and try them in an empty environment
 	$(BIN)/python -m build
-	$(BIN)/python -m pytest -m slow tests/packaging
+	$(BIN)/python -m pytest -m slow tests/campaign/packaging
 
 wheels: $(VENV)/developing ## manylinux wheels and the sdist in dist, by cibuildwheel (needs Docker; on macOS and Windows theirs)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[release]'

@@ -1,0 +1,194 @@
+"""The first contact equals that of the all-pairs reference: time, kind and every incidence."""
+
+import json
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from exactpt.collision.detector import first_contact
+from exactpt.collision.tilings import TILINGS
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Pieces, Translation
+from exactpt.pairs.reference import first_contact_allpairs
+from exactpt.scene.generate import FAMILIES, generate
+from exactpt.scene.scene import Scene
+
+SCENES = Path(__file__).parents[2] / "data" / "scenes"
+
+
+def assert_same(found, expected):
+    if expected is None or found is None:
+        assert found is expected
+        return
+    assert found.time == expected.time
+    assert (found.kind, found.pairs, found.overlaps) == (
+        expected.kind,
+        expected.pairs,
+        expected.overlaps,
+    )
+
+
+@pytest.mark.parametrize(
+    "count", [3, pytest.param(75, marks=pytest.mark.slow)], ids=["few", "many"]
+)
+@pytest.mark.parametrize("family", sorted(FAMILIES))
+def test_first_contact_equals_reference(family, count):
+    """1,000 scenes in the slow run (14 families of 75), a third of them without contact."""
+    kinds = Counter()
+    for seed in range(count):
+        scene = generate(family, seed)
+        expected = first_contact_allpairs(scene)
+        for tiling in TILINGS:
+            assert_same(first_contact(scene, tiling=tiling), expected)
+        assert_same(first_contact(scene, method="pairs"), expected)
+        kinds[expected.kind if expected else "none"] += 1
+    print(family, dict(kinds))  # noqa: T201 - shown with -s
+
+
+def box(name, x, y, motion, width=2, height=2):
+    corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
+    return Body(name, corners, motion)
+
+
+def two(first, second, time=(0, 10)):
+    return Scene([first, second], time)
+
+
+STILL = Translation()
+DEGENERATE = {
+    "boxes on one line meet end to end": (
+        two(box("a", 0, 0, Translation([0, 1])), box("b", 5, 0, STILL)),
+        3,
+    ),
+    "boxes on one line never meet": (
+        two(box("a", 0, 0, Translation([0, -1])), box("b", 5, 0, STILL)),
+        None,
+    ),
+    "a box slides on the level of another, under its edge": (
+        two(box("a", 0, 2, Translation([0, 1])), box("b", 5, 0, STILL)),
+        3,
+    ),
+    "corners only": (
+        two(box("a", 0, 0, Translation([0, 1], [0, 1])), box("b", 5, 5, STILL)),
+        3,
+    ),
+    "equal velocities": (
+        two(
+            box("a", 0, 0, Translation([0, 3], [0, 7])), box("b", 3, 0, Translation([0, 3], [0, 7]))
+        ),
+        None,
+    ),
+    "vertex meets vertex": (
+        two(
+            Body("a", [(0, -1), (1, 0), (0, 1), (-1, 0)], Translation([0, "1/2"])),
+            Body("b", [(10, -1), (11, 0), (10, 1), (9, 0)], Translation([0, "-1/2"])),
+        ),
+        8,
+    ),
+    "a graze from below, by a parabola": (
+        two(box("a", 0, 0, Translation([], [0, 4, -1])), box("b", 0, 6, STILL)),
+        2,
+    ),
+    "a near miss by a parabola": (
+        two(box("a", 0, 0, Translation([], [0, 4, -1])), box("b", 0, QQ(6) + QQ(1, 10**40), STILL)),
+        None,
+    ),
+    "contact at the start": (two(box("a", 0, 0, STILL), box("b", 2, 1, STILL)), 0),
+    "overlap at the start": (two(box("a", 0, 0, STILL), box("b", 1, 1, STILL)), 0),
+    "containment at the start": (two(box("a", 0, 0, STILL, 9, 9), box("b", 3, 3, STILL)), 0),
+    "contact at the very end": (
+        two(box("a", 0, 0, Translation([0, 1])), box("b", 12, 0, STILL)),
+        10,
+    ),
+    "contact just after the end": (
+        two(box("a", 0, 0, Translation([0, 1])), box("b", QQ(12) + QQ(1, 10**30), 0, STILL)),
+        None,
+    ),
+    "contact at a piece boundary, then away": (
+        two(
+            box("a", 0, 0, Pieces([(3, Translation([0, 1])), (None, Translation([6, -1]))])),
+            box("b", 5, 0, STILL),
+        ),
+        3,
+    ),
+    "turning back just before contact": (
+        two(
+            box(
+                "a",
+                0,
+                0,
+                Pieces([("2999/1000", Translation([0, 1])), (None, Translation(["2999/500", -1]))]),
+            ),
+            box("b", 5, 0, STILL),
+        ),
+        None,
+    ),
+    "start time on an event": (
+        Scene(
+            [
+                box("a", 0, 0, Translation([0, 1], [0, 1])),
+                box("b", 3, 0, Translation([], [0, -1])),
+                box("c", 6, 0, STILL),
+            ],
+            (0, 10),
+        ),
+        None,
+    ),
+    "a point on a segment": (
+        two(
+            Body("a", [(0, 5)], Translation([], [0, -1])),
+            Body("b", [(-3, 0), (7, 0)]),
+        ),
+        5,
+    ),
+    "two points": (
+        two(Body("a", [(0, 0)], Translation([0, 1])), Body("b", [(4, 0)], Translation([0, -1]))),
+        2,
+    ),
+    "a deforming segment shrinks to a point": (
+        Scene([Body("a", [{"x": [0, 1], "y": [0, 1]}, {"x": [6, -1], "y": [6, -1]}])], (0, 10)),
+        3,
+    ),
+    "a triangle folds flat": (
+        Scene([Body("a", [(0, 0), (4, 0), {"x": [1], "y": [6, -2]}])], (0, 10)),
+        3,
+    ),
+}
+
+
+@pytest.mark.parametrize("tiling", ["greedy", "lazy"])
+@pytest.mark.parametrize("name", DEGENERATE)
+def test_degenerate_battery(name, tiling):
+    scene, time = DEGENERATE[name]
+
+    found = first_contact(scene, tiling=tiling)
+
+    assert_same(found, first_contact_allpairs(scene))
+    if time is not None:
+        assert found.time == time
+
+
+def test_given_scenes():
+    """The convex scenes with known answers."""
+    answers = json.loads((SCENES / "answers.json").read_text())
+    checked = 0
+    for name, answer in answers.items():
+        if not name.startswith(("ballistic", "convex", "sparse", "degen")):
+            continue
+        contact = first_contact(Scene.load(SCENES / f"{name}.json"))
+        assert float(contact.time) == answer["approx"]
+        exact = answer["first_contact"]
+        if exact["kind"] == "rational":
+            assert contact.time == exact["value"]
+        else:
+            polynomial = tuple(int(c) for c in exact["poly"])
+            assert contact.time.sign_of(polynomial) == 0
+        vertices = {(p.body, p.vertex, p.other, p.edge) for p in contact.pairs}
+        pair = answer["pair"]
+        assert (pair["bodies"][0], pair["vertex"], pair["bodies"][1], pair["edge"]) in vertices or (
+            contact.kind == "vertex-vertex"
+        )
+        checked += 1
+    assert checked == 11

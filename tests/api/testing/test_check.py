@@ -1,0 +1,179 @@
+"""check: what is right passes, every planted mistake is found and becomes a small test."""
+
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from toi_mistakes import MISTAKES, toi, wrong
+
+from exactpt.errors import InputError
+from exactpt.testing import FAMILIES, LINEAR, Question, check, make_question, truths
+from exactpt.testing.truth import truth_of
+
+ROOT = Path(__file__).parents[3]
+CASES = 6 * len(FAMILIES)
+
+
+def test_an_exact_function_is_right_about_every_family():
+    report = check(toi, cases=3 * len(FAMILIES))
+
+    assert str(report) == str(report.table)
+    assert report.ok
+    assert set(report.table.rows) == set(FAMILIES)
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_a_planted_mistake_is_found_and_gets_small(mistake):
+    report = check(wrong(mistake), cases=CASES)
+
+    assert not report.ok
+    assert report.counterexamples
+    for example in report.counterexamples:
+        sizes = [len(body.vertices) for body in (example.question.a, example.question.b)]
+        assert max(sizes) <= 4, str(example)
+
+
+def test_truths_are_those_of_the_first_contact():
+    questions = [make_question(family, 1, number) for family in FAMILIES for number in range(4)]
+
+    for question, truth in zip(questions, truths(questions), strict=True):
+        assert truth.to_json() == truth_of(question).to_json(), question
+
+
+def test_questions_are_the_same_everywhere():
+    assert make_question("apex", 0, 0).to_json() == {
+        "id": "apex:0:0",
+        "time": [-2.0, 4.0],
+        "a": {
+            "vertices": [[-2.0, -13.0], [0.0, -15.0], [-2.0, -16.0], [-4.0, -13.0]],
+            "motion": {"x": [0.0, 0.0], "y": [0.0, -2.0, 1.0]},
+        },
+        "b": {
+            "vertices": [[-8.0, -18.0], [4.0, -18.0], [4.0, -17.0], [-8.0, -17.0]],
+            "motion": {"x": [0.0, 0.0], "y": [0.0, 0.0]},
+        },
+    }
+
+
+@pytest.mark.parametrize("family", LINEAR)
+def test_linear_families_are_linear(family):
+    question = make_question(family)
+
+    assert max(len(f) for m in (question.a, question.b) for f in (m.x, m.y)) <= 2
+
+
+def test_every_family_asks_what_it_says():
+    """Degenerate families have their degeneracy, and no family is always a miss."""
+    kinds = {
+        family: [truth.kind for truth in truths([make_question(family, 2, n) for n in range(12)])]
+        for family in FAMILIES
+    }
+
+    assert all(set(found) != {None} for found in kinds.values())
+    assert set(kinds["touching_at_start"]) == set(kinds["overlapping_at_start"]) == {"initial"}
+    assert set(kinds["grazing_corner"]) <= {"vertex-vertex", "vertex-edge"}
+    for family in ("hairs_breadth", "last_moment", "apex", "together", "convex_pairs"):
+        assert {None} < set(kinds[family]), family
+
+
+def half_wrong(question):
+    """Late by one, if there is a contact; a counterexample for the file."""
+    time = truth_of(question).time
+    return None if time is None else float(time) + 1.0
+
+
+def test_counterexamples_are_a_pytest_file_that_fails_until_the_function_is_mended(tmp_path):
+    report = check(half_wrong, cases=4, families=["edge_to_edge"])
+    text = report.pytest_file()
+    (tmp_path / "test_late.py").write_text(text.replace(half_wrong.__name__, "toi"))
+    name = half_wrong.__module__.rpartition(".")[2]
+    assert f"from {half_wrong.__module__} import half_wrong as toi" in text
+
+    def run(body):
+        (tmp_path / f"{name}.py").write_text(body)
+        command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test_late.py"]
+        return subprocess.run(
+            command, cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(ROOT)},
+            capture_output=True, text=True, check=False,
+        )  # fmt: skip
+
+    exact = "from exactpt.testing.truth import truth_of\ndef toi(q):\n    t = truth_of(q).time\n"
+    wrong_run = run(exact + "    return None if t is None else float(t) + 1.0\n")
+    right_run = run(exact + "    return None if t is None else float(t)\n")
+
+    assert wrong_run.returncode == 1
+    assert "late: the answer is a contact at t =" in wrong_run.stdout
+    assert right_run.returncode == 0, right_run.stdout
+
+
+def test_what_crashes_is_counted_and_shown():
+    def crashing(question):
+        raise ZeroDivisionError("no")
+
+    report = check(crashing, cases=2, families=["sliding"])
+
+    assert report.table.total["crashed"] == 2
+    assert "crashed (sliding:0:" in str(report)
+    assert "ZeroDivisionError" in str(report)
+    assert "from my_module import toi" in report.pytest_file()
+
+
+@pytest.mark.parametrize("answer", [math.nan, math.inf, "soon", (1, 2), True])
+def test_what_is_no_time_counts_as_crashed(answer):
+    report = check(lambda _: answer, cases=1, families=["sliding"])
+
+    assert report.table.total["crashed"] == 1
+
+
+def test_a_wrong_family_is_refused():
+    with pytest.raises(InputError, match=r"no family 'circles'; there are: corner_to_corner, "):
+        check(toi, families=["circles"])
+    with pytest.raises(InputError, match="none is named"):
+        check(toi, families=[])
+
+
+def test_a_negative_tolerance_is_refused():
+    with pytest.raises(InputError, match="a tolerance is not negative: -1"):
+        check(toi, tolerance=-1)
+
+
+def test_the_tolerance_is_exact():
+    def off(question):
+        return truth_of(question).time.low + 1
+
+    asked = {"cases": 2, "families": ["sliding"]}
+    assert check(off, tolerance=1, **asked).ok
+    assert check(off, tolerance="0.999999999999999999", **asked).table.total["late"] == 2
+
+
+def test_a_question_is_the_scene_that_it_makes():
+    question = make_question("thrown_pairs")
+
+    assert Question.from_scene(question.scene).scene == question.scene
+    assert Question.from_json(question.to_json()) == question
+
+
+def test_arrays_answer_all_questions_with_linear_motions(monkeypatch):
+    """So the oracle is fast: none of them is asked by itself."""
+    questions = [make_question(family, 4, number) for family in LINEAR for number in range(20)]
+    alone = []
+    monkeypatch.setattr("exactpt.testing.truth.truth_of", alone.append)
+
+    assert len(truths(questions)) == len(questions)
+    assert alone == []
+
+
+@pytest.mark.parametrize(
+    "function, options, message",
+    [
+        (None, {}, "toi: not a function: None"),
+        (toi, {"cases": -1}, "cases: not a number of questions: -1"),
+        (toi, {"cases": 1.5}, "cases: not a number of questions: 1.5"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(function, options, message):
+    with pytest.raises(InputError, match=f"^{message}$"):
+        check(function, **options)

@@ -1,0 +1,91 @@
+"""docs/claims.md: each claim stands on its page, each test and each command is there."""
+
+import re
+import shlex
+from pathlib import Path
+
+import click
+import pytest
+
+from exactpt.cli import cli
+from fuzz import __main__ as fuzzer
+
+ROOT = Path(__file__).parents[3]
+PAGE = (ROOT / "docs" / "claims.md").read_text(encoding="utf-8")
+
+
+def claims():
+    """For each row: the page on which the claim stands, the claim, and what shows it."""
+    for section in PAGE.split("\n## ")[1:]:
+        (page,) = re.findall(r"\A(?:\[)?([\w/.-]+)", section)
+        path = ROOT / ("README.md" if page == "README" else page)
+        for claim, shown in re.findall(r"^\| (.*) \| (.*) \|$", section, re.MULTILINE)[2:]:
+            yield path, claim, shown
+
+
+CLAIMS = list(claims())
+SHOWN = sorted({word for *_, shown in CLAIMS for word in re.findall("`([^`]+)`", shown)})
+TESTS = [word for word in SHOWN if word.startswith("tests/")]
+DISPATCHING = {"-m", "--hostile", "--soak"}
+COMMANDS = [word for word in SHOWN if not word.startswith("tests/")]
+
+
+@pytest.mark.parametrize("path, claim", [(path, claim) for path, claim, _ in CLAIMS])
+def test_a_claim_stands_on_its_page(path, claim):
+    text = path.read_text(encoding="utf-8")
+
+    assert claim in text
+
+
+def test_every_claim_is_shown_by_something():
+    assert len(CLAIMS) > 40
+    assert all("`" in shown or "](" in shown for *_, shown in CLAIMS)
+
+
+@pytest.mark.parametrize("test", TESTS)
+def test_a_test_is_there(test):
+    file, name = test.split("::")
+
+    assert f"def {name}(" in (ROOT / file).read_text(encoding="utf-8")
+
+
+def command_of(words):
+    """The click command that some words call."""
+    if words[0] == "exactpt":
+        return cli.commands[words[1]]
+    how = {
+        "--cases": fuzzer.fuzz,
+        "proof-mutants": fuzzer.proof_mutants,
+        "questions": fuzzer.questions,
+        "small-scope": fuzzer.small_scope,
+        "planted": fuzzer.find_planted,
+        "--hostile": fuzzer.run_hostile,
+        "--soak": fuzzer.run_soak,
+    }
+    return next(how[word] for word in [*words[3:4], *words] if word in how)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_command_is_there(command, pytestconfig):
+    words = shlex.split(command)
+    if words[0] in {"pytest", "python"} and words[:3] != ["python", "-m", "fuzz"]:
+        files = [word for word in words if "/" in word]
+        assert all((ROOT / file).exists() for file in files)
+        for option in {"--exact-only"} & set(words):
+            assert pytestconfig.getoption(option) is not None
+        assert files or "--exact-only" in words
+        if files and files[0].startswith("examples/"):
+            source = (ROOT / files[0]).read_text(encoding="utf-8")
+            assert all(f'"{word}"' in source for word in words if word.startswith("--"))
+        return
+    options = {
+        name
+        for parameter in command_of(words).params
+        if isinstance(parameter, click.Option)
+        for name in parameter.opts
+    }
+
+    assert {word for word in words if word.startswith("-")} - DISPATCHING <= options
+    if words[:2] == ["exactpt", "bench"]:
+        (names,) = [p.type.choices for p in cli.commands["bench"].params if p.name == "names"]
+        assert words[2] in names

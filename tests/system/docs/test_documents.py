@@ -1,0 +1,82 @@
+"""What the documents tell a reader to type works, and what they point to is there."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from docs.draw_demo import drawn
+from docs.draw_gallery import blocks, run
+
+ROOT = Path(__file__).parents[3]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+ARCHITECTURE = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("block", blocks())
+def test_a_scene_of_the_gallery(block, tmp_path):
+    """The commands run; what they draw of a generated scene is the picture in the gallery.
+
+    (What libraries make of the shapes in files may differ in the last digit.)
+    """
+    picture = run(block, tmp_path)
+
+    drawn = ROOT / "docs" / "gallery" / picture.name
+    same = picture.read_text(encoding="utf-8") == drawn.read_text(encoding="utf-8")
+    assert same or "exactpt generate" not in block
+
+
+def test_the_moving_picture_is_that_of_the_demo():
+    assert (ROOT / "docs" / "demo.svg").read_text(encoding="utf-8") == drawn()
+
+
+def test_the_code_of_the_readme_runs(capsys):
+    (code,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+
+    exec(code, {})
+
+    assert capsys.readouterr().out.startswith("5.798402006228018 (")
+
+
+@pytest.mark.parametrize(
+    "page", [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
+)
+def test_links_lead_somewhere(page):
+    for target in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")):
+        if "://" not in target:
+            assert (page.parent / target).exists(), target
+
+
+def test_the_packages_of_the_architecture_are_the_packages():
+    packages = {p.parent.name for p in (ROOT / "exactpt").glob("*/__init__.py")}
+
+    named = set(re.findall(r"^\| `exactpt/(\w+)` \|", ARCHITECTURE, re.MULTILINE))
+
+    assert named == packages
+
+
+def test_the_module_graph_is_that_of_the_linter():
+    contracts = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    layers = contracts["tool"]["importlinter"]["contracts"][0]["layers"]
+    (graph,) = re.findall(r"```\n(.*?)```", ARCHITECTURE, re.DOTALL)
+
+    drawn = [set(line.split()) for line in graph.splitlines()]
+
+    assert drawn == [set(re.findall(r"exactpt\.(\w+)", layer)) for layer in layers]
+
+
+def test_what_the_architecture_names_is_there():
+    """Every path is in the repository, every function, class and constant in some module."""
+    path = r"`([\w/]+\.(?:py|md|toml)|(?:exactpt|fuzz|tests)/[\w/]+)`"
+    paths = re.findall(path, ARCHITECTURE)
+    rest = re.sub(path, "", ARCHITECTURE)
+    names = set(re.findall(r"`(?:\w+\.)?(_?[a-zA-Z]\w*)`", rest))
+    modules = [*(ROOT / "exactpt").rglob("*.py"), *(ROOT / "fuzz").rglob("*.py")]
+    source = "\n".join(module.read_text(encoding="utf-8") for module in modules)
+
+    assert len(paths) > 40
+    assert [path for path in paths if not (ROOT / path).exists()] == []
+    defined = set(re.findall(r"(?:def |class |^|self\.)(\w+)(?=[(:]| *[:=])", source, re.MULTILINE))
+    folders = {p.name for p in [*ROOT.iterdir(), *(ROOT / "exactpt").iterdir()]}
+    assert sorted(names - defined - folders) == []

@@ -1,0 +1,205 @@
+"""The Exact 2D collision set: the sample again, the answers by another way, and the proofs."""
+
+import gzip
+import hashlib
+import json
+import tarfile
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from exactpt import proof_check
+from exactpt.cli import main
+from exactpt.errors import InputError
+from exactpt.openset import passages, writing
+from exactpt.openset.writing import planned, write_set
+from exactpt.testing import families
+from exactpt.testing.oracle import Refusals, answers
+
+SAMPLE = Path(__file__).parents[2] / "data/collision-set"
+SIZES = {"questions": 76, "scenes": 36}
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("set") / "small"
+    write_set(folder, planned(**SIZES))
+    return folder
+
+
+def content(folder, name):
+    path = folder / f"{name}.gz"
+    return gzip.decompress(path.read_bytes()) if path.exists() else (folder / name).read_bytes()
+
+
+def lines(folder, name):
+    return content(folder, name).splitlines()
+
+
+def code_of(*arguments):
+    with pytest.raises(SystemExit) as ended:
+        main(list(map(str, arguments)))
+    return ended.value.code
+
+
+def test_the_sample_is_written_again_byte_by_byte(small):
+    """Its manifest has the checksums of all files; a few are kept in the repository whole."""
+    kept = [path.relative_to(SAMPLE).as_posix() for path in SAMPLE.rglob("*") if path.is_file()]
+
+    assert len(kept) == 8
+    for name in kept:
+        assert content(small, name) == (SAMPLE / name).read_bytes(), name
+
+
+def test_the_page_names_the_checksum_of_the_sample(small):
+    page = (Path(__file__).parents[3] / "docs/collision-set.md").read_text(encoding="utf-8")
+    manifest = hashlib.sha256((small / "SHA256SUMS").read_bytes()).hexdigest()
+
+    assert f"--questions {SIZES['questions']} --scenes {SIZES['scenes']}` | `{manifest}` |" in page
+
+
+@pytest.mark.slow  # three minutes
+def test_the_page_names_the_checksum_of_the_whole(tmp_path):
+    page = (Path(__file__).parents[3] / "docs/collision-set.md").read_text(encoding="utf-8")
+
+    summary = write_set(tmp_path / "set", planned(), jobs=4)
+
+    assert f"| `exactpt questions --set` | `{summary.manifest}` |" in page
+
+
+def test_two_processes_write_the_same(small, tmp_path):
+    summary = write_set(tmp_path / "again", planned(**SIZES), jobs=2)
+
+    assert summary.files == 3 * (len(passages.FAMILIES) + len(families.FAMILIES)) + 2
+    for path in small.rglob("*"):
+        assert (
+            path.is_dir()
+            or path.read_bytes() == (tmp_path / "again" / path.relative_to(small)).read_bytes()
+        )
+
+
+def test_the_manifest_has_the_checksums_of_all_contents(small):
+    sums = dict(
+        reversed(line.split("  ")) for line in (small / "SHA256SUMS").read_text().splitlines()
+    )
+
+    written = {path.relative_to(small).as_posix() for path in small.rglob("*") if path.is_file()}
+    assert {name.removesuffix(".gz") for name in written} - set(sums) == {"SHA256SUMS"}
+    for name, checksum in sums.items():
+        assert hashlib.sha256(content(small, name)).hexdigest() == checksum
+
+
+@pytest.mark.parametrize("family", passages.FAMILIES)
+def test_the_oracle_answers_as_the_set_says(small, family):
+    """The set's answers come from arrays; those of the oracle about such bodies do not."""
+    asked = lines(small, f"point-segment/{family}.jsonl")
+
+    said = list(answers(asked, 1, Refusals()))
+
+    assert len(said) == 4
+    assert [s.encode() for s in said] == lines(small, f"point-segment/{family}.truths.jsonl")
+
+
+@pytest.mark.parametrize("family", families.FAMILIES)
+def test_scenes_have_the_oracles_answer_and_a_proof(small, family):
+    asked = lines(small, f"scenes/{family}.jsonl")
+    truths = [json.loads(line) for line in lines(small, f"scenes/{family}.truths.jsonl")]
+    with tarfile.open(small / f"scenes/{family}.proofs.tar.gz") as archive:
+        files = {m.name: archive.extractfile(m).read() for m in archive.getmembers()}
+
+    for number, (said, truth) in enumerate(zip(answers(asked, 1, Refusals()), truths, strict=True)):
+        oracle, place = json.loads(said), f"{family}/{number}"
+        pairs = truth.pop("pairs", [oracle.get("pair")])
+        proved = proof_check.check(files[f"{place}.json"], files[f"{place}.proof"])
+        assert oracle == truth
+        assert truth.get("pair") == pairs[0]
+        assert (truth["time"] is None) == proved.startswith("accepted: no contact from"), proved
+
+
+def queries(rows):
+    """The edge-edge queries of lines, as readers of the benchmark's files read them."""
+    assert len(rows) % 8 == 0
+    for first in range(0, len(rows), 8):
+        numbers = [[int(n) for n in row.split(b",")] for row in rows[first : first + 8]]
+        assert all(len(n) == 7 and n[6] == numbers[0][6] for n in numbers)
+        yield [[Fraction(n[i], n[i + 1]) for i in (0, 2, 4)] for n in numbers], numbers[0][6]
+
+
+@pytest.mark.parametrize("family", passages.FAMILIES)
+def test_queries_are_the_questions_lifted(small, family):
+    asked = [json.loads(line) for line in lines(small, f"point-segment/{family}.jsonl")]
+    truths = [json.loads(line) for line in lines(small, f"point-segment/{family}.truths.jsonl")]
+    read = queries(lines(small, f"point-segment/{family}.csv"))
+
+    for question, truth, (corners, result) in zip(asked, truths, read, strict=True):
+        (x, y), motion = question["a"]["vertices"][0], question["a"]["motion"]
+        point = [[x, motion["x"][1]], [y, motion["y"][1]]]
+        ways = [point, point, *([v["x"], v["y"]] for v in question["b"]["vertices"])]
+        for k, (way, height) in enumerate(zip(ways, (-1, 1, 0, 0), strict=True)):
+            start = [Fraction(c[0]) for c in way]
+            end = [Fraction(c[0]) + Fraction(c[1]) for c in way]
+            assert (corners[k], corners[4 + k]) == ([*start, height], [*end, height])
+            assert all(Fraction(float(c)) == c for c in corners[k] + corners[4 + k])
+        assert result == (truth["time"] is not None)
+        if result and truth["time"]["low"] == truth["time"]["high"]:
+            t = Fraction(truth["time"]["low"])
+            p, _, a, b = (
+                [(1 - t) * f + t * g for f, g in zip(corners[k], corners[4 + k], strict=True)]
+                for k in range(4)
+            )
+            assert (b[0] - a[0]) * (p[1] - a[1]) == (b[1] - a[1]) * (p[0] - a[0])
+            assert all(min(a[i], b[i]) <= p[i] <= max(a[i], b[i]) for i in (0, 1))
+
+
+def test_a_folder_that_is_not_empty_is_refused(tmp_path, capsys):
+    (tmp_path / "mine").write_text("")
+
+    assert code_of("questions", "--set", tmp_path, "--questions", 0, "--scenes", 0) == 2
+
+    assert capsys.readouterr().err == f"exactpt: {tmp_path}: it is there; name a new folder\n"
+    assert [path.name for path in tmp_path.iterdir()] == ["mine"]
+
+
+def test_nothing_is_left_of_a_set_that_ends_early(tmp_path, monkeypatch):
+    def breaks(folder, part):
+        if part.kind == "scenes":
+            raise KeyboardInterrupt
+        (folder / part.family).write_text("half")
+        return []
+
+    monkeypatch.setattr(writing, "write_part", breaks)
+
+    with pytest.raises(KeyboardInterrupt):
+        write_set(tmp_path / "set", planned(19, 18))
+
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_written_is_refused(tmp_path):
+    with pytest.raises(InputError, match="cannot be written: No such file"):
+        write_set(tmp_path / "none" / "set", planned(0, 0))
+
+
+@pytest.mark.parametrize(
+    "arguments, says",
+    [
+        (["--set", "x", "-n", "3"], "-n: not with --set"),
+        (["sliding", "--set", "x"], "FAMILY: not with --set"),
+        (["sliding", "--jobs", "2"], "--jobs: only with --set"),
+        (["sliding", "--questions", "2"], "--questions: only with --set"),
+        ([], "name a family, or all, or write the --set"),
+    ],
+)
+def test_options_of_the_other_use_are_refused(arguments, says, capsys):
+    assert code_of("questions", *arguments) == 2
+
+    assert capsys.readouterr().err == f"exactpt: {says}\n"
+
+
+def test_the_command_names_the_checksum_of_the_manifest(tmp_path, capsys):
+    code = code_of("questions", "--set", tmp_path / "s", "--questions", 19, "--scenes", 0)
+
+    manifest = (tmp_path / "s" / "SHA256SUMS").read_bytes()
+    assert code == 0
+    assert hashlib.sha256(manifest).hexdigest() in capsys.readouterr().out

@@ -1,0 +1,316 @@
+"""Saved and restored at any moment, a run goes on as if nothing had happened."""
+
+import json
+from contextlib import suppress
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from exactpt.errors import BudgetExceeded, InputError
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.scene.generate import FAMILIES, generate
+from exactpt.scene.scene import Scene
+from exactpt.simulation.responses import Bounce
+from exactpt.simulation.simulation import Simulation
+from exactpt.simulation.store import sealed
+
+
+def line(event):
+    return json.dumps(event.to_json())
+
+
+def interrupted(simulation, moments, path):
+    """The log of a run that is saved and restored after some of its events."""
+    log = []
+    while True:
+        for event in simulation.run():
+            log.append(line(event))
+            if len(log) in moments:
+                simulation.save(path)
+                simulation = Simulation.restore(path)
+                break
+        else:
+            return log, simulation
+
+
+def check(scene, tiling, rng, path, times, *, exact_only=False):
+    whole = Simulation(scene, tiling=tiling, exact_only=exact_only)
+    log = [line(event) for event in whole.run()]
+    moments = {rng.randint(1, len(log)) for _ in range(times)} if log else set()
+    again, last = interrupted(
+        Simulation(scene, tiling=tiling, exact_only=exact_only), moments, path
+    )
+    assert again == log
+    assert last.now == whole.now
+    assert (last.contact is None) == (whole.contact is None)
+    if whole.contact is not None:
+        assert last.contact.to_json() == whole.contact.to_json()
+    mine, theirs = last.stats, whole.stats
+    decisions = ("exact", "filtered", "reasons")  # a time that is saved has been resolved
+    assert {k: mine[k] for k in mine if k not in decisions} == {
+        k: theirs[k] for k in theirs if k not in decisions
+    }
+    return len(moments)
+
+
+@pytest.mark.parametrize("family", sorted(FAMILIES))
+@pytest.mark.parametrize("tiling", ["greedy", "mixed", "lazy"])
+def test_a_restored_run_has_the_same_log(family, tiling, tmp_path):
+    rng = Random(f"{family}:{tiling}")
+    check(generate(family, 1), tiling, rng, tmp_path / "run.json", 2)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tiling", ["greedy", "mixed", "lazy"])
+def test_a_restored_run_has_the_same_log_at_a_hundred_moments(tiling, tmp_path):
+    rng = Random(tiling)
+    moments = seed = 0
+    while moments < 100:
+        for family in FAMILIES:
+            scene, exact_only = generate(family, seed), seed % 4 == 3
+            path = tmp_path / "run.json"
+            moments += check(scene, tiling, rng, path, 3, exact_only=exact_only)
+        seed += 1
+
+
+def test_a_file_that_is_saved_twice_is_the_same(tmp_path):
+    simulation = Simulation(generate("stars", 2))
+    for _ in range(5):
+        simulation.step()
+    simulation.save(tmp_path / "one.json")
+    Simulation.restore(tmp_path / "one.json").save(tmp_path / "two.json")
+
+    assert (tmp_path / "one.json").read_bytes() == (tmp_path / "two.json").read_bytes()
+
+
+def bouncing(seed):
+    rng = Random(seed)
+    bodies = [
+        Body(f"b{i}", [(9 * i, 0), (9 * i + rng.randint(1, 5), 0), (9 * i + 2, 3)])
+        for i in range(5)
+    ]
+    moved = [
+        Body(b.name, b.vertices, Translation([0, rng.randint(-5, 5)], [0, rng.randint(-1, 1)]))
+        for b in bodies
+    ]
+    walls = [Body("west", [(-9, -50), (-8, -50), (-8, 50)]), Body("east", [(59, -50), (59, 50)])]
+    return Scene([*moved, *walls], (0, 10))
+
+
+def test_contacts_that_go_on_are_saved(tmp_path):
+    """A bounce before and after the interruption; plans that were set on the way."""
+    respond = Bounce(("west", "east"))
+    logs = []
+    for stops in (set(), {3, 9, 20}):
+        simulation, log, more = Simulation(bouncing(1)), [], True
+        while more:
+            more = False
+            for event in simulation.run(on_contact=respond):
+                log.append(line(event))
+                if len(log) in stops:
+                    simulation.save(tmp_path / "run.json")
+                    simulation = Simulation.restore(tmp_path / "run.json")
+                    more = True
+                    break
+        logs.append(log)
+        assert simulation.contacts > 3
+
+    assert logs[0] == logs[1]
+
+
+def test_a_contact_at_the_start_is_saved(tmp_path):
+    scene = Scene([Body("a", [(0, 0), (2, 0), (0, 2)]), Body("b", [(1, 0), (3, 0), (3, 2)])])
+    simulation = Simulation(scene)
+    simulation.save(tmp_path / "run.json")
+    again = Simulation.restore(tmp_path / "run.json")
+
+    assert [line(e) for e in again.run()] == [line(e) for e in simulation.run()]
+    assert again.contact.kind == "initial"
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "[]", "{}", '{"exactpt-simulation": 1}', '{"exactpt-simulation": 5}',
+     '{"exactpt-simulation": 5, "tiling": "auto", "exact_only": false, "scene": {}}',
+     "[" * 100_000, '{"a":' * 100_000, '{"exactpt-simulation": ' + "[" * 900 + "]" * 900 + "}",
+     '{"exactpt-simulation": ' + "7" * 10_000 + "}"],
+    ids=lambda text: text[:60],
+)  # fmt: skip
+def test_other_files_are_refused(text, tmp_path):
+    path = tmp_path / "run.json"
+    path.write_text(text)
+    with pytest.raises(InputError, match=r"run\.json"):
+        Simulation.restore(path)
+    with pytest.raises(InputError, match="cannot be read"):
+        Simulation.restore(tmp_path / "none.json")
+
+
+def test_the_previous_version_is_refused_by_its_number(tmp_path):
+    data = Simulation(generate("stars", 2)).to_json()
+    (tmp_path / "run.json").write_text(json.dumps(data | {"exactpt-simulation": 4}))
+
+    with pytest.raises(InputError, match="this version reads simulations 5, not 4"):
+        Simulation.restore(tmp_path / "run.json")
+
+
+def places(data, path=()):
+    """The places of all values that contain no others."""
+    if isinstance(data, (dict, list)):
+        for key, value in data.items() if isinstance(data, dict) else enumerate(data):
+            yield from places(value, (*path, key))
+    else:
+        yield path
+
+
+def changed(data, path, value):
+    """A copy with another value at a place."""
+    copy = json.loads(json.dumps(data))
+    at = copy
+    for key in path[:-1]:
+        at = at[key]
+    at[path[-1]] = value
+    return copy
+
+
+def test_a_changed_file_is_refused(tmp_path):
+    """Every value is changed, one at a time; spaces are not part of the values."""
+    simulation = Simulation(generate("convex", 2), tiling="greedy")
+    for _ in range(3):
+        simulation.step()
+    data, path = simulation.to_json(), tmp_path / "run.json"
+    found = list(places(data))
+    path.write_text(json.dumps(data, indent=3))
+    assert Simulation.restore(path).to_json() == data
+    for place in [*found[:20], *Random(1).sample(found, 100)]:
+        path.write_text(json.dumps(changed(data, place, "altered")))
+        with pytest.raises(InputError, match=r"its checksum is another one|reads simulations 5"):
+            Simulation.restore(path)
+
+
+def without_seal(data):
+    """The data without version and checksum."""
+    return {k: v for k, v in data.items() if k not in {"exactpt-simulation", "sha256"}}
+
+
+@pytest.mark.parametrize("value", ["2", 2, -1, 1e300, None, [], {}, "1e99999", "x", True])
+def test_a_forged_file_is_refused_or_keeps_its_budget(tmp_path, value):
+    """With a checksum of its own: one value of the state is another one."""
+    simulation = Simulation(generate("convex", 2), tiling="greedy")
+    for _ in range(3):
+        simulation.step()
+    whole, path = without_seal(simulation.to_json()), tmp_path / "run.json"
+    for place in Random(str(value)).sample(list(places(whole)), 60):
+        path.write_text(json.dumps(sealed(changed(whole, place, value))))
+        with suppress(InputError):
+            Simulation.restore(path, max_seconds=5)
+
+
+def test_a_far_end_is_refused(tmp_path):
+    """The run went on to the end of the tiling, and asked for no deadline on the way."""
+    simulation = Simulation(generate("convex", 2), tiling="greedy")
+    data = without_seal(simulation.to_json())
+    far = changed(data, ("state", "end"), "1" + "0" * 99)
+    (tmp_path / "run.json").write_text(json.dumps(sealed(far)))
+
+    with pytest.raises(InputError, match=r"run\.json: .*the tiling ends at t = 10*\.\.\."):
+        Simulation.restore(tmp_path / "run.json")
+
+
+@pytest.mark.parametrize("slot", [-1, 10**12, 2**70])
+def test_a_certificate_of_nothing_is_refused(tmp_path, slot):
+    """The queue would have room for all certificates up to it."""
+    data = without_seal(Simulation(generate("convex", 2), tiling="greedy").to_json())
+    forged = changed(data, ("state", "queue", 0, 0), slot)
+    (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
+
+    with pytest.raises(InputError, match=r"run\.json: .*is no certificate"):
+        Simulation.restore(tmp_path / "run.json")
+
+
+def test_roots_of_more_than_three_vertices_are_refused(tmp_path):
+    """The fourth number would be taken for an exact time."""
+    data = without_seal(Simulation(generate("convex", 2), tiling="greedy").to_json())
+    forged = changed(data, ("state", "roots_now"), [[0, 1, 2, 3]])
+    (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
+
+    with pytest.raises(InputError, match=r"run\.json: "):
+        Simulation.restore(tmp_path / "run.json")
+
+
+@pytest.mark.parametrize(
+    "place, value, message",
+    [
+        (("order", 2), 1, "does not have every point once"),
+        (("parents", 0, 1), 5, "point . hangs on none to its left"),
+        (("parents", 1, 3), -1, "point . hangs on none to its left"),
+    ],
+)
+def test_bug_points_that_hang_in_a_circle_are_refused(tmp_path, place, value, message):
+    """A walk along the tree had no end, and asked for no deadline; the hostile fuzzer found it."""
+    data = without_seal(Simulation(generate("linear_points", 4)).to_json())
+    assert data["state"]["structure"]["order"] == [2, 1, 0, 3, 5, 6, 4]
+    forged = changed(data, ("state", "structure", *place), value)
+    (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
+
+    with pytest.raises(InputError, match=message):
+        Simulation.restore(tmp_path / "run.json")
+
+
+@pytest.mark.parametrize(
+    "place, value, message",
+    [
+        ((1, "ring", 0, 0), -1, "a vertex is there twice, or not at all"),
+        ((1, "ring", 0, 0), 1, "a vertex is there twice, or not at all"),
+        ((1, "ring", 2, 1), 0, "not the vertices of body 'b1'"),
+    ],
+)
+def test_bug_rings_without_all_vertices_are_refused(tmp_path, place, value, message):
+    """A tiling was built anew from faces that never closed; the hostile fuzzer found it."""
+    data = without_seal(Simulation(generate("convex", 2), tiling="greedy").to_json())
+    forged = changed(data, ("state", "bodies", *place), value)
+    (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
+
+    with pytest.raises(InputError, match=message):
+        Simulation.restore(tmp_path / "run.json")
+
+
+@pytest.mark.parametrize(
+    "number",
+    [
+        {"polynomial": ["-2", "0", "1"], "low": "2", "high": "3"},
+        {"polynomial": ["-2", "0", "1"], "low": "-2", "high": "2"},
+        {"polynomial": ["-2", "0", "1"], "low": "2", "high": "1"},
+        {"polynomial": ["4", "0", "-4", "0", "1"], "low": "1", "high": "2"},
+        {"polynomial": ["-2", "1"], "low": "3", "high": "3"},
+        {"polynomial": [], "low": "1", "high": "2"},
+    ],
+    ids=["none", "two", "no interval", "a double one", "another number", "of nothing"],
+)
+def test_bug_times_that_are_no_roots_are_refused(tmp_path, number):
+    """Their refinement had no end, after the last event, where no deadline was asked for."""
+    simulation = Simulation(generate("convex", 2), tiling="greedy")
+    simulation.step()
+    data = without_seal(simulation.to_json())
+    forged = changed(data, ("state", "now", "exact"), number)
+    (tmp_path / "run.json").write_text(json.dumps(sealed(forged)))
+
+    with pytest.raises(InputError, match="no root of its polynomial"):
+        Simulation.restore(tmp_path / "run.json")
+
+
+def test_bug_repairs_of_forged_points_keep_their_budget():
+    """The hostile fuzzer found it: a point is elsewhere than its tangents say, for ever."""
+    forged = Path(__file__).parents[2] / "data" / "golden" / "forged_points.json"
+    simulation = Simulation.restore(forged, max_seconds=0.5)
+
+    with pytest.raises(BudgetExceeded):
+        simulation.run_to_contact()
+
+
+def test_the_size_of_a_file_is_bounded(tmp_path):
+    Simulation(generate("stars", 2)).save(tmp_path / "run.json")
+
+    with pytest.raises(InputError, match="more than 100 bytes"):
+        Simulation.restore(tmp_path / "run.json", max_bytes=100)
