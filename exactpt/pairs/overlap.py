@@ -26,15 +26,20 @@ def bodies_meet(a: Body, b: Body, t: QQ) -> bool:
 
 
 def overlap(a: Body, b: Body, t: QQ) -> bool:
-    """Whether a point of one body is in the interior of the other, or edges cross each other.
+    """Return True if a point of one body is in the interior of the other, or thin bodies cross.
 
-    Rounded bodies overlap if their cores are nearer than the sum of the radii.
+    Thin bodies, those without interior, cross if they have a connected piece C in common such
+    that one of them divides each small neighbourhood of C, and the other has points in two of
+    its parts. Rounded bodies overlap if their cores are nearer than the sum of the radii.
 
     Edges cross if each has its ends strictly on both sides of the other. Let no edges cross, and
-    cut each edge of one polygon at the vertices of the other; then each part is inside of the
-    other, outside, or on its boundary, as its midpoint is. If none is inside, the interior of
-    each part of a polygon is inside or outside of the other as a whole, and one interior point
-    of each tells.
+    cut each edge of one body at the vertices of the other. Then each part of an edge is inside
+    of another polygon, outside, or on its boundary, as its midpoint is. If none is inside, the
+    interior of each part of a polygon is inside or outside of the other as a whole, and one
+    interior point of each decides. What chains have in common are vertices and whole parts of
+    edges: a piece C is a path in both. If an end of a chain is in C, the chain does not divide
+    its neighbourhood, and leaves C at one end at most. Else C divides both, and they cross if one
+    leaves C to different sides of the other.
     """
     reach = a._radius + b._radius
     if reach:
@@ -44,9 +49,49 @@ def overlap(a: Body, b: Body, t: QQ) -> bool:
     q_edges = [(q[i], q[j]) for i, j in segments_of(b)]
     if any(_cross(e, f) for e in p_edges for f in q_edges):
         return True
+    if not (a.has_interior or b.has_interior):
+        return _chains_cross(_cut(p_edges, q_edges), _cut(q_edges, p_edges))
     return (a.has_interior and _enters(b, q, q_edges, p_edges)) or (
         b.has_interior and _enters(a, p, p_edges, q_edges)
     )
+
+
+def _cut(edges: Sequence[Segment], at: Sequence[Segment]) -> list[Point]:
+    """Return the vertices of a chain that is cut at the vertices of another one, in order."""
+    vertices = [edges[0][0]]
+    for u, v in edges:
+        cuts = _cuts((u, v), at)
+        vertices += cuts[1:] if u < v else cuts[-2::-1]
+    return vertices
+
+
+def _chains_cross(p: Sequence[Point], q: Sequence[Point]) -> bool:
+    """Return True if chains cross; they are cut at each other's vertices, and no edges cross."""
+    places: dict[Point, list[int]] = {}
+    for k, v in enumerate(q):
+        places.setdefault(v, []).append(k)
+    common = {(i, k) for i, u in enumerate(p) for k in places.get(u, ())}
+    for i, k in common:
+        for step in (1, -1):
+            j, l = i, k
+            while (j + 1, l + step) in common:
+                j, l = j + 1, l + step
+            if (i - 1, k - step) in common:
+                continue  # a part of a longer path
+            if i == j and not common.isdisjoint([(i - 1, k + step), (i + 1, k - step)]):
+                continue  # an end of a path in the other direction
+            if min(i, k, l) == 0 or j == len(p) - 1 or max(k, l) == len(q) - 1:
+                continue
+            left = _is_left(p[i - 1], p[i], p[i + 1], q[k - step])
+            if left != _is_left(p[j - 1], p[j], p[j + 1], q[l + step]):
+                return True
+    return False
+
+
+def _is_left(before: Point, at: Point, after: Point, v: Point) -> bool:
+    """Return True if v, seen from the middle of a path of three points, is on its left."""
+    first, second = side(before, at, v) > 0, side(at, after, v) > 0
+    return first and second if side(before, at, after) > 0 else first or second
 
 
 def _enters(
@@ -75,12 +120,18 @@ def _is_inside(point: Point, polygon: Sequence[Segment]) -> bool:
 
 def _middles(edge: Segment, polygon: Sequence[Segment]) -> Iterator[Point]:
     """The midpoints of the parts into which the vertices of a polygon cut an edge."""
-    u, v = edge
-    cuts = sorted({u, v, *(p for p, _ in polygon if side(u, v, p) == 0 and between(u, v, p))})
+    cuts = _cuts(edge, polygon)
     if len(cuts) == 1:
-        yield u
+        yield cuts[0]
     for p, q in pairwise(cuts):
         yield (p[0] + q[0]) / 2, (p[1] + q[1]) / 2
+
+
+def _cuts(edge: Segment, at: Sequence[Segment]) -> list[Point]:
+    """Return the ends of an edge and the ends of other edges on it, sorted, each once."""
+    u, v = edge
+    ends = {p for other in at for p in other}
+    return sorted({u, v, *(p for p in ends if side(u, v, p) == 0 and between(u, v, p))})
 
 
 def _inner_points(body: Body, points: Sequence[Point]) -> Iterator[Point]:

@@ -2,8 +2,8 @@
 
 Two bodies come into a new contact when they meet after they have been apart, or when they
 overlap just after a time but not just before it (at the start of the scene: not then). They
-overlap if a point of one is in the interior of the other, or if edges of bodies without
-interior cross. All is decided between any two critical times, by vertical lines.
+overlap if a point of one is in the interior of the other: that is decided between any two critical
+times, by vertical lines. Chains overlap if they cross (`fuzz.questions.crossing`).
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene, scene_of
+from fuzz.questions.crossing import chains_cross
 from fuzz.questions.reference import edges_of, meet_at, moments, pieces, tracks
 
 __all__ = ["first_new_contact", "new_contact", "overlap"]
@@ -76,7 +77,7 @@ def overlap(a: Body, b: Body, t: QQ) -> bool:
     e = [(p[i], p[j]) for i, j in edges_of(a)]
     f = [(q[i], q[j]) for i, j in edges_of(b)]
     if not a.has_interior and not b.has_interior:
-        return any(_crossing(u, v) is not None for u, v in product(e, f))
+        return chains_cross(a._at(t), b._at(t))
     if _is_point_on(e, f) or _is_point_on(f, e):
         return False
     return any(_overlap_at(x, a, e, b, f) for x in _lines(e, f))

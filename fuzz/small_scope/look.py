@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Final, NamedTuple
 
 from exactpt.collision.comparison import contrast
+from exactpt.collision.detector import first_contact
+from exactpt.errors import InputError
 from exactpt.kernel.numbers import ZZ
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.reference import first_contact_allpairs
@@ -15,9 +18,11 @@ from exactpt.scene.scene import Scene
 from exactpt.simulation.responses import stop
 from exactpt.simulation.simulation import Simulation
 from fuzz.limits import TooSlow, limit
+from fuzz.questions.renewal import first_new_contact
 from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.scope import Planned
 from fuzz.statics import run_and_audit
+from fuzz.subdivided import subdivided
 from fuzz.witnesses import check_proof, contact_by, tilings_of
 
 __all__ = ["AUDITED", "Answer", "Look", "look", "looks", "looks_at_proofs"]
@@ -28,6 +33,11 @@ that continues after the contact."""
 
 REFERENCE: Final = "reference"
 
+RENEWED: Final = 4
+"""One in this many scenes is asked for the first new contact, also with edges cut in two."""
+
+AFTER_START: Final = "after start"
+
 PATIENCE: Final = 20.0
 """Seconds of processor time after which a method counts as hanging."""
 
@@ -36,8 +46,8 @@ class Answer(NamedTuple):
     """The answer of a method about a scene.
 
     Attributes:
-        method: "auto", "pairs", "arrays", the name of a tiling, or "static" or "going on" and
-            such a name.
+        method: "auto", "pairs", "arrays", "after start", the name of a tiling, or "static" or
+            "going on" and such a name.
         seconds: processor time.
         fault: what is wrong with the answer; None if it is right.
     """
@@ -108,6 +118,8 @@ def look(planned: Planned) -> Look:
         answers.append(_answer(f"static {name}", audit, name))
     elif rest == AUDITED // 2:
         answers.append(_answer(f"going on {name}", go_on, name))
+    elif rest % RENEWED == 1:
+        answers.append(_answer(AFTER_START, lambda _: _new_contact(scene, expected), ""))
     return Look(planned, expected, _as_planned(planned, expected), answers)
 
 
@@ -140,6 +152,25 @@ def _answer(method: str, judge: Callable[[str], str | None], name: str) -> Answe
     except (Exception, TooSlow) as error:  # any exception is a finding
         fault = type(error).__name__
     return Answer(method, clock.process_time() - began, fault)
+
+
+def _new_contact(scene: Scene, contact: Contact | None) -> str | None:
+    """Return what is wrong with the first new contact, from the planned one on if it is simple."""
+    if contact is not None and contact.time.is_rational and contact.time < scene.end:
+        with suppress(InputError):  # a body that touches itself then
+            scene = scene.since(contact.time.low)
+    expected = first_new_contact(scene)
+    for same, what in ((scene, "new contact"), (subdivided(scene), "new contact of cut edges")):
+        found = first_contact(same, after_start=True)
+        names = [body.name for body in same.bodies]
+        pairs = {
+            (min(ij), max(ij))
+            for p in (() if found is None else found.pairs)
+            for ij in [(names.index(p.body), names.index(p.other))]
+        }
+        if expected != (None if found is None else (found.time, pairs)):
+            return what
+    return None
 
 
 def _before_going_on(scene: Scene, tiling: str) -> Contact | None:

@@ -16,6 +16,7 @@ from exactpt.arrays import first_contacts
 from exactpt.errors import InputError
 from exactpt.geometry.polygon import contains, edges, first_self_touch, segments_meet, signed_area2
 from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
 from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.pairs.search import rows_of
 from exactpt.scene.format import loads
@@ -26,7 +27,7 @@ from fuzz.planted import PLANTED
 from fuzz.small_scope import by_arrays
 from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.command import small_scope
-from fuzz.small_scope.look import look, looks
+from fuzz.small_scope.look import AFTER_START, look, looks
 from fuzz.small_scope.motions import ORDERS, SLOTS, TIMES, approaches
 from fuzz.small_scope.numbering import spread
 from fuzz.small_scope.placements import (
@@ -42,6 +43,7 @@ from fuzz.small_scope.sample import FAR, SAMPLES, sampled
 from fuzz.small_scope.scenes import touching
 from fuzz.small_scope.scope import COMPLETE, entries, in_part, planned, sizes
 from fuzz.small_scope.shapes import SYMMETRIES, image, shape_of, shapes, turned
+from fuzz.subdivided import subdivided
 
 ROOT = Path(__file__).parents[3]
 
@@ -523,3 +525,38 @@ def test_even_zeros_of_copies_are_needed():
 
     assert [answer.method for answer in answers if answer.fault] == ["lazy"]
     assert not any(answer.fault for answer in look(planned(627)).answers)
+
+
+def test_new_contacts_are_asked_for_with_cut_edges():
+    answers = [a for n in range(64) for a in look(planned(n)).answers if a.method == AFTER_START]
+
+    assert len(answers) == 16
+    assert {answer.fault for answer in answers} == {None}
+
+
+def test_cut_edges_are_the_same_points():
+    for number in range(0, 400, 7):
+        scene = planned(number).scene
+        cut = subdivided(scene)
+        for body, same in zip(scene.bodies, cut.bodies, strict=True):
+            assert len(same.edges) == 2 * len(body.edges)
+            assert len({*same.at(scene.end)} & {*body.at(scene.end)}) == len({*body.at(scene.end)})
+            assert same.has_interior == body.has_interior
+    plate = Body("p", [(0, 0), (9, 0), (0, 9)], holes=[[(1, 1), (1, 2), (2, 1)]], radius=1)
+    (cut,) = subdivided(Scene([plate], time=(0, 1))).bodies
+    assert cut.edges[-1] == (11, 6)
+    assert [len(ring) for ring in cut.rings] == [6, 6]
+    assert cut.radius == 1
+
+
+@pytest.mark.plain
+def test_bug_crossings_at_vertices_are_found(monkeypatch):
+    """Edges that cross at inner points alone overlapped."""
+    numbers = {157: "new contact of cut edges", 5137: "new contact"}
+
+    def faults():
+        return {n: [a.fault for a in look(planned(n)).answers if a.fault] for n in numbers}
+
+    assert faults() == {n: [] for n in numbers}
+    monkeypatch.setattr("exactpt.pairs.overlap._chains_cross", lambda *_: False)
+    assert faults() == {n: [what] for n, what in numbers.items()}
