@@ -25,8 +25,10 @@ from exactpt.kernel.budget import ask
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import common_roots, roots_after
+from exactpt.kernel.rounding import INFINITY, UNSURE, Answer
 from exactpt.motion.incidence import difference
 from exactpt.motion.incidence import orientation as base_orientation
+from exactpt.motion.vertices import HORIZON, MOTION, OTHER_MOTION, WIDTH
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -36,8 +38,6 @@ if TYPE_CHECKING:
     from exactpt.motion.vertices import Vertices
 
 __all__ = ["X_ORDER", "Certifier"]
-
-INFINITY: Final = float("inf")
 
 BATCH: Final = 50
 """Minimum batch size for which numpy is faster."""
@@ -125,6 +125,10 @@ class Certifier:
 
     def rigid(self, a: VertexId, b: VertexId, c: VertexId) -> bool:
         """Whether three vertices keep their orientation for ever, so that no zero is lost."""
+        places = self._vertices.places
+        m, n, o = places[WIDTH * a + MOTION], places[WIDTH * b + MOTION], places[WIDTH * c + MOTION]
+        if a != c and OTHER_MOTION not in (m, n, o):
+            return m == n == o and m >= 0.0
         return rigid(self._vertices.bodies, self.all[a], self.all[b], self.all[c])
 
     def keeps_x_order(self, a: VertexId, b: VertexId) -> bool:
@@ -138,16 +142,68 @@ class Certifier:
         which two of the vertices coincide. A zero without change of sign counts, even one of
         infinitesimal copies: it may be a contact (`exactpt.certificates.incidences`).
         """
-        self.made += 1
         a, b, c = least_first(a, b, c)
+        s, low, high = self.filtered_orientation(a, b, c)
+        if s == 0:
+            return self.exact_orientation(a, b, c)
+        return s, None if low == INFINITY else EventTime(low, high, a, b, c)
+
+    def exact_orientation(
+        self, a: VertexId, b: VertexId, c: VertexId
+    ) -> tuple[int, EventTime | None]:
+        """Return the `orientation` of vertices that the filter has left open."""
+        return self._exact_orientation(self.all[a], self.all[b], self.all[c])
+
+    def filtered_orientation(self, a: VertexId, b: VertexId, c: VertexId) -> Answer:
+        """Count a certificate, and return the filter's answer, infinite if it cannot fail.
+
+        The least of the three ids must be the first (`least_first`).
+
+        Returns:
+            The sign just after now, and the enclosure of its first zero after now; the sign 0 if
+            the filter leaves it open.
+        """
+        self.made += 1
+        places, i, j, k = self._vertices.places, WIDTH * a, WIDTH * b, WIDTH * c
+        if self.exact_only or (
+            places[i + MOTION] == OTHER_MOTION
+            or places[j + MOTION] == OTHER_MOTION
+            or places[k + MOTION] == OTHER_MOTION
+        ):
+            answer = self._any_orientation(a, b, c)
+        else:
+            horizon = self._end_high
+            high = places[i + HORIZON]
+            horizon = min(horizon, high)
+            high = places[j + HORIZON]
+            horizon = min(horizon, high)
+            high = places[k + HORIZON]
+            horizon = min(horizon, high)
+            answer = coefficients.linear_orientation(
+                places,
+                i,
+                j,
+                k,
+                self.errors,
+                self.now_low,
+                self.now_high,
+                horizon,
+                self.vanishes_now(a, b, c),
+            )
+        if answer[0] != 0:
+            self.counters.filtered += 1
+        return answer
+
+    def _any_orientation(self, a: VertexId, b: VertexId, c: VertexId) -> Answer:
+        """Return the filter's answer for vertices of any motion, see `filtered_orientation`."""
         every = self.all
         va, vb, vc = every[a], every[b], every[c]
         if self.exact_only or va.is_copy_of(vb) or vb.is_copy_of(vc) or va.is_copy_of(vc):
-            return self._exact_orientation(va, vb, vc)
+            return UNSURE
         horizon = self._horizon(va, vb)
         if vc.horizon < horizon:  # noqa: PLR1730 - `min` is a call in plain Python
             horizon = vc.horizon
-        s, low, high = coefficients.orientation(
+        answer = coefficients.orientation(
             va.image,
             vb.image,
             vc.image,
@@ -157,12 +213,7 @@ class Certifier:
             horizon,
             self.vanishes_now(a, b, c),
         )
-        if s == 0:
-            return self._exact_orientation(va, vb, vc)
-        self.counters.filtered += 1
-        if low > horizon:
-            return s, None
-        return s, EventTime(low, high, a, b, c)
+        return answer if answer[1] <= horizon else (answer[0], INFINITY, INFINITY)
 
     def orientations(self, triples: Sequence[Triple]) -> list[tuple[int, EventTime | None]]:
         """The `orientation` of each triple, in numpy for those in linear motion."""
@@ -283,26 +334,37 @@ class Certifier:
         (`exactpt.certificates.perturbation`), and contacts are found by angles alone
         (`exactpt.certificates.incidences`).
         """
+        s, low, high = self.filtered_x_order(a, b)
+        if s == 0:
+            return self.exact_x_order(a, b, touching=touching)
+        return s, None if low == INFINITY else EventTime(low, high, a, b, X_ORDER)
+
+    def exact_x_order(
+        self, a: VertexId, b: VertexId, *, touching: bool = False
+    ) -> tuple[int, EventTime | None]:
+        """Return the `x_order` of vertices that the filter has left open."""
+        return self._exact_x_order(self.all[a], self.all[b], touching=touching)
+
+    def filtered_x_order(self, a: VertexId, b: VertexId) -> Answer:
+        """Count a certificate, and return the filter's answer, as `filtered_orientation`."""
         self.made += 1
+        places, i, j = self._vertices.places, WIDTH * a, WIDTH * b
         va, vb = self.all[a], self.all[b]
         if self.exact_only or va.is_copy_of(vb):
-            return self._exact_x_order(va, vb, touching=touching)
-        horizon = self._horizon(va, vb)
-        s, low, high = coefficients.x_difference(
-            va.image,
-            vb.image,
-            self.errors,
-            self.now_low,
-            self.now_high,
-            horizon,
-            self.vanishes_now(a, b, X_ORDER),
-        )
-        if s == 0:
-            return self._exact_x_order(va, vb, touching=touching)
-        self.counters.filtered += 1
-        if low > horizon:
-            return s, None
-        return s, EventTime(low, high, a, b, X_ORDER)
+            return UNSURE
+        horizon, vanishes = self._horizon(va, vb), self.vanishes_now(a, b, X_ORDER)
+        now_low, now_high = self.now_low, self.now_high
+        if places[i + MOTION] == OTHER_MOTION or places[j + MOTION] == OTHER_MOTION:
+            s, low, high = coefficients.x_difference(
+                va.image, vb.image, self.errors, now_low, now_high, horizon, vanishes
+            )
+        else:
+            s, low, high = coefficients.linear_x_difference(
+                places, i, j, self.errors, now_low, now_high, horizon, vanishes
+            )
+        if s != 0:
+            self.counters.filtered += 1
+        return (s, low, high) if low <= horizon else (s, INFINITY, INFINITY)
 
     def _exact_x_order(
         self, a: Vertex, b: Vertex, *, touching: bool

@@ -10,12 +10,16 @@ from __future__ import annotations
 
 from typing import Final
 
+from librt.vecs import vec
+from mypy_extensions import i64
+
 from exactpt.certificates import cubics, turning
 from exactpt.kernel import filters
 from exactpt.kernel.rounding import U
 from exactpt.motion.image import Image
+from exactpt.motion.vertices import MOTION
 
-__all__ = ["K", "orientation", "x_difference"]
+__all__ = ["K", "linear_orientation", "linear_x_difference", "orientation", "x_difference"]
 
 
 K: Final = 8.0 * U
@@ -55,35 +59,81 @@ def orientation(
         elif c.motion == a.motion and c.motion >= 0:
             a, b, c = c, a, b
         elif a.degree <= 1 and b.degree <= 1 and c.degree <= 1:
-            return _three(a, b, c, errors, now_low, now_high, horizon, at_root)
+            ux0, uy0, ux1, uy1 = b.x0 - a.x0, b.y0 - a.y0, b.x1 - a.x1, b.y1 - a.y1
+            vx0, vy0, vx1, vy1 = c.x0 - a.x0, c.y0 - a.y0, c.x1 - a.x1, c.y1 - a.y1
+            bounds = errors, now_low, now_high, horizon, at_root
+            return _three(ux0, uy0, ux1, uy1, vx0, vy0, vx1, vy1, *bounds)
         elif a.degree <= 3 and b.degree <= 3 and c.degree <= 3:
             return cubics.three(a, b, c, errors, now_low, now_high, horizon, at_root)
         else:
             return _any_degree(a, b, c, errors, now_low, now_high, horizon, at_root)
     if a.degree <= 1 and c.degree <= 1:
-        return _pair(a, b, c, errors, now_low, now_high, horizon, at_root)
+        ux, uy, vx, vy = b.x0 - a.x0, b.y0 - a.y0, c.x0 - a.x0, c.y0 - a.y0
+        wx, wy = c.x1 - a.x1, c.y1 - a.y1
+        return _pair(ux, uy, vx, vy, wx, wy, errors, now_low, now_high, horizon, at_root)
     if a.degree <= 3 and c.degree <= 3:
         return cubics.pair(a, b, c, errors, now_low, now_high, horizon, at_root)
     return _any_degree(a, b, c, errors, now_low, now_high, horizon, at_root)
 
 
+def linear_orientation(
+    places: vec[float],
+    a: i64,
+    b: i64,
+    c: i64,
+    errors: list[float],
+    now_low: float,
+    now_high: float,
+    horizon: float,
+    at_root: bool,  # noqa: FBT001 - positional for speed
+) -> filters.Answer:
+    """Return the filter's answer for the orientation of three vertices in `Vertices.places`.
+
+    a, b and c are their first indices there; the motion of none is `OTHER_MOTION`.
+    """
+    m, n = places[a + MOTION], places[b + MOTION]
+    if not (m == n and m >= 0.0):
+        o = places[c + MOTION]
+        if n == o and n >= 0.0:
+            a, b, c = b, c, a
+        elif o == m and o >= 0.0:
+            a, b, c = c, a, b
+        else:
+            x, y, sx, sy = places[a], places[a + 1], places[a + 2], places[a + 3]
+            ux0, uy0, ux1, uy1 = (
+                places[b] - x, places[b + 1] - y, places[b + 2] - sx, places[b + 3] - sy
+            )  # fmt: skip
+            vx0, vy0, vx1, vy1 = (
+                places[c] - x, places[c + 1] - y, places[c + 2] - sx, places[c + 3] - sy
+            )  # fmt: skip
+            return _three(
+                ux0, uy0, ux1, uy1, vx0, vy0, vx1, vy1, errors, now_low, now_high, horizon, at_root
+            )  # fmt: skip
+    x, y = places[a], places[a + 1]
+    ux, uy, vx, vy = places[b] - x, places[b + 1] - y, places[c] - x, places[c + 1] - y
+    wx, wy = places[c + 2] - places[a + 2], places[c + 3] - places[a + 3]
+    return _pair(ux, uy, vx, vy, wx, wy, errors, now_low, now_high, horizon, at_root)
+
+
 def _pair(
-    a: Image,
-    b: Image,
-    c: Image,
+    ux: float,
+    uy: float,
+    vx: float,
+    vy: float,
+    wx: float,
+    wy: float,
     errors: list[float],
     now_low: float,
     now_high: float,
     horizon: float,
     at_root: bool,  # noqa: FBT001
 ) -> filters.Answer:
-    """The answer for linear motions, a and b together: (b - a) x (c - a) is linear in t.
+    """Return the answer for linear motions, a and b together: (b - a) x (c - a) is linear in t.
+
+    b - a is (ux, uy), c - a is (vx, vy) + t (wx, wy).
 
     For exact u + du, v + dv: |(u + du)(v + dv) - u v| <= |u| dv + |v| du + du dv.
     """
-    ux, uy = b.x0 - a.x0, b.y0 - a.y0
-    vx, vy = c.x0 - a.x0, c.y0 - a.y0
-    wx, wy = c.x1 - a.x1, c.y1 - a.y1
     p, q = ux * vy, uy * vx
     c0, e0 = p - q, K * (abs(p) + abs(q))
     p, q = ux * wy, uy * wx
@@ -97,18 +147,24 @@ def _pair(
 
 
 def _three(
-    a: Image,
-    b: Image,
-    c: Image,
+    ux0: float,
+    uy0: float,
+    ux1: float,
+    uy1: float,
+    vx0: float,
+    vy0: float,
+    vx1: float,
+    vy1: float,
     errors: list[float],
     now_low: float,
     now_high: float,
     horizon: float,
     at_root: bool,  # noqa: FBT001
 ) -> filters.Answer:
-    """The answer for three linear motions: (b - a) x (c - a) is quadratic in t."""
-    ux0, uy0, ux1, uy1 = b.x0 - a.x0, b.y0 - a.y0, b.x1 - a.x1, b.y1 - a.y1
-    vx0, vy0, vx1, vy1 = c.x0 - a.x0, c.y0 - a.y0, c.x1 - a.x1, c.y1 - a.y1
+    """Return the answer for three linear motions: (b - a) x (c - a) is quadratic in t.
+
+    b - a is (ux0, uy0) + t (ux1, uy1), c - a is (vx0, vy0) + t (vx1, vy1).
+    """
     p, q = ux0 * vy0, uy0 * vx0
     c0, e0 = p - q, K * (abs(p) + abs(q))
     p, q, r, s = ux0 * vy1, uy0 * vx1, ux1 * vy0, uy1 * vx0
@@ -172,17 +228,50 @@ def x_difference(
     if a.ws or b.ws:
         return turning.x_difference(a, b, now_low, now_high, horizon, at_root)
     if a.degree <= 1 and b.degree <= 1:
-        c0, e0, c1, e1 = b.x0 - a.x0, 2.0 * errors[0], 0.0, 0.0
-        if not (a.motion == b.motion and a.motion >= 0):
-            c1 = b.x1 - a.x1
-            e1 = K * abs(c1) + 2.0 * errors[1]
-        e0 += K * abs(c0)
-        return filters.linear(c0, c1, e0, e1, now_low, now_high, horizon, at_root)
+        c0, c1 = b.x0 - a.x0, b.x1 - a.x1
+        is_rigid = a.motion == b.motion and a.motion >= 0
+        return _linear_difference(c0, c1, is_rigid, errors, now_low, now_high, horizon, at_root)
     if a.degree <= 3 and b.degree <= 3 and not (a.motion == b.motion and a.motion >= 0):
         return cubics.x_difference(a, b, errors, now_low, now_high, horizon, at_root)
     values = _differences(a.xs, b.xs, a, b)
     bounds = [K * abs(v) + 2.0 * errors[i] for i, v in enumerate(values)]
     return filters.any_degree(values, bounds, now_low, now_high, horizon, at_root)
+
+
+def linear_x_difference(
+    places: vec[float],
+    a: i64,
+    b: i64,
+    errors: list[float],
+    now_low: float,
+    now_high: float,
+    horizon: float,
+    at_root: bool,  # noqa: FBT001 - positional for speed
+) -> filters.Answer:
+    """Return the filter's answer for x(b) - x(a) of two vertices in `Vertices.places`.
+
+    a and b are their first indices there; the motion of none is `OTHER_MOTION`.
+    """
+    c0, c1, m = places[b] - places[a], places[b + 2] - places[a + 2], places[a + MOTION]
+    is_rigid = m == places[b + MOTION] and m >= 0.0
+    return _linear_difference(c0, c1, is_rigid, errors, now_low, now_high, horizon, at_root)
+
+
+def _linear_difference(
+    c0: float,
+    c1: float,
+    is_rigid: bool,  # noqa: FBT001 - positional for speed
+    errors: list[float],
+    now_low: float,
+    now_high: float,
+    horizon: float,
+    at_root: bool,  # noqa: FBT001
+) -> filters.Answer:
+    """Return the answer for c0 + c1 t, rounded differences; if it is rigid, for c0 alone."""
+    e0, e1 = 2.0 * errors[0] + K * abs(c0), K * abs(c1) + 2.0 * errors[1]
+    if is_rigid:
+        c1 = e1 = 0.0
+    return filters.linear(c0, c1, e0, e1, now_low, now_high, horizon, at_root)
 
 
 def _differences(p: list[float], q: list[float], a: Image, b: Image) -> list[float]:

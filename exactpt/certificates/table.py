@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import cast, final
 
 from exactpt.certificates.certificate import ANGLE, KIND_COUNT, kind_of
-from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.certifier import X_ORDER, Certifier, least_first
 from exactpt.certificates.queue import EventQueue, EventTime, ExactQueue
-from exactpt.indices import CertificateId, HalfEdge
+from exactpt.indices import CertificateId, HalfEdge, VertexId
+from exactpt.kernel.rounding import INFINITY
 
 __all__ = ["CertificateTable"]
 
@@ -24,6 +25,7 @@ class CertificateTable:
     """
 
     def __init__(self, certifier: Certifier) -> None:
+        self._certifier = certifier
         counters = certifier.counters
         self.pending: EventQueue = (
             ExactQueue(certifier, counters)
@@ -40,6 +42,40 @@ class CertificateTable:
             self.pending.cancel(certificate)
         else:
             self.pending.schedule(certificate, time)
+
+    def watch_orientation(
+        self, certificate: CertificateId, a: VertexId, b: VertexId, c: VertexId
+    ) -> int:
+        """Let a certificate fail at the next zero of an orientation.
+
+        Returns:
+            The sign just after now, 0 if it is identically zero (`Certifier.orientation`).
+        """
+        certifier = self._certifier
+        a, b, c = least_first(a, b, c)
+        s, low, high = certifier.filtered_orientation(a, b, c)
+        if s == 0:
+            s, time = certifier.exact_orientation(a, b, c)
+            self.schedule(certificate, time)
+        elif low == INFINITY:
+            self.pending.cancel(certificate)
+        else:
+            self.pending.schedule_crossing(certificate, low, high, a, b, c)
+        return s
+
+    def watch_x_order(
+        self, certificate: CertificateId, a: VertexId, b: VertexId, *, touching: bool = False
+    ) -> int:
+        """Let a certificate fail when an x-order ends; return its sign (`Certifier.x_order`)."""
+        s, low, high = self._certifier.filtered_x_order(a, b)
+        if s == 0:
+            s, time = self._certifier.exact_x_order(a, b, touching=touching)
+            self.schedule(certificate, time)
+        elif low == INFINITY:
+            self.pending.cancel(certificate)
+        else:
+            self.pending.schedule_crossing(certificate, low, high, a, b, X_ORDER)
+        return s
 
     def move(self, old: CertificateId, new: CertificateId) -> None:
         """Let a certificate have the time of another one, which is forgotten."""

@@ -9,7 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import accumulate, count
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, Final, final
+
+from librt.vecs import append, vec
+from mypy_extensions import i64
 
 from exactpt.indices import VertexId
 from exactpt.kernel.counters import Counters
@@ -26,7 +29,15 @@ from exactpt.motion.vertex import Vertex, unused
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
 
-__all__ = ["MovingBody", "Vertices"]
+__all__ = ["HORIZON", "MOTION", "OTHER_MOTION", "WIDTH", "MovingBody", "Vertices"]
+
+WIDTH: Final[i64] = 8
+"""Number of doubles of a vertex in `Vertices.places`: a line of a processor's cache."""
+HORIZON: Final[i64] = 4
+MOTION: Final[i64] = 5
+"""Place of the number of the motion among them, see `Image.motion`."""
+OTHER_MOTION: Final[float] = -2.0
+"""Number of the motion of all vertices that `Vertices.places` does not describe."""
 
 
 @final
@@ -79,6 +90,10 @@ class Vertices:
         counters: the counts of decisions about these vertices.
         frame: the normalisation of the enclosures.
         enclosures: the enclosures of the trajectories.
+        places: for each id `WIDTH` doubles: the coefficients x0, y0, x1, y1 of `Image`,
+            `Vertex.horizon` and the number of the motion. The latter is `OTHER_MOTION` unless the
+            vertex is in linear translation, without infinitesimal copies; then the others are
+            not valid. An addition of a body may move the vector.
         changes: how often trajectories have changed, or bodies been added or removed.
     """
 
@@ -102,6 +117,7 @@ class Vertices:
         self.all: list[Vertex] = [
             unused(VertexId(v)) for v in range(sum(map(len, rings)) + len(free))
         ]
+        self.places: vec[float] = vec[float]([OTHER_MOTION] * (int(WIDTH) * len(self.all)))
         self.bodies: list[MovingBody] = []
         self._free: list[VertexId] = list(free)
         for body, ring, t in zip(bodies, rings, since, strict=True):
@@ -133,6 +149,8 @@ class Vertices:
             new = VertexId(len(self.all))
             self._free.insert(0, new)
             self.all.append(unused(new))
+            for _ in range(WIDTH):
+                self.places = append(self.places, OTHER_MOTION)
         ring = [(self._free.pop(), index) for index in indices]
         for v, _ in ring:
             self.all[v] = unused(v)
@@ -149,6 +167,7 @@ class Vertices:
         for v in reversed(self.bodies[i].ring):
             removed, self.all[v] = self.all[v], unused(v)
             self.all[v].owner, self.all[v].index = removed.owner, removed.index
+            self._set_place(v)
             self._free.append(v)
         last = self.bodies.pop()
         if i < len(self.bodies):
@@ -241,6 +260,20 @@ class Vertices:
         horizon = INFINITY if moving.until is None else self.frame.time(moving.until)[1]
         for vertex_id in moving.ring:
             self.all[vertex_id].horizon = horizon
+            self._set_place(vertex_id)
+
+    def _set_place(self, v: VertexId) -> None:
+        """Copy the trajectory of a vertex to `places`."""
+        vertex, places, at = self.all[v], self.places, WIDTH * v
+        image = vertex.image
+        places[at] = image.x0
+        places[at + 1] = image.y0
+        places[at + 2] = image.x1
+        places[at + 3] = image.y1
+        places[at + HORIZON] = vertex.horizon
+        is_linear = image.degree <= 1 and not image.ws and vertex.offset is None
+        is_used = vertex.body >= 0
+        places[at + MOTION] = float(image.motion) if is_linear and is_used else OTHER_MOTION
 
     def set_plan(self, i: int, body: Body, t: QQ, end: QQ) -> bool:
         """Replace a body by one with the same position at a rational time.

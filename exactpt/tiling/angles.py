@@ -14,7 +14,6 @@ from exactpt.certificates.certificate import ANGLE, MOTION, SHRINK, pack
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.one_sided import OneSided
 from exactpt.certificates.queue import EventTime
-from exactpt.certificates.rigidity import rigid
 from exactpt.certificates.table import CertificateTable
 from exactpt.indices import HalfEdge, Triple, VertexId
 from exactpt.motion.vertex import Vertex
@@ -92,8 +91,12 @@ class CertifiedMesh:
         if self.mesh.region[h] == SOLID or self._cannot_fail(h, a, p, b):
             self._skip(h)
         else:
-            s, time = self.certifier.orientation(a, p, b)
-            self._keep(h, s, time)
+            s = table.watch_orientation(pack(ANGLE, h), a, p, b)
+            if s == 0:
+                table.flat.add(h)
+            if (s > 0) != self.mesh.corner[h]:
+                table.pending.cancel(pack(ANGLE, h))
+                table.angles.add(h)
 
     def _skip(self, h: HalfEdge) -> None:
         """Cancel the certificate of an angle that cannot fail; if asked for, check its mark.
@@ -114,8 +117,7 @@ class CertifiedMesh:
         """Whether the angle of h, at p between a and b, needs no certificate of its own."""
         if a == b or self._shares_certificate(h):
             return True
-        every = self.vertices.all
-        return rigid(self.vertices.bodies, every[a], every[p], every[b])
+        return self.certifier.rigid(a, p, b)
 
     def _keep(self, h: HalfEdge, s: int, time: EventTime | None) -> None:
         """Schedule the failure of an angle, or record it as violated just after now."""

@@ -66,9 +66,11 @@ class CertifiedCells:
             self._certified.table.pending.cancel(certificate)
             # An order that cannot change may be wrong in the midst of simultaneous repairs.
             return not self._certified.checks_rigid or self._certified.after().left_of(a, b)
-        s, time = self._certified.certifier.x_order(a, b)
-        self._certified.table.schedule(certificate, None if s < 0 else time)
-        return s > 0
+        table = self._certified.table
+        if table.watch_x_order(certificate, a, b) < 0:
+            table.pending.cancel(certificate)
+            return False
+        return True
 
     def _certify_extremes(self, i: int) -> None:
         for arc in (2 * i, 2 * i + 1):

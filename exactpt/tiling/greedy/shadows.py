@@ -271,20 +271,22 @@ class CertifiedShadows(Shadows):
             self._certify_tangency(pack(SHADOW + 5, h), y.vertex, x.vertex, y.before)
 
     def _certify_x_order(self, certificate: CertificateId, u: VertexId, v: VertexId) -> None:
-        certifier, time = self._certified.certifier, None
+        table = self._certified.table
         if not self._certified.after().left_of(u, v):
             u, v = v, u
-        if not certifier.keeps_x_order(u, v):
-            _, time = certifier.x_order(u, v)
-        self._certified.table.schedule(certificate, time)
+        if self._certified.certifier.keeps_x_order(u, v):
+            table.pending.cancel(certificate)
+        else:
+            table.watch_x_order(certificate, u, v)
 
     def _certify_tangency(
         self, certificate: CertificateId, a: VertexId, b: VertexId, c: VertexId
     ) -> None:
-        certifier, time = self._certified.certifier, None
-        if a not in (b, c) and b != c and not certifier.rigid(a, b, c):
-            _, time = certifier.orientation(a, b, c)
-        self._certified.table.schedule(certificate, time)
+        table = self._certified.table
+        if a in (b, c) or b == c or self._certified.certifier.rigid(a, b, c):
+            table.pending.cancel(certificate)
+        else:
+            table.watch_orientation(certificate, a, b, c)
 
 
 def _visit_in_face(mesh: Mesh, h: HalfEdge, end: _End) -> HalfEdge:
