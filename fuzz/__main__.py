@@ -29,6 +29,7 @@ from fuzz.questions.command import questions
 from fuzz.record import differences, record
 from fuzz.small_scope.command import small_scope
 from fuzz.thin import SUFFIX
+from fuzz.transformations.command import transformations
 from fuzz.witnesses import WITNESSES
 
 FAILED, INTERRUPTED = 1, 130
@@ -79,6 +80,7 @@ def fuzz(
       python -m fuzz small-scope
       python -m fuzz proof-mutants
       python -m fuzz questions
+      python -m fuzz transformations
       python -m fuzz --hostile --cases 100000
       python -m fuzz --soak 60
     """
@@ -247,6 +249,7 @@ COMMANDS = {
     "proof-mutants": proof_mutants,
     "small-scope": small_scope,
     "questions": questions,
+    "transformations": transformations,
 }
 
 

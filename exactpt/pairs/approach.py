@@ -92,8 +92,8 @@ def first_within(
         b: the name of another body; without names, any two bodies of the scene.
         distance: a number >= 0; 0 asks for the first contact.
         norm: "euclidean"; "max": the larger of the distances in x and in y; "x" or "y": the gap
-            between the projections of the bodies on that axis. To leave it out for two bodies
-            means "max", and is deprecated.
+            between the intervals that the bodies, with all their parts, span on that axis. To
+            leave it out for two bodies means "max", and is deprecated.
         distance_squared: the square of the distance, instead of it, so that the square root of
             a rational number can be asked for; for the Euclidean norm. (Of rounded bodies it must
             be the square of a rational number.)

@@ -1,0 +1,202 @@
+"""Cases: a scene, its images, and the answers to all questions about both."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from pathlib import Path
+from random import Random
+from typing import Final, NamedTuple
+
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.scene.scene import Scene
+from fuzz.questions.rounded import rounded_pair
+from fuzz.questions.scenes import crowded_scene, distant_scene
+from fuzz.questions.tiny import pair_scene, touching_scene
+from fuzz.transformations.answers import QUESTIONS, Case, NotAskedError, Refusal, answer
+from fuzz.transformations.images import TRANSFORMATIONS, Image, move_alike
+
+__all__ = ["Fault", "Tally", "check", "load", "save", "scene_of", "table"]
+
+TILINGS: Final = ("lazy", "greedy", "mixed")
+FAMILIES: Final = (pair_scene, pair_scene, distant_scene, touching_scene, crowded_scene,
+                   rounded_pair)  # fmt: skip
+TWINS: Final = (
+    [(0, 0), (1, 0), (0, 1)],
+    [(0, 0), (2, 0), (2, 1), (0, 1)],
+    [(0, 0), (2, 1), (0, 2), (1, 1)],
+)
+
+
+class Fault(NamedTuple):
+    """A disagreement.
+
+    Attributes:
+        question, transformation: their names.
+        number: the number of the case.
+        why: the two answers, or the exception.
+        old, new: the scenes.
+    """
+
+    question: str
+    transformation: str
+    number: int
+    why: str
+    old: Scene
+    new: Scene
+
+
+def scene_of(random: Random) -> Scene:
+    """Return a tiny scene, sometimes with a body that moves like another one, beside it."""
+    if random.random() < 0.1:
+        return _translating(random)
+    scene = random.choice(FAMILIES)(random)
+    kind = random.random()
+    if kind < 0.3:
+        return scene
+    scene = _with_twin(random, scene)
+    if kind < 0.6:
+        return scene
+    image = TRANSFORMATIONS["joined"](scene, random)
+    return scene if image is None else image.new.scene
+
+
+def _translating(random: Random) -> Scene:
+    """Return two bodies that move straight."""
+    bodies = []
+    for name, x in (("a", 0), ("b", random.randint(-4, 4))):
+        shape = random.choice([[(0, 0)], [(0, 0), (2, 1)], *TWINS])
+        u, v = random.randint(-2, 2), random.randint(-2, 2)
+        y = random.randint(-4, 4)
+        vertices = [(x + p, y + q) for p, q in shape]
+        closed = random.random() < 0.7
+        bodies.append(Body(name, vertices, Translation([0, u], [0, v]), closed=closed))
+    return Scene(bodies, (0, 4))
+
+
+def _with_twin(random: Random, scene: Scene) -> Scene:
+    solid = [body for body in scene.bodies if body.has_interior and not body.keyframes]
+    if not solid:
+        return scene
+    like = random.choice(solid)
+    for _ in range(8):
+        x, y = random.randint(-6, 6), random.randint(-6, 6)
+        vertices = [(x + u, y + v) for u, v in random.choice(TWINS)]
+        twin = Body("twin", vertices, like.motion, radius=like.radius)
+        if move_alike(like, twin, scene._start):
+            return Scene([*scene.bodies, twin], (scene.start, scene.end))
+    return scene
+
+
+def _case(random: Random, image: Image) -> Case:
+    scene = image.old.scene
+    groups = sorted({image.old.groups[body.name] for body in scene.bodies})
+    two = random.sample(groups, 2) if len(groups) > 1 else [groups[0], groups[0]]
+    span = scene._end - scene._start
+    p, q, r = ((QQ(random.randint(-6, 9), 2), QQ(random.randint(-6, 9), 2)) for _ in range(3))
+    return Case(
+        groups=(two[0], two[1]),
+        t=scene._start + span * random.randint(0, 8) / 8,
+        d=QQ(random.choice([0, 1, 1, 2]), random.choice([1, 2, 3])),
+        norm=random.choice(["max", "x", "y"]),
+        points=(p, q, r),
+        tiling=random.choice(TILINGS),
+    )
+
+
+Tally = Counter[tuple[str, str]]
+"""Number of cases by question and transformation."""
+
+
+def check(
+    number: int,
+    seed: int = 0,
+    wanted: Callable[[str, str], bool] = lambda _, __: True,
+    within: Callable[[], AbstractContextManager[object]] = nullcontext,
+) -> Iterator[tuple[str, str, Fault | None]]:
+    """Ask questions about a scene and its images.
+
+    Args:
+        number: the number of the case.
+        seed: the seed of the run.
+        wanted: returns whether to ask a question about the image by a transformation.
+        within: the context in which the questions are asked.
+
+    Returns:
+        The question, the transformation, and the disagreement if there is one.
+    """
+    random = Random(f"transformations {seed} {number}")
+    scene = scene_of(random)
+    known: dict[tuple[str, Case], object] = {}
+    for name, transform in TRANSFORMATIONS.items():
+        questions = [question for question in QUESTIONS if wanted(question, name)]
+        image = None
+        if questions:
+            image = transform(scene, Random(f"{name} {seed} {number}"))
+        if image is None:
+            continue
+        case = _case(Random(f"case {seed} {number}"), image)
+        if case.groups[0] == case.groups[1]:
+            continue
+        with within():
+            found = list(_checked(number, name, image, case, questions, known))
+        yield from found
+
+
+def _checked(
+    number: int, name: str, image: Image, case: Case, questions: Sequence[str],
+    known: dict[tuple[str, Case], object],
+) -> Iterator[tuple[str, str, Fault | None]]:  # fmt: skip
+    """Compare answers; those about an old scene without groups are kept in ``known``."""
+    is_one = all(group == name for name, group in image.old.groups.items())
+    for asked in questions:
+        question, why = QUESTIONS[asked], None
+        try:
+            if not is_one or (asked, case) not in known:
+                before = answer(question, image.old, case)
+            else:
+                before = known[asked, case]
+            if is_one:
+                known[asked, case] = before
+            after = answer(question, image.new, case)
+            if isinstance(before, Refusal) and before == after:
+                continue
+            if before != after:
+                why = f"{before} became {after}"
+        except NotAskedError:
+            continue
+        except Exception as error:  # any exception is a finding
+            why = f"{type(error).__name__}: {error}"
+        fault = None
+        if why is not None:
+            fault = Fault(asked, name, number, why, image.old.scene, image.new.scene)
+        yield asked, name, fault
+
+
+def table(tally: Tally) -> list[str]:
+    """Return one line for each question: the cases of each transformation."""
+    lines = [f"{'question':28}" + "".join(f"{name:>12}" for name in TRANSFORMATIONS)]
+    for question in QUESTIONS:
+        counts = "".join(f"{tally[question, name]:>12,}" for name in TRANSFORMATIONS)
+        lines.append(f"{question:28}{counts}")
+    return [*lines, f"{sum(tally.values()):,} cases"]
+
+
+def load(path: Path) -> tuple[int, Tally]:
+    """Return the number of the next case and the counts of a run, from its file."""
+    if not path.exists():
+        return 0, Counter()
+    data = json.loads(path.read_text(encoding="utf-8"))
+    return data["next"], Counter({(q, t): n for q, t, n in data["cases"]})
+
+
+def save(path: Path, number: int, tally: Tally) -> None:
+    """Write the number of the next case and the counts."""
+    cases = [[q, t, n] for (q, t), n in sorted(tally.items())]
+    part = path.with_suffix(".part")
+    part.write_text(json.dumps({"next": number, "cases": cases}), encoding="utf-8")
+    part.replace(path)
