@@ -1,0 +1,140 @@
+"""Transformations keep the answers to all questions; each of them shows a planted fault."""
+
+from collections import Counter
+from random import Random
+
+import pytest
+from click.testing import CliRunner
+
+from exactpt import Body, Scene
+from exactpt.kernel import filters
+from exactpt.kernel.numbers import QQ
+from fuzz.transformations import run
+from fuzz.transformations.answers import QUESTIONS
+from fuzz.transformations.command import transformations
+from fuzz.transformations.images import TRANSFORMATIONS, move_alike
+from fuzz.transformations.planted import PLANTED, hunt
+from fuzz.transformations.run import check, scene_of
+
+is_plain = filters.__file__.endswith(".py")
+
+
+def checked(numbers):
+    tally, faults = Counter(), []
+    for number in numbers:
+        for question, transformation, fault in check(number):
+            tally[question, transformation] += 1
+            if fault is not None:
+                faults.append(fault[:4])
+    return tally, faults
+
+
+def command(*words):
+    return CliRunner().invoke(transformations, words, catch_exceptions=False)
+
+
+def test_no_answer_changes_in_24_scenes():
+    tally, faults = checked(range(24))
+
+    assert faults == []
+    assert {q for q, _ in tally} == set(QUESTIONS)
+    assert {t for _, t in tally} == set(TRANSFORMATIONS)
+
+
+@pytest.mark.slow
+def test_no_answer_changes_in_300_scenes():
+    tally, faults = checked(range(100, 400))
+
+    assert faults == []
+    assert sum(tally.values()) > 20_000
+
+
+@pytest.mark.skipif(not is_plain, reason="compiled classes cannot be patched")
+@pytest.mark.parametrize("name", PLANTED)
+def test_a_planted_fault_is_found(name):
+    fault = hunt(name, 100)
+
+    assert fault is not None
+    assert fault.transformation == name
+
+
+def test_every_transformation_has_a_planted_fault():
+    assert set(PLANTED) == set(TRANSFORMATIONS)
+
+
+@pytest.mark.parametrize("name", TRANSFORMATIONS)
+def test_features_are_where_the_old_ones_are(name):
+    """A new vertex is an old one or on an old edge; a new edge is in an old one."""
+    seen = 0
+    for number in range(60):
+        scene = scene_of(Random(number))
+        image = TRANSFORMATIONS[name](scene, Random(number))
+        if image is None:
+            continue
+        t = (2 * scene._start + scene._end) / 3
+        old = {body.name: (body, body._at(t)) for body in image.old.scene.bodies}
+        for body in image.new.scene.bodies:
+            places = body._at(t)
+            for i, place in enumerate(places):
+                seen += 1
+                assert is_on(place, image.new.vertices[body.name, i], old)
+            for i, j in body.edges:
+                feature = image.new.edges[body.name, i]
+                assert feature.kind == "edge"
+                assert is_on(places[i], feature, old)
+                assert is_on(places[j], feature, old)
+    assert seen > 20
+
+
+def is_on(place, feature, old):
+    """Return True if a place is that of an old vertex, or on an old edge."""
+    body, places = old[feature.body]
+    a = places[feature.number]
+    if feature.kind == "vertex":
+        return place == a
+    b = places[body.end_of_edge(feature.number)]
+    (x, y), (u, v) = ((p[0] - a[0], p[1] - a[1]) for p in (place, b))
+    return x * v == y * u and 0 <= x * u + y * v <= u * u + v * v
+
+
+@pytest.mark.parametrize(
+    "second, alike",
+    [
+        (Body("b", [(5, 0), (6, 0), (5, 1)]), True),
+        (Body("b", [(5, 0), (6, 0), (5, 1)], radius=1), False),
+        (Body("b", [(1, 0), (6, 0), (5, 1)]), False),  # it touches the first body
+        (Body("b", [(5, 0), (6, 0), (5, 1)], closed=False), False),
+    ],
+)
+def test_bodies_that_may_be_joined(second, alike):
+    first = Body("a", [(0, 0), (1, 0), (0, 1)])
+
+    assert move_alike(first, second, QQ(0)) is alike
+
+
+def test_a_run_that_is_stopped_continues_from_its_counts(tmp_path):
+    counts = tmp_path / "counts.json"
+    whole = command("--scenes", "4", "--keep", str(tmp_path / "found"))
+    command("--scenes", "2", "--counts", str(counts), "--keep", str(tmp_path / "found"))
+    rest = command("--scenes", "4", "--counts", str(counts), "--keep", str(tmp_path / "found"))
+
+    assert whole.exit_code == rest.exit_code == 0
+    assert whole.output == rest.output
+    assert whole.output.endswith("\n4 scenes, 0 disagreements\n")
+    _, before = run.load(counts)
+    command("--scenes", "5", "--enough", "2", "--counts", str(counts))
+    done, after = run.load(counts)
+    assert done == 5
+    assert all(after[key] == n for key, n in before.items() if n >= 2)
+
+
+def test_a_disagreement_is_reported_and_kept(monkeypatch, tmp_path):
+    wrong = QUESTIONS["positions"]._replace(ask=lambda side, _: side.scene.vertex_count)
+    monkeypatch.setitem(run.QUESTIONS, "positions", wrong)
+
+    result = command("--scenes", "1", "--keep", str(tmp_path))
+
+    assert result.exit_code == 1
+    assert "positions, subdivided, scene 0: " in result.output
+    kept = sorted(tmp_path.glob("0-positions-subdivided-*.json"))
+    assert [bool(Scene.load(path).bodies) for path in kept] == [True, True]
