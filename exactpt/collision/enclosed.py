@@ -39,9 +39,9 @@ from exactpt.kernel.numbers import QQ, ceil, exponent, power_of_two
 from exactpt.motion.body import Body
 from exactpt.motion.displacement import displacement
 from exactpt.motion.motions import Rigid, Translation
+from exactpt.motion.outline import is_rigid
 from exactpt.motion.spin import Spin
 from exactpt.pairs.contact import Contact
-from exactpt.pairs.planner import is_rigid
 from exactpt.pairs.start import initial_touches
 from exactpt.pairs.sure import surely_meet, surely_passed
 from exactpt.scene.scene import Scene, a_scene, scene_of

@@ -12,7 +12,15 @@ from exactpt.kernel.rounding import TINY, U
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion, Pieces, Rigid, SimpleMotion, Translation
 
-__all__ = ["Outline", "Straight", "outline_at", "pieces_of", "rest_outline", "straight_pieces"]
+__all__ = [
+    "Outline",
+    "Straight",
+    "is_rigid",
+    "outline_at",
+    "pieces_of",
+    "rest_outline",
+    "straight_pieces",
+]
 
 
 class Outline(NamedTuple):
@@ -38,6 +46,17 @@ def pieces_of(motion: Motion) -> list[tuple[SimpleMotion, QQ | None]]:
     if isinstance(motion, Pieces):
         return list(zip(motion.motions, (*motion._until, None), strict=True))
     return [(motion, None)]
+
+
+def is_rigid(body: Body) -> bool:
+    """Return True if a body surely keeps its shape: it does not deform, and translates or turns."""
+    motions = (motion for motion, _ in pieces_of(body.motion))
+    at_rest = all(f.degree <= 0 for vertex in body.vertices for f in vertex)
+    return (
+        bool(body.vertices)
+        and at_rest
+        and all(isinstance(m, (Translation, Rigid)) for m in motions)
+    )
 
 
 def rest_outline(body: Body) -> Outline | None:

@@ -14,8 +14,10 @@ from exactpt.kernel.quotients import exponent, nearest_quotient
 from exactpt.motion.body import Body
 from exactpt.motion.course import Piece
 from exactpt.motion.incidence import Touch, difference, orientation
+from exactpt.motion.outline import is_rigid
 from exactpt.motion.ring_order import turns_left
 from exactpt.motion.track import Track
+from exactpt.pairs.exterior import exterior_side
 from exactpt.pairs.features import excess
 from exactpt.pairs.radius_touch import place_of
 from exactpt.scene.scene import Scene
@@ -35,8 +37,11 @@ class Pair:
         edge: the edge of ``other``, from vertex ``edge`` to the next; None for vertex-vertex.
         other_vertex: the vertex of ``other``; None for vertex-edge.
         point: the common point, each coordinate the nearest finite double.
-        normal: the unit normal of the edge that points out of ``other`` (if ``other`` has no
-            interior: to the side from which the vertex came); None for vertex-vertex.
+        normal: the unit normal of the edge that points out of ``other``, by the even-odd rule
+            just after the point on the edge; where both sides are outside or both inside (of a
+            body without interior, or one that has crossed itself), to the side from which the
+            vertex came, or to the right of the edge if it came along the line of that; None for
+            vertex-vertex.
 
     Where a body is rounded, vertices and edges are those of the cores. Then the point is on both
     boundaries, and the normal, from the edge or the vertex of ``other`` to the vertex, is always
@@ -93,13 +98,18 @@ def details(
     involved = {i for touch in touches for i in (touch.body, touch.other)}
     pieces = {i: _piece_before(scene.bodies[i], time, scene._start) for i in involved}
     number = _as_root(scene, time, pieces, touches)
-    rings = [_touched_ring(scene, touch) for touch in touches]
-    outward = {ring: _outward(scene, ring) for ring in set(rings)}
-    pairs = tuple(
-        _pair(scene, pieces, touch, number, outward[ring])
-        for touch, ring in zip(touches, rings, strict=True)
-    )
-    return number, pairs
+    sides: dict[tuple[int, range], int] = {}
+    pairs = []
+    for touch in touches:
+        ring = _touched_ring(scene, touch)
+        if ring is None or any(scene.bodies[i]._radius for i in (touch.body, touch.other)):
+            outward = 0
+        elif _may_have_crossed_itself(scene, touch):
+            outward = exterior_side(scene.bodies[touch.other], pieces, touch, number)
+        else:
+            outward = sides.get(ring) or sides.setdefault(ring, _outward(scene, *ring))
+        pairs.append(_pair(scene, pieces, touch, number, outward))
+    return number, tuple(pairs)
 
 
 def _as_root(
@@ -166,20 +176,27 @@ def _pair(
 
 
 def _touched_ring(scene: Scene, touch: Touch) -> tuple[int, range] | None:
-    """The body and the ring of the edge that is touched; None if a vertex is."""
-    if touch.edge < 0:
+    """The body and the ring of the edge that is touched; None if a vertex or a chain is."""
+    if touch.edge < 0 or not scene.bodies[touch.other].has_interior:
         return None
     return touch.other, next(r for r in scene.bodies[touch.other].rings if touch.edge in r)
 
 
-def _outward(scene: Scene, touched: tuple[int, range] | None) -> int:
-    """The side of the edges of a ring on which the exterior of its body lies.
+def _may_have_crossed_itself(scene: Scene, touch: Touch) -> bool:
+    """Return True unless a touched polygon surely is simple; no contact with itself is found then.
 
-    That is 1 for the right one, -1 for the left one, 0 for both, or if there is no ring.
+    Where contacts of a body with itself do not count, it goes on after them. One that touches
+    itself does so for the first time.
     """
-    if touched is None or not scene.bodies[touched[0]].has_interior:
-        return 0
-    body, ring = scene.bodies[touched[0]], touched[1]
+    return touch.body != touch.other and not is_rigid(scene.bodies[touch.other])
+
+
+def _outward(scene: Scene, number: int, ring: range) -> int:
+    """Return the side of the edges of a ring on which the exterior of its body lies.
+
+    That is 1 for the right one, -1 for the left one.
+    """
+    body = scene.bodies[number]
     is_outline = ring in [outline for outline, *_ in body.parts]
     return 1 if turns_left(body, ring, scene._start) == is_outline else -1
 

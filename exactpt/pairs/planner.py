@@ -10,8 +10,8 @@ from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import Rational, enclosing_floats, shorten
 from exactpt.motion.body import Body
-from exactpt.motion.motions import Motion, Rigid, Translation
-from exactpt.motion.outline import Outline, pieces_of, rest_outline, straight_pieces
+from exactpt.motion.motions import Motion
+from exactpt.motion.outline import Outline, is_rigid, rest_outline, straight_pieces
 from exactpt.motion.shape import VertexLike
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.features_sweep import PairsSearch
@@ -21,7 +21,7 @@ from exactpt.pairs.search import MOST_VERTICES, Row, first_of_pairs, rows_during
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 
-__all__ = ["Planner", "is_rigid"]
+__all__ = ["Planner"]
 
 NAME: Final = "shape"
 """The name of a shape that is given by its vertices."""
@@ -147,14 +147,3 @@ class Planner:
             if contact is not None:
                 return contact
         return None
-
-
-def is_rigid(body: Body) -> bool:
-    """Whether it certainly keeps its shape: it does not deform, and translates or turns."""
-    motions = (motion for motion, _ in pieces_of(body.motion))
-    at_rest = all(f.degree <= 0 for vertex in body.vertices for f in vertex)
-    return (
-        bool(body.vertices)
-        and at_rest
-        and all(isinstance(m, (Translation, Rigid)) for m in motions)
-    )

@@ -20,11 +20,11 @@ from exactpt.kernel.budget import GRACE, ask, within
 from exactpt.kernel.numbers import QQ, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch
+from exactpt.motion.outline import is_rigid
 from exactpt.motion.vertices import Vertices
 from exactpt.pairs.contact import Contact, contact_of, touches_of
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.near import pairs_that_come_near
-from exactpt.pairs.planner import is_rigid
 from exactpt.pairs.radius_search import RoundedSearch
 from exactpt.pairs.renewed import new_contact_time
 from exactpt.pairs.search import Row, first_touching, rows_of
