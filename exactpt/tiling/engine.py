@@ -110,7 +110,7 @@ class Engine(Tiling):
 
     def mesh_at(self, instant: PredicatesAt) -> Mesh:
         """See `Tiling.mesh_at`."""
-        return self.rules.build(instant)
+        return type(self.rules).build(instant)
 
     def mesh_now(self, time: QQ) -> Mesh:
         """The tiling at a rational time: the current one, or one before the next event.
@@ -123,7 +123,7 @@ class Engine(Tiling):
         try:
             self.rules.close(mesh, instant)
         except AuditError:
-            mesh = self.rules.build(instant)
+            mesh = type(self.rules).build(instant)
             audit_angles(mesh, instant)
         return mesh
 

@@ -10,6 +10,8 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING
 
+from mypy_extensions import mypyc_attr
+
 from exactpt.errors import AuditError
 from exactpt.indices import CertificateId, HalfEdge
 from exactpt.planar.halfedge import twin
@@ -31,8 +33,12 @@ if TYPE_CHECKING:
 __all__ = ["Rules"]
 
 
+@mypyc_attr(allow_interpreted_subclasses=True)
 class Rules(ABC):
     """The rules of a tiling; only `build` is required, the other methods do nothing by default.
+
+    Call `build` of the class, ``type(rules).build``: compiled code that calls a static method of
+    an instance does not find the one of a subclass in plain Python.
 
     Attributes:
         certified: the mesh, with the certificates of its angles.
@@ -55,7 +61,7 @@ class Rules(ABC):
 
         Data that the rules maintain besides the mesh are built too.
         """
-        return self.build(instant)
+        return type(self).build(instant)
 
     def close(self, mesh: Mesh, instant: PredicatesAt) -> None:
         """Change the tiling just after an instant, in place, into the one at the instant.

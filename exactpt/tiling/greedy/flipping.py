@@ -12,7 +12,7 @@ four orientations.
 from __future__ import annotations
 
 from librt.vecs import vec
-from mypy_extensions import i64
+from mypy_extensions import i64, mypyc_attr
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certificate import part_of
@@ -33,6 +33,7 @@ from exactpt.tiling.tiling import State
 __all__ = ["FlippingRules"]
 
 
+@mypyc_attr(allow_interpreted_subclasses=True)
 class FlippingRules(Rules):
     """The rules of a tiling all of whose flippable diagonals are greedy."""
 

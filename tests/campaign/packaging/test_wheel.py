@@ -155,3 +155,42 @@ def test_everything_but_the_optional_can_be_imported(empty):
     done = empty("python", "-c", code)
 
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_the_compiled_engine_takes_rules_in_plain_python(empty):
+    """tests/helpers/ranked.py, as docs/extending.md promises."""
+    code = (
+        "import sys\n"
+        f"sys.path.append({str(ROOT / 'tests' / 'helpers')!r})\n"
+        "from ranked import RANKED, RankedRules\n"
+        "from exactpt import Simulation, first_contact\n"
+        "from exactpt.scene.generate import generate\n"
+        "from exactpt.tiling import catalogue\n"
+        "catalogue.ENTRIES.append(RANKED)\n"
+        "ranks = 0\n"
+        "for seed in range(5):\n"
+        "    scene = generate('stars', seed)\n"
+        "    expected, found = (first_contact(scene, tiling=t) for t in ('lazy', 'ranked'))\n"
+        "    assert (expected and expected.time) == (found and found.time)\n"
+        "    simulation = Simulation(scene, tiling='ranked')\n"
+        "    assert type(simulation.kinetic.rules) is RankedRules\n"
+        "    for _ in simulation.run():\n"
+        "        pass\n"
+        "    ranks += simulation.kinetic.stats.events.get('rank', 0)\n"
+        "print(ranks > 0)\n"
+    )
+    done = empty("python", "-c", code)
+
+    assert (done.returncode, done.stdout, done.stderr) == (0, "True\n", "")
+
+
+def test_newer_sources_are_no_matter_to_an_installed_wheel(empty):
+    code = (
+        "import exactpt, pathlib\n"
+        "for p in pathlib.Path(exactpt.__file__).parent.rglob('*.py'): p.touch()"
+    )
+    empty("python", "-c", code)
+
+    done = empty("exactpt", "--version")
+
+    assert (done.returncode, done.stderr) == (0, "")

@@ -1,10 +1,14 @@
 """The catalogue: which tiling is meant, and a structure that is registered from outside."""
 
+import sys
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
 from random import Random
 
 import pytest
 from ranked import RANKED
 
+import exactpt
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.detector import first_contact
 from exactpt.collision.tilings import TILINGS, start_tiling, tilings_for
@@ -16,10 +20,15 @@ from exactpt.simulation.simulation import Simulation
 from exactpt.tiling import catalogue
 from exactpt.tiling.events import ContactFound
 
+PLAIN = catalogue.Entry("plain", catalogue.Bodies.ANY, "plain_shadowed:ShadowRules")
+
 
 @pytest.fixture
-def registered(monkeypatch):
-    monkeypatch.setattr(catalogue, "ENTRIES", [*catalogue.ENTRIES, RANKED])
+def registered():
+    catalogue.ENTRIES.extend([RANKED, PLAIN])
+    yield
+    catalogue.ENTRIES.remove(RANKED)
+    catalogue.ENTRIES.remove(PLAIN)
 
 
 def test_the_names_of_the_tilings():
@@ -52,7 +61,6 @@ def test_an_unknown_tiling_is_refused_with_the_names_of_all():
         catalogue.find("x", convex=False)
 
 
-@pytest.mark.plain
 @pytest.mark.parametrize("family", ["convex", "stars", "pieces", "turning"])
 def test_a_structure_from_outside_is_kept_up_to_date(registered, family):
     ranks = 0
@@ -75,7 +83,6 @@ def test_a_structure_from_outside_is_kept_up_to_date(registered, family):
     assert ranks > 0
 
 
-@pytest.mark.plain
 def test_a_structure_from_outside_is_saved_and_goes_on(registered, tmp_path):
     scene = generate("convex", 3)
     whole = [event.to_json() for event in Simulation(scene, tiling="ranked").run()]
@@ -89,7 +96,6 @@ def test_a_structure_from_outside_is_saved_and_goes_on(registered, tmp_path):
     assert events + [event.to_json() for event in simulation.run()] == whole
 
 
-@pytest.mark.plain
 def test_bodies_come_and_go_in_a_structure_from_outside(registered):
     scene = generate("small_grid", 0)
     rng, simulation = Random(5), Simulation(scene, tiling="ranked")
@@ -103,3 +109,22 @@ def test_bodies_come_and_go_in_a_structure_from_outside(registered):
         simulation.add(body)
         kinetic.audit_structure(PredicatesAt(kinetic.vertices, scene.start))
     assert simulation.stats["rebuilds"] == 0
+
+
+@pytest.mark.parametrize("family", ["stars", "turning_stars", "chains"])
+def test_flipping_rules_from_outside_keep_the_same_tiling(registered, monkeypatch, family):
+    """The rules of `greedy`, not compiled, where those of the package are."""
+    source = Path(exactpt.__file__).parent / "tiling" / "greedy" / "shadowed.py"
+    spec = spec_from_file_location("plain_shadowed", source)
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    monkeypatch.setitem(sys.modules, "plain_shadowed", module)
+    scene = generate(family, 1)
+
+    inside, outside = Simulation(scene, tiling="greedy"), Simulation(scene, tiling="plain")
+
+    events = [event.to_json() for event in outside.run()]
+    assert type(outside.kinetic.rules) is module.ShadowRules
+    assert type(inside.kinetic.rules).__name__ == "ShadowRules"
+    assert events == [event.to_json() for event in inside.run()]
+    assert len(events) > 0
