@@ -8,13 +8,14 @@ __all__ = ["main"]
 
 
 def main() -> None:
-    """Run the command line; Ctrl-C while its modules are imported ends it quietly."""
+    """Run the command line; Ctrl-C while its modules are imported ends it in one line."""
     try:
         from exactpt.cli import main as run
+
+        run()
     except KeyboardInterrupt:
         sys.stderr.write("exactpt: interrupted\n")
         sys.exit(130)
-    run()
 
 
 if __name__ == "__main__":

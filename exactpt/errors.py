@@ -16,6 +16,7 @@ __all__ = [
     "BudgetExceeded",
     "ExactPTError",
     "InputError",
+    "RoundingError",
     "TimeRangeError",
     "UnreachableError",
     "carrying",
@@ -51,6 +52,14 @@ class TimeRangeError(InputError):
 
 class UnreachableError(InputError):
     """No path leads from the start to the goal: bodies are in between, whichever way one goes."""
+
+
+class RoundingError(ExactPTError, ArithmeticError):
+    """The floating-point environment of the thread is not the default of IEEE 754.
+
+    Other modes of rounding, and subnormal numbers that are flushed to zero, invalidate the bounds
+    of float filters; docs/robustness.md shows how to reset them.
+    """
 
 
 class AuditError(ExactPTError, AssertionError):

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import os
 import secrets
 import stat
 import sys
 from collections.abc import Callable, Iterator
+from numbers import Integral
 from pathlib import Path
 from typing import BinaryIO, Final
 
@@ -22,6 +24,8 @@ __all__ = ["MOST_BYTES", "lock", "read_bytes", "read_text", "write_atomically", 
 
 MOST_BYTES: Final = 100_000_000
 """Maximum size of a file that is read, unless another limit is given."""
+CHUNK: Final = 1 << 20
+"""Number of bytes read at a time: memory is allocated for what a file has, not for the limit."""
 
 
 def read_text(path: Path, most: int | None = None) -> str:
@@ -40,26 +44,31 @@ def read_bytes(path: Path, most: int | None = None) -> bytes:
         most: maximum number of bytes; by default `MOST_BYTES`.
 
     Raises:
-        InputError: if it cannot be read, is a device, or is larger than that. A regular file is
-            refused by its size, before anything is read.
+        InputError: if it cannot be read, is a device, or is larger than that, or the maximum is
+            not a number from 0 on. A regular file is refused by its size, before anything is read.
     """
     limit = MOST_BYTES if most is None else most
+    if not isinstance(limit, Integral) or limit < 0:
+        raise InputError(f"max_bytes: not a number of bytes: {repr(limit)[:60]}")
+    content = io.BytesIO()
     try:
         with path.open("rb") as file:
             kind = os.fstat(file.fileno())
             if stat.S_ISBLK(kind.st_mode) or (stat.S_ISCHR(kind.st_mode) and not file.isatty()):
                 raise InputError(f"{path}: cannot be read: a device")
-            content = b"" if kind.st_size > limit else file.read(limit + 1)
+            if kind.st_size <= limit:
+                while content.tell() <= limit and (part := file.read(CHUNK)):
+                    content.write(part)
     except InputError:
         raise
     except (OSError, ValueError) as error:  # the latter: a null character in the path
         reason = error.strerror if isinstance(error, OSError) else error
         raise InputError(f"{path}: cannot be read: {reason}") from None
-    if max(kind.st_size, len(content)) > limit:
+    if max(kind.st_size, content.tell()) > limit:
         raise InputError(
             f"{path}: more than {limit} bytes: allow more by --max-bytes (in Python max_bytes)"
         )
-    return content
+    return content.getvalue()
 
 
 def write_atomically(path: Path, content: str | bytes) -> None:

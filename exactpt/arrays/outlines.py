@@ -49,7 +49,7 @@ def outlines_of(bodies: BodyArrays) -> Outlines:
     x, y = np.ascontiguousarray(bodies.vertices.T)
     edges = edges_of(bodies.offsets, bodies.closed)
     ax, ay = x[edges.first], y[edges.first]
-    with np.errstate(over="ignore"):
+    with np.errstate(all="ignore"):
         ux, uy = x[edges.last] - ax, y[edges.last] - ay
     first, count = bodies.offsets[:-1], np.diff(bodies.offsets)
     low, high = (

@@ -64,7 +64,7 @@ def read_spans(time: ArrayLike, count: int) -> Spans:
         where = f"time{list(wrong)}" if wrong else "time"
         raise InputError(f"{where}: the span from {a!r} to {b!r} is empty")
     shifted = bool(given[..., 0].any())
-    with np.errstate(over="ignore"):
+    with np.errstate(all="ignore"):
         low = high = given[..., 1] - given[..., 0]
         if shifted:
             low, high = np.nextafter(low, -np.inf), np.nextafter(high, np.inf)

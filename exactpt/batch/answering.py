@@ -15,7 +15,7 @@ from exactpt.arrays.screening import screened
 from exactpt.batch.linear import initial_contact, is_linear, linear_contact
 from exactpt.batch.question import Question
 from exactpt.batch.two_bodies import TwoBodies, read_two_bodies
-from exactpt.errors import BudgetExceeded, InputError
+from exactpt.errors import BudgetExceeded, InputError, RoundingError
 from exactpt.kernel.budget import ask
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.format import loads
@@ -70,6 +70,8 @@ def answer(content: bytes, question: Question) -> Answer:
         return {"error": str(error)}
     except MemoryError:
         return {"error": "the memory is used up"}
+    except RoundingError:  # not a fault of the scene
+        raise
     except Exception as error:  # a bug: the other scenes are answered nevertheless
         return {"error": f"an invariant broke: {type(error).__name__}: {error}"}
 

@@ -19,6 +19,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import Rational, rational
 from exactpt.kernel.polynomial import Polynomial
+from exactpt.kernel.rounding import check_rounding
 
 __all__ = ["CertificateQueue"]
 
@@ -80,7 +81,11 @@ class CertificateQueue:
         Args:
             name: what `advance` returns; equal names are one.
             certificate: the polynomial that is to stay >= 0.
+
+        Raises:
+            RoundingError: see `check_rounding`.
         """
+        check_rounding()
         if name not in self._ids:
             self._ids[name] = CertificateId(len(self._names))
             self._names.append(name)
@@ -103,7 +108,11 @@ class CertificateQueue:
         Returns:
             The names of all that fail then, in the order in which the names were first given;
             they are no longer watched. An empty list at the end.
+
+        Raises:
+            RoundingError: see `check_rounding`.
         """
+        check_rounding()
         batch = self._events.pop()
         if batch is None:
             self.now = AlgebraicNumber(self._until)

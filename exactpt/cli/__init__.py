@@ -8,6 +8,7 @@ import tempfile
 import traceback
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Final
 
 import click
 
@@ -21,12 +22,14 @@ from exactpt.cli.runs import collide, simulate
 from exactpt.cli.terminal import drop_standard_output, encodable, tell
 from exactpt.cli.tilings import check, tile
 from exactpt.cli.truths import judge, oracle, questions
-from exactpt.errors import AuditError, BudgetExceeded, InputError
+from exactpt.errors import AuditError, BudgetExceeded, InputError, RoundingError
 
 __all__ = ["cli", "main"]
 
 OK, BAD_INPUT, BROKEN, SPENT, INTERRUPTED = 0, 2, 3, 4, 130
 """Exit codes; code 1 is set by commands: a contact (collide --exit-code), or a failed check."""
+LONGEST: Final = 1000
+"""Maximum number of characters of a message about arguments."""
 
 
 class _Commands(click.Group):
@@ -39,7 +42,7 @@ class _Commands(click.Group):
         except BrokenPipeError:  # the reader of the answer has closed the pipe
             drop_standard_output()
             return OK
-        except (InputError, BudgetExceeded, OSError):
+        except (InputError, RoundingError, BudgetExceeded, MemoryError, OSError):
             raise
         except (click.exceptions.Exit, click.Abort, click.ClickException):
             raise
@@ -132,13 +135,16 @@ def main(arguments: Sequence[str] | None = None) -> None:
         error.show()
         code = BAD_INPUT
     except click.ClickException as error:
-        tell(f"exactpt: {error.format_message()}{_where_to_look(error)}")
+        said = error.format_message()
+        if len(said) > LONGEST:  # it repeats an argument
+            said = f"{said[: LONGEST - 100]}...{said[-90:]}"
+        tell(f"exactpt: {said}{_where_to_look(error)}")
         code = BAD_INPUT
-    except InputError as error:
+    except (InputError, RoundingError) as error:
         tell(f"exactpt: {error}")
         code = BAD_INPUT
-    except BudgetExceeded as error:
-        tell(f"exactpt: {error}")
+    except (BudgetExceeded, MemoryError) as error:
+        tell(f"exactpt: {error if isinstance(error, BudgetExceeded) else 'the memory is used up'}")
         code = SPENT
     except OSError as error:
         tell(f"exactpt: {error.strerror or error}")

@@ -214,6 +214,7 @@ def simulate(
       exactpt simulate scene.json --verbose --max-events 20
       exactpt simulate scene.json --proof folder
     """
+    import exactpt.simulation.simulation  # noqa: F401 - BLAS ends a process that has no memory
     from exactpt.files import writing
 
     with writing(events) if events is not None else nullcontext() as log:

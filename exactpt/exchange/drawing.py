@@ -26,6 +26,8 @@ _HREFS: Final = ("href", "{http://www.w3.org/1999/xlink}href")
 _NO_TEXT: Final = re.compile("[^\\t\\n\\r\\x20-\\ud7ff\\ue000-\\ufffd\\U00010000-\\U0010ffff]")
 """The characters that XML cannot hold, not even escaped."""
 
+_NUMBER: Final = re.compile(r"[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?")
+
 
 def valid_text(text: str) -> str:
     """The text with the replacement character in place of those that XML cannot hold."""
@@ -46,7 +48,49 @@ def read_drawing(text: str) -> Xml.Element:
     if root.tag not in ("svg", f"{{{NAMESPACE}}}svg"):
         raise InputError(f"not a drawing: its first element is {shorten(root.tag)[1:-1]}")
     _check_copies(root)
+    _make_linear(root)
     return root
+
+
+def _make_linear(root: Xml.Element) -> None:
+    """Rewrite texts on which regular expressions of svgelements take quadratic or cubic time.
+
+    They backtrack over long digits of ``points``, over a parenthesis, brace or comment that is not
+    closed, and over spaces before an empty rule. The values are the same: doubles of numbers,
+    closed transforms, rules that have a selector and a body.
+    """
+    for element in root.iter():
+        for key, value in element.items():
+            if key == "points":
+                element.set(key, _NUMBER.sub(_double, value))
+            elif key == "style" or key.lower().endswith("transform"):
+                element.set(key, _closed(value))
+        if element.tag in ("style", f"{{{NAMESPACE}}}style"):
+            element.text = _plain_rules(element.text or "")
+
+
+def _double(number: re.Match[str]) -> str:
+    """Return a number in 24 characters or fewer, of the same double; infinity as 1e999."""
+    return number[0] if len(number[0]) < 25 else repr(float(number[0])).replace("inf", "1e999")
+
+
+def _closed(declarations: str) -> str:
+    """Cut each declaration before a parenthesis that is not closed."""
+    parts = declarations.split(";")
+    cut = (p[: p.rfind(")") + 1] if p.rfind("(") > p.rfind(")") else p for p in parts)
+    return ";".join(cut)
+
+
+def _plain_rules(css: str) -> str:
+    """Return the rules of a style sheet without comments, each as selector { declarations }."""
+    first, *others = css.split("/*")
+    text = first + "".join(other.partition("*/")[2] for other in others)
+    rules = (rule.partition("{") for rule in text.split("}")[:-1])
+    return "\n".join(
+        f"{' '.join(selector.split())} {{{_closed(body.strip())}}}"
+        for selector, _, body in rules
+        if selector.strip() and body.strip()
+    )
 
 
 class _Shallow(Xml.TreeBuilder):

@@ -112,7 +112,20 @@ def _paths(text: str) -> Iterator[tuple[str, svgelements.Path]]:
     except (ExactPTError, MemoryError):
         raise
     except Exception as error:  # what a damaged drawing raises in a parser that trusts it
-        raise InputError(f"not a drawing that can be read: {shorten(error)}") from None
+        raise InputError(f"not a drawing that can be read: {_reason(root, error)}") from None
+
+
+def _reason(root: Xml.Element, error: Exception) -> str:
+    """Return the first path data that svgelements refuses; if it takes all, its error."""
+    import svgelements
+
+    for element in root.iter():
+        data = element.get("d", "")
+        try:
+            svgelements.Path(data)
+        except Exception:
+            return f"path data: {shorten(data)}"
+    return shorten(error)
 
 
 def _points(subpath: svgelements.Subpath, tolerance: float, most: int) -> list[Point]:

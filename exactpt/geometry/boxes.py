@@ -61,7 +61,7 @@ def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
             near = [nearest_float(p[axis] - origin) for points in groups for p in points]
         rows[:, 2 * axis] = np.minimum.reduceat(near, firsts)
         rows[:, 2 * axis + 1] = np.maximum.reduceat(near, firsts)
-    with np.errstate(over="ignore"):  # after the largest double comes infinity, rightly
+    with np.errstate(all="ignore"):  # after the largest double comes infinity, rightly
         rows[:, ::2] = np.nextafter(rows[:, ::2], -np.inf)
         rows[:, 1::2] = np.nextafter(rows[:, 1::2], np.inf)
     return rows

@@ -19,6 +19,7 @@ from typing import Final, final
 
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import shorten
+from exactpt.kernel.rounding import check_rounding
 
 __all__ = ["GRACE", "LONG", "ask", "check_bounds", "resident_memory", "searching", "within"]
 
@@ -46,7 +47,12 @@ _LIMITS: Final = _Limits()
 
 
 def ask() -> None:
-    """Raise `BudgetExceeded` if the time or the memory of this thread is used up."""
+    """Raise `BudgetExceeded` if this thread has exceeded its time or memory limit.
+
+    Raises:
+        RoundingError: if floats do not round by default: see `check_rounding`.
+    """
+    check_rounding()
     now = clock.monotonic()
     if now < _LIMITS.look:
         return

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import shorten
+from exactpt.kernel.rounding import check_rounding
 
 __all__ = ["Floats", "Indices", "doubles", "first_true", "indices", "middles", "native"]
 
@@ -28,14 +29,16 @@ def doubles(values: ArrayLike, what: str) -> Floats:
 
     Raises:
         InputError: if a value is no number, not finite, or not a double.
+        RoundingError: see `check_rounding`.
     """
+    check_rounding()
     try:
         given = np.asarray(values)
     except ValueError:
         raise InputError(f"{what}: not an array: {shorten(values)}") from None
     if given.dtype.kind not in "fiu":
         raise InputError(f"{what}: not an array of numbers: {shorten(values)}")
-    with np.errstate(over="ignore"):
+    with np.errstate(all="ignore"):
         result = given.astype(np.float64, copy=False)
     if given.dtype.kind != "f":
         large = np.asarray(np.abs(result) > INTEGERS)

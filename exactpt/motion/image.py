@@ -132,10 +132,13 @@ class Image:
     def arm(self) -> Arm | None:
         """The trajectory once more, if it turns with a half turn of degree 1 about a pivot.
 
-        None if it does not, or the path of the pivot has a degree above 2.
+        None if it does not, or the path of the pivot has a degree above 2. Two threads may both
+        make it: ``make_arm`` is dropped only when the result is known.
         """
-        if self.make_arm is not None:
-            self._arm, self.make_arm = self.make_arm(), None
+        make = self.make_arm
+        if make is not None:
+            self._arm = make()
+            self.make_arm = None
         return self._arm
 
     @property

@@ -107,7 +107,7 @@ class ApproachSearch:
         unit = min(frame.scale)
         self._units = [s - unit for s in frame.scale]
         near = [nearest_float(d * power_of_two(-unit)) for d in reach]
-        with np.errstate(over="ignore"):
+        with np.errstate(all="ignore"):
             self._grown = np.array(near)[self._swept.body] * (1.0 + 4.0 * U)
 
     def run(self) -> Nearest | None:
@@ -159,7 +159,7 @@ class ApproachSearch:
         return boxes
 
     @staticmethod
-    @np.errstate(over="ignore")
+    @np.errstate(all="ignore")
     def _widened(boxes: Boxes, by: NDArray[np.float64]) -> Boxes:
         wide = np.empty_like(boxes)
         wide[:, ::2] = np.nextafter(boxes[:, ::2] - by[:, None], -np.inf)

@@ -62,7 +62,7 @@ def _near_during(vertices: Vertices, halves: list[QQ], begin: QQ, end: QQ) -> se
     return found
 
 
-@np.errstate(over="ignore")
+@np.errstate(all="ignore")
 def _widened(boxes: Boxes, halves: list[QQ], frame: Frame) -> Boxes:
     """The boxes of bodies, normalised, widened by lengths; the rounding is outward."""
     if not any(halves):

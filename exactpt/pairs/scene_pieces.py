@@ -91,7 +91,7 @@ def boxed(scene: Scene, rows: list[Row]) -> SceneRows:
     return SceneRows(scene, RowBoxes(rows), rows)
 
 
-@np.errstate(over="ignore")
+@np.errstate(all="ignore")
 def _of_arrays(bodies: BodyArrays) -> Floats | None:
     """The grown box, c and v of each body; None unless all move straight and none is large."""
     bends = bodies.coefficients[:, :, 2:].any()

@@ -12,6 +12,7 @@ from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, rationals, shorten, show
+from exactpt.kernel.rounding import check_rounding
 from exactpt.motion.body import Body
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.simple import check_simple
@@ -34,11 +35,13 @@ class Scene:
     Raises:
         InputError: if a name repeats, the end is not after the start, or a polygon or
             chain is not simple at the start.
+        RoundingError: see `check_rounding`.
     """
 
     __slots__ = ("_end", "_start", "bodies")
 
     def __init__(self, bodies: Iterable[Body], time: Sequence[Rational] = (0, 1)) -> None:
+        check_rounding()
         self.bodies: Sequence[Body] = tuple(bodies)
         for i, body in enumerate(self.bodies):
             if not isinstance(body, Body):
@@ -355,11 +358,13 @@ def scene_of(bodies: Sequence[Body], start: QQ, end: QQ) -> Scene:
 
 
 def a_scene(value: object) -> Scene:
-    """The value itself.
+    """Return the value itself, the scene that a question is about.
 
     Raises:
-        InputError: if it is no scene.
+        InputError: if it is not a scene.
+        RoundingError: see `check_rounding`.
     """
+    check_rounding()
     if not isinstance(value, Scene):
         raise InputError(f"not a scene: {shorten(value)}")
     return value

@@ -1,18 +1,20 @@
-"""The bounds on a run: a number of events, seconds, and memory."""
+"""The bounds on a run: a number of events, seconds, memory, and one thread at a time."""
 
 from __future__ import annotations
 
 from contextlib import AbstractContextManager, nullcontext
+from threading import RLock
 from time import monotonic
 from typing import TYPE_CHECKING, Final, final
 
+from exactpt.errors import InputError
 from exactpt.kernel.budget import GRACE, check_bounds, within
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import TracebackType
 
-__all__ = ["Budget", "Guard"]
+__all__ = ["Budget", "Guard", "OneThread"]
 
 _UNLIMITED: Final = nullcontext()
 
@@ -46,6 +48,31 @@ class Guard:
         self._around.__exit__(kind, error, trace)
         if error is not None:
             self._failed(error)
+
+
+@final
+class OneThread:
+    """A context for one thread at a time, in which that thread may enter it again.
+
+    Another thread is refused, not kept waiting: the order of their events would depend on chance.
+
+    Raises:
+        InputError: on entering, if another thread is inside.
+    """
+
+    __slots__ = ("_lock",)
+
+    def __init__(self) -> None:
+        self._lock = RLock()
+
+    def __enter__(self) -> None:
+        if not self._lock.acquire(blocking=False):
+            raise InputError(
+                "the simulation is in use by another thread: wait for it, or use a copy()"
+            )
+
+    def __exit__(self, *_error: object) -> None:
+        self._lock.release()
 
 
 @final

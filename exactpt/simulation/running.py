@@ -12,10 +12,11 @@ from exactpt.collision.tilings import plan_tiling, proved_until
 from exactpt.errors import AuditError, BudgetExceeded, InputError, carry, carrying
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
+from exactpt.kernel.rounding import check_rounding
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
-from exactpt.simulation.budget import Budget, Guard
+from exactpt.simulation.budget import Budget, Guard, OneThread
 from exactpt.simulation.event import Event
 from exactpt.simulation.history import Log
 from exactpt.simulation.living import Choice, LivingScene
@@ -42,6 +43,7 @@ class Run:
         met: the last contact with a response.
         recorder: what records the run, or None.
         log: what remembers the run, or None.
+        alone: the context in which a thread uses the run.
     """
 
     def __init__(self, living: LivingScene, budget: Budget) -> None:
@@ -53,6 +55,7 @@ class Run:
         self.met: Met | None = None
         self.recorder: Recorder | None = None
         self.log: Log | None = None
+        self.alone = OneThread()
         self._budget = budget
         self._is_broken = False
         self._proved: QQ = living.scene._start
@@ -71,41 +74,51 @@ class Run:
         if self.contact is None and self.living.kinetic.is_after(end):
             now = float(self.living.now)
             raise InputError(f"until: t = {show(end)} is over, it is t = {now!r} now")
+        while (event := self._next(end, respond, grid)) is not None:
+            yield event
+
+    def _next(self, end: QQ, respond: Response | None, grid: QQ) -> Event | None:
+        """Return the next event up to a time; None if there is none."""
         pending, is_bounded = self.pending, self._budget.is_bounded
-        while True:
-            if is_bounded and self.contact is None:
-                self._check_time()
-            if pending:
-                if is_bounded:
-                    self._count(1)
-                yield pending.popleft()
-            elif self.contact is not None or not self._advance(end, respond, grid):
-                return
+        with self.alone:
+            while True:
+                if is_bounded and self.contact is None:
+                    self._check_time()
+                if pending:
+                    if is_bounded:
+                        self._count(1)
+                    return pending.popleft()
+                if self.contact is not None or not self._advance(end, respond, grid):
+                    return None
 
     def step(self) -> list[Event]:
         """The events of the next time at which there are any, see `Simulation.step`."""
-        while not self.pending and self.contact is None:
-            self._check_time()
-            if not self._advance(self.living.scene._end, None, self.margin):
-                break
-        self._count(len(self.pending))
-        events = list(self.pending)
-        self.pending.clear()
-        return events
+        with self.alone:
+            while not self.pending and self.contact is None:
+                self._check_time()
+                if not self._advance(self.living.scene._end, None, self.margin):
+                    break
+            self._count(len(self.pending))
+            events = list(self.pending)
+            self.pending.clear()
+            return events
 
     def to_contact(self) -> Contact | None:
         """The first contact, see `Simulation.run_to_contact`."""
-        if self.contact is None:
-            self.check_whole()
-            end = self.living.scene._end
-            with self._guarded():
-                try:
-                    while (events := self._pass(end)) is not None:
-                        self._count(len(events))
-                        self._check_time()
-                except ContactFound as found:
-                    self._end_with(found)
-        return self.contact
+        with self.alone:
+            if self.contact is None:
+                self.check_whole()
+                self._pass_to_contact(self.living.scene._end)
+            return self.contact
+
+    def _pass_to_contact(self, end: QQ) -> None:
+        with self._guarded():
+            try:
+                while (events := self._pass(end)) is not None:
+                    self._count(len(events))
+                    self._check_time()
+            except ContactFound as found:
+                self._end_with(found)
 
     def _advance(self, end: QQ, respond: Response | None, grid: QQ) -> bool:
         """Advance to the next time with events; False if there is none up to the end."""
@@ -151,16 +164,21 @@ class Run:
         """
         if isinstance(error, AuditError):
             carry(error, self._scene)
-        elif isinstance(error, BudgetExceeded) and error.reached is None:  # not between two events
+        elif isinstance(error, BudgetExceeded):
+            if error.reached is None:  # not between two events
+                self._is_broken = True
+                error.reached = self.passed()
+        elif not isinstance(error, InputError):  # Ctrl-C, no memory, an error of the user's code
             self._is_broken = True
-            error.reached = self.passed()
 
     def check_whole(self) -> None:
         """Check that the run has not been interrupted in the middle of an event.
 
         Raises:
             InputError: if it has.
+            RoundingError: see `check_rounding`.
         """
+        check_rounding()
         if self._is_broken:
             raise InputError("the run was interrupted in the middle of an event: it cannot go on")
 
@@ -199,6 +217,7 @@ class Run:
         self.met = ahead
         changes = living.changes
         respond(contact)
+        check_rounding()
         if living.changes == changes:
             self.contact = contact
             with self._guarded(), suppress(ContactFound):
@@ -207,10 +226,11 @@ class Run:
 
     def end_record(self) -> None:
         """Record nothing else, see `Simulation.end_proof`."""
-        recorder, self.recorder = self.recorder, None
-        if recorder is not None:
-            self.check_whole()
-            recorder.finish()
+        with self.alone:
+            recorder, self.recorder = self.recorder, None
+            if recorder is not None:
+                self.check_whole()
+                recorder.finish()
 
     def _report(self, contact: Contact) -> None:
         self.contacts += 1
@@ -227,18 +247,19 @@ class Run:
             BudgetExceeded: if the time or memory is used up; the run cannot go on then.
             InputError: if the run has ended with a contact.
         """
-        if self.contact is not None:
-            raise InputError(
-                f"the run has ended with a contact at t = {float(self.contact.time)!r}"
-            )
-        self.check_whole()
-        with self._guarded():
-            self.pending.extend(how(self.living))
-        self._proved = self.living.now._low
-        if self.log is not None:
-            self.log.changed(self._proved, self.living.bodies)
-        if self.recorder is not None:
-            self.recorder.change(self._proved)
+        with self.alone:
+            if self.contact is not None:
+                raise InputError(
+                    f"the run has ended with a contact at t = {float(self.contact.time)!r}"
+                )
+            self.check_whole()
+            with self._guarded():
+                self.pending.extend(how(self.living))
+            self._proved = self.living.now._low
+            if self.log is not None:
+                self.log.changed(self._proved, self.living.bodies)
+            if self.recorder is not None:
+                self.recorder.change(self._proved)
 
     def _scene(self) -> Scene:
         return self.living.scene

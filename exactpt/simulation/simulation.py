@@ -289,8 +289,9 @@ class Simulation:
         """
         if self.contact is not None:
             raise InputError(f"no tiling at a contact, t = {float(self.contact.time)!r}")
-        self._run.check_whole()
-        return self._spaces.space(self._run.living.kinetic, at)
+        with self._run.alone:
+            self._run.check_whole()
+            return self._spaces.space(self._run.living.kinetic, at)
 
     def snapshot(self) -> Snapshot:
         """The tiling at the current time, which must be rational.
@@ -435,12 +436,14 @@ class Simulation:
         from exactpt.simulation.saved_run import run_to_json
         from exactpt.simulation.store import sealed
 
-        return sealed(run_to_json(self._run, scene_to_json(self.scene)))
+        with self._run.alone:
+            return sealed(run_to_json(self._run, scene_to_json(self.scene)))
 
     def __reduce__(self) -> tuple[object, ...]:
         from exactpt.simulation.saved_run import run_to_json
 
-        return _resumed, (run_to_json(self._run, None), self.scene, *self._run.rest())
+        with self._run.alone:
+            return _resumed, (run_to_json(self._run, None), self.scene, *self._run.rest())
 
 
 def _resumed(

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
-from exactpt.errors import BudgetExceeded, InputError
+from exactpt.errors import BudgetExceeded, InputError, RoundingError
 from exactpt.files import read_text
 from exactpt.kernel.numbers import shorten
 from exactpt.scene.format import loads
@@ -80,7 +80,7 @@ def reading(path: Path, max_bytes: int | None = None) -> Iterator[dict[str, Any]
         raise InputError(f"{path}: changed since it was saved: its checksum is another one")
     try:
         yield data
-    except (BudgetExceeded, MemoryError):
+    except (BudgetExceeded, MemoryError, RoundingError):
         raise
     except Exception as error:  # whatever a forged state breaks
         raise InputError(f"{path}: not a saved simulation: {shorten(error)}") from None

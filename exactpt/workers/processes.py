@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import math
 import signal
+import threading
 import time as clock
 from collections import Counter, deque
 from collections.abc import Iterator
@@ -74,15 +75,28 @@ class _Worker(Generic[Item, Result]):
 
 @contextlib.contextmanager
 def _deaf() -> Iterator[None]:
-    """Processes that are started in the context do not hear Ctrl-C, from their first moment on."""
+    """Put off Ctrl-C until the end of the context; processes started in it never receive it.
+
+    They inherit the mask. Here another thread, one of numpy say, may take the signal, and Python
+    would interrupt this one: a process that has been started by half prints a traceback.
+    """
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return
+    heard: list[int] = []
     before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    handler = signal.getsignal(signal.SIGINT)
+    replaced = handler is not None and threading.current_thread() is threading.main_thread()
     try:
+        if replaced:
+            signal.signal(signal.SIGINT, lambda number, _frame: heard.append(number))
         yield
     finally:
+        if replaced:
+            signal.signal(signal.SIGINT, handler)
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    if heard:
+        signal.raise_signal(signal.SIGINT)
 
 
 def _do(connection: Connection, job: object) -> None:
@@ -110,10 +124,12 @@ def results_of(
         seconds: the time of all; None for no limit.
     """
     ends = None if seconds is None else clock.monotonic() + seconds
-    workers = [_Worker(work) for _ in range(jobs)]
+    workers: list[_Worker[Item, Result]] = []
     again: deque[Item] = deque()
     tries = Counter[Item]()
     try:
+        while len(workers) < jobs:
+            workers.append(_Worker(work))
         while True:
             for worker in workers:
                 if worker.item is None:
