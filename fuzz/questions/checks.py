@@ -22,6 +22,7 @@ from exactpt.pairs.intervals import contact_intervals
 from exactpt.pairs.reference import touches_at
 from exactpt.scene.scene import Scene
 from fuzz.questions import by_cgal, reference
+from fuzz.questions.chosen import wrong_choice
 from fuzz.questions.norms import Norm, first_within_norm
 from fuzz.questions.renewal import first_new_contact
 from fuzz.questions.rounded import rounded_pair, wrong_answer
@@ -212,6 +213,11 @@ def _touches(scene: Scene, t: AlgebraicNumber, pairs: Collection[tuple[int, int]
     return sorted(touch for touch in touches_at(scene, tracks, t) if _ordered(touch) in pairs)
 
 
+def _chosen(random: Random) -> Checked:
+    """first_contact with ``since`` and ``ignoring``, and Planner."""
+    return Checked(*wrong_choice(random))
+
+
 def _touching(scene: Scene) -> list[tuple[int, int]]:
     start = AlgebraicNumber(scene._start)
     pairs = combinations(range(len(scene.bodies)), 2)
@@ -254,6 +260,7 @@ QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "norms": _norms,
     "intervals": _intervals,
     "after-start": _after_start,
+    "chosen": _chosen,
     "rounded": _rounded,
     "spin": _spin,
     "cgal": _cgal,

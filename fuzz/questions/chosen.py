@@ -1,0 +1,64 @@
+"""The first contact of some pairs from a time on: of each pair alone, by the reference search."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from random import Random
+
+from exactpt.collision.detector import first_contact
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ
+from exactpt.pairs.contact import Contact
+from exactpt.pairs.planner import Planner
+from exactpt.pairs.reference import first_contact_allpairs
+from exactpt.scene.scene import Scene, scene_of
+from fuzz.questions.scenes import crowded_scene
+
+__all__ = ["wrong_choice"]
+
+Found = tuple[AlgebraicNumber, set[frozenset[str]]] | None
+
+
+def wrong_choice(random: Random) -> tuple[Scene, str, str | None]:
+    """Return a scene, what was asked about it, and what is wrong with the answer if anything is."""
+    scene = crowded_scene(random)
+    kind = random.choice(["since", "ignoring", "planner"])
+    bodies = list(scene.bodies)
+    group = random.sample(bodies, random.randint(1, len(bodies) - 1))
+    start = scene._start
+    if kind == "since":
+        start += (scene._end - scene._start) * random.randint(0, 7) / 8
+        group, contact = [], first_contact(scene, since=start)
+    elif kind == "ignoring":
+        contact = first_contact(scene, ignoring=[[body.name for body in group]])
+    else:
+        shape = bodies.pop(random.randrange(len(bodies)))
+        group = bodies
+        contact = Planner(bodies, (scene.start, scene.end)).first_contact(shape, shape.motion)
+    ignored = {frozenset({a.name, b.name}) for a, b in combinations(group, 2)}
+    expected = _first_of_pairs(scene, ignored, start)
+    found = _answer(contact)
+    return scene, kind, None if found == expected else f"{kind}: {found}, not {expected}"
+
+
+def _first_of_pairs(scene: Scene, ignored: set[frozenset[str]], start: QQ) -> Found:
+    """Return the first time at which a pair that is not ignored meets, and all pairs that do."""
+    best: Found = None
+    for two in combinations(scene.bodies, 2):
+        if frozenset(body.name for body in two) in ignored:
+            continue
+        found = _answer(first_contact_allpairs(scene_of(two, start, scene._end)))
+        if found is None:
+            continue
+        if best is None or found[0] < best[0]:
+            best = found
+        elif found[0] == best[0]:
+            best = best[0], best[1] | found[1]
+    return best
+
+
+def _answer(contact: Contact | None) -> Found:
+    if contact is None:
+        return None
+    pairs = contact.overlaps or tuple((pair.body, pair.other) for pair in contact.pairs)
+    return contact.time, {frozenset(names) for names in pairs}
