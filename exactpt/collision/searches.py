@@ -62,7 +62,7 @@ def search_for(scene: Scene, question: Question, *, counting: bool = True) -> Se
         method = "kinetic"
     seconds = question.max_seconds
     if searches_pairs(method, tiling, groups):
-        rows = None if counting or exact_only or scene.is_rounded else straight_rows(scene)
+        rows = None if counting or exact_only else straight_rows(scene)
         if rows is not None:
             return StraightSearch(scene, rows, groups)
         from exactpt.pairs.features_sweep import PairsSearch

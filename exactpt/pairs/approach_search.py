@@ -9,31 +9,26 @@ that remain are decided by exact arithmetic, in the order of time.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.geometry.boxes import Boxes, boxes_of_points, overlapping_pairs
+from exactpt.geometry.boxes import Boxes
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
-from exactpt.kernel.roots import roots_after
 from exactpt.kernel.rounding import U
 from exactpt.motion.swept_edges import SweptEdges
 from exactpt.motion.track import Track
-from exactpt.pairs.distance import squared_distance
 from exactpt.pairs.features import Feature, FeaturePair
+from exactpt.pairs.start import Apart, Limit, near_at_start, within_at_start
 from exactpt.scene.scene import Scene
 
-__all__ = ["Apart", "ApproachSearch", "Limit", "Nearest", "near_at_start", "within_at_start"]
+__all__ = ["ApproachSearch", "Nearest"]
 
 Indices: TypeAlias = NDArray[np.int64]
-Limit: TypeAlias = Callable[[int, int], QQ]
-"""The square of the distance that two bodies keep, by their indices."""
-Apart: TypeAlias = Callable[[Indices, Indices], NDArray[np.bool_]]
-"""Which pairs of bodies, by two arrays of indices, keep a distance."""
 
 SLABS: Final = 32
 """Number of initial slabs in the time span."""
@@ -57,30 +52,6 @@ class Nearest(NamedTuple):
 
     time: AlgebraicNumber
     pairs: tuple[tuple[int, int], ...]
-
-
-def near_at_start(scene: Scene, reach: Sequence[QQ], apart: Apart) -> Iterator[tuple[int, int]]:
-    """The pairs i < j of bodies whose grown boxes meet at the start; see `ApproachSearch`."""
-    points = [body._at(scene._start) for body in scene.bodies]
-    grown = [
-        [(x + s * d, y + s * d) for x, y in ring for s in (-1, 1)]
-        for ring, d in zip(points, reach, strict=True)
-    ]
-    for first, second in overlapping_pairs(boxes_of_points(grown)):
-        watched = apart(first, second)
-        yield from sorted(zip(first[watched].tolist(), second[watched].tolist(), strict=True))
-
-
-def within_at_start(
-    scene: Scene, squared: Limit, near: Iterable[tuple[int, int]]
-) -> Iterator[tuple[tuple[int, int], bool]]:
-    """Those of some pairs of bodies that are within their distance, and whether they are nearer."""
-    for i, j in near:
-        ask()
-        limit = squared(i, j)
-        d = squared_distance(scene.bodies[i], scene.bodies[j], scene._start)
-        if d <= limit:
-            yield (i, j), d < limit
 
 
 @final
@@ -241,14 +212,11 @@ class ApproachSearch:
         best: AlgebraicNumber | None = None
         for (i, j), pair in self._feature_pairs(v, e):
             ask()
-            f = pair.at_distance(self._squared(i, j))
             limit = later if best is None else min(later, best._high)
-            for root in roots_after(f, begin, limit) if f else ():
-                if pair.holds(root.time):
-                    found.append((root.time, (i, j)))
-                    if best is None or root.time.compare(best) < 0:
-                        best = root.time
-                    break
+            time = pair.first_time(self._squared(i, j), begin, limit)
+            if time is not None:
+                found.append((time, (i, j)))
+                best = time if best is None else min(best, time)
         if best is None:
             return None
         return Nearest(best, tuple(sorted({ij for t, ij in found if t.compare(best) == 0})))

@@ -14,13 +14,14 @@ from numpy.typing import NDArray
 from exactpt.geometry.boxes import Boxes, overlapping_pairs, widen_unknown
 from exactpt.kernel.budget import ask
 from exactpt.kernel.doubles import middles
-from exactpt.kernel.numbers import QQ, enclosing_floats
+from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float
 from exactpt.kernel.rounding import SLACK, TINY, U
+from exactpt.motion.body import Body
 
 if TYPE_CHECKING:
     from exactpt.pairs.search import Row
 
-__all__ = ["RowBoxes", "near_boxes", "near_rows", "pairs_at"]
+__all__ = ["ROUNDED_UP", "RowBoxes", "near_boxes", "near_rows", "pairs_at", "radius_above"]
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
@@ -28,6 +29,8 @@ Indices: TypeAlias = NDArray[np.int64]
 U4: Final = 4.0 * U
 K: Final = 16.0 * U
 """Relative bound on the rounding of sums of up to eight terms."""
+ROUNDED_UP: Final = 1.0 + 4.0 * U
+"""Factor by which a rounded number becomes one that is not less."""
 PIECES: Final = 4
 """Maximum number of pieces of motion of a body, on average, in the first slab."""
 SHORTEST: Final = 2.0**-40
@@ -43,9 +46,11 @@ _COLUMNS: Final = (
 class RowBoxes:
     """Boxes of rows: of the shape at rest, with the motion c + v t during [start, end].
 
+    They contain all points within the radius of a body.
+
     Args:
         rows: the rows.
-        margin: what the boxes are grown by, on each side.
+        margin: what the boxes are grown by besides, on each side.
 
     Attributes:
         body: the number of the body of each row.
@@ -60,9 +65,13 @@ class RowBoxes:
         shapes = [straight.shape for straight in straights]
         self._low = np.array([(shape.low_x, shape.low_y) for shape in shapes]).reshape(-1, 2)
         self._high = np.array([(shape.high_x, shape.high_y) for shape in shapes]).reshape(-1, 2)
-        if margin:
-            self._low = np.nextafter(self._low - margin, -np.inf)
-            self._high = np.nextafter(self._high + margin, np.inf)
+        # A sum far from 0 may lose the radius, and a bound made of differences of the boxes would
+        # not allow for that: so each side is moved to the next double.
+        reach = [margin + radius_above(straight.body) for straight in straights]
+        by = np.nextafter(np.array(reach), np.inf)[:, None]
+        grown = np.array(reach)[:, None] > 0.0
+        self._low = np.where(grown, np.nextafter(self._low - by, -np.inf), self._low)
+        self._high = np.where(grown, np.nextafter(self._high + by, np.inf), self._high)
         self._c = np.array([(s.cx, s.cy) for s in straights]).reshape(-1, 2)
         self._v = np.array([(s.vx, s.vy) for s in straights]).reshape(-1, 2)
         errors = [(s.c_error + s.shape.error, s.v_error) for s in straights]
@@ -161,6 +170,11 @@ class RowBoxes:
         there = 0.5 * (self._low + self._high) + self._c + self._v * now
         gap = np.hypot(*np.ptp(there, axis=0)) / np.sqrt(len(there))
         return float(gap / np.hypot(*(self._v - self.drift).T).mean())
+
+
+def radius_above(body: Body) -> float:
+    """Return a double that is at least the radius of a body; 0 only if that is 0."""
+    return nearest_float(body._radius) * ROUNDED_UP + TINY if body._radius else 0.0
 
 
 def pairs_at(boxes: RowBoxes, time: QQ) -> list[tuple[int, int]]:

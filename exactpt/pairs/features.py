@@ -19,6 +19,7 @@ from typing import NamedTuple, final
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale, subtract
 from exactpt.kernel.numbers import QQ, ZZ
+from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference, orientation
 from exactpt.motion.track import Track
@@ -81,6 +82,18 @@ class FeaturePair:
         return all(t.sign_of(f) >= 0 for f in self.limits) and (
             not self.is_of_edge or t.sign_of(_norm(*self.ends)) > 0
         )
+
+    def first_time(self, squared: QQ, begin: AlgebraicNumber, until: QQ) -> AlgebraicNumber | None:
+        """Return the first time in (begin, until] at which the squared distance has a value.
+
+        The foot of the perpendicular is on the edge at that time. None if there is no such time,
+        or the distance of the line has this value for all t.
+        """
+        f = self.at_distance(squared)
+        for root in roots_after(f, begin, until) if f else ():
+            if self.holds(root.time):
+                return root.time
+        return None
 
     def is_inside(self, t: AlgebraicNumber) -> bool:
         """Whether the foot of the perpendicular is no end of the edge; true of two vertices."""

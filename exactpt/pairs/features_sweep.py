@@ -35,7 +35,7 @@ from exactpt.kernel.doubles import Indices
 from exactpt.kernel.numbers import QQ, fraction, power_of_two
 from exactpt.motion.swept_edges import SweptEdges
 from exactpt.pairs.contact import Contact, contact_of
-from exactpt.pairs.radius import first_contact_of_rounded
+from exactpt.pairs.radius import first_with_radii
 from exactpt.pairs.selection import groups_of
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
@@ -136,9 +136,6 @@ class PairsSearch:
 
     def _first_contact(self) -> Contact | None:
         scene = self._scene
-        if scene.is_rounded:
-            groups, exact_only = self._ignoring[0], self._exact_only
-            return first_contact_of_rounded(scene, groups, self._of_plain, exact_only=exact_only)
         initial, overlaps = initial_touches(scene)
         overlaps = [(i, j) for i, j in overlaps if not self._ignores(i, j)]
         if overlaps:
@@ -146,16 +143,25 @@ class PairsSearch:
             return contact_of(scene, AlgebraicNumber(scene._start), seen, overlaps)
         if not scene.bodies:
             return None
-        return self._run()
+        if not scene.is_rounded:
+            return self._run()
+        self._passed = scene._start
+        try:
+            return first_with_radii(scene, self._group, self._without_radius())
+        except BudgetExceeded as spent:
+            spent.reached = self.passed()  # what is known of some bodies is not known of all
+            raise
 
-    def _of_plain(self, part: Scene, groups: list[Collection[str]]) -> Contact | None:
-        """The first contact of the bodies without radius."""
-        names = {body.name for body in part.bodies}
+    def _without_radius(self) -> Contact | None:
+        """Return the first contact of the bodies without radius."""
+        bodies = [body for body in self._scene.bodies if not body._radius]
+        names = {body.name for body in bodies}
+        groups, alone = self._ignoring
         search = PairsSearch(
-            part,
+            self._scene.going_on(bodies, self._scene._start),
             exact_only=self._exact_only,
-            ignoring=groups,
-            ignoring_self=names.intersection(self._ignoring[1]),
+            ignoring=[[name for name in group if name in names] for group in groups],
+            ignoring_self=names.intersection(alone),
         )
         contact = search.run_to_contact()
         self.certificates, self._counters = search.certificates, search._counters

@@ -15,9 +15,8 @@ from exactpt.motion.outline import Outline, is_rigid, rest_outline, straight_pie
 from exactpt.motion.shape import VertexLike
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.features_sweep import PairsSearch
-from exactpt.pairs.filters import window
 from exactpt.pairs.obstacles import Obstacles, Stretch
-from exactpt.pairs.search import MOST_VERTICES, Row, first_of_pairs, rows_during
+from exactpt.pairs.search import MOST_VERTICES, Row, first_of_pairs, rows_during, window_of
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 
@@ -88,8 +87,6 @@ class Planner:
     def _first(self, body: Body, outline: Outline | None) -> Contact | None:
         scene, rows = self._scene, self._obstacles.rows
         Scene([body], (scene.start, scene.end))
-        if self._is_rounded(body):
-            return self._first_during(body, [self._whole_span()])
         if rows is not None and outline is not None and body.size <= MOST_VERTICES:
             pieces = straight_pieces(body, outline)
             if pieces is not None:
@@ -111,7 +108,7 @@ class Planner:
             for time, i, j in near
             if time <= high
             and rows[i].start == moving[j].start == start
-            and not operator.gt(*window(rows[i].straight, moving[j].straight, low, high))
+            and not operator.gt(*window_of(rows[i], moving[j], low, high))
         ]
         if begin:
             touches, overlaps = initial_touches(scene, begin)
@@ -120,11 +117,11 @@ class Planner:
         found = first_of_pairs((time, rows[i], moving[j]) for time, i, j in near)
         if found is None:
             return None
-        return contact_of(scene, AlgebraicNumber(found.time), found.touches)
+        return contact_of(scene, found.number, found.touches)
 
     def _first_of_any(self, body: Body) -> Contact | None:
         """The first contact of a body with obstacles, or with itself, whatever the motions."""
-        if not is_rigid(body):
+        if self._is_rounded(body) or not is_rigid(body):
             return self._first_during(body, [self._whole_span()])
         return self._first_during(body, self._obstacles.stretches(body))
 

@@ -1,71 +1,52 @@
-"""The first contact of a scene with rounded bodies: by pairs, and never by a tiling.
+"""First contacts of bodies with radii in any motion, after the start.
 
 Bodies without radius meet each other, and themselves, as in a scene of their own. Two bodies of
-which one is rounded touch where the distance of their cores is the sum of the radii; a rounded
-body does not touch itself. The earlier of the two first contacts counts, or both together.
+which one has a radius touch where the distance of their cores is the sum of the radii; a body
+with a radius does not touch itself. The earlier of the two first contacts counts, or both together.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
-from typing import NamedTuple, TypeAlias
+import numpy as np
+from numpy.typing import NDArray
 
-from exactpt.errors import BudgetExceeded
-from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.motion.incidence import Touch
+from exactpt.geometry.boxes import Indices
+from exactpt.kernel.numbers import QQ
+from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.contact import Contact, contact_of, touches_of
-from exactpt.pairs.radius_search import RoundedSearch
+from exactpt.pairs.start import touches_at_distance
 from exactpt.scene.scene import Scene
 
-__all__ = ["first_contact_of_rounded"]
-
-Groups: TypeAlias = "list[Collection[str]]"
-Plain: TypeAlias = "Callable[[Scene, Groups], Contact | None]"
-"""The first contact of bodies without radius, with groups that ignore each other."""
+__all__ = ["first_with_radii"]
 
 
-def first_contact_of_rounded(
-    scene: Scene, groups: Groups, plain: Plain, *, exact_only: bool = False
-) -> Contact | None:
-    """The first contact in the closed time span of a scene; None if there is none."""
-    search = RoundedSearch(scene, groups, exact_only=exact_only)
-    met = dict(search.at_start())
-    try:
-        first = _first_of_plain(scene, groups, plain)
-        if met or first.overlaps:
-            touching = [ij for ij, overlaps in met.items() if not overlaps]
-            start = AlgebraicNumber(scene._start)
-            touches = list(search.touches(touching, start))
-            if first.overlaps:
-                touches += first.touches
-            return contact_of(scene, start, touches, sorted([*first.overlaps, *met]))
-        found = search.after_start(first.time)
-    except BudgetExceeded as spent:
-        spent.reached = scene.start if not met and spent.reached is not None else None
-        raise
-    if found is None or (first.time is not None and found.time.compare(first.time) > 0):
-        return None if first.time is None else contact_of(scene, first.time, first.touches)
-    touches = list(search.touches(found.pairs, found.time))
-    if first.time is not None and found.time.compare(first.time) == 0:
-        touches += first.touches
+def first_with_radii(scene: Scene, group: Indices, plain: Contact | None) -> Contact | None:
+    """Return the first contact of a scene in which no two bodies touch at the start.
+
+    Args:
+        scene: the bodies, some of which have a radius.
+        group: a number for each body; contacts of bodies with the same number are ignored.
+        plain: the first contact of the bodies without radius.
+    """
+    radii = [body._radius for body in scene.bodies]
+    has_radius = np.array([r > 0 for r in radii], np.bool_)
+
+    def squared(i: int, j: int) -> QQ:
+        return (radii[i] + radii[j]) ** 2
+
+    def apart(i: Indices, j: Indices) -> NDArray[np.bool_]:
+        one = has_radius[i] | has_radius[j]
+        watched: NDArray[np.bool_] = one & (i != j) & (group[i] != group[j])
+        return watched
+
+    end = scene._end if plain is None else min(scene._end, plain.time._high)
+    found = ApproachSearch(scene.until(end), squared, radii, apart).run_after_start()
+    order = 0 if plain is None or found is None else found.time.compare(plain.time)
+    touches = []
+    if plain is not None and (found is None or order >= 0):
+        numbers = {body.name: i for i, body in enumerate(scene.bodies)}
+        touches += touches_of(plain, numbers)
+    if found is None or order > 0:
+        return None if plain is None else contact_of(scene, plain.time, touches)
+    touches += touches_at_distance(scene, found.pairs, found.time)
     return contact_of(scene, found.time, touches)
-
-
-class _First(NamedTuple):
-    """The first contact of the bodies without radius, by their indices in the whole scene."""
-
-    time: AlgebraicNumber | None
-    touches: list[Touch]
-    overlaps: list[tuple[int, int]]
-
-
-def _first_of_plain(scene: Scene, groups: Groups, plain: Plain) -> _First:
-    bodies = [body for body in scene.bodies if not body._radius]
-    names = {body.name for body in bodies}
-    part = scene.going_on(bodies, scene._start)
-    contact = plain(part, [[name for name in group if name in names] for group in groups])
-    if contact is None:
-        return _First(None, [], [])
-    index = {body.name: i for i, body in enumerate(scene.bodies)}
-    touches = touches_of(contact, index)
-    return _First(contact.time, touches, [(index[a], index[b]) for a, b in contact.overlaps])

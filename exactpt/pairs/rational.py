@@ -3,14 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple, TypeVar
 
+from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.motion.outline import Straight
 
-__all__ = ["Candidate", "Incidence", "Meeting", "Span", "earliest", "span_of"]
+__all__ = [
+    "Candidate",
+    "Incidence",
+    "Meeting",
+    "Span",
+    "algebraic",
+    "compare",
+    "double_above",
+    "earliest",
+    "first_incidence",
+    "span_of",
+]
 
 
 class Span(NamedTuple):
@@ -51,48 +63,101 @@ class Incidence(NamedTuple):
 
 
 class Meeting(NamedTuple):
-    """The first contact of two bodies: its time and all incidences then."""
+    """The first contact of two bodies: its time and all incidences at that time."""
 
-    time: QQ
+    time: QQ | AlgebraicNumber
     incidences: list[Incidence]
 
 
 class Candidate(NamedTuple):
-    """A vertex that may lie on an edge at a time in [low, high]."""
+    """An incidence that may begin in [low, high].
+
+    Attributes:
+        low, high: bounds of the time; perhaps infinite.
+        of_first: whether the vertex is one of the first body.
+        vertex: the vertex.
+        edge: the edge of the other body, or -1.
+        end: the vertex of the other body instead of an edge, or -1.
+    """
 
     low: float
     high: float
     of_first: bool
     vertex: int
     edge: int
+    end: int = -1
+
+
+Time = TypeVar("Time", QQ, AlgebraicNumber)
 
 
 def earliest(
+    candidates: Iterable[Candidate],
+    first: Callable[[Candidate, Time | None], tuple[Time, Incidence | None] | None],
+) -> Meeting | None:
+    """Return the earliest time at which a candidate begins, with all incidences at that time.
+
+    Args:
+        candidates: in the order of ``low``; those after a double above the best time are not
+            decided.
+        first: returns the exact time of a candidate, and the incidence if it is to be reported.
+            It may return None for any time later than the best one so far, its argument.
+    """
+    best: Time | None = None
+    found: list[Incidence] = []
+    high = math.inf
+    for candidate in candidates:
+        if candidate.low > high:
+            break
+        ask()
+        begins = first(candidate, best)
+        if begins is None:
+            continue
+        time, incidence = begins
+        if best is None or time < best:
+            best, found, high = time, [], double_above(time)
+        if time == best and incidence is not None:
+            found.append(incidence)
+    return None if best is None else Meeting(best, found)
+
+
+def algebraic(time: QQ | AlgebraicNumber) -> AlgebraicNumber:
+    """Return a time as an algebraic number."""
+    return time if isinstance(time, AlgebraicNumber) else AlgebraicNumber(time)
+
+
+def compare(s: QQ | AlgebraicNumber, t: QQ | AlgebraicNumber) -> int:
+    """Return -1, 0 or 1: the sign of s - t."""
+    if isinstance(s, AlgebraicNumber) or isinstance(t, AlgebraicNumber):
+        return algebraic(s).compare(algebraic(t))
+    return (s > t) - (s < t)
+
+
+def double_above(time: QQ | AlgebraicNumber) -> float:
+    """Return a double that is at least a time."""
+    if isinstance(time, AlgebraicNumber):
+        return time.enclosure()[1]
+    return enclosing_floats(time)[1]
+
+
+def first_incidence(
     a: Straight, b: Straight, span: Span, candidates: Sequence[Candidate]
 ) -> Meeting | None:
-    """The first time at which a candidate touches, exactly, and all that touch then."""
+    """Return the first contact of two bodies in (start, end], exactly, from its candidates."""
     ax, ay, avx, avy = a.line()
     bx, by, bvx, bvy = b.line()
     path = ax - bx, ay - by, avx - bvx, avy - bvy
     back = -path[0], -path[1], -path[2], -path[3]
-    best: Meeting | None = None
-    best_high = math.inf
-    for low, _, of_first, vertex, edge in candidates:
-        if low > best_high:
-            break
-        ask()
+
+    def first(candidate: Candidate, _: QQ | None) -> tuple[QQ, Incidence] | None:
+        of_first, vertex, edge = candidate[2:5]
         met = _meeting(a, b, path, vertex, edge) if of_first else _meeting(b, a, back, vertex, edge)
-        if met is None:
-            continue
+        if met is None or not span.start < met[0] <= span.end:
+            return None
         time, end = met
-        if not span.start < time <= span.end:
-            continue
-        touch = Incidence(of_first, vertex, edge if end < 0 else -1, end)
-        if best is None or time < best.time:
-            best, best_high = Meeting(time, [touch]), enclosing_floats(time)[1]
-        elif time == best.time:
-            best.incidences.append(touch)
-    return best
+        return time, Incidence(of_first, vertex, edge if end < 0 else -1, end)
+
+    return earliest(candidates, first)
 
 
 def _meeting(

@@ -9,19 +9,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Final, TypeAlias, final
+from typing import TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from exactpt.kernel.budget import ask
 from exactpt.kernel.doubles import native
-from exactpt.kernel.numbers import QQ, nearest_float
-from exactpt.kernel.rounding import TINY, U
+from exactpt.kernel.numbers import QQ
+from exactpt.kernel.rounding import TINY
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.motion.outline import Outline, Straight, rest_outline, straight_pieces
-from exactpt.pairs.boxes import RowBoxes, near_boxes, pairs_at
+from exactpt.motion.outline import Straight, straight_pieces
+from exactpt.pairs.boxes import ROUNDED_UP, RowBoxes, near_boxes, pairs_at, radius_above
 from exactpt.pairs.search import MOST_VERTICES, Row, rows_during
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene
@@ -29,9 +29,6 @@ from exactpt.scene.scene import Scene
 __all__ = ["SceneRows", "boxed", "scene_rows"]
 
 Floats: TypeAlias = NDArray[np.float64]
-
-ROUNDED_UP: Final = 1.0 + 4.0 * U
-"""Factor by which a rounded number becomes one that is not less."""
 
 
 @final
@@ -134,27 +131,13 @@ def _doubles_of(body: Body) -> tuple[float, ...] | None:
 
 
 def _within(body: Body, low: float, high: float) -> tuple[float, float]:
-    """An interval that contains all within the radius of a body around one.
-
-    A sum far from 0 may lose the radius, and a bound made of differences of the two intervals
-    would not allow for that: so each end is the next double.
-    """
+    """Return an interval that contains all within the radius of a body around one."""
     if not body._radius:
         return low, high
-    radius = nearest_float(body._radius) * ROUNDED_UP + TINY
+    radius = radius_above(body)  # as `RowBoxes`
     return math.nextafter(low - radius, -math.inf), math.nextafter(high + radius, math.inf)
 
 
 def _pieces(body: Body) -> list[tuple[Straight, QQ | None]] | None:
-    """The straight motions of a body that is not large, its box grown; None of another one."""
-    shape = rest_outline(body)
-    if shape is None or body.size > MOST_VERTICES:
-        return None
-    return straight_pieces(body, _grown(body, shape))
-
-
-def _grown(body: Body, shape: Outline) -> Outline:
-    """An outline with a box that contains the points within the radius, apart from its error."""
-    low_x, high_x = _within(body, shape.low_x, shape.high_x)
-    low_y, high_y = _within(body, shape.low_y, shape.high_y)
-    return shape._replace(low_x=low_x, high_x=high_x, low_y=low_y, high_y=high_y)
+    """Return the linear motions of a body that is not large; None of another one."""
+    return None if body.size > MOST_VERTICES else straight_pieces(body)

@@ -18,10 +18,11 @@ from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Straight, straight_pieces
 from exactpt.pairs.contact import Contact, contact_of
-from exactpt.pairs.filters import first_meeting, window
-from exactpt.pairs.rational import Meeting, Span, span_of
+from exactpt.pairs.filters import window
+from exactpt.pairs.rational import Meeting, Span, algebraic, compare, double_above, span_of
 from exactpt.pairs.selection import groups_of
 from exactpt.pairs.start import initial_touches
+from exactpt.pairs.two_pieces import ContactDistance, first_meeting
 from exactpt.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -38,6 +39,7 @@ __all__ = [
     "rows_during",
     "rows_of",
     "straight_rows",
+    "window_of",
 ]
 
 FEW: Final = 10
@@ -62,10 +64,15 @@ class Row(NamedTuple):
 
 
 class Touching(NamedTuple):
-    """The first contact of some bodies: its time and what touches then."""
+    """The first contact of some bodies: its time and all incidences at that time."""
 
-    time: QQ
+    time: QQ | AlgebraicNumber
     touches: list[Touch]
+
+    @property
+    def number(self) -> AlgebraicNumber:
+        """The time."""
+        return algebraic(self.time)
 
 
 @final
@@ -120,9 +127,7 @@ class StraightSearch:
         except BudgetExceeded as spent:
             spent.reached = scene.start
             raise
-        return (
-            None if found is None else contact_of(scene, AlgebraicNumber(found.time), found.touches)
-        )
+        return None if found is None else contact_of(scene, found.number, found.touches)
 
     def _counts(self, i: int, j: int) -> bool:
         return self._group[i] != self._group[j]
@@ -146,7 +151,7 @@ class FewRows:
         low, high = enclosing_floats(self._start)
         near: list[tuple[int, int]] = []
         for a, b in combinations([row for row in self._rows if row.start == self._start], 2):
-            enter, leave = window(a.straight, b.straight, low, high)
+            enter, leave = window_of(a, b, low, high)
             if not enter > leave:
                 near.append((a.body, b.body))
         return near
@@ -268,14 +273,28 @@ class _Search:
         span = self._spans.get((start, end))
         if span is None:
             span = self._spans[start, end] = span_of(start, end)
-        met = first_meeting(a.straight, b.straight, span, self.high)
+        met = first_meeting(a.straight, b.straight, span, self.high, contact_distance(a, b))
         if met is None:
             return
         touches = list(_touches(met, a.body, b.body))
-        if self.best is None or met.time < self.best.time:
-            self.best, self.high = Touching(met.time, touches), span_of(met.time, met.time).high
-        elif met.time == self.best.time:
+        order = -1 if self.best is None else compare(met.time, self.best.time)
+        if self.best is None or order < 0:
+            self.best, self.high = Touching(met.time, touches), double_above(met.time)
+        elif order == 0:
             self.best.touches.extend(touches)
+
+
+def window_of(a: Row, b: Row, low: float, high: float) -> tuple[float, float]:
+    """Return the `window` of the boxes of two rows within their contact distance."""
+    distance = contact_distance(a, b)
+    nearest = 0.0 if distance is None else distance.nearest
+    return window(a.straight, b.straight, low, high, nearest)
+
+
+def contact_distance(a: Row, b: Row) -> ContactDistance | None:
+    """Return the distance at which the cores of two bodies touch; None if it is 0."""
+    r, s = a.straight.body._radius, b.straight.body._radius
+    return ContactDistance.of((r + s) ** 2, r + s) if r or s else None
 
 
 def _touches(met: Meeting, first: int, second: int) -> Iterator[Touch]:

@@ -25,11 +25,10 @@ from exactpt.motion.vertices import Vertices
 from exactpt.pairs.contact import Contact, contact_of, touches_of
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.near import pairs_that_come_near
-from exactpt.pairs.radius_search import RoundedSearch
 from exactpt.pairs.renewed import new_contact_time
 from exactpt.pairs.search import Row, first_touching, rows_of
 from exactpt.pairs.selection import groups_of
-from exactpt.pairs.start import initial_touches
+from exactpt.pairs.start import initial_touches, touches_at_distance
 from exactpt.scene.scene import Scene, scene_of
 
 __all__ = ["SelectedSearch"]
@@ -149,8 +148,7 @@ class SelectedSearch:
         return [i for i, body in bodies if not body._radius and not is_rigid(body)]
 
     def _read_rows(self) -> None:
-        straight = not self._exact_only and not self._scene.is_rounded
-        rows = rows_of(self._scene) if straight else None
+        rows = None if self._exact_only else rows_of(self._scene)
         if rows is not None:
             self._rows = {i: [] for i in range(len(self._scene.bodies))}
             for row in rows:
@@ -180,7 +178,7 @@ class SelectedSearch:
         if self._rows is not None:
             rows = [row for i in pair for row in self._rows[i]]
             met = first_touching(rows, scene._start, until, lambda _, __: True)
-            return None if met is None else (AlgebraicNumber(met.time), met.touches)
+            return None if met is None else (met.number, met.touches)
         part = scene_of([scene.bodies[i] for i in pair], scene._start, until)
         alone = [body.name for body in part.bodies] if len(pair) > 1 else []
         search = PairsSearch(part, exact_only=self._exact_only, ignoring_self=alone)
@@ -220,7 +218,7 @@ def _touches_at(part: Scene, time: AlgebraicNumber, *, exact_only: bool) -> list
     if time.compare_rational(part._start) == 0:
         return initial_touches(part)[0]
     if part.is_rounded:
-        return list(RoundedSearch(part, ()).touches([(0, 1)], time))
+        return list(touches_at_distance(part, [(0, 1)], time))
     ends = {t for body in part.bodies for t in body._breakpoints if time.compare_rational(t) > 0}
     since = max({part._start, *ends})
     vertices = Vertices.of(part.bodies, since, part._end, plain=True)

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Final, NamedTuple
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from typing import Final, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
 
 from exactpt.errors import InputError
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
@@ -11,11 +14,30 @@ from exactpt.geometry.polygon import segments_meet
 from exactpt.geometry.predicates import Point, between, side
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
+from exactpt.kernel.numbers import QQ
 from exactpt.motion.incidence import Touch
 from exactpt.motion.inside import one_is_inside
+from exactpt.pairs.distance import squared_distance
+from exactpt.pairs.features import feature_pairs
+from exactpt.pairs.incidences import tracks_just_before
 from exactpt.scene.scene import Scene
 
-__all__ = ["Edge", "incidences", "initial_touches"]
+__all__ = [
+    "Apart",
+    "Edge",
+    "Limit",
+    "incidences",
+    "initial_touches",
+    "near_at_start",
+    "touches_at_distance",
+    "within_at_start",
+]
+
+Indices: TypeAlias = NDArray[np.int64]
+Limit: TypeAlias = Callable[[int, int], QQ]
+"""The square of the distance that two bodies keep, by their indices."""
+Apart: TypeAlias = Callable[[Indices, Indices], NDArray[np.bool_]]
+"""Which pairs of bodies, by two arrays of indices, keep a distance."""
 
 MOST_PAIRS: Final = 250_000
 """Maximum number of pairs of bodies that share a point at the start."""
@@ -39,7 +61,7 @@ def initial_touches(
         InputError: if too many pairs share a point.
     """
     if scene.is_rounded:
-        return _of_rounded(scene, near)
+        return _with_radii(scene, near)
     some = range(len(scene.bodies)) if near is None else sorted({i for ij in near for i in ij})
     points = {i: scene.bodies[i]._at(scene._start) for i in some}
     compared = None if near is None else set(near)
@@ -64,16 +86,29 @@ def initial_touches(
     return sorted(touches), sorted(pairs)
 
 
-def _of_rounded(
+def _with_radii(
     scene: Scene, near: Sequence[tuple[int, int]] | None
 ) -> tuple[list[Touch], list[tuple[int, int]]]:
-    """As `initial_touches`, where some of the bodies are rounded."""
-    from exactpt.pairs.radius_search import RoundedSearch
+    """Return the result of `initial_touches`, where some of the bodies have a radius."""
+    radii = [body._radius for body in scene.bodies]
+    has_radius = np.array([r > 0 for r in radii], np.bool_)
 
-    search, asked = RoundedSearch(scene, ()), None if near is None else set(near)
-    met = {ij: deep for ij, deep in search.at_start() if asked is None or ij in asked}
-    _check_count(set(met))
-    plain = [i for i, body in enumerate(scene.bodies) if not body._radius]
+    def squared(i: int, j: int) -> QQ:
+        return (radii[i] + radii[j]) ** 2
+
+    def apart(i: Indices, j: Indices) -> NDArray[np.bool_]:
+        watched: NDArray[np.bool_] = (has_radius[i] | has_radius[j]) & (i != j)
+        return watched
+
+    if near is None:
+        compared: Iterable[tuple[int, int]] = near_at_start(scene, radii, apart)
+    else:
+        compared = [(i, j) for i, j in near if radii[i] or radii[j]]
+    met: dict[tuple[int, int], bool] = {}
+    for ij, is_deep in within_at_start(scene, squared, compared):
+        met[ij] = is_deep
+        _check_count(met)
+    plain = [i for i, r in enumerate(radii) if not r]
     number = {i: k for k, i in enumerate(plain)}
     part = scene.going_on([scene.bodies[i] for i in plain], scene._start)
     some = None
@@ -81,10 +116,59 @@ def _of_rounded(
         some = [(number[i], number[j]) for i, j in near if i in number and j in number]
     touches, overlaps = initial_touches(part, some)
     of_plain = [t._replace(body=plain[t.body], other=plain[t.other]) for t in touches]
-    touching = [ij for ij, deep in met.items() if not deep]
-    of_rounded = search.touches(touching, AlgebraicNumber(scene._start))
+    touching = [ij for ij, is_deep in met.items() if not is_deep]
+    at_distance = touches_at_distance(scene, touching, AlgebraicNumber(scene._start))
     pairs = [(plain[i], plain[j]) for i, j in overlaps]
-    return sorted([*of_plain, *of_rounded]), sorted([*pairs, *met])
+    return sorted([*of_plain, *at_distance]), sorted([*pairs, *met])
+
+
+def near_at_start(scene: Scene, reach: Sequence[QQ], apart: Apart) -> Iterator[tuple[int, int]]:
+    """Yield the pairs i < j of bodies whose boxes intersect at the start.
+
+    Args:
+        scene: the bodies.
+        reach: the length by which the box of each body is grown, on each side.
+        apart: which pairs are compared.
+    """
+    points = [body._at(scene._start) for body in scene.bodies]
+    grown = [
+        [(x + s * d, y + s * d) for x, y in ring for s in (-1, 1)]
+        for ring, d in zip(points, reach, strict=True)
+    ]
+    for first, second in overlapping_pairs(boxes_of_points(grown)):
+        watched = apart(first, second)
+        yield from sorted(zip(first[watched].tolist(), second[watched].tolist(), strict=True))
+
+
+def within_at_start(
+    scene: Scene, squared: Limit, near: Iterable[tuple[int, int]]
+) -> Iterator[tuple[tuple[int, int], bool]]:
+    """Yield those of some pairs that are within their distance, and whether they are nearer."""
+    for i, j in near:
+        ask()
+        limit = squared(i, j)
+        d = squared_distance(scene.bodies[i], scene.bodies[j], scene._start)
+        if d <= limit:
+            yield (i, j), d < limit
+
+
+def touches_at_distance(
+    scene: Scene, pairs: Iterable[tuple[int, int]], time: AlgebraicNumber
+) -> Iterator[Touch]:
+    """Yield the incidences of pairs of bodies that touch at a time at the sum of their radii."""
+    for i, j in pairs:
+        two = scene.bodies[i], scene.bodies[j]
+        squared = (two[0]._radius + two[1]._radius) ** 2
+        p, q = (tracks_just_before(body, time, scene._start) for body in two)
+        for pair in feature_pairs(*two, p, q):
+            if time.sign_of(pair.at_distance(squared)) == 0 and pair.is_inside(time):
+                first, second = pair.features
+                if first.vertex is None:
+                    yield Touch(j, second.vertex or 0, i, first.edge or 0, -1)
+                elif second.vertex is None:
+                    yield Touch(i, first.vertex, j, second.edge or 0, -1)
+                else:
+                    yield Touch(i, first.vertex, j, -1, second.vertex)
 
 
 def _chunks(
@@ -98,7 +182,7 @@ def _chunks(
         yield first.tolist(), second.tolist()
 
 
-def _check_count(pairs: set[tuple[int, int]]) -> None:
+def _check_count(pairs: Collection[tuple[int, int]]) -> None:
     if len(pairs) > MOST_PAIRS:
         raise InputError(f"more than {MOST_PAIRS} pairs of bodies share a point at the start")
 

@@ -25,7 +25,7 @@ from exactpt import (
 from exactpt.check import check_run
 from exactpt.collision.comparison import contrast, in_words
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs import radius_filters as rounded_straight
+from exactpt.pairs import two_pieces
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof import prove
@@ -304,9 +304,9 @@ def test_a_crowd_far_away(shift):
 
 def test_a_crowd_needs_few_exact_decisions(monkeypatch):
     decided = []
-    earliest = rounded_straight._earliest
+    exactly = two_pieces._first_at_distance
     monkeypatch.setattr(
-        rounded_straight, "_earliest", lambda *given: decided.append(1) or earliest(*given)
+        two_pieces, "_first_at_distance", lambda *given: decided.append(1) or exactly(*given)
     )
     rng = Random(3)
     bodies = [

@@ -279,9 +279,9 @@ def test_no_rows_are_compared_later_than_the_first_contact(monkeypatch):
     compared = []
     first_meeting = straight_search.first_meeting
 
-    def recorded(a, b, span, before=math.inf):
+    def recorded(a, b, span, before=math.inf, *distance):
         compared.append((a, b))
-        return first_meeting(a, b, span, before)
+        return first_meeting(a, b, span, before, *distance)
 
     monkeypatch.setattr(straight_search, "first_meeting", recorded)
     bodies = []

@@ -1,0 +1,105 @@
+"""The filter for bodies in linear motion, with and without radii, against the definition."""
+
+import math
+from fractions import Fraction
+from random import Random
+
+import pytest
+
+from exactpt import Body, Scene, Translation, first_contact
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.outline import straight_pieces
+from exactpt.pairs import search
+from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.pairs.filters import candidates_of, window
+from exactpt.pairs.radius_reference import core_distance, first_at_distance
+from exactpt.pairs.rational import span_of
+from exactpt.pairs.two_pieces import ContactDistance, first_meeting
+
+SHAPES = [
+    [(0, 0)],
+    [(0, 0), (2, 1)],
+    [(0, 0), (2, 0), (0, 2)],
+    [(0, 0), (2, 0), (2, 2), (1, 1)],
+    [(-1, -1), (3, -1), (3, 2), (1, 0), (-1, 2)],
+]
+UNITS = [Fraction(1), Fraction(1, 3), Fraction(2) ** -60, Fraction(2) ** 70, Fraction(1, 10**30)]
+
+
+def body(rng, name, unit, offset, velocity, radius):
+    shape, turned = rng.choice(SHAPES), rng.random() < 0.5
+    at = [((y, -x) if turned else (x, y)) for x, y in shape]
+    dx, dy = offset
+    vertices = [((x + dx) * unit, (y + dy) * unit) for x, y in at]
+    motion = Translation([0, velocity[0] * unit], [0, velocity[1] * unit])
+    return Body(name, vertices, motion, radius=radius * unit)
+
+
+def hard_pair(rng):
+    """Two bodies on a grid of some unit, perhaps far from the origin or nearly tangential."""
+    unit, far = rng.choice(UNITS), rng.choice([0, 0, 10**6, 10**13])
+    radius = rng.choice([Fraction(1), Fraction(1, 2), Fraction(1, 3), Fraction(5, 4)])
+    gap = rng.randint(-6, 6) + rng.choice([0, 0, Fraction(1, 3), Fraction(1, 10**12)])
+    one = body(
+        rng, "a", unit, (far - 9, far + gap), (rng.randint(1, 3), rng.randint(-1, 1)), radius
+    )
+    other = body(rng, "b", unit, (far, far), (rng.randint(-1, 0), rng.randint(-1, 1)), 0)
+    return one, other
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_filter_with_radius_loses_no_first_contact_of_the_definition(seed):
+    rng, compared, found = Random(seed), 0, 0
+    end = QQ(12)
+    while compared < 60:
+        a, b = hard_pair(rng)
+        reach = a._radius + b._radius
+        if core_distance(a, b, QQ(0)) <= reach**2:
+            continue
+        compared += 1
+        p, q = (x._piece_after(QQ(0)).tracks for x in (a, b))
+        expected = first_at_distance(a, b, p, q, (QQ(0), end))
+        pieces = [straight_pieces(x)[0][0] for x in (a, b)]
+        distance = ContactDistance.of(reach**2, reach)
+        meeting = first_meeting(*pieces, span_of(QQ(0), end), math.inf, distance)
+        assert (meeting is None) == (expected is None)
+        if meeting is not None:
+            found += 1
+            assert meeting.time.compare(expected) == 0
+            assert meeting.incidences
+            low, high = window(*pieces, 0.0, 12.0, distance.nearest)
+            enclosed = expected.enclosure()
+            assert low <= enclosed[1]
+            assert enclosed[0] <= high
+    assert found >= 10
+
+
+def test_contact_distances_below_all_doubles_count():
+    tiny = Fraction(2) ** -1200
+    a = Body("a", [(0, 0)], Translation([0, 1]), radius=tiny)
+    b = Body("b", [(4, -1), (4, 1)])
+    assert first_contact(Scene([a, b], time=(0, 9))).time == 4 - tiny
+    pieces = [straight_pieces(x)[0][0] for x in (a, b)]
+    assert ContactDistance.of(QQ(tiny) ** 2, QQ(tiny)).nearest > 0.0
+    assert len(candidates_of(*pieces, span_of(QQ(0), QQ(9)), distance=math.ulp(0.0))) >= 1
+
+
+def test_bodies_with_radii_in_linear_motion_are_not_searched_in_slabs(monkeypatch):
+    monkeypatch.setattr(PairsSearch, "run_to_contact", None)
+    discs = [Body(str(k), [(3 * k, 0)], Translation([0, 1 - k]), radius=1) for k in range(14)]
+    for count in (2, 14):
+        contact = first_contact(Scene(discs[:count], time=(0, 9)))
+        assert contact.kind == "vertex-vertex"
+        assert contact.time == 1
+
+
+def test_overlap_at_the_start_ends_the_search(monkeypatch):
+    monkeypatch.setattr(search, "first_of_pairs", None)
+    monkeypatch.setattr(PairsSearch, "_run", None)
+    far = [Body(f"far{k}", [(30 + 3 * k, 0)], Translation([0, -k])) for k in range(12)]
+    two = [Body("a", [(0, 0)], radius=2), Body("b", [(1, 0)], radius=1)]
+    curved = Body("curved", [(0, 90)], Translation([0, 0, 1]))
+    for bodies in ([*two, *far], [*two, *far, curved]):
+        contact = first_contact(Scene(bodies, time=(0, 1)))
+        assert contact.kind == "initial"
+        assert contact.overlaps == (("a", "b"),)
