@@ -13,6 +13,7 @@ same pieces, up to the times at which they meet.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -100,10 +101,13 @@ class Clearance:
             InputError: if the time is outside of the time span, or the square is irrational, which
                 only that of rounded bodies can be.
         """
-        return squared_gap(self.core_squared(at), self.radius)
+        return squared_gap(self.squared_with_radius(at), self.radius)
 
-    def core_squared(self, at: Rational) -> Fraction:
-        """The square of the distance plus the radius, at a rational time.
+    def squared_with_radius(self, at: Rational) -> Fraction:
+        """Return the square of the sum of the distance and the radius, at a rational time.
+
+        While rounded bodies meet it is the square of the radius, and not, as
+        `Distance.core_squared`, that of the distance of their cores.
 
         Raises:
             InputError: if the time is outside of the time span.
@@ -116,9 +120,18 @@ class Clearance:
                     return fraction(evaluate(_poly(piece.numerator), t) / below)
         raise InputError(f"the time {show(t)} is outside of the time span")
 
+    def core_squared(self, at: Rational) -> Fraction:
+        """Return `squared_with_radius` under its former name, with a `DeprecationWarning`."""
+        warnings.warn(
+            "Clearance.core_squared: the name is squared_with_radius now",
+            DeprecationWarning,
+            stacklevel=2,
+        )
+        return self.squared_with_radius(at)
+
     def __call__(self, at: Rational) -> float:
         """The double nearest to the distance at a rational time."""
-        return nearest_root_less(QQ(self.core_squared(at)), QQ(self.radius))
+        return nearest_root_less(QQ(self.squared_with_radius(at)), QQ(self.radius))
 
     @cached_property
     def minimum(self) -> Minimum:

@@ -25,6 +25,8 @@ class Found(NamedTuple):
 class Contact:
     """A contact of a scene: its time and all incidences at that time. It cannot be changed.
 
+    Contacts are equal if their time, kind, pairs and overlaps are.
+
     Args:
         time: the exact time.
         kind: see below.
@@ -32,8 +34,9 @@ class Contact:
         overlaps: see below.
 
     Attributes:
-        kind: "initial" at the start of the scene; "self" if only one body is involved;
-            "vertex-vertex" if every incidence is one of two vertices; otherwise "vertex-edge".
+        kind: "initial" at the start of the scene; "self" if every incidence is one of a body
+            with itself; "vertex-edge" if, of the incidences of two different bodies, one or more
+            are of a vertex and an edge; "vertex-vertex" if all of these are of two vertices.
         overlaps: at the start, the names of the pairs of bodies that share a point.
     """
 
@@ -79,6 +82,18 @@ class Contact:
             object.__setattr__(self, "_time", time)
             object.__setattr__(self, "_pairs", pairs)
         return pairs
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Contact):
+            return NotImplemented
+        return (
+            (self.kind, self.overlaps) == (other.kind, other.overlaps)
+            and self._time == other._time
+            and self.pairs == other.pairs
+        )
+
+    def __hash__(self) -> int:
+        return hash((self._time, self.kind))
 
     def __reduce__(self) -> tuple[object, ...]:
         return Contact, (self.time, self.kind, self.pairs, self.overlaps)

@@ -51,7 +51,9 @@ class ContactInterval:
 
 
 def contact_intervals(scene: Scene, a: str, b: str) -> list[ContactInterval]:
-    """All maximal closed intervals of the scene's time span in which two bodies meet.
+    """Return all maximal closed intervals of the time span in which two bodies meet.
+
+    The answer does not depend on the order in which the bodies are named.
 
     >>> from exactpt import Body, Scene, Translation
     >>> ball = Body("ball", [(0, 0), (1, 0), (0, 1)], Translation([0, 2]))
@@ -67,10 +69,15 @@ def contact_intervals(scene: Scene, a: str, b: str) -> list[ContactInterval]:
     Raises:
         InputError: if there is no such body, or both are the same.
     """
-    first, second = two_bodies(scene, a, b)
+    two_bodies(scene, a, b)
+    return _of_two(scene, *(body for body in scene.bodies if body.name in (a, b)))
+
+
+def _of_two(scene: Scene, a: Body, b: Body) -> list[ContactInterval]:
+    """Return the intervals of two bodies, given in the order of the scene."""
     return [
-        ContactInterval(a, b, start.simplified(), end.simplified())
-        for start, end in intervals(first, second, scene._start, scene._end)
+        ContactInterval(a.name, b.name, start.simplified(), end.simplified())
+        for start, end in intervals(a, b, scene._start, scene._end)
     ]
 
 
@@ -84,11 +91,9 @@ def contacts(scene: Scene) -> list[ContactInterval]:
     """
     a_scene(scene)
     found = [
-        ContactInterval(
-            scene.bodies[i].name, scene.bodies[j].name, start.simplified(), end.simplified()
-        )
+        interval
         for i, j in pairs_that_come_near(scene, QQ(0))
-        for start, end in intervals(scene.bodies[i], scene.bodies[j], scene._start, scene._end)
+        for interval in _of_two(scene, scene.bodies[i], scene.bodies[j])
     ]
     found.sort(key=lambda interval: (interval.a, interval.b))
     found.sort(key=lambda interval: _in_order(interval.start))

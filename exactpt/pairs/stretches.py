@@ -34,7 +34,7 @@ class Stretch(NamedTuple):
 
 
 def two_bodies(scene: Scene, a: str, b: str) -> tuple[Body, Body]:
-    """Two different bodies of a scene, by name.
+    """Return two different bodies of a scene by their names, in the order of these.
 
     Raises:
         InputError: if the scene is none, there is no such body, or both are the same.

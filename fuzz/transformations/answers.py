@@ -273,7 +273,8 @@ def _place(side: Side, name: str, place: _Placed) -> Feature:
 def _clearance(side: Side, case: Case) -> Answer:
     found = [exactpt.clearance(side.scene, a, b) for a, b in _pairs(side, case)]
     least = min((gap.minimum.squared, gap.minimum.time) for gap in found)
-    return least, min(gap.core_squared(case.t) for gap in found), min(gap(case.t) for gap in found)
+    squared = min(gap.squared_with_radius(case.t) for gap in found)
+    return least, squared, min(gap(case.t) for gap in found)
 
 
 def _within(side: Side, case: Case) -> Answer:

@@ -1,6 +1,8 @@
 """The first contact equals that of the all-pairs reference: time, kind and every incidence."""
 
+import copy
 import json
+import pickle
 from collections import Counter
 from pathlib import Path
 
@@ -192,3 +194,40 @@ def test_given_scenes():
         )
         checked += 1
     assert checked == 11
+
+
+def test_bug_equal_contacts_were_not_equal():
+    fall = Translation([0], [0, 0, -1])
+    ball, floor = Body("ball", [(0, 2), (1, 2), (0, 3)], fall), Body("floor", [(-5, 0), (5, 0)])
+    scene = Scene([ball, floor], time=(0, 2))
+    found = [first_contact(scene, method=method) for method in ("auto", "pairs", "kinetic")]
+    found += [copy.copy(found[0]), pickle.loads(pickle.dumps(found[1]))]
+
+    assert not found[0].time.is_rational
+    assert all(contact == found[0] for contact in found)
+    assert len({hash(contact) for contact in found}) == len(set(found)) == 1
+    others = [
+        first_contact(Scene([ball.with_motion(Translation(0, [0, -1])), floor], time=(0, 3))),
+        first_contact(Scene([ball, Body("floor", [(6, -1), (-5, 0), (6, 0)])], time=(0, 2))),
+        first_contact(Scene([ball, Body("ground", [(-5, 0), (5, 0)])], time=(0, 2))),
+        first_contact(scene, since="3/2"),
+    ]
+    assert all(other != found[0] for other in others)
+    assert found[0] != found[0].time
+
+
+def test_kind_with_a_self_contact_at_the_same_time():
+    """As its docstring says: two bodies touch each at themselves; and two vertices besides."""
+
+    def fold(name, x):
+        return Body(name, [(x, 0), (x + 2, 0), {"x": [x + 1], "y": [1, -1]}])
+
+    def kind(*bodies):
+        contact = first_contact(Scene(bodies, time=(0, 1)))
+        assert contact.time == 1
+        return contact.kind, sorted({pair.kind for pair in contact.pairs})
+
+    p, q = Body("p", [(9, 0)], Translation([0, 1])), Body("q", [(10, 0)])
+    assert kind(fold("a", 0), fold("b", 5)) == ("self", ["vertex-edge"])
+    assert kind(fold("a", 0), p, q) == ("vertex-vertex", ["vertex-edge", "vertex-vertex"])
+    assert kind(fold("a", 0), p, Body("q", [(10, -1), (10, 1)])) == ("vertex-edge", ["vertex-edge"])

@@ -8,6 +8,7 @@ from exactpt import Body, InputError, Pieces, Rigid, Scene, Translation
 from exactpt.pairs.intervals import contact_intervals, contacts
 from exactpt.scene.generate import FAMILIES, generate
 from fuzz.questions import reference
+from fuzz.questions.scenes import meeting_scene
 from fuzz.questions.tiny import pair_scene
 
 SQUARE = [(0, 0), (2, 0), (2, 2), (0, 2)]
@@ -160,3 +161,26 @@ def test_pairs_that_are_passed_over_never_meet(family):
     assert sorted((i.a, i.b, float(i.start), float(i.end)) for i in found) == sorted(
         (a, b, float(s), float(e)) for a, b, s, e in every
     )
+
+
+def test_bug_the_order_of_the_names_changed_names_and_polynomials():
+    """The times are roots of x^2 - 2, found for a vertex of each body."""
+    fall = Translation([0], [0, 0, -1])
+    scene = Scene(
+        [Body("a", [(0, 2), (1, 2), (0, 3)], fall), Body("b", [(-5, 0), (5, 0), (0, -1)])]
+    )
+    wide = Scene(scene.bodies, time=(0, 2))
+    forth, back = (contact_intervals(wide, *names) for names in (("a", "b"), ("b", "a")))
+
+    assert [i.to_json() for i in back] == [i.to_json() for i in forth]
+    assert [i.to_json() for i in contacts(wide)] == [i.to_json() for i in forth]
+    assert forth == back
+    assert (back[0].a, back[0].b) == ("a", "b")
+    random, irrational = Random("named"), 0
+    for _ in range(60):
+        drawn = meeting_scene(random)
+        a, b = (body.name for body in drawn.bodies)
+        first, second = (contact_intervals(drawn, *names) for names in ((a, b), (b, a)))
+        assert [i.to_json() for i in first] == [i.to_json() for i in second]
+        irrational += any(not i.start.is_rational for i in first)
+    assert irrational > 3

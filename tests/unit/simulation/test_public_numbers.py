@@ -52,6 +52,7 @@ ARGUMENTS = {
     "refine_to": (Fraction(1, 100),),
     "relative_hull": ("box",),
     "core_squared": ("1/3",),
+    "squared_with_radius": ("1/3",),
     "squared": ("1/3",),
     "shorten": ([(-50, -50), (50, -50), (50, 50)],),
     "sign_after": ((-1, 1),),
