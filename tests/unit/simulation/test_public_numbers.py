@@ -184,6 +184,7 @@ def test_bug_numbers_of_a_simulation_of_points_are_pythons_own():
     assert no_leaks(simulation=simulation, events=simulation.step(), after=simulation.tiling) > 40
 
 
+@pytest.mark.filterwarnings("ignore:Clearance.core_squared:DeprecationWarning")
 @pytest.mark.parametrize("method", ["kinetic", "pairs"])
 def test_bug_numbers_of_a_contact_are_pythons_own(method):
     scene = scene_of_every_kind()
