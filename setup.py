@@ -1,8 +1,8 @@
 """Compiles the hot rooms by mypyc, where mypyc and a C compiler are found.
 
-The sources are the same; without a compiler the package is plain Python and works as
-well, slower. Only commands that build a wheel compile, not those that make the sdist, metadata or
-an editable install: this stays plain, so that what is edited is what runs;
+The sources are the same; without a compiler, or if it fails, the package is plain Python and
+works as well, slower. Only commands that build a wheel compile, not those that make the sdist,
+metadata or an editable install: this stays plain, so that what is edited is what runs;
 `python setup.py build_ext --inplace` (`make compiled`) compiles a checkout, and `make plain` undoes
 it. With EXACTPT_PLAIN=1 in the environment nothing is compiled: the wheel is for any platform, also
 for Pyodide's (`make browser`).
@@ -26,6 +26,7 @@ from pathlib import Path
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 from setuptools.command.build_py import build_py
+from setuptools.errors import BaseError, CCompilerError
 
 ROOMS = [
     "exactpt/certificates/*.py",
@@ -77,7 +78,6 @@ def extensions() -> list[Extension]:
         [*options, *sources()], opt_level="2", debug_level="0", group_name="exactpt.compiled"
     )
     for extension in compiled:
-        extension.optional = True
         if sys.platform != "win32":  # fused operations round once: enclosures would differ
             extension.extra_compile_args.append("-ffp-contract=off")
     return compiled
@@ -107,6 +107,16 @@ class BuildExtensions(build_ext):
         super().run()
         if inplace and any(package.glob("compiled__mypyc.*")):
             runpy.run_path("exactpt/compiled.py")["write"](sources())
+
+    def build_extensions(self) -> None:
+        """Build all, or none if the C compiler fails: one module needs the others."""
+        try:
+            super().build_extensions()
+        except (BaseError, CCompilerError) as error:
+            self.warn(f"the package is plain Python, without its compiled modules: {error}")
+            for made in self.get_outputs():
+                Path(made).unlink(missing_ok=True)
+            self.extensions = []
 
 
 setup(
