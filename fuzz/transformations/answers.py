@@ -119,6 +119,9 @@ def _contact(side: Side, contact: Contact | None) -> Answer:
         return None
     overlaps = {frozenset(side.groups[name] for name in names) for names in contact.overlaps}
     kind = contact.kind if contact.kind in ("initial", "self") else "later"
+    if kind == "initial" and side.scene.is_rounded and _has_groups(side):
+        # Rounded bodies that overlap have no incidences, though other parts of them may touch.
+        return contact.time, kind, overlaps
     return contact.time, kind, overlaps, _incidences(side, contact.pairs)
 
 

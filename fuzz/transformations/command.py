@@ -10,11 +10,15 @@ from typing import Final
 
 import click
 
+from fuzz.transformations import run
 from fuzz.transformations.answers import QUESTIONS
 from fuzz.transformations.images import TRANSFORMATIONS
 from fuzz.transformations.run import Fault, check, load, save, table
 
 __all__ = ["transformations"]
+
+SPINNING: Final = ("enclosed contact", "positions")
+"""The questions about gears, mills and orbits: the others are about the pieces of a `Spin`."""
 
 EVERY: Final = 20
 """Number of scenes between two writings of the counts."""
@@ -43,10 +47,13 @@ EVERY: Final = 20
     show_default=True,
     help="Folder for scenes with a disagreement.",
 )
+@click.option(
+    "--spinning", is_flag=True, help="Bounds of contacts of gears, mills and orbits, and no others."
+)
 @click.option("--table", "is_table", is_flag=True, help="Print what stays equal, and stop.")
 def transformations(
     scenes: int, seconds: float | None, seed: int, step: int, first: int, counts: Path | None,
-    enough: int | None, keep: Path, *, is_table: bool,
+    enough: int | None, keep: Path, *, spinning: bool, is_table: bool,
 ) -> None:  # fmt: skip
     """Compare answers about scenes and about their images under transformations.
 
@@ -61,11 +68,17 @@ def transformations(
     done, tally = load(counts) if counts else (0, Counter())
     deadline = None if seconds is None else clock.monotonic() + seconds
     faults = 0
+
+    def wanted(question: str, transformation: str) -> bool:
+        few = enough is None or tally[question, transformation] < enough
+        return few and (not spinning or question in SPINNING)
+
     for k in range(done, scenes):
         if deadline is not None and clock.monotonic() > deadline:
             break
-        wanted = _all if enough is None else lambda q, t: tally[q, t] < enough
-        for question, transformation, fault in check(first + k * step, seed, wanted):
+        for question, transformation, fault in check(
+            first + k * step, seed, wanted, draw=run.spinning if spinning else None
+        ):
             tally[question, transformation] += 1
             if fault is not None:
                 faults += 1
@@ -78,10 +91,6 @@ def transformations(
     click.echo("\n".join(table(tally)))
     click.echo(f"{done} scenes, {faults} disagreements")
     sys.exit(1 if faults else 0)
-
-
-def _all(question: str, transformation: str) -> bool:  # noqa: ARG001
-    return True
 
 
 def _report(fault: Fault, keep: Path) -> None:

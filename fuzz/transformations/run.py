@@ -16,11 +16,12 @@ from exactpt.motion.motions import Translation
 from exactpt.scene.scene import Scene
 from fuzz.questions.rounded import rounded_pair
 from fuzz.questions.scenes import crowded_scene, distant_scene
+from fuzz.questions.spinning import spinning_scene
 from fuzz.questions.tiny import pair_scene, touching_scene
 from fuzz.transformations.answers import QUESTIONS, Case, NotAskedError, Refusal, answer
 from fuzz.transformations.images import TRANSFORMATIONS, Image, move_alike
 
-__all__ = ["Fault", "Tally", "check", "load", "save", "scene_of", "table"]
+__all__ = ["Fault", "Tally", "check", "load", "save", "scene_of", "spinning", "table"]
 
 TILINGS: Final = ("lazy", "greedy", "mixed")
 FAMILIES: Final = (pair_scene, pair_scene, distant_scene, touching_scene, crowded_scene,
@@ -63,6 +64,11 @@ def scene_of(random: Random) -> Scene:
         return scene
     image = TRANSFORMATIONS["joined"](scene, random)
     return scene if image is None else image.new.scene
+
+
+def spinning(random: Random) -> Scene:
+    """Return a scene of gears, mills or orbits, with a body that turns like another one."""
+    return _with_twin(random, spinning_scene(random))
 
 
 def _translating(random: Random) -> Scene:
@@ -117,6 +123,7 @@ def check(
     seed: int = 0,
     wanted: Callable[[str, str], bool] = lambda _, __: True,
     within: Callable[[], AbstractContextManager[object]] = nullcontext,
+    draw: Callable[[Random], Scene] | None = None,
 ) -> Iterator[tuple[str, str, Fault | None]]:
     """Ask questions about a scene and its images.
 
@@ -125,12 +132,13 @@ def check(
         seed: the seed of the run.
         wanted: returns whether to ask a question about the image by a transformation.
         within: the context in which the questions are asked.
+        draw: makes the scene; `scene_of` if not given.
 
     Returns:
         The question, the transformation, and the disagreement if there is one.
     """
     random = Random(f"transformations {seed} {number}")
-    scene = scene_of(random)
+    scene = (draw or scene_of)(random)
     known: dict[tuple[str, Case], object] = {}
     for name, transform in TRANSFORMATIONS.items():
         questions = [question for question in QUESTIONS if wanted(question, name)]

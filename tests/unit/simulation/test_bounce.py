@@ -18,6 +18,7 @@ from exactpt import (
     first_contact,
 )
 from exactpt.kernel.numbers import QQ
+from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.simulation.responses import _velocity_beside
 
 BOX = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -189,3 +190,42 @@ def test_bug_the_last_edge_of_a_ring_ends_at_its_first_vertex(edge, at):
     ball = Body("ball", [at, (0, 0)])
 
     assert _velocity_beside(frame, edge, (ball, 0), QQ(0)) == (-at[1], at[0])
+
+
+WALLS = [
+    Body("floor", [(-1, -1), (9, -1)]),
+    Body("ceiling", [(-1, 9), (9, 9)]),
+    Body("left wall", [(-2, 0), (-2, 8)]),
+    Body("right wall", [(10, 0), (10, 8)]),
+]
+
+
+def room(rng):
+    """Return four bodies in a room of four walls with open corners."""
+    bodies = []
+    for i, (x, y) in enumerate([(0, 0), (5, 0), (0, 5), (5, 5)]):
+        shape = rng.choice([[(0, 0)], [(0, 0), (2, 1)], BOX, [(0, 0), (2, 0), (0, 2)]])
+        velocity = Velocity(rng.randint(-3, 3), rng.randint(-3, 3))
+        bodies.append(Body(f"b{i}", [(x + u, y + v) for u, v in shape], velocity))
+    return Scene([*WALLS, *bodies], (0, 3))
+
+
+@pytest.mark.parametrize("tiling", ["lazy", "greedy"])
+def test_each_contact_of_a_run_is_that_of_all_pairs(tiling):
+    """Of the scene that goes on from the last response."""
+    contacts = 0
+    for seed in range(6):
+        simulation = Simulation(room(Random(seed)), tiling=tiling)
+        bounce, ahead = Bounce(fixed=[wall.name for wall in WALLS]), [simulation.scene]
+
+        def respond(run, contact, ahead=ahead, bounce=bounce):
+            expected = first_contact_allpairs(ahead.pop())
+            assert contact.time == expected.time
+            assert contact.pairs == expected.pairs
+            bounce(run, contact)
+            ahead.append(Scene(run.scene.bodies, (run.now, run.scene.end)))
+
+        list(simulation.run(on_contact=respond))
+        contacts += simulation.contacts
+        assert first_contact_allpairs(ahead.pop()) is None
+    assert contacts > 30
