@@ -39,6 +39,8 @@ RELATIVE_BITS: Final = 8
 
 def lowest_terms(n: IntPoly, d: IntPoly) -> tuple[IntPoly, IntPoly]:
     """Numerator and denominator of the same quotient, without a common factor."""
+    if not n:
+        return n, (ZZ(1),)
     common = greatest_common_divisor(n, d)
     if len(common) <= 1:
         return n, d

@@ -5,20 +5,72 @@ from __future__ import annotations
 import pprint
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Final, TypeAlias, final
+from typing import Final, Generic, Protocol, TypeAlias, TypeVar, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, shorten
 from exactpt.testing.comparing import TOLERANCE, VERDICTS, bound, shown_time, verdict
 from exactpt.testing.families import FAMILIES, make_question
-from exactpt.testing.questions import Question
+from exactpt.testing.questions import Name, Question
 from exactpt.testing.shrinking import shrink_question
 from exactpt.testing.table import Table
-from exactpt.testing.truth import Truth, truth_of, truths
+from exactpt.testing.truth import Truth, truths
 
-__all__ = ["Counterexample", "Report", "check"]
+__all__ = ["Counterexample", "Report", "Subject", "check", "check_subject"]
 
+
+class Checked(Protocol):
+    """A test question: in the plane (`Question`) or in space (`SpaceQuery`)."""
+
+    @property
+    def name(self) -> Name:
+        """The name "family:seed:number"."""
+
+    @property
+    def size(self) -> int:
+        """A number by which questions are compared before one is shrunken."""
+
+    @property
+    def summary(self) -> str:
+        """A description of a few words."""
+
+    def to_json(self) -> dict[str, object]:
+        """Return the question as a JSON object."""
+
+
+Q = TypeVar("Q", bound=Checked)
 Toi: TypeAlias = Callable[[Question], object]
+
+
+@dataclass(frozen=True, slots=True)
+class Subject(Generic[Q]):
+    """A kind of test questions.
+
+    Attributes:
+        families: the names of its families.
+        make: returns the question of a family, a seed and a number.
+        truths: returns the truths of questions, in their order.
+        shrink: returns a smaller question for which a condition on it and its truth still holds.
+        imports: what a pytest file imports from the testing kit.
+        assertion: the assertion of a pytest file, with a place for the tolerance.
+    """
+
+    families: Sequence[str]
+    make: Callable[[str, int, int], Q]
+    truths: Callable[[Sequence[Q]], list[Truth]]
+    shrink: Callable[[Q, Callable[[Q, Truth], bool]], Q]
+    imports: str
+    assertion: str
+
+
+_PLANE: Final[Subject[Question]] = Subject(
+    families=tuple(FAMILIES),
+    make=make_question,
+    truths=truths,
+    shrink=shrink_question,
+    imports="from exactpt.testing import Question, assert_same_contact",
+    assertion="assert_same_contact(question.scene, toi(question), tolerance={tolerance!r})",
+)
 
 CHUNK: Final = 1000
 """Number of questions whose truths are found at once."""
@@ -26,7 +78,7 @@ CHUNK: Final = 1000
 
 @final
 @dataclass(frozen=True, slots=True)
-class Counterexample:
+class Counterexample(Generic[Q]):
     """A question that is answered wrong, shrunken.
 
     Attributes:
@@ -37,21 +89,21 @@ class Counterexample:
     """
 
     verdict: str
-    question: Question
+    question: Q
     answer: object
     truth: Truth
 
     def __str__(self) -> str:
         time = self.truth.time
         right = "no contact" if time is None else f"a contact at t = {shown_time(time)}"
-        sizes = f"{len(self.question.a.vertices)} and {len(self.question.b.vertices)} vertices"
         said = "no contact" if self.answer is None else repr(self.answer)
-        return f"{self.verdict} ({self.question.name}, {sizes}): {said}; the truth is {right}"
+        name = f"{self.question.name}, {self.question.summary}"
+        return f"{self.verdict} ({name}): {said}; the truth is {right}"
 
 
 @final
 @dataclass(frozen=True, slots=True)
-class Report:
+class Report(Generic[Q]):
     """What `check` has found. ``str(report)`` is the table and a line for each counterexample.
 
     Attributes:
@@ -60,10 +112,11 @@ class Report:
     """
 
     table: Table
-    counterexamples: tuple[Counterexample, ...]
+    counterexamples: tuple[Counterexample[Q], ...]
     _module: str
     _function: str
     _tolerance: float
+    _subject: Subject[Q]
 
     @property
     def ok(self) -> bool:
@@ -77,20 +130,20 @@ class Report:
         other = "from my_module import toi  # the place of your function"
         head = [
             '"""Questions that were answered wrong, found by exactpt.testing."""\n',
-            "from exactpt.testing import Question, assert_same_contact\n",
+            f"{self._subject.imports}\n",
             imported if known else other,
         ]
         return "\n".join([*head, *map(self._test, self.counterexamples)]) + "\n"
 
-    def _test(self, example: Counterexample) -> str:
+    def _test(self, example: Counterexample[Q]) -> str:
         data = {**example.question.to_json(), "id": example.question.name}
         written = pprint.pformat(data, indent=1, width=92, sort_dicts=False)
         return (
             f"\n\ndef test_{example.verdict}():\n"
             f'    """{_one_line(str(example))}"""\n'
-            f"    question = Question.from_json(\n{_indented(written, 8)}\n    )\n"
-            f"    assert_same_contact("
-            f"question.scene, toi(question), tolerance={self._tolerance!r})"
+            f"    question = {type(example.question).__name__}.from_json(\n"
+            f"{_indented(written, 8)}\n    )\n"
+            f"    {self._subject.assertion.format(tolerance=self._tolerance)}"
         )
 
     def __str__(self) -> str:
@@ -104,7 +157,7 @@ def check(
     seed: int = 0,
     families: Sequence[str] | None = None,
     tolerance: Rational = TOLERANCE,
-) -> Report:
+) -> Report[Question]:
     """Ask a function for times of impact, and compare its answers with the truth.
 
     >>> from exactpt.testing import check
@@ -126,48 +179,54 @@ def check(
         InputError: if ``toi`` is no function, there is no such family, or the tolerance or the
             number of questions is negative.
     """
+    return check_subject(_PLANE, toi, cases, seed, families, tolerance)
+
+
+def check_subject(
+    subject: Subject[Q],
+    toi: Callable[[Q], object],
+    cases: int,
+    seed: int,
+    families: Sequence[str] | None,
+    tolerance: Rational,
+) -> Report[Q]:
+    """Compare the answers of a function with the truth about questions of one subject.
+
+    The arguments are those of `check`.
+    """
     if not callable(toi):
         raise InputError(f"toi: not a function: {shorten(toi)}")
     number: object = cases
     if not isinstance(number, int) or number < 0:
         raise InputError(f"cases: not a number of questions: {shorten(number)}")
-    table, worst, exact = Table(), _Worst(), bound(tolerance)
-    names = list(FAMILIES if families is None else families)
+    table, exact = Table(), bound(tolerance)
+    worst: dict[str, Q] = {}  # the smallest question of each verdict
+    names = list(subject.families if families is None else families)
     if not names:
         raise InputError("families: none is named")
-    asked = [make_question(names[i % len(names)], seed, i // len(names)) for i in range(cases)]
-    for question, truth in _with_truths(asked):
+    asked = [subject.make(names[i % len(names)], seed, i // len(names)) for i in range(cases)]
+    for question, truth in _with_truths(subject, asked):
         found, _ = _judged(toi, question, truth, exact)
         table.count(str(question.name).partition(":")[0], found)
-        worst.see(found, question)
-    examples = tuple(_shrunken(toi, found, q, exact) for found, q in worst.in_order())
+        if found not in worst or question.size < worst[found].size:
+            worst[found] = question
+    examples = tuple(
+        _shrunken(subject, toi, v, worst[v], exact) for v in VERDICTS[1:] if v in worst
+    )
     module, function = (getattr(toi, key, "") for key in ("__module__", "__qualname__"))
-    return Report(table, examples, module, function, float(exact))
+    return Report(table, examples, module, function, float(exact), subject)
 
 
-def _with_truths(asked: Sequence[Question]) -> Iterator[tuple[Question, Truth]]:
+def _with_truths(subject: Subject[Q], asked: Sequence[Q]) -> Iterator[tuple[Q, Truth]]:
     for first in range(0, len(asked), CHUNK):
         some = asked[first : first + CHUNK]
-        yield from zip(some, truths(some), strict=True)
+        yield from zip(some, subject.truths(some), strict=True)
 
 
-class _Worst:
-    """The smallest question of each verdict."""
-
-    def __init__(self) -> None:
-        self._smallest: dict[str, Question] = {}
-
-    def see(self, found: str, question: Question) -> None:
-        before = self._smallest.get(found)
-        if before is None or question.size < before.size:
-            self._smallest[found] = question
-
-    def in_order(self) -> list[tuple[str, Question]]:
-        return [(v, self._smallest[v]) for v in VERDICTS[1:] if v in self._smallest]
-
-
-def _judged(toi: Toi, question: Question, truth: Truth, tolerance: QQ) -> tuple[str, object]:
-    """The verdict about an answer, and the answer, which may be an exception."""
+def _judged(
+    toi: Callable[[Q], object], question: Q, truth: Truth, tolerance: QQ
+) -> tuple[str, object]:
+    """Return the verdict about an answer, and the answer, which may be an exception."""
     try:
         answer = toi(question)
     except Exception as error:  # what a wrong function does is a finding
@@ -175,12 +234,14 @@ def _judged(toi: Toi, question: Question, truth: Truth, tolerance: QQ) -> tuple[
     return verdict(truth.time, answer, tolerance), answer
 
 
-def _shrunken(toi: Toi, found: str, question: Question, tolerance: QQ) -> Counterexample:
-    """The smallest question found that is wrong in the same way."""
-    smallest = shrink_question(
+def _shrunken(
+    subject: Subject[Q], toi: Callable[[Q], object], found: str, question: Q, tolerance: QQ
+) -> Counterexample[Q]:
+    """Return the smallest question found that is wrong in the same way."""
+    smallest = subject.shrink(
         question, lambda smaller, truth: _judged(toi, smaller, truth, tolerance)[0] == found
     )
-    truth = truth_of(smallest)
+    (truth,) = subject.truths([smallest])
     return Counterexample(found, smallest, _judged(toi, smallest, truth, tolerance)[1], truth)
 
 

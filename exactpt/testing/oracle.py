@@ -12,7 +12,10 @@ from typing import BinaryIO, Final
 
 from exactpt.errors import InputError
 from exactpt.kernel.budget import ask
-from exactpt.testing.questions import Asked, Name, read_question
+from exactpt.testing.questions import Asked, Name, objects, read_question
+from exactpt.testing.space.checking import contact_of
+from exactpt.testing.space.exact import SpaceContact
+from exactpt.testing.space.queries import SpaceQuery
 from exactpt.testing.truth import Truth, truths
 
 __all__ = ["Refusals", "answers", "batches"]
@@ -80,7 +83,7 @@ def answers(lines: Sequence[bytes], first: int, refusals: Refusals) -> Iterator[
         refusals: where the refused ones are counted. Their answer is ``{"id", "error"}``.
     """
     names: list[Name] = []
-    found: list[Truth | InputError] = []
+    found: list[Truth | SpaceContact | InputError] = []
     asked: list[Asked] = []
     places: list[int] = []
     for number, line in enumerate(lines, first):
@@ -88,7 +91,11 @@ def answers(lines: Sequence[bytes], first: int, refusals: Refusals) -> Iterator[
         if not line.strip():
             continue
         try:
-            name, question = read_question(line)
+            name, question = _read(line)
+            if isinstance(question, SpaceQuery):
+                names.append(number if name is None else name)
+                found.append(contact_of(question) or Truth(None))
+                continue
         except InputError as error:
             names.append(number)
             found.append(error)
@@ -99,13 +106,23 @@ def answers(lines: Sequence[bytes], first: int, refusals: Refusals) -> Iterator[
         found.append(Truth(None))
     for place, answer in zip(places, _each(asked), strict=True):
         found[place] = answer
-    for name, answer in zip(names, found, strict=True):
-        if isinstance(answer, Truth):
-            yield json.dumps({"id": name, **answer.to_json()})
+    for name, result in zip(names, found, strict=True):
+        if not isinstance(result, InputError):
+            yield json.dumps({"id": name, **result.to_json()})
         else:
             refusals.count += 1
-            refusals.first = refusals.first or f"question {name}: {answer}"
-            yield json.dumps({"id": name, "error": str(answer)})
+            refusals.first = refusals.first or f"question {name}: {result}"
+            yield json.dumps({"id": name, "error": str(result)})
+
+
+def _read(line: bytes) -> tuple[Name, Asked | SpaceQuery]:
+    """Return the id and the question of a line; one with a "kind" is a query in space."""
+    if b'"kind"' in line:
+        data = objects(line)
+        if "kind" in data:
+            query = SpaceQuery.from_json(data)
+            return query.name, query
+    return read_question(line)
 
 
 def _each(asked: Sequence[Asked]) -> list[Truth | InputError]:

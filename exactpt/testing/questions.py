@@ -92,6 +92,11 @@ class Question:
         """The number of vertices."""
         return len(self.a.vertices) + len(self.b.vertices)
 
+    @property
+    def summary(self) -> str:
+        """A description of a few words."""
+        return f"{len(self.a.vertices)} and {len(self.b.vertices)} vertices"
+
     @classmethod
     def from_scene(cls, scene: Scene, name: Name = None) -> Question:
         """The question about the two bodies of a scene.
@@ -134,7 +139,7 @@ def read_question(text: str | bytes) -> tuple[Name, Asked]:
         InputError: one line that says what is wrong.
     """
     data = objects(text)
-    return _name(data), _asked(data)
+    return id_of(data), _asked(data)
 
 
 def objects(text: str | bytes) -> dict[str, object]:
@@ -188,12 +193,12 @@ def _asked(data: dict[str, object]) -> Asked:
         raise InputError(f'"time": not a start and an end: {shorten(data["time"])}')
     a, b = data["a"], data["b"]
     if _translates(a) and _translates(b):
-        return Question(_read(a, '"a"'), _read(b, '"b"'), (time[0], time[1]), _name(data))
+        return Question(_read(a, '"a"'), _read(b, '"b"'), (time[0], time[1]), id_of(data))
     bodies = [{**_exactly(body, f'"{k}"'), "name": k} for k, body in (("a", a), ("b", b))]
     return from_json({"exactpt": 1, "time": [str(Fraction(t)) for t in time], "bodies": bodies})
 
 
-def _name(data: dict[str, object]) -> Name:
+def id_of(data: dict[str, object]) -> Name:
     name = data.get("id")
     if isinstance(name, bool) or not isinstance(name, str | int | None):
         raise InputError(f'"id": neither a text nor an integer: {shorten(name)}')

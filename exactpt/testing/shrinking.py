@@ -24,7 +24,7 @@ from exactpt.scene.written import to_json
 from exactpt.testing.questions import Question
 from exactpt.testing.truth import Truth, truth_of
 
-__all__ = ["shrink", "shrink_data", "shrink_question"]
+__all__ = ["coarser_numbers", "shrink", "shrink_data", "shrink_question", "simpler_numbers"]
 
 Data: TypeAlias = Any
 """A scene as JSON data. Candidates may be invalid scenes; ``fails`` must be false for these."""
@@ -92,14 +92,22 @@ def _polygons(question: Question) -> list[bool]:
     return [body.closed and len(body.vertices) > 2 for body in (question.a, question.b)]
 
 
-def shrink_data(data: Data, fails: Callable[[Data], bool], seconds: float) -> Data:
-    """The smallest scene found in time for which ``fails`` holds; it must hold for ``data``."""
+def shrink_data(
+    data: Data,
+    fails: Callable[[Data], bool],
+    seconds: float,
+    steps: Sequence[Callable[[Data], Iterator[Data]]] = (),
+) -> Data:
+    """The smallest scene found in time for which ``fails`` holds; it must hold for ``data``.
+
+    Other data than scenes have their own ``steps``, which yield candidates.
+    """
     deadline = clock.monotonic() + seconds
     best, size = data, _size(data)
     improved = True
     while improved:
         improved = False
-        for step in _STEPS:
+        for step in steps or _STEPS:
             candidates = step(best)
             while (candidate := next(candidates, None)) is not None:
                 if clock.monotonic() > deadline:
@@ -113,7 +121,7 @@ def shrink_data(data: Data, fails: Callable[[Data], bool], seconds: float) -> Da
 
 def _size(data: Data) -> tuple[int, int, int, int]:
     """Size by which scenes are compared: bodies, vertices, weight of numbers, length of text."""
-    bodies = data["bodies"]
+    bodies = data.get("bodies", ())
     vertices = sum(
         sum(len(_at(body, ring)) for ring in _rings(body))
         + sum(len(f["vertices"]) for f in body.get("keyframes", ()))
@@ -238,19 +246,20 @@ def _lower_degrees(data: Data) -> Iterator[Data]:
             yield _changed(data, path, [value["x"][0], value["y"][0]])
 
 
-def _coarser_numbers(data: Data) -> Iterator[Data]:
-    """All numbers at once: smaller, rounded to integers or halves."""
+def coarser_numbers(data: Data) -> Iterator[Data]:
+    """Yield data with all numbers smaller, rounded to integers or halves."""
     for divisor in (1000, 100, 10, 5, 2, 1):
         for unit in (1, 2):
             result = copy.deepcopy(data)
             for path in _numbers(data):
-                if path[0] == "bodies":
+                if path[0] != "time":
                     value = Fraction(_at(data, path)) * unit / divisor
                     _at(result, path[:-1])[path[-1]] = str(Fraction(round(value), unit))
             yield result
 
 
-def _simpler_numbers(data: Data) -> Iterator[Data]:
+def simpler_numbers(data: Data) -> Iterator[Data]:
+    """Yield data with one number simpler."""
     for path in _numbers(data):
         q = Fraction(_at(data, path))
         simpler: list[Fraction | int] = [0, 1, -1, int(q), round(q), q.limit_denominator(10)]
@@ -273,9 +282,9 @@ _STEPS: Final = (
     _fewer_rings,
     _fewer_vertices,
     _simpler_motions,
-    _coarser_numbers,
+    coarser_numbers,
     _lower_degrees,
-    _simpler_numbers,
+    simpler_numbers,
     _simpler_names,
 )
 

@@ -21,12 +21,14 @@ from exactpt.pairs.incidences import tracks_just_before
 from exactpt.pairs.intervals import contact_intervals
 from exactpt.pairs.reference import touches_at
 from exactpt.scene.scene import Scene
+from exactpt.testing.space.queries import SpaceQuery
 from fuzz.questions import by_cgal, reference
 from fuzz.questions.chosen import wrong_choice
 from fuzz.questions.norms import Norm, first_within_norm
 from fuzz.questions.renewal import first_new_contact
 from fuzz.questions.rounded import rounded_pair, wrong_answer
 from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
+from fuzz.questions.space import small_query, wrong_in_space
 from fuzz.questions.spinning import case_of, spinning_scene
 from fuzz.questions.tiny import touching_scene
 
@@ -45,7 +47,7 @@ class Checked(NamedTuple):
         signs: number of signs, roots and orders that CGAL has decided.
     """
 
-    scene: Scene
+    scene: Scene | SpaceQuery
     kind: str
     fault: str | None
     signs: int = 0
@@ -254,6 +256,12 @@ def _spin(random: Random) -> Checked:
     return Checked(scene, *case_of(scene))
 
 
+def _space(random: Random) -> Checked:
+    """Compare first contacts in space, one by one and in an array."""
+    query = small_query(random)
+    return Checked(query, *wrong_in_space(query))
+
+
 QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "distance": _distance,
     "approach": _approach,
@@ -264,5 +272,6 @@ QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "rounded": _rounded,
     "spin": _spin,
     "cgal": _cgal,
+    "space": _space,
 }
 """A function from random choices to a case, by question."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import sys
 import time as clock
 from collections import Counter
@@ -12,6 +13,7 @@ import click
 
 from exactpt.cgal import find_program
 from exactpt.errors import InputError
+from exactpt.testing.space.queries import SpaceQuery
 from fuzz.questions.checks import QUESTIONS, checked
 
 __all__ = ["questions"]
@@ -70,7 +72,10 @@ def _run(question: str, cases: int, seed: int, start: int, keep: Path) -> int:
                 differences += 1
                 keep.mkdir(parents=True, exist_ok=True)
                 path = keep / f"{question}-{seed}-{number}.json"
-                case.scene.save(path)
+                if isinstance(case.scene, SpaceQuery):
+                    path.write_text(json.dumps(case.scene.to_json()), encoding="utf-8")
+                else:
+                    case.scene.save(path)
                 click.echo(f"{question}, case {number}: {case.fault}\n  {path}")
             if done % EVERY == 0:
                 click.echo(f"{question}: {done} cases, {differences} differences", err=True)
