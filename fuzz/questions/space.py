@@ -15,7 +15,7 @@ Points = list[list[int]]
 
 
 def small_query(random: Random) -> SpaceQuery:
-    """Return a query of small integers: degenerate, grazing, in a plane, meeting or nearly so, or any."""
+    """Return a query of small integers, most of them degenerate or near a contact."""
     is_face = random.random() < 0.5
     style = random.choice(["any", "meeting", "near", "near", "plane", "graze", "degenerate"])
     size = random.choice([1, 2, 3])
