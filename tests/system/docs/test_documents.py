@@ -36,7 +36,12 @@ def test_the_code_of_the_readme_runs(capsys):
 
     exec(code, {})
 
-    assert capsys.readouterr().out.startswith("5.798402006228018 (")
+    (shown,) = re.findall(r"```text\n(.*?)```", README, re.DOTALL)
+    assert capsys.readouterr().out == shown
+
+
+def test_the_readme_has_at_most_90_lines():
+    assert len(README.splitlines()) <= 90
 
 
 @pytest.mark.parametrize(
