@@ -22,7 +22,7 @@ from exactpt.testing.space import (
     make_query,
     vertex_face_array,
 )
-from exactpt.testing.space.checking import contact_of
+from exactpt.testing.space.exact import contact_of
 from exactpt.testing.space.queries import KINDS
 
 __all__ = ["FULL", "QUICK", "Engine", "Sizes", "engines", "run", "score"]

@@ -13,8 +13,7 @@ from typing import BinaryIO, Final
 from exactpt.errors import InputError
 from exactpt.kernel.budget import ask
 from exactpt.testing.questions import Asked, Name, objects, read_question
-from exactpt.testing.space.checking import contact_of
-from exactpt.testing.space.exact import SpaceContact
+from exactpt.testing.space.exact import SpaceContact, contact_of
 from exactpt.testing.space.queries import SpaceQuery
 from exactpt.testing.truth import Truth, truths
 

@@ -12,20 +12,15 @@ from exactpt.kernel.numbers import Rational
 from exactpt.testing.checking import Report, Subject, check_subject
 from exactpt.testing.comparing import TOLERANCE, bound, shown_time, verdict
 from exactpt.testing.shrinking import coarser_numbers, shrink_data, simpler_numbers
-from exactpt.testing.space.exact import SpaceContact, first_contact_of
+from exactpt.testing.space.exact import contact_of
 from exactpt.testing.space.families import FAMILIES, make_query
 from exactpt.testing.space.queries import Kind, SpaceQuery
 from exactpt.testing.truth import Truth
 
-__all__ = ["assert_same_time", "check_edge_edge", "check_vertex_face", "contact_of", "shrink_query"]
+__all__ = ["assert_same_time", "check_edge_edge", "check_vertex_face", "shrink_query"]
 
 SECONDS: Final = 60.0
 """Time limit for shrinking one counterexample."""
-
-
-def contact_of(query: SpaceQuery) -> SpaceContact | None:
-    """Return the exact first contact of a query; None if there is none."""
-    return first_contact_of(query.kind, query.start, query.end)
 
 
 def check_vertex_face(

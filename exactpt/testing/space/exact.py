@@ -39,9 +39,9 @@ from exactpt.kernel.algebraic_value import quotient_at
 from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, subtract, trimmed
 from exactpt.kernel.numbers import QQ, ZZ, Rational
 from exactpt.kernel.roots import roots_after
-from exactpt.testing.space.queries import Kind, read_points
+from exactpt.testing.space.queries import Kind, SpaceQuery, read_points
 
-__all__ = ["SpaceContact", "edge_edge", "first_contact_of", "vertex_face"]
+__all__ = ["SpaceContact", "contact_of", "edge_edge", "first_contact_of", "vertex_face"]
 
 Vector: TypeAlias = tuple[IntPoly, IntPoly, IntPoly]
 """A vector whose components are integer polynomials in t."""
@@ -126,6 +126,11 @@ def first_contact_of(
     if _are_boxes_apart((*first[:count], *last[:count]), (*first[count:], *last[count:])):
         return None
     return _Pair(kind == "vertex-face", _tracks(first, last)).first_contact()
+
+
+def contact_of(query: SpaceQuery) -> SpaceContact | None:
+    """Return the exact first contact of a query; None if there is none."""
+    return first_contact_of(query.kind, query.start, query.end)
 
 
 def _are_boxes_apart(one: Sequence[Sequence[QQ]], other: Sequence[Sequence[QQ]]) -> bool:

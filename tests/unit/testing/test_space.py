@@ -25,7 +25,7 @@ from exactpt.testing.space import (
     vertex_face_array,
 )
 from exactpt.testing.space import exact as exact_module
-from exactpt.testing.space.checking import contact_of
+from exactpt.testing.space.exact import contact_of
 from fuzz.questions.checks import checked
 from fuzz.space_queries import compare_public_queries
 
