@@ -2,32 +2,31 @@
 
 from __future__ import annotations
 
-import math
 import warnings
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import partial
 from itertools import combinations, islice, pairwise, takewhile
 from typing import Final, Literal, final, overload
+
+import numpy as np
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, isqrt
 from exactpt.pairs.approach_search import ApproachSearch, Nearest
 from exactpt.pairs.near import pairs_that_come_near
-from exactpt.pairs.search import Row, rows_of
+from exactpt.pairs.search import Row, first_touching, rows_of
+from exactpt.pairs.start import near_at_start, within_at_start
 from exactpt.pairs.stretches import two_bodies
+from exactpt.pairs.two_pieces import ContactDistance
 from exactpt.pairs.within import Norm, asked_distance, of_cores, time_within
-from exactpt.scene.scene import Scene, a_scene, scene_of
+from exactpt.scene.scene import Scene, a_scene
 
 __all__ = ["Approach", "first_within"]
 
-MANY: Final = 10
-"""Number of bodies from which on those that come near first are searched first."""
 BITS: Final = 64
 """Bits of an upper bound of a distance, at least."""
-FIRST: Final = 8
-"""Number of pairs that are searched first; then twice as many, and so on."""
 
 
 @final
@@ -188,22 +187,29 @@ def _by_pairs(
 
 def _euclidean(scene: Scene, squared: QQ) -> Nearest | None:
     most = _root_above(squared)
-    if scene.is_rounded:
-        return _of_rounded(scene, squared, most)
-    rows = rows_of(scene) if len(scene.bodies) > MANY else None
-    if rows is not None:
-        return _of_rows(scene, rows, squared, most)
-    return ApproachSearch(scene, lambda _, __: squared, [most / 2] * len(scene.bodies)).run()
-
-
-def _of_rounded(scene: Scene, squared: QQ, most: QQ) -> Nearest | None:
-    """The first approach, some of the bodies being rounded."""
     radii = [body._radius for body in scene.bodies]
 
     def limit(i: int, j: int) -> QQ:
         return of_cores(squared, radii[i] + radii[j], "euclidean")
 
-    return ApproachSearch(scene, limit, [most / 2 + r for r in radii]).run()
+    def distance(a: Row, b: Row) -> ContactDistance | None:
+        root = most + radii[a.body] + radii[b.body]
+        return ContactDistance.of(limit(a.body, b.body), root) if root else None
+
+    reach = [most / 2 + r for r in radii]
+    rows = rows_of(scene)
+    if rows is None:
+        return ApproachSearch(scene, limit, reach).run()
+    near = near_at_start(scene, reach, np.not_equal)
+    at_start = tuple(ij for ij, _ in within_at_start(scene, limit, near))
+    if at_start:
+        return Nearest(AlgebraicNumber(scene._start), at_start)
+    margin = enclosing_floats(most / 2)[1]
+    found = first_touching(rows, scene._start, scene._end, distance, margin)
+    if found is None:
+        return None
+    pairs = {(min(t.body, t.other), max(t.body, t.other)) for t in found.touches}
+    return Nearest(found.number, tuple(sorted(pairs)))
 
 
 def _root_above(squared: QQ) -> QQ:
@@ -211,39 +217,3 @@ def _root_above(squared: QQ) -> QQ:
     n, d = squared.numerator, squared.denominator
     shift = max(0, BITS - (n * d).bit_length() // 2)
     return QQ(isqrt(n * d << 2 * shift) + 1, d << shift) if n else QQ(0)
-
-
-def _of_rows(scene: Scene, rows: Sequence[Row], squared: QQ, most: QQ) -> Nearest | None:
-    """The first approach of bodies that all move straight: first of those that come near first.
-
-    Before the time at which the boxes of the next pair meet, grown by the distance in all, only
-    the pairs before it can be within the distance.
-    """
-    from exactpt.pairs.boxes import near_rows
-
-    begin, among, batch = scene._start, set[int](), FIRST
-    near = near_rows(rows, scene._start, scene._end, enclosing_floats(most / 2)[1])
-    for count, (enter, i, j) in enumerate(near):
-        if count >= batch and math.isfinite(enter) and begin < QQ(enter) < scene._end:
-            until = QQ(enter)
-            found = _of_some(scene, among, begin, until, squared, most)
-            if found is not None and found.time.compare_rational(until) < 0:
-                return found
-            if found is None:
-                begin = until
-            batch *= 2
-        among |= {rows[i].body, rows[j].body}
-    return _of_some(scene, among, begin, scene._end, squared, most)
-
-
-def _of_some(
-    scene: Scene, among: Collection[int], begin: QQ, end: QQ, squared: QQ, most: QQ
-) -> Nearest | None:
-    """The first approach of some bodies, by number, in [begin, end]."""
-    numbers = sorted(among)
-    part = scene_of([scene.bodies[i] for i in numbers], begin, end)
-    half = [most / 2] * len(numbers)
-    found = ApproachSearch(part, lambda _, __: squared, half).run() if numbers else None
-    if found is None:
-        return None
-    return Nearest(found.time, tuple((numbers[i], numbers[j]) for i, j in found.pairs))

@@ -8,10 +8,12 @@ from typing import Final
 import numpy as np
 
 from exactpt.geometry.boxes import Boxes, overlapping_pairs
-from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
+from exactpt.kernel.numbers import QQ, ceil, enclosing_floats, power_of_two
 from exactpt.motion.frame import Frame
 from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.vertices import Vertices
+from exactpt.pairs.boxes import near_rows
+from exactpt.pairs.search import rows_of
 from exactpt.scene.scene import Scene
 
 __all__ = ["pairs_that_come_near"]
@@ -19,7 +21,7 @@ __all__ = ["pairs_that_come_near"]
 FEW: Final = 4
 """Maximum number of bodies of which all pairs are named at once."""
 SLABS: Final = 64
-"""Number of slabs into which each piece of motion is cut: boxes are swept through one slab."""
+"""Number of slabs in the time span; each piece of motion has one at least."""
 
 
 def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
@@ -30,6 +32,11 @@ def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
     """
     if len(scene.bodies) <= FEW:
         return list(combinations(range(len(scene.bodies)), 2))
+    rows = rows_of(scene)
+    if rows is not None:
+        near = near_rows(rows, scene._start, scene._end, enclosing_floats(reach / 2)[1])
+        bodies = (sorted((rows[k].body, rows[l].body)) for _, k, l in near)
+        return sorted({(i, j) for i, j in bodies})
     vertices = Vertices.of(scene.bodies, scene._start, scene._end, plain=True)
     cuts = {t for body in scene.bodies for t in body._breakpoints}
     inner = sorted(t for t in cuts if scene._start < t < scene._end)
@@ -39,19 +46,22 @@ def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
             if moving.until == begin:
                 vertices.enter_piece(i, begin)
         halves = [reach / 2 + body._radius for body in scene.bodies]
-        found |= _near_during(vertices, halves, begin, end)
+        slabs = max(1, int(ceil(SLABS * (end - begin) / (scene._end - scene._start))))
+        found |= _near_during(vertices, halves, begin, end, slabs)
     return sorted(found)
 
 
-def _near_during(vertices: Vertices, halves: list[QQ], begin: QQ, end: QQ) -> set[tuple[int, int]]:
+def _near_during(
+    vertices: Vertices, halves: list[QQ], begin: QQ, end: QQ, slabs: int
+) -> set[tuple[int, int]]:
     """The pairs whose boxes meet in one of the slabs between two changes of motion."""
     images = [vertices.all[v].image for moving in vertices.bodies for v in moving.ring]
     sizes = [len(moving.ring) for moving in vertices.bodies]
     firsts = np.cumsum([0, *sizes[:-1]])
     swept = SweptBoxes(images, vertices.enclosures.errors)
     found: set[tuple[int, int]] = set()
-    width = (end - begin) / SLABS
-    for k in range(SLABS):
+    width = (end - begin) / slabs
+    for k in range(slabs):
         low = vertices.frame.time(begin + k * width)[0]
         high = vertices.frame.time(begin + (k + 1) * width)[1]
         boxes = swept.during(low, high)

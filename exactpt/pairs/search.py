@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING, Final, NamedTuple, final
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias, final
 
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -214,8 +214,22 @@ def rows_during(
             since = until
 
 
+Distance: TypeAlias = "Callable[[Row, Row], ContactDistance | None]"
+"""The distance at which two rows touch; None if it is 0."""
+
+
+def contact_distance(a: Row, b: Row) -> ContactDistance | None:
+    """Return the distance at which the cores of two bodies touch; None if it is 0."""
+    r, s = a.straight.body._radius, b.straight.body._radius
+    return ContactDistance.of((r + s) ** 2, r + s) if r or s else None
+
+
 def first_touching(
-    rows: Sequence[Row], start: QQ, end: QQ, apart: Callable[[int, int], bool]
+    rows: Sequence[Row],
+    start: QQ,
+    end: QQ,
+    distance: Distance = contact_distance,
+    margin: float = 0.0,
 ) -> Touching | None:
     """The first contact in (start, end] of bodies that are disjoint at the start.
 
@@ -223,26 +237,28 @@ def first_touching(
         rows: of all bodies.
         start: the start.
         end: the end.
-        apart: whether two different bodies, by number, are to be compared.
+        distance: the distance of the cores at which bodies touch.
+        margin: at least half of what the distance is more than the sum of the radii.
     """
     if len(rows) <= FEW:
         pairs = ((-math.inf, a, b) for a, b in combinations(rows, 2))
     else:
         from exactpt.pairs.boxes import near_rows
 
-        pairs = ((enter, rows[i], rows[j]) for enter, i, j in near_rows(rows, start, end))
-    return first_of_pairs(
-        (enter, a, b) for enter, a, b in pairs if a.body != b.body and apart(a.body, b.body)
-    )
+        pairs = ((enter, rows[i], rows[j]) for enter, i, j in near_rows(rows, start, end, margin))
+    return first_of_pairs(((enter, a, b) for enter, a, b in pairs if a.body != b.body), distance)
 
 
-def first_of_pairs(pairs: Iterable[tuple[float, Row, Row]]) -> Touching | None:
+def first_of_pairs(
+    pairs: Iterable[tuple[float, Row, Row]], distance: Distance = contact_distance
+) -> Touching | None:
     """The first contact of pairs of rows of two bodies that are disjoint when both begin.
 
     Args:
         pairs: two rows, and a time before which they do not touch; in the order of these times.
+        distance: the distance of the cores at which bodies touch.
     """
-    search = _Search()
+    search = _Search(distance)
     for enter, a, b in pairs:
         ask()
         if enter > search.high:
@@ -259,7 +275,8 @@ class _Search:
         high: a double at least its time.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, distance: Distance) -> None:
+        self._distance = distance
         self._spans: dict[tuple[QQ, QQ], Span] = {}
         self.best: Touching | None = None
         self.high: float = math.inf
@@ -273,7 +290,7 @@ class _Search:
         span = self._spans.get((start, end))
         if span is None:
             span = self._spans[start, end] = span_of(start, end)
-        met = first_meeting(a.straight, b.straight, span, self.high, contact_distance(a, b))
+        met = first_meeting(a.straight, b.straight, span, self.high, self._distance(a, b))
         if met is None:
             return
         touches = list(_touches(met, a.body, b.body))
@@ -289,12 +306,6 @@ def window_of(a: Row, b: Row, low: float, high: float) -> tuple[float, float]:
     distance = contact_distance(a, b)
     nearest = 0.0 if distance is None else distance.nearest
     return window(a.straight, b.straight, low, high, nearest)
-
-
-def contact_distance(a: Row, b: Row) -> ContactDistance | None:
-    """Return the distance at which the cores of two bodies touch; None if it is 0."""
-    r, s = a.straight.body._radius, b.straight.body._radius
-    return ContactDistance.of((r + s) ** 2, r + s) if r or s else None
 
 
 def _touches(met: Meeting, first: int, second: int) -> Iterator[Touch]:

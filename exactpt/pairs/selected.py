@@ -177,7 +177,7 @@ class SelectedSearch:
             return None
         if self._rows is not None:
             rows = [row for i in pair for row in self._rows[i]]
-            met = first_touching(rows, scene._start, until, lambda _, __: True)
+            met = first_touching(rows, scene._start, until)
             return None if met is None else (met.number, met.touches)
         part = scene_of([scene.bodies[i] for i in pair], scene._start, until)
         alone = [body.name for body in part.bodies] if len(pair) > 1 else []
