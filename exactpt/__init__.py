@@ -181,6 +181,8 @@ _ROOM_OF: Final = {name: room for room, names in _ROOMS.items() for name in name
 
 for _name, _place in {
     "body from shapely": "exactpt.exchange.shapely_adapter:body_from",
+    "scene from a file": "exactpt.scene.format:load",
+    "scene from JSON": "exactpt.scene.format:from_json",
     "scene from shapely": "exactpt.exchange.shapely_adapter:scene_from",
     "scene to shapely": "exactpt.exchange.shapely_adapter:geometries_of",
     "picture of a scene": "exactpt.render.notebook:scene_svg",

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from exactpt.collision.search import Search
 from exactpt.errors import InputError
 from exactpt.extensions import extension
-from exactpt.pairs.search import StraightSearch, straight_rows
+from exactpt.pairs.search import LinearSearch, scene_pieces_if_linear
 from exactpt.scene.scene import Scene
 
 __all__ = ["Question", "search_for", "searches_pairs"]
@@ -62,9 +62,9 @@ def search_for(scene: Scene, question: Question, *, counting: bool = True) -> Se
         method = "kinetic"
     seconds = question.max_seconds
     if searches_pairs(method, tiling, groups):
-        rows = None if counting or exact_only else straight_rows(scene)
+        rows = None if counting or exact_only else scene_pieces_if_linear(scene)
         if rows is not None:
-            return StraightSearch(scene, rows, groups)
+            return LinearSearch(scene, rows, groups)
         from exactpt.pairs.features_sweep import PairsSearch
 
         search = PairsSearch(scene, exact_only=exact_only, max_seconds=seconds, ignoring=groups)

@@ -14,9 +14,11 @@ import numpy as np
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, isqrt
+from exactpt.kernel.square_root import exact_square_root
 from exactpt.pairs.approach_search import ApproachSearch, Nearest
 from exactpt.pairs.near import pairs_that_come_near
-from exactpt.pairs.search import Row, first_touching, rows_of
+from exactpt.pairs.pieces import MotionPiece, linear_pieces
+from exactpt.pairs.search import first_among_pieces
 from exactpt.pairs.start import near_at_start, within_at_start
 from exactpt.pairs.stretches import two_bodies
 from exactpt.pairs.two_pieces import ContactDistance
@@ -192,12 +194,13 @@ def _euclidean(scene: Scene, squared: QQ) -> Nearest | None:
     def limit(i: int, j: int) -> QQ:
         return of_cores(squared, radii[i] + radii[j], "euclidean")
 
-    def distance(a: Row, b: Row) -> ContactDistance | None:
+    def distance(a: MotionPiece, b: MotionPiece) -> ContactDistance | None:
         root = most + radii[a.body] + radii[b.body]
         return ContactDistance.of(limit(a.body, b.body), root) if root else None
 
     reach = [most / 2 + r for r in radii]
-    rows = rows_of(scene)
+    lacks_root = scene.is_rounded and exact_square_root(squared) is None
+    rows = None if lacks_root else linear_pieces(scene)
     if rows is None:
         return ApproachSearch(scene, limit, reach).run()
     near = near_at_start(scene, reach, np.not_equal)
@@ -205,7 +208,7 @@ def _euclidean(scene: Scene, squared: QQ) -> Nearest | None:
     if at_start:
         return Nearest(AlgebraicNumber(scene._start), at_start)
     margin = enclosing_floats(most / 2)[1]
-    found = first_touching(rows, scene._start, scene._end, distance, margin)
+    found = first_among_pieces(rows, scene._start, scene._end, distance, margin)
     if found is None:
         return None
     pairs = {(min(t.body, t.other), max(t.body, t.other)) for t in found.touches}

@@ -1,6 +1,6 @@
-"""Which rows of a search come near each other, and when: boxes in numpy, slab by slab of time.
+"""Broad phase for linear motion: candidate pairs from swept boxes in numpy, slab by slab of time.
 
-A filter, never a decision: rows that do not come near certainly do not touch.
+It is conservative: a pair that is not reported does not touch; a reported pair may or may not.
 """
 
 from __future__ import annotations
@@ -19,9 +19,16 @@ from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.motion.body import Body
 
 if TYPE_CHECKING:
-    from exactpt.pairs.search import Row
+    from exactpt.pairs.pieces import MotionPiece
 
-__all__ = ["ROUNDED_UP", "RowBoxes", "near_boxes", "near_rows", "pairs_at", "radius_above"]
+__all__ = [
+    "ROUNDED_UP",
+    "PieceBoxes",
+    "candidate_pairs",
+    "candidate_pieces",
+    "pairs_at",
+    "radius_above",
+]
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
@@ -43,23 +50,23 @@ _COLUMNS: Final = (
 
 
 @final
-class RowBoxes:
+class PieceBoxes:
     """Boxes of rows: of the shape at rest, with the motion c + v t during [start, end].
 
     They contain all points within the radius of a body.
 
     Args:
-        rows: the rows.
+        rows: the pieces.
         margin: what the boxes are grown by besides, on each side.
 
     Attributes:
-        body: the number of the body of each row.
+        body: the number of the body of each piece.
         drift: the median of the velocities.
     """
 
     __slots__ = (*_COLUMNS, "drift")
 
-    def __init__(self, rows: Sequence[Row], margin: float = 0.0) -> None:
+    def __init__(self, rows: Sequence[MotionPiece], margin: float = 0.0) -> None:
         self.body: Indices = np.array([row.body for row in rows], dtype=np.int64)
         straights = [row.straight for row in rows]
         shapes = [straight.shape for straight in straights]
@@ -81,8 +88,8 @@ class RowBoxes:
         self.drift: Floats = middles(self._v) if len(rows) else np.zeros(2)
 
     @classmethod
-    def of_doubles(cls, numbers: Floats, start: QQ, end: QQ) -> RowBoxes:
-        """Boxes of one row for each body, all during one span, known without error.
+    def of_doubles(cls, numbers: Floats, start: QQ, end: QQ) -> PieceBoxes:
+        """Boxes of one piece for each body, all during one span, known without error.
 
         Args:
             numbers: shape (n, 8): the box (low x, low y, high x, high y), c and v.
@@ -102,9 +109,9 @@ class RowBoxes:
     def __len__(self) -> int:
         return len(self.body)
 
-    def joined(self, other: RowBoxes) -> RowBoxes:
-        """The boxes of these rows, and then of others."""
-        both = RowBoxes.__new__(RowBoxes)
+    def joined(self, other: PieceBoxes) -> PieceBoxes:
+        """The boxes of these pieces, and then of others."""
+        both = PieceBoxes.__new__(PieceBoxes)
         for name in _COLUMNS:
             setattr(both, name, np.concatenate((getattr(self, name), getattr(other, name))))
         both.drift = self.drift
@@ -112,7 +119,7 @@ class RowBoxes:
 
     @np.errstate(all="ignore")
     def during(self, low: float, high: float) -> tuple[Indices, Boxes]:
-        """The rows that last during a part of [low, high], and boxes of them in that part.
+        """The pieces that last during a part of [low, high], and boxes of them in that part.
 
         Boxes are relative to the drift. A displacement c + (v - drift) t is off by at most
         c_error + v_error |t|, the rounding of its terms, and U |v - drift| |t|.
@@ -135,7 +142,7 @@ class RowBoxes:
 
     @np.errstate(all="ignore")
     def windows(self, i: Indices, j: Indices, low: float, high: float) -> tuple[Floats, Floats]:
-        """Bounds of the times in [low, high] at which the boxes of two rows meet.
+        """Bounds of the times in [low, high] at which the boxes of two pieces meet.
 
         The bounds of `exactpt.pairs.filters.window`; the first is larger than the second
         if they do not meet.
@@ -163,7 +170,7 @@ class RowBoxes:
 
     @np.errstate(all="ignore")
     def stride(self, now: float) -> float:
-        """The time in which rows move by their mean distance, on average: an estimate.
+        """The time in which pieces move by their mean distance, on average: an estimate.
 
         Infinite if none moves relative to the drift; perhaps NaN.
         """
@@ -177,26 +184,26 @@ def radius_above(body: Body) -> float:
     return nearest_float(body._radius) * ROUNDED_UP + TINY if body._radius else 0.0
 
 
-def pairs_at(boxes: RowBoxes, time: QQ) -> list[tuple[int, int]]:
-    """The pairs i < j of bodies, each with one row, whose boxes meet at a time."""
+def pairs_at(boxes: PieceBoxes, time: QQ) -> list[tuple[int, int]]:
+    """The pairs i < j of bodies, each with one piece, whose boxes meet at a time."""
     _, first, second = _meeting(boxes, *enclosing_floats(time))
     pairs = np.sort(np.stack((boxes.body[first], boxes.body[second]), axis=1), axis=1)
     return [(i, j) for i, j in pairs.tolist()]
 
 
-def near_rows(
-    rows: Sequence[Row], start: QQ, end: QQ, margin: float = 0.0
+def candidate_pieces(
+    rows: Sequence[MotionPiece], start: QQ, end: QQ, margin: float = 0.0
 ) -> Iterator[tuple[float, int, int]]:
-    """The pairs of rows of different bodies that come near each other, once each.
+    """The pairs of pieces of different bodies that come near each other, once each.
 
     Each comes with a time at or before which it does, in increasing order of these times. Their
     boxes are grown by a margin.
     """
-    return near_boxes(RowBoxes(rows, margin), start, end)
+    return candidate_pairs(PieceBoxes(rows, margin), start, end)
 
 
-def near_boxes(boxes: RowBoxes, start: QQ, end: QQ) -> Iterator[tuple[float, int, int]]:
-    """As `near_rows`, of rows by number."""
+def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[float, int, int]]:
+    """As `candidate_pieces`, of pieces by number."""
     now, last = enclosing_floats(start)[0], enclosing_floats(end)[1]
     span = last - now
     least = SHORTEST * span
@@ -230,8 +237,8 @@ def near_boxes(boxes: RowBoxes, start: QQ, end: QQ) -> Iterator[tuple[float, int
         now = later
 
 
-def _meeting(boxes: RowBoxes, low: float, high: float) -> tuple[int, Indices, Indices]:
-    """How many rows last during [low, high], and the pairs of two bodies whose boxes meet."""
+def _meeting(boxes: PieceBoxes, low: float, high: float) -> tuple[int, Indices, Indices]:
+    """How many pieces last during [low, high], and the pairs of two bodies whose boxes meet."""
     active, places = boxes.during(low, high)
     firsts: list[Indices] = []
     seconds: list[Indices] = []

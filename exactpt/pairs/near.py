@@ -12,8 +12,8 @@ from exactpt.kernel.numbers import QQ, ceil, enclosing_floats, power_of_two
 from exactpt.motion.frame import Frame
 from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.vertices import Vertices
-from exactpt.pairs.boxes import near_rows
-from exactpt.pairs.search import rows_of
+from exactpt.pairs.boxes import candidate_pieces
+from exactpt.pairs.pieces import linear_pieces
 from exactpt.scene.scene import Scene
 
 __all__ = ["pairs_that_come_near"]
@@ -32,9 +32,9 @@ def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
     """
     if len(scene.bodies) <= FEW:
         return list(combinations(range(len(scene.bodies)), 2))
-    rows = rows_of(scene)
+    rows = linear_pieces(scene)
     if rows is not None:
-        near = near_rows(rows, scene._start, scene._end, enclosing_floats(reach / 2)[1])
+        near = candidate_pieces(rows, scene._start, scene._end, enclosing_floats(reach / 2)[1])
         bodies = (sorted((rows[k].body, rows[l].body)) for _, k, l in near)
         return sorted({(i, j) for i, j in bodies})
     vertices = Vertices.of(scene.bodies, scene._start, scene._end, plain=True)

@@ -14,8 +14,8 @@ from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.swept import SweptBoxes
-from exactpt.pairs.boxes import RowBoxes
-from exactpt.pairs.search import Row, rows_of
+from exactpt.pairs.boxes import PieceBoxes
+from exactpt.pairs.pieces import MotionPiece, linear_pieces
 from exactpt.scene.scene import Scene
 
 __all__ = ["Obstacles", "SlabBoxes", "Stretch"]
@@ -98,19 +98,19 @@ class Obstacles:
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
-        self.rows: list[Row] | None = rows_of(scene)
-        self._row_boxes = None if self.rows is None else RowBoxes(self.rows)
+        self.rows: list[MotionPiece] | None = linear_pieces(scene)
+        self._row_boxes = None if self.rows is None else PieceBoxes(self.rows)
         self._slab_boxes: SlabBoxes | None = None
 
-    def near(self, rows: Sequence[Row]) -> list[tuple[float, int, int]]:
-        """The obstacles' rows, by number, whose boxes meet those of rows, also by number.
+    def near(self, rows: Sequence[MotionPiece]) -> list[tuple[float, int, int]]:
+        """The obstacles' pieces, by number, whose boxes meet those of pieces, also by number.
 
         Each comes with a time before which they do not; in the order of these times.
         """
         if self._row_boxes is None or not self._row_boxes:
             return []
         n, m = len(self._row_boxes), len(rows)
-        boxes = self._row_boxes.joined(RowBoxes(rows))
+        boxes = self._row_boxes.joined(PieceBoxes(rows))
         i, j = np.tile(np.arange(n), m), np.repeat(np.arange(n, n + m), n)
         enter, leave = boxes.windows(i, j, -np.inf, np.inf)
         meet = np.nonzero(enter <= leave)[0]

@@ -16,7 +16,8 @@ from exactpt.motion.shape import VertexLike
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.obstacles import Obstacles, Stretch
-from exactpt.pairs.search import MOST_VERTICES, Row, first_of_pairs, rows_during, window_of
+from exactpt.pairs.pieces import MOST_VERTICES, MotionPiece, pieces_during, window_of
+from exactpt.pairs.search import first_among_candidates
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 
@@ -91,12 +92,12 @@ class Planner:
             pieces = straight_pieces(body, outline)
             if pieces is not None:
                 number = len(scene.bodies)
-                moving = list(rows_during(number, pieces, scene._start, scene._end))
+                moving = list(pieces_during(number, pieces, scene._start, scene._end))
                 return self._first_of_rows(body, rows, moving)
         return self._first_of_any(body)
 
     def _first_of_rows(
-        self, body: Body, rows: Sequence[Row], moving: Sequence[Row]
+        self, body: Body, rows: Sequence[MotionPiece], moving: Sequence[MotionPiece]
     ) -> Contact | None:
         """The first contact of a body with obstacles, if all of them move straight."""
         start = self._scene._start
@@ -114,7 +115,7 @@ class Planner:
             touches, overlaps = initial_touches(scene, begin)
             if overlaps:
                 return contact_of(scene, AlgebraicNumber(start), touches, overlaps)
-        found = first_of_pairs((time, rows[i], moving[j]) for time, i, j in near)
+        found = first_among_candidates((time, rows[i], moving[j]) for time, i, j in near)
         if found is None:
             return None
         return contact_of(scene, found.number, found.touches)

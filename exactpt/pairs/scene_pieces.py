@@ -1,6 +1,6 @@
-"""The straight motions of all bodies of a scene: rows in boxes, and which come near each other.
+"""The motion pieces of a scene in linear motion, with their boxes, made when they are needed.
 
-A body becomes a row, with the rationals and lists that exact decisions need, when it comes near
+A body becomes a piece, with the rationals and lists that exact decisions need, when it comes near
 another one; until then, doubles in arrays are enough where these are exact. The box of a rounded
 body is grown.
 """
@@ -21,71 +21,71 @@ from exactpt.kernel.rounding import TINY
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.outline import Straight, straight_pieces
-from exactpt.pairs.boxes import ROUNDED_UP, RowBoxes, near_boxes, pairs_at, radius_above
-from exactpt.pairs.search import MOST_VERTICES, Row, rows_during
+from exactpt.pairs.boxes import ROUNDED_UP, PieceBoxes, candidate_pairs, pairs_at, radius_above
+from exactpt.pairs.pieces import MOST_VERTICES, MotionPiece, pieces_during
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene
 
-__all__ = ["SceneRows", "boxed", "scene_rows"]
+__all__ = ["ScenePieces", "boxed", "boxed_pieces_of"]
 
 Floats: TypeAlias = NDArray[np.float64]
 
 
 @final
-class SceneRows:
-    """The rows of all bodies of a scene.
+class ScenePieces:
+    """The pieces of all bodies of a scene.
 
     Args:
         scene: the scene.
-        boxes: the boxes of the rows.
-        rows: the rows; those of a body's single piece of motion are made on demand, if None.
+        boxes: the boxes of the pieces.
+        rows: the pieces; those of a body's single piece of motion are made on demand, if None.
     """
 
-    def __init__(self, scene: Scene, boxes: RowBoxes, rows: list[Row] | None) -> None:
+    def __init__(self, scene: Scene, boxes: PieceBoxes, rows: list[MotionPiece] | None) -> None:
         self._scene = scene
         self._boxes = boxes
-        self._rows: dict[int, Row] = dict(enumerate(rows or ()))
+        self._rows: dict[int, MotionPiece] = dict(enumerate(rows or ()))
 
     def near_at_start(self) -> list[tuple[int, int]]:
         """The pairs i < j of bodies whose boxes meet at the start."""
         return sorted({(i, j) for i, j in pairs_at(self._boxes, self._scene._start) if i != j})
 
     def near(self) -> Iterator[tuple[float, int, int]]:
-        """The pairs of rows that come near each other; see `near_rows`."""
-        return near_boxes(self._boxes, self._scene._start, self._scene._end)
+        """The pairs of pieces that come near each other; see `candidate_pieces`."""
+        return candidate_pairs(self._boxes, self._scene._start, self._scene._end)
 
     def body(self, k: int) -> int:
-        """The body of a row."""
+        """The body of a piece."""
         return int(self._boxes.body[k])
 
-    def __getitem__(self, k: int) -> Row:
+    def __getitem__(self, k: int) -> MotionPiece:
         row = self._rows.get(k)
         if row is None:
             pieces = _pieces(self._scene.bodies[k])
             start, end = self._scene._start, self._scene._end
-            row = self._rows[k] = Row(k, (pieces or [])[0][0], start, end)
+            row = self._rows[k] = MotionPiece(k, (pieces or [])[0][0], start, end)
         return row
 
 
-def scene_rows(scene: Scene) -> SceneRows | None:
-    """The rows of a scene; None unless all bodies move straight and none is large."""
+def boxed_pieces_of(scene: Scene) -> ScenePieces | None:
+    """The pieces of a scene; None unless all bodies move straight and none is large."""
     bodies = scene.bodies
     numbers = _of_arrays(bodies) if isinstance(bodies, BodyArrays) else _of_bodies(bodies)
     if numbers is not None:
-        return SceneRows(scene, RowBoxes.of_doubles(numbers, scene._start, scene._end), None)
-    rows: list[Row] = []
+        return ScenePieces(scene, PieceBoxes.of_doubles(numbers, scene._start, scene._end), None)
+    rows: list[MotionPiece] = []
     for i, body in enumerate(scene.bodies):
         ask()
         pieces = _pieces(body)
         if pieces is None:
             return None
-        rows += rows_during(i, pieces, scene._start, scene._end)
+        rows += pieces_during(i, pieces, scene._start, scene._end)
     return boxed(scene, rows)
 
 
-def boxed(scene: Scene, rows: list[Row]) -> SceneRows:
-    """The given rows of a scene."""
-    return SceneRows(scene, RowBoxes(rows), rows)
+def boxed(scene: Scene, rows: list[MotionPiece]) -> ScenePieces:
+    """The given pieces of a scene."""
+    return ScenePieces(scene, PieceBoxes(rows), rows)
 
 
 @np.errstate(all="ignore")
@@ -134,7 +134,7 @@ def _within(body: Body, low: float, high: float) -> tuple[float, float]:
     """Return an interval that contains all within the radius of a body around one."""
     if not body._radius:
         return low, high
-    radius = radius_above(body)  # as `RowBoxes`
+    radius = radius_above(body)  # as `PieceBoxes`
     return math.nextafter(low - radius, -math.inf), math.nextafter(high + radius, math.inf)
 
 

@@ -1,69 +1,45 @@
 """The first contact of bodies that all move straight, piece by piece.
 
-Each body is a row per piece of its motion. Rows whose boxes meet while both last are compared
+Each body is a piece per piece of its motion. Rows whose boxes meet while both last are compared
 in the order in which their boxes meet, up to the first contact.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias, final
+from typing import TYPE_CHECKING, Final, NamedTuple, final
 
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
-from exactpt.kernel.numbers import QQ, enclosing_floats
+from exactpt.kernel.numbers import QQ
 from exactpt.motion.incidence import Touch
-from exactpt.motion.outline import Straight, straight_pieces
 from exactpt.pairs.contact import Contact, contact_of
-from exactpt.pairs.filters import window
+from exactpt.pairs.pieces import Distance, FewPieces, MotionPiece, contact_distance, linear_pieces
 from exactpt.pairs.rational import Meeting, Span, algebraic, compare, double_above, span_of
 from exactpt.pairs.selection import groups_of
 from exactpt.pairs.start import initial_touches
-from exactpt.pairs.two_pieces import ContactDistance, first_meeting
+from exactpt.pairs.two_pieces import first_meeting
 from exactpt.scene.scene import Scene
 
 if TYPE_CHECKING:
-    from exactpt.pairs.scene_pieces import SceneRows
+    from exactpt.pairs.scene_pieces import ScenePieces
 
 __all__ = [
-    "MOST_VERTICES",
-    "FewRows",
-    "Row",
-    "StraightSearch",
-    "Touching",
-    "first_of_pairs",
-    "first_touching",
-    "rows_during",
-    "rows_of",
-    "straight_rows",
-    "window_of",
+    "FirstContact",
+    "LinearSearch",
+    "first_among_candidates",
+    "first_among_pieces",
+    "scene_pieces_if_linear",
 ]
 
 FEW: Final = 10
-"""Maximum number of rows of which all pairs are compared without numpy."""
-MOST_VERTICES: Final = 64
-"""Maximum number of vertices of a body for which comparing two bodies vertex by vertex pays."""
+"""Maximum number of pieces of which all pairs are compared without numpy."""
 
 
-class Row(NamedTuple):
-    """A body in one piece of its motion.
-
-    Attributes:
-        body: its number.
-        straight: its motion.
-        start, end: the piece, within the span of the search.
-    """
-
-    body: int
-    straight: Straight
-    start: QQ
-    end: QQ
-
-
-class Touching(NamedTuple):
+class FirstContact(NamedTuple):
     """The first contact of some bodies: its time and all incidences at that time."""
 
     time: QQ | AlgebraicNumber
@@ -76,12 +52,12 @@ class Touching(NamedTuple):
 
 
 @final
-class StraightSearch:
+class LinearSearch:
     """A search for the first contact of bodies that all move straight.
 
     Args:
         scene: the bodies, their motions and the time span.
-        rows: the rows of the bodies.
+        rows: the pieces of the bodies.
         ignoring: groups of body names; contacts within a group are ignored.
 
     Attributes:
@@ -91,7 +67,7 @@ class StraightSearch:
     name = None
 
     def __init__(
-        self, scene: Scene, rows: FewRows | SceneRows, ignoring: Iterable[Collection[str]] = ()
+        self, scene: Scene, rows: FewPieces | ScenePieces, ignoring: Iterable[Collection[str]] = ()
     ) -> None:
         self._scene = scene
         self._rows = rows
@@ -119,7 +95,7 @@ class StraightSearch:
             if overlaps:
                 return contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)
         try:
-            found = first_of_pairs(
+            found = first_among_candidates(
                 (enter, rows[k], rows[l])
                 for enter, k, l in rows.near()
                 if self._counts(rows.body(k), rows.body(l))
@@ -133,104 +109,29 @@ class StraightSearch:
         return self._group[i] != self._group[j]
 
 
-@final
-class FewRows:
-    """The rows of a scene of which all pairs are compared, without numpy.
-
-    Args:
-        rows: the rows.
-        start: the start of the scene.
-    """
-
-    def __init__(self, rows: Sequence[Row], start: QQ) -> None:
-        self._rows = rows
-        self._start = start
-
-    def near_at_start(self) -> list[tuple[int, int]]:
-        """The pairs i < j of bodies whose boxes meet at the start."""
-        low, high = enclosing_floats(self._start)
-        near: list[tuple[int, int]] = []
-        for a, b in combinations([row for row in self._rows if row.start == self._start], 2):
-            enter, leave = window_of(a, b, low, high)
-            if not enter > leave:
-                near.append((a.body, b.body))
-        return near
-
-    def near(self) -> Iterator[tuple[float, int, int]]:
-        """All pairs of rows of two bodies, each with a time before which they do not touch."""
-        for i, j in combinations(range(len(self._rows)), 2):
-            if self.body(i) != self.body(j):
-                yield -math.inf, i, j
-
-    def body(self, k: int) -> int:
-        """The body of a row."""
-        return self._rows[k].body
-
-    def __getitem__(self, k: int) -> Row:
-        return self._rows[k]
-
-
-def straight_rows(scene: Scene) -> FewRows | SceneRows | None:
-    """The rows of all bodies; None unless all of them move straight and are not large."""
+def scene_pieces_if_linear(scene: Scene) -> FewPieces | ScenePieces | None:
+    """The pieces of all bodies; None unless all of them move straight and are not large."""
     if len(scene.bodies) > FEW:
-        from exactpt.pairs.scene_pieces import scene_rows
+        from exactpt.pairs.scene_pieces import boxed_pieces_of
 
-        return scene_rows(scene)
-    rows = rows_of(scene)
+        return boxed_pieces_of(scene)
+    rows = linear_pieces(scene)
     if rows is None:
         return None
     if len(rows) > FEW:
         from exactpt.pairs.scene_pieces import boxed
 
         return boxed(scene, rows)
-    return FewRows(rows, scene._start)
+    return FewPieces(rows, scene._start)
 
 
-def rows_of(scene: Scene) -> list[Row] | None:
-    """The rows of all bodies; None unless all of them move straight and are not large."""
-    rows: list[Row] = []
-    for i, body in enumerate(scene.bodies):
-        ask()
-        if body.size > MOST_VERTICES:
-            return None
-        pieces = straight_pieces(body)
-        if pieces is None:
-            return None
-        rows += rows_during(i, pieces, scene._start, scene._end)
-    return rows
-
-
-def rows_during(
-    body: int, pieces: Sequence[tuple[Straight, QQ | None]], start: QQ, end: QQ
-) -> Iterator[Row]:
-    """The rows of a body, of given pieces of motion, between two times."""
-    since = start
-    for straight, until in pieces:
-        if until is None or until >= end:
-            yield Row(body, straight, since, end)
-            return
-        if until > since:
-            yield Row(body, straight, since, until)
-            since = until
-
-
-Distance: TypeAlias = "Callable[[Row, Row], ContactDistance | None]"
-"""The distance at which two rows touch; None if it is 0."""
-
-
-def contact_distance(a: Row, b: Row) -> ContactDistance | None:
-    """Return the distance at which the cores of two bodies touch; None if it is 0."""
-    r, s = a.straight.body._radius, b.straight.body._radius
-    return ContactDistance.of((r + s) ** 2, r + s) if r or s else None
-
-
-def first_touching(
-    rows: Sequence[Row],
+def first_among_pieces(
+    rows: Sequence[MotionPiece],
     start: QQ,
     end: QQ,
     distance: Distance = contact_distance,
     margin: float = 0.0,
-) -> Touching | None:
+) -> FirstContact | None:
     """The first contact in (start, end] of bodies that are disjoint at the start.
 
     Args:
@@ -243,19 +144,23 @@ def first_touching(
     if len(rows) <= FEW:
         pairs = ((-math.inf, a, b) for a, b in combinations(rows, 2))
     else:
-        from exactpt.pairs.boxes import near_rows
+        from exactpt.pairs.boxes import candidate_pieces
 
-        pairs = ((enter, rows[i], rows[j]) for enter, i, j in near_rows(rows, start, end, margin))
-    return first_of_pairs(((enter, a, b) for enter, a, b in pairs if a.body != b.body), distance)
+        pairs = (
+            (enter, rows[i], rows[j]) for enter, i, j in candidate_pieces(rows, start, end, margin)
+        )
+    return first_among_candidates(
+        ((enter, a, b) for enter, a, b in pairs if a.body != b.body), distance
+    )
 
 
-def first_of_pairs(
-    pairs: Iterable[tuple[float, Row, Row]], distance: Distance = contact_distance
-) -> Touching | None:
-    """The first contact of pairs of rows of two bodies that are disjoint when both begin.
+def first_among_candidates(
+    pairs: Iterable[tuple[float, MotionPiece, MotionPiece]], distance: Distance = contact_distance
+) -> FirstContact | None:
+    """The first contact of pairs of pieces of two bodies that are disjoint when both begin.
 
     Args:
-        pairs: two rows, and a time before which they do not touch; in the order of these times.
+        pairs: two pieces, and a time before which they do not touch; in the order of these times.
         distance: the distance of the cores at which bodies touch.
     """
     search = _Search(distance)
@@ -268,7 +173,7 @@ def first_of_pairs(
 
 
 class _Search:
-    """The first contact among the rows compared so far.
+    """The first contact among the pieces compared so far.
 
     Attributes:
         best: the contact.
@@ -278,11 +183,11 @@ class _Search:
     def __init__(self, distance: Distance) -> None:
         self._distance = distance
         self._spans: dict[tuple[QQ, QQ], Span] = {}
-        self.best: Touching | None = None
+        self.best: FirstContact | None = None
         self.high: float = math.inf
 
-    def compare(self, a: Row, b: Row) -> None:
-        """Compare two rows."""
+    def compare(self, a: MotionPiece, b: MotionPiece) -> None:
+        """Compare two pieces."""
         start = max(a.start, b.start)
         end = min(a.end, b.end)
         if start >= end:
@@ -296,16 +201,9 @@ class _Search:
         touches = list(_touches(met, a.body, b.body))
         order = -1 if self.best is None else compare(met.time, self.best.time)
         if self.best is None or order < 0:
-            self.best, self.high = Touching(met.time, touches), double_above(met.time)
+            self.best, self.high = FirstContact(met.time, touches), double_above(met.time)
         elif order == 0:
             self.best.touches.extend(touches)
-
-
-def window_of(a: Row, b: Row, low: float, high: float) -> tuple[float, float]:
-    """Return the `window` of the boxes of two rows within their contact distance."""
-    distance = contact_distance(a, b)
-    nearest = 0.0 if distance is None else distance.nearest
-    return window(a.straight, b.straight, low, high, nearest)
 
 
 def _touches(met: Meeting, first: int, second: int) -> Iterator[Touch]:

@@ -25,8 +25,9 @@ from exactpt.motion.vertices import Vertices
 from exactpt.pairs.contact import Contact, contact_of, touches_of
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.near import pairs_that_come_near
+from exactpt.pairs.pieces import MotionPiece, linear_pieces
 from exactpt.pairs.renewed import new_contact_time
-from exactpt.pairs.search import Row, first_touching, rows_of
+from exactpt.pairs.search import first_among_pieces
 from exactpt.pairs.selection import groups_of
 from exactpt.pairs.start import initial_touches, touches_at_distance
 from exactpt.scene.scene import Scene, scene_of
@@ -76,7 +77,7 @@ class SelectedSearch:
         self._group = groups_of(scene, ignoring)
         self._exact_only = exact_only
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
-        self._rows: dict[int, list[Row]] | None = None
+        self._rows: dict[int, list[MotionPiece]] | None = None
         self.pairs = 0
 
     @property
@@ -148,7 +149,7 @@ class SelectedSearch:
         return [i for i, body in bodies if not body._radius and not is_rigid(body)]
 
     def _read_rows(self) -> None:
-        rows = None if self._exact_only else rows_of(self._scene)
+        rows = None if self._exact_only else linear_pieces(self._scene)
         if rows is not None:
             self._rows = {i: [] for i in range(len(self._scene.bodies))}
             for row in rows:
@@ -177,7 +178,7 @@ class SelectedSearch:
             return None
         if self._rows is not None:
             rows = [row for i in pair for row in self._rows[i]]
-            met = first_touching(rows, scene._start, until)
+            met = first_among_pieces(rows, scene._start, until)
             return None if met is None else (met.number, met.touches)
         part = scene_of([scene.bodies[i] for i in pair], scene._start, until)
         alone = [body.name for body in part.bodies] if len(pair) > 1 else []

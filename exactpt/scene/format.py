@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Final
 
 from exactpt.errors import InputError
 from exactpt.files import read_text
@@ -25,6 +24,7 @@ from exactpt.motion.motions import (
 )
 from exactpt.motion.spin import Spin
 from exactpt.scene.json_values import (
+    VERSION,
     Json,
     Number,
     a_list,
@@ -35,9 +35,7 @@ from exactpt.scene.json_values import (
 )
 from exactpt.scene.scene import Scene
 
-__all__ = ["VERSION", "from_json", "load", "loads"]
-
-VERSION: Final = 1
+__all__ = ["from_json", "load", "loads"]
 
 
 def load(path: Path, max_bytes: int | None = None) -> Scene:

@@ -15,6 +15,7 @@ from exactpt.kernel.numbers import QQ, parse_rational, shorten
 
 __all__ = [
     "MOST_DIGITS",
+    "VERSION",
     "Json",
     "Number",
     "a_list",
@@ -25,6 +26,8 @@ __all__ = [
     "shown",
 ]
 
+VERSION: Final = 1
+"""The version of the file format (docs/format.md)."""
 MOST_DIGITS: Final = 10_000
 """Maximum number of digits of a numerator or denominator, to bound the cost of arithmetic."""
 MOST_BITS: Final = 33_220

@@ -113,9 +113,8 @@ class Scene:
         Raises:
             InputError: one line that names the file, the body, the key and the value.
         """
-        from exactpt.scene.format import load
-
-        return load(Path(path), max_bytes)
+        scene: Scene = extension("scene from a file")(Path(path), max_bytes)
+        return scene
 
     def save(self, path: str | Path) -> None:
         """Write the scene as JSON, exactly and atomically: the file is complete or not there.
@@ -147,9 +146,8 @@ class Scene:
         Raises:
             InputError: one line that names the body, the key and the value.
         """
-        from exactpt.scene.format import from_json
-
-        return from_json(data)
+        scene: Scene = extension("scene from JSON")(data)
+        return scene
 
     def to_json(self) -> dict[str, object]:
         """The scene as data for ``json.dump``, exact: what `save` writes.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from exactpt.errors import InputError
 from exactpt.files import write_atomically
@@ -21,9 +22,10 @@ from exactpt.motion.motions import (
     Translation,
 )
 from exactpt.motion.spin import Spin
-from exactpt.scene.format import VERSION
-from exactpt.scene.json_values import MOST_DIGITS, is_too_long
-from exactpt.scene.scene import Scene
+from exactpt.scene.json_values import MOST_DIGITS, VERSION, is_too_long
+
+if TYPE_CHECKING:
+    from exactpt.scene.scene import Scene
 
 __all__ = ["save", "to_json"]
 

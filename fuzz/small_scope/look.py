@@ -12,8 +12,8 @@ from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import ZZ
 from exactpt.pairs.contact import Contact
+from exactpt.pairs.pieces import linear_pieces
 from exactpt.pairs.reference import first_contact_allpairs
-from exactpt.pairs.search import rows_of
 from exactpt.scene.scene import Scene
 from exactpt.simulation.responses import stop
 from exactpt.simulation.simulation import Simulation
@@ -110,7 +110,7 @@ def look(planned: Planned) -> Look:
         run_and_audit(scene, name, middle=False)
 
     names = tilings_of(scene)
-    searches = ("pairs",) if rows_of(scene) is None else ("auto", "pairs")
+    searches = ("pairs",) if linear_pieces(scene) is None else ("auto", "pairs")
     answers = [_answer(name, compare, name) for name in (*searches, *names)]
     turn, rest = divmod(planned.number, AUDITED)
     name = names[turn % len(names)]

@@ -17,8 +17,8 @@ from exactpt.errors import InputError
 from exactpt.geometry.polygon import contains, edges, first_self_touch, segments_meet, signed_area2
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
+from exactpt.pairs.pieces import linear_pieces
 from exactpt.pairs.reference import first_contact_allpairs
-from exactpt.pairs.search import rows_of
 from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
@@ -398,7 +398,7 @@ def test_arrays_are_asked_for_two_bodies_that_translate():
 def test_auto_is_asked_where_it_is_not_pairs():
     for one in looks([planned(n) for n in range(50)]):
         methods = [answer.method for answer in one.answers]
-        assert ("auto" in methods) == (rows_of(one.planned.scene) is not None)
+        assert ("auto" in methods) == (linear_pieces(one.planned.scene) is not None)
 
 
 def _wrong(attribute, value):

@@ -115,14 +115,16 @@ def grid(count):
 def test_obstacles_are_validated_and_prepared_once(monkeypatch):
     """For a hundred plans each obstacle is looked at once; the shape, once for each plan."""
     checked, read, boxed = [], [], []
-    outline_at, rows_of = planners.Scene, prepared.rows_of
+    outline_at, linear_pieces = planners.Scene, prepared.linear_pieces
 
     def validated(bodies, time):
         checked.extend(bodies := list(bodies))
         return outline_at(bodies, time)
 
     monkeypatch.setattr(planners, "Scene", validated)
-    monkeypatch.setattr(prepared, "rows_of", lambda scene: read.append(1) or rows_of(scene))
+    monkeypatch.setattr(
+        prepared, "linear_pieces", lambda scene: read.append(1) or linear_pieces(scene)
+    )
     slab_boxes = prepared.SlabBoxes
     monkeypatch.setattr(prepared, "SlabBoxes", lambda *a: boxed.append(1) or slab_boxes(*a))
     planner = Planner(grid(30), (0, 10))
@@ -138,18 +140,18 @@ def test_obstacles_are_validated_and_prepared_once(monkeypatch):
 def test_a_plan_looks_at_the_obstacles_near_it_alone(monkeypatch):
     """A shape passes along the lowest row of a grid of 30: at most six obstacles are compared."""
     compared, searched = [], []
-    first_of_pairs, search = planners.first_of_pairs, planners.PairsSearch
+    first_among_candidates, search = planners.first_among_candidates, planners.PairsSearch
 
     def recorded(pairs):
         pairs = list(pairs)
         compared.extend(row.body for _, row, _ in pairs)
-        return first_of_pairs(pairs)
+        return first_among_candidates(pairs)
 
     def searching(scene, **options):
         searched.extend(body.name for body in scene.bodies)
         return search(scene, **options)
 
-    monkeypatch.setattr(planners, "first_of_pairs", recorded)
+    monkeypatch.setattr(planners, "first_among_candidates", recorded)
     monkeypatch.setattr(planners, "PairsSearch", searching)
     planner = Planner(grid(30), (0, 10))
     shape = [(-9, "1/2"), (-8, "1/2"), (-8, 3)]

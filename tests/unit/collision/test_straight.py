@@ -15,8 +15,8 @@ from exactpt.pairs import incidences
 from exactpt.pairs import search as straight_search
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.pairs.pieces import linear_pieces
 from exactpt.pairs.reference import first_contact_allpairs
-from exactpt.pairs.search import rows_of
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 from exactpt.scene.scene import Scene
 
@@ -33,12 +33,12 @@ def test_families(family, few, monkeypatch):
     monkeypatch.setattr(straight_search, "FEW", few)
     for seed in range(3):
         scene = generate(family, seed)
-        if rows_of(scene) is not None:
+        if linear_pieces(scene) is not None:
             assert told(first_contact(scene)) == told(PairsSearch(scene).run_to_contact())
 
 
 def test_some_families_are_searched_by_rows_and_others_are_not():
-    by_rows = {f for f in {**FAMILIES, **POINTS} if rows_of(generate(f, 0)) is not None}
+    by_rows = {f for f in {**FAMILIES, **POINTS} if linear_pieces(generate(f, 0)) is not None}
     assert {"convex", "row", "pieces", "stars", "combs", "linear_points"} <= by_rows
     assert not {"turning", "deforming", "ballistic", "blobs"} & by_rows
 
@@ -93,7 +93,7 @@ def test_close_to_degeneracy(few, count, monkeypatch):
     monkeypatch.setattr(straight_search, "FEW", few)
     kinds = set()
     for scene in scenes(count, f"close {few}"):
-        assert rows_of(scene) is not None
+        assert linear_pieces(scene) is not None
         expected = first_contact_allpairs(scene)
         assert told(first_contact(scene)) == told(expected)
         kinds.update({None} if expected is None else {pair.kind for pair in expected.pairs})
@@ -298,8 +298,8 @@ def test_boxes_of_rows_hold_their_bodies():
     rng = Random("rows")
     for _ in range(60):
         scene = next(scenes(1, rng.random()))
-        rows = rows_of(scene)
-        boxes = row_boxes.RowBoxes(rows)
+        rows = linear_pieces(scene)
+        boxes = row_boxes.PieceBoxes(rows)
         low = rng.uniform(0, float(scene.end) / 2)
         high = low + rng.uniform(0, float(scene.end) / 2)
         active, places = boxes.during(low, high)
@@ -316,4 +316,4 @@ def test_boxes_of_rows_hold_their_bodies():
 
 def test_a_body_that_turns_is_not_searched_by_rows():
     turning = Body("mill", [(0, 0), (1, 0)], Rigid([0, 1]))
-    assert rows_of(Scene([turning], (0, 1))) is None
+    assert linear_pieces(Scene([turning], (0, 1))) is None

@@ -94,7 +94,7 @@ def test_bodies_with_radii_in_linear_motion_are_not_searched_in_slabs(monkeypatc
 
 
 def test_overlap_at_the_start_ends_the_search(monkeypatch):
-    monkeypatch.setattr(search, "first_of_pairs", None)
+    monkeypatch.setattr(search, "first_among_candidates", None)
     monkeypatch.setattr(PairsSearch, "_run", None)
     far = [Body(f"far{k}", [(30 + 3 * k, 0)], Translation([0, -k])) for k in range(12)]
     two = [Body("a", [(0, 0)], radius=2), Body("b", [(1, 0)], radius=1)]
