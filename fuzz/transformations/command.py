@@ -10,10 +10,9 @@ from typing import Final
 
 import click
 
-from fuzz.transformations import run
 from fuzz.transformations.answers import QUESTIONS
 from fuzz.transformations.images import TRANSFORMATIONS
-from fuzz.transformations.run import Fault, check, load, save, table
+from fuzz.transformations.run import SCENES, Fault, check, load, save, table
 
 __all__ = ["transformations"]
 
@@ -48,12 +47,16 @@ EVERY: Final = 20
     help="Folder for scenes with a disagreement.",
 )
 @click.option(
-    "--spinning", is_flag=True, help="Bounds of contacts of gears, mills and orbits, and no others."
+    "--draw",
+    type=click.Choice(list(SCENES)),
+    default="mixed",
+    show_default=True,
+    help="Tiny scenes of all kinds; gears, mills and orbits; thin bodies that stand on a wall.",
 )
 @click.option("--table", "is_table", is_flag=True, help="Print what stays equal, and stop.")
 def transformations(
     scenes: int, seconds: float | None, seed: int, step: int, first: int, counts: Path | None,
-    enough: int | None, keep: Path, *, spinning: bool, is_table: bool,
+    enough: int | None, keep: Path, draw: str, *, is_table: bool,
 ) -> None:  # fmt: skip
     """Compare answers about scenes and about their images under transformations.
 
@@ -71,13 +74,13 @@ def transformations(
 
     def wanted(question: str, transformation: str) -> bool:
         few = enough is None or tally[question, transformation] < enough
-        return few and (not spinning or question in SPINNING)
+        return few and (draw != "spinning" or question in SPINNING)
 
     for k in range(done, scenes):
         if deadline is not None and clock.monotonic() > deadline:
             break
         for question, transformation, fault in check(
-            first + k * step, seed, wanted, draw=run.spinning if spinning else None
+            first + k * step, seed, wanted, draw=SCENES[draw]
         ):
             tally[question, transformation] += 1
             if fault is not None:

@@ -21,7 +21,7 @@ from fuzz.questions.tiny import pair_scene, touching_scene
 from fuzz.transformations.answers import QUESTIONS, Case, NotAskedError, Refusal, answer
 from fuzz.transformations.images import TRANSFORMATIONS, Image, move_alike
 
-__all__ = ["Fault", "Tally", "check", "load", "save", "scene_of", "spinning", "table"]
+__all__ = ["SCENES", "Fault", "Tally", "check", "load", "save", "scene_of", "table"]
 
 TILINGS: Final = ("lazy", "greedy", "mixed")
 FAMILIES: Final = (pair_scene, pair_scene, distant_scene, touching_scene, crowded_scene,
@@ -71,6 +71,16 @@ def spinning(random: Random) -> Scene:
     return _with_twin(random, spinning_scene(random))
 
 
+def standing(random: Random) -> Scene:
+    """Return a wall without interior and a thin body that stands on it, and moves."""
+    wall = random.choice([[(-2, 0), (2, 0)], [(-2, 0), (0, 0), (2, 0)], [(-2, 0), (0, 0), (2, 1)]])
+    shape = random.choice([[(0, 0)], [(0, 0), (0, 2)], [(0, 0), (1, 2)], [(-1, 1), (0, 0), (1, 1)]])
+    x, u, v = random.choice([-1, 0, 0, 1]), random.randint(-1, 1), random.randint(-1, 1)
+    vertices = [(x + p, q) for p, q in shape]
+    thin = Body("thin", vertices, Translation([0, u], [0, v]), closed=False)
+    return Scene([Body("wall", wall, closed=False), thin], (0, 4))
+
+
 def _translating(random: Random) -> Scene:
     """Return two bodies that move straight."""
     bodies = []
@@ -116,6 +126,14 @@ def _case(random: Random, image: Image) -> Case:
 
 Tally = Counter[tuple[str, str]]
 """Number of cases by question and transformation."""
+
+
+SCENES: Final[dict[str, Callable[[Random], Scene]]] = {
+    "mixed": scene_of,
+    "spinning": spinning,
+    "standing": standing,
+}
+"""What scenes are drawn from."""
 
 
 def check(

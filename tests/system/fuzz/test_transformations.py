@@ -14,7 +14,7 @@ from fuzz.transformations.answers import QUESTIONS
 from fuzz.transformations.command import transformations
 from fuzz.transformations.images import TRANSFORMATIONS, move_alike
 from fuzz.transformations.planted import PLANTED, hunt
-from fuzz.transformations.run import check, scene_of
+from fuzz.transformations.run import SCENES, check, scene_of
 
 is_plain = filters.__file__.endswith(".py")
 
@@ -39,6 +39,16 @@ def test_no_answer_changes_in_24_scenes():
     assert faults == []
     assert {q for q, _ in tally} == set(QUESTIONS)
     assert {t for _, t in tally} == set(TRANSFORMATIONS)
+
+
+def test_new_contacts_of_thin_bodies_do_not_depend_on_how_a_wall_is_cut():
+    def wanted(question, transformation):
+        return question == "new contact" and transformation in ("subdivided", "reversed")
+
+    found = [f for k in range(200) for *_, f in check(k, wanted=wanted, draw=SCENES["standing"])]
+
+    assert len(found) > 300
+    assert set(found) == {None}
 
 
 @pytest.mark.slow
