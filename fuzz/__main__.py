@@ -224,7 +224,7 @@ def run_hostile(
     count: int, seconds: float | None, seed: int, start: int, formats: tuple[str, ...], keep: Path
 ) -> None:
     """Have every command and reader read damaged files; half have one changed value."""
-    tallies = hostile_run.run(
+    tallies, rest = hostile_run.run(
         formats or FORMATS,
         count,
         seed=seed,
@@ -234,6 +234,9 @@ def run_hostile(
         keep=keep,
     )
     click.echo("\n".join(hostile_run.table(tallies)))
+    if rest is not None:
+        click.echo(f"interrupted; to go on: --seed {seed} --start {rest}", err=True)
+        sys.exit(INTERRUPTED)
     sys.exit(FAILED if any(tally.outcomes["FAULT"] for tally in tallies.values()) else 0)
 
 

@@ -258,5 +258,5 @@ def _fit(family: str, tiling: str, sizes: Sequence[int], runs: Sequence[Measured
         "p pending": exponent(sizes, [run.pending for run in runs]),
         "p memory": exponent(sizes, [run.kilobytes for run in runs]),
         "p us an event": exponent(sizes, [run.per_event for run in runs]),
-        "bound": BOUNDS[tiling],
+        "bound": BOUNDS.get(tiling, ""),
     }

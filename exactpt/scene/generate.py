@@ -20,6 +20,7 @@ from exactpt.scene.scene import Scene
 
 __all__ = [
     "CONVEX",
+    "EVERY",
     "FAMILIES",
     "POINTS",
     "RINGS",
@@ -115,7 +116,10 @@ SPINNING: Final[dict[str, Family]] = {
 """Families of bodies that turn at a constant rate, by `Spin`."""
 
 
+EVERY: Final[dict[str, Family]] = {**FAMILIES, **POINTS, **ROUNDED, **RINGS, **SPINNING}
+"""All families, by their names."""
+
+
 def generate(family: str, seed: int) -> Scene:
     """The scene of a family with this seed."""
-    everything = {**FAMILIES, **POINTS, **ROUNDED, **RINGS, **SPINNING}
-    return everything[family](Random(f"{family}:{seed}"))
+    return EVERY[family](Random(f"{family}:{seed}"))

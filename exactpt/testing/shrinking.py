@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import copy
 import json
-import math
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
@@ -60,7 +59,7 @@ def shrink(scene: Scene, fails: Callable[[Scene], bool], *, seconds: float = 60.
 
 
 def shrink_question(
-    question: Question, fails: Callable[[Question, Truth], bool], *, seconds: float = math.inf
+    question: Question, fails: Callable[[Question, Truth], bool], *, seconds: float = 60.0
 ) -> Question:
     """The smallest question found for which something still fails.
 
@@ -200,9 +199,12 @@ def _fewer_rings(data: Data) -> Iterator[Data]:
         for parts in _without(body.get("parts", ())):
             yield _changed(data, ("bodies", i, "parts"), parts)
         for ring in _rings(body):
-            if ring[-1] == "vertices" and "holes" in _at(body, ring[:-1]):
-                for holes in _without(_at(body, ring[:-1])["holes"]):
-                    yield _changed(data, ("bodies", i, *ring[:-1], "holes"), holes)
+            path = ("bodies", i, *ring[:-1])
+            if ring[-1] == "vertices" and "holes" in _at(data, path):
+                part = _at(data, path)
+                yield _changed(data, path, {k: v for k, v in part.items() if k != "holes"})
+                for holes in _without(part["holes"]):
+                    yield _changed(data, (*path, "holes"), holes)
 
 
 def _simpler_motions(data: Data) -> Iterator[Data]:

@@ -21,8 +21,7 @@ from exactpt.geometry.predicates import side
 from exactpt.kernel.numbers import rational
 from exactpt.motion.motions import Rigid, Translation
 from exactpt.scene.families.shapes import hull
-from exactpt.scene.generate import FAMILIES as SCENES
-from exactpt.scene.generate import POINTS, generate
+from exactpt.scene.generate import EVERY, generate
 from exactpt.scene.scene import Scene
 from exactpt.testing.families import FAMILIES, make_question
 from exactpt.testing.questions import Moving, Question
@@ -109,10 +108,9 @@ def scenes(family: str | None = None) -> SearchStrategy[Scene]:
     """
     if family in FAMILIES:
         return pairs_in_motion(family).map(lambda question: question.scene)
-    known = {**SCENES, **POINTS}
-    if family is not None and family not in known:
-        raise InputError(f"no family {family!r}; there are: {', '.join([*FAMILIES, *known])}")
-    names = st.sampled_from(list(known)) if family is None else st.just(family)
+    if family is not None and family not in EVERY:
+        raise InputError(f"no family {family!r}; there are: {', '.join([*FAMILIES, *EVERY])}")
+    names = st.sampled_from(list(EVERY)) if family is None else st.just(family)
     return st.builds(generate, names, st.integers(0, 2**32))
 
 

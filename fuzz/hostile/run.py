@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+import signal
 import time as clock
 from collections import Counter
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
-from typing import Final
+from types import FrameType
+from typing import Final, NamedTuple
 
 from exactpt.files import write_atomically
 from exactpt.kernel import budget
 from fuzz.hostile.files import Hostile, hostile
 from fuzz.hostile.readers import Ended, read
 
-__all__ = ["OUTCOMES", "Tally", "run", "table"]
+__all__ = ["OUTCOMES", "Outcome", "Tally", "run", "table"]
 
 OUTCOMES: Final = ("read", "refused", "spent", "broken", "FAULT")
 
@@ -51,6 +53,46 @@ class Tally:
         self.grown = max(self.grown, grown)
 
 
+class Outcome(NamedTuple):
+    """What a campaign has counted.
+
+    Attributes:
+        tallies: of each format.
+        rest: number of the file at which an interrupted campaign goes on; None if it has ended.
+    """
+
+    tallies: dict[str, Tally]
+    rest: int | None
+
+
+class _Interrupts:
+    """Whether a signal has interrupted the process, even if a command has caught the exception."""
+
+    def __init__(self) -> None:
+        self.came = False
+
+    @contextmanager
+    def noticed(self) -> Iterator[None]:
+        """Notice SIGINT and SIGTERM, and leave what happens then as it was."""
+        old = {
+            number: handler
+            for number in (signal.SIGINT, signal.SIGTERM)
+            if callable(handler := signal.getsignal(number))
+        }
+
+        def handle(number: int, frame: FrameType | None) -> None:
+            self.came = True
+            old[signal.Signals(number)](number, frame)
+
+        for number in old:
+            signal.signal(number, handle)
+        try:
+            yield
+        finally:
+            for number, handler in old.items():
+                signal.signal(number, handler)
+
+
 def run(
     formats: Sequence[str],
     count: int,
@@ -60,14 +102,15 @@ def run(
     seconds: float | None = None,
     report: Callable[[str], None],
     keep: Path,
-) -> dict[str, Tally]:
+) -> Outcome:
     """Read hostile files, the formats in turn; files with a fault are kept in a folder.
 
-    Interrupted, it returns what it has counted.
+    Interrupted, it returns what it has counted; the file that was being read is not.
     """
     tallies = {kind: Tally() for kind in formats}
     deadline = None if seconds is None else clock.monotonic() + seconds
-    with suppress(KeyboardInterrupt), TemporaryDirectory() as folder:
+    interrupts, number = _Interrupts(), start
+    with suppress(KeyboardInterrupt), TemporaryDirectory() as folder, interrupts.noticed():
         for number in range(start, start + count):
             if deadline is not None and clock.monotonic() > deadline:
                 break
@@ -75,6 +118,8 @@ def run(
             file = hostile(kind, number, seed)
             before = budget.resident_memory()
             ended = read(kind, file, Random(f"reader {seed} {number}"), Path(folder))
+            if interrupts.came:
+                break
             grown = budget.resident_memory() - before
             if not ended.fault and grown > MOST_MEMORY:
                 ended = ended._replace(outcome="FAULT", fault=f"{grown >> 20} MB more memory")
@@ -84,7 +129,7 @@ def run(
                 path = keep / f"{kind}-{seed}-{number}"
                 write_atomically(path, file.content)
                 report(f"{path}: {ended.reader}: {ended.fault[:400]}")
-    return tallies
+    return Outcome(tallies, number if interrupts.came else None)
 
 
 def table(tallies: dict[str, Tally]) -> list[str]:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 import subprocess
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
+from select import select
 from tempfile import TemporaryDirectory
 from typing import Final, final
 
@@ -21,6 +23,9 @@ MAP: Final = re.compile(
 )
 """The reasons of rejections in the reading of a proof and in its map (docs/proofs.md, step 2)."""
 
+PATIENCE: Final = 60.0
+"""Seconds in which a proof is verified."""
+
 
 def is_geometric(answer: str) -> bool:
     """Whether a proof has been rejected, though its lines and its map are in order."""
@@ -29,7 +34,10 @@ def is_geometric(answer: str) -> bool:
 
 @final
 class Checker:
-    """The process; it is started when it is needed, and again if it has ended."""
+    """The process; it is started when it is needed, and again if it has ended.
+
+    A process without an answer for `PATIENCE` seconds is ended.
+    """
 
     def __init__(self) -> None:
         self._folder = TemporaryDirectory()
@@ -39,7 +47,7 @@ class Checker:
         """The answer about a proof, a line.
 
         Raises:
-            AuditError: if the program fails.
+            AuditError: if the program fails, or does not answer in time.
         """
         paths = [Path(self._folder.name) / name for name in ("scene.json", "proof")]
         for path, content in zip(paths, (scene, proof), strict=True):
@@ -58,18 +66,24 @@ class Checker:
         """End the process."""
         if self._process is not None:
             self._process.kill()
-            self._process.communicate()
+            with suppress(BrokenPipeError):  # of a question that was not read
+                self._process.communicate()
             self._process = None
 
     def _ask(self, question: str) -> str:
+        if self._process is not None and self._process.poll() is not None:
+            self.close()
         if self._process is None:
             command = [str(find_program()), "proofs"]
             pipe = subprocess.PIPE
             self._process = subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True)
         assert self._process.stdin is not None  # noqa: S101
         assert self._process.stdout is not None  # noqa: S101
-        self._process.stdin.write(question)
-        self._process.stdin.flush()
+        with suppress(BrokenPipeError):  # it has just ended: no line follows
+            self._process.stdin.write(question)
+            self._process.stdin.flush()
+        if not select([self._process.stdout], [], [], PATIENCE)[0]:
+            raise AuditError(f"cgal_check: no answer in {PATIENCE:g} seconds")
         return self._process.stdout.readline().rstrip("\n")
 
 

@@ -123,6 +123,10 @@ class Engine:
 
     def ask(self, question: Mapping[str, object], way: str) -> Reply:
         """The engine's answer to a question, see `exactpt.bench.engines.domain.as_asked`."""
+        stdin = self._process.stdin
+        assert stdin is not None  # noqa: S101 - it is a pipe
+        if stdin.closed and (failure := self._failure()):
+            return Reply(Crash(failure))
         process = self._process
         assert process.stdin is not None  # noqa: S101 - it is a pipe
         try:
@@ -192,8 +196,16 @@ class Engine:
         else:
             reason = f"the process ended: {f'signal {-code}' if code < 0 else f'exit code {code}'}"
         self._stop()
-        self._start()
-        return Crash(reason)
+        failure = self._failure()
+        return Crash(f"{reason}; {failure}" if failure else reason)
+
+    def _failure(self) -> str:
+        """Begin the process anew, and return why that fails; empty if it does not."""
+        try:
+            self._start()
+        except (Missing, InputError) as error:
+            return f"it does not begin anew: {error}"
+        return ""
 
     def _stop(self) -> None:
         process = self._process

@@ -457,3 +457,9 @@ def test_an_audit_of_what_lives_sees_a_wrong_mark():
         mesh.corner[h] = mark  # three corners still
     with pytest.raises(AuditError):
         living.audit(run.simulation)
+
+
+def test_bug_scaling_of_a_tiling_without_a_known_bound():
+    run = scaling.Measured(*[1] * len(scaling.Measured._fields))
+
+    assert scaling._fit("convex crowd", "a new tiling", (10, 20), [run, run])["bound"] == ""

@@ -144,6 +144,19 @@ def test_a_process_that_dies_is_a_crash_and_begins_anew(planted):
         assert started.ask({**asked, "span": 4.0}, "").answer == 2.0
 
 
+def test_bug_an_engine_that_crashed_and_is_gone_ended_the_benchmark(planted, asked):
+    adapter = planted("os._exit(1)")
+    with Engine(adapter) as started:
+        right = adapter.read_text()
+        adapter.write_text("no adapter")
+        first, second = (started.ask(as_asked(MEETING), "").answer for _ in range(2))
+        adapter.write_text(right.replace("os._exit(1)", "found"))
+
+        assert str(first).startswith("the process ended: exit code 1; it does not begin anew: ")
+        assert str(second).startswith("it does not begin anew: ")
+        assert started.ask(as_asked(MEETING), "").answer == 2.0
+
+
 def test_a_process_that_hangs_is_a_crash(planted, monkeypatch):
     monkeypatch.setattr(engine, "PATIENCE", 0.5)
     with Engine(planted("time.sleep(60)")) as started:

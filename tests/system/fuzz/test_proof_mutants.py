@@ -6,8 +6,10 @@ import json
 import pytest
 from click.testing import CliRunner
 
-from exactpt import proof_check
+from exactpt import proof_check, prove
+from exactpt.errors import AuditError
 from exactpt.scene.generate import generate
+from fuzz.proofs import checking
 from fuzz.proofs import run as mutants_run
 from fuzz.proofs.checking import checker, is_geometric
 from fuzz.proofs.command import proof_mutants
@@ -127,3 +129,28 @@ def test_a_body_that_is_not_simple_may_touch_at_the_start_alone():
     assert answer.startswith("accepted: ")
     assert is_true(at_start, answer)
     assert not is_true(Mutant("", scene, f"{head}none\n".encode()), answer)
+
+
+def test_bug_a_checker_that_was_killed_between_two_proofs():
+    proof = prove(generate("convex", 1))
+    running = checker()
+    running.verdict(proof.scene, proof.text)
+    running._process.kill()
+    running._process.wait()
+
+    assert running.verdict(proof.scene, proof.text).startswith("accepted: ")
+
+
+def test_a_checker_that_does_not_answer_is_ended(monkeypatch, tmp_path):
+    silent = tmp_path / "silent"
+    silent.write_text("#!/bin/sh\nexec sleep 60\n")
+    silent.chmod(0o755)
+    monkeypatch.setattr(checking, "find_program", lambda: silent)
+    monkeypatch.setattr(checking, "PATIENCE", 0.1)
+    running = checking.Checker()
+
+    with pytest.raises(AuditError, match=r"no answer in 0\.1 seconds"):
+        running.verdict(b"", b"")
+
+    assert running._process is None
+    running._folder.cleanup()

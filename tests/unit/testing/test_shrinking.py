@@ -4,10 +4,12 @@ import json
 
 import pytest
 
+from exactpt import Body, Scene
 from exactpt.scene.format import loads
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.written import to_json
-from exactpt.testing.shrinking import shrink, shrink_data
+from exactpt.testing import make_question
+from exactpt.testing.shrinking import shrink, shrink_data, shrink_question
 
 
 def shrunk(data, fails):
@@ -51,6 +53,7 @@ def test_a_needed_velocity_stays():
     assert len(body["vertices"]) == 1
 
 
+@pytest.mark.long
 def test_what_is_left_is_a_scene_of_every_kind():
     for family in FAMILIES:
         data = to_json(generate(family, 0))
@@ -82,3 +85,32 @@ def test_a_scene_is_shrunken_to_a_scene():
 def test_a_scene_that_does_not_fail_is_refused():
     with pytest.raises(ValueError, match="the scene itself does not fail"):
         shrink(generate("row", 0), lambda _: False)
+
+
+def test_bug_the_only_hole_of_a_body_or_part_was_kept():
+    square, hole = [(0, 0), (9, 0), (9, 9), (0, 9)], [(3, 3), (6, 3), (6, 6)]
+    beside = [(x + 20, y) for x, y in square]
+    with_a_hole = Body("a", square, holes=[hole])
+    with_parts = Body("a", parts=[{"vertices": square, "holes": [hole]}, beside])
+
+    (smallest,) = to_json(shrink(Scene([with_a_hole]), lambda _: True))["bodies"]
+    assert "holes" not in smallest
+    smallest = to_json(
+        shrink(Scene([with_parts]), lambda scene: "parts" in to_json(scene)["bodies"][0])
+    )
+    assert all("holes" not in part for part in smallest["bodies"][0]["parts"])
+
+
+def test_bug_a_slow_question_was_shrunken_without_a_limit(monkeypatch):
+    """By a clock that goes on by one second in each call of what fails."""
+    question, seconds = make_question("convex_pairs"), 0
+
+    def fails(*_):
+        nonlocal seconds
+        seconds += 1
+        return False
+
+    monkeypatch.setattr("exactpt.testing.shrinking.clock.monotonic", lambda: 30 * seconds)
+    shrink_question(question, fails)
+
+    assert seconds == 3

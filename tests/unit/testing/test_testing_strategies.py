@@ -11,9 +11,11 @@ from hypothesis import strategies as st
 from exactpt import Body, Rigid, Scene, first_contact
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import side
+from exactpt.scene.generate import EVERY
 from exactpt.testing import FAMILIES, Question, strategies
 
 
+@pytest.mark.long
 @given(strategies.convex_polygons())
 def test_convex_polygons_are_convex(outline):
     n = len(outline)
@@ -22,6 +24,7 @@ def test_convex_polygons_are_convex(outline):
     assert all(side(exact[i - 2], exact[i - 1], exact[i]) > 0 for i in range(n))
 
 
+@pytest.mark.long
 @given(strategies.simple_polygons(), strategies.chains())
 def test_polygons_and_chains_are_simple(outline, chain):
     Scene([Body("a", outline), Body("b", chain, closed=False)])
@@ -89,3 +92,13 @@ def test_without_hypothesis_one_line_says_what_to_install(monkeypatch):
         InputError, match=r"this needs Hypothesis: pip install 'exactpt\[testing\]'"
     ):
         importlib.import_module("exactpt.testing.strategies")
+
+
+def test_bug_families_of_generate_that_were_refused():
+    @given(st.data())
+    @settings(max_examples=1, database=None)
+    def check(data):
+        for family in EVERY:
+            assert isinstance(data.draw(strategies.scenes(family)), Scene)
+
+    check()
