@@ -32,7 +32,7 @@ test-rotating: $(VENV)/developing cgal_check/build/cgal_check ## the slow tests 
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -m slow --rotating $(DATE)
 
 quick: $(VENV)/developing ## the tests that take milliseconds each: a minute on two cores
-	$(BIN)/python -m pytest -n 2 tests/unit tests/api
+	$(BIN)/python -m pytest -n 2 --quick tests/unit tests/api
 
 test-lowest: $(LOWEST)/installed ## all tests that need no CGAL, but the slow ones, on the lowest versions that pyproject.toml allows
 	$(LOWEST)/bin/python -m pytest -n $(JOBS)

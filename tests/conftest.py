@@ -1,8 +1,10 @@
-"""Hypothesis profiles, a limit on refinement, two options; CGAL's witness and Chromium as fixtures.
+"""Hypothesis profiles, limits, three options; CGAL's witness and Chromium as fixtures.
 
-``dev`` (random, short) is the default; HYPOTHESIS_PROFILE=ci is derandomized and longer.
+``dev`` (random, short) is the default; HYPOTHESIS_PROFILE=ci is derandomized and longer. With
+--quick it is ``quick``, and a test whose marker `long` does not except it has `BUDGET` seconds.
 """
 
+import gc
 import os
 import shutil
 import warnings
@@ -29,9 +31,13 @@ settings.register_profile(
     deadline=None,
     suppress_health_check=[HealthCheck.too_slow],
 )
-settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "dev"))
+settings.register_profile(
+    "quick", max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
 
 MOST_BITS = 100_000
+BUDGET = 0.25
+"""Seconds of processor time, children included, of a test in the quick tier."""
 
 FLAGS = (
     "--headless",
@@ -50,6 +56,9 @@ def pytest_addoption(parser):
         "--exact-only", action="store_true", help="switch the float filters off in every test"
     )
     parser.addoption(
+        "--quick", action="store_true", help="no long tests; the others within their budget"
+    )
+    parser.addoption(
         "--rotating",
         metavar="DATE",
         type=date.fromisoformat,
@@ -57,8 +66,40 @@ def pytest_addoption(parser):
     )
 
 
+def pytest_configure(config):
+    default = "quick" if config.getoption("--quick") else "dev"
+    settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", default))
+
+
+def is_long(item):
+    """Return True if the marker `long` names no cases, or this one."""
+    marker = item.get_closest_marker("long")
+    return marker is not None and (not marker.args or item.callspec.id in marker.args)
+
+
+def processor_seconds():
+    return sum(os.times()[:4])
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item):
+    """With --quick, fail a test that takes more processor time than `BUDGET`."""
+    before = processor_seconds()
+    result = yield
+    taken = processor_seconds() - before
+    if item.config.getoption("--quick") and taken > BUDGET:
+        pytest.fail(f"{taken:.2f} s of processor time: mark it long, or make it shorter")
+    return result
+
+
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config, items):
+    if config.getoption("--quick"):
+        late = [item for item in items if is_long(item)]
+        config.hook.pytest_deselected(items=late)
+        items[:] = [item for item in items if not is_long(item)]
+        gc.collect()
+        gc.freeze()
     if day := config.getoption("--rotating"):
         turn = turn_of(items, day)
         config.hook.pytest_deselected(items=list(set(items).difference(turn)))

@@ -34,6 +34,7 @@ def triangles(rng, n, spread):
     return (at + rng.uniform(-1.0, 1.0, (n, 3, 2))).reshape(-1, 2), np.arange(0, 3 * n + 1, 3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("degree", [1, 2])
 def test_generic_pairs(degree):
     contacts = assert_all_agree(generic(np.random.default_rng(degree), 100, 300, degree))
@@ -42,6 +43,7 @@ def test_generic_pairs(degree):
     assert contacts.exact_share == 0.0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("degree", [1, 2, 3])
 def test_degenerate_pairs(degree):
     table = degenerate(np.random.default_rng(degree), 100, 400, degree)
@@ -66,6 +68,7 @@ def test_many_degenerate_pairs(seed):
         assert_all_agree(table, lambda scene: first_contact(scene, method="pairs"))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("scale", [2.0**-1000, 2.0**-200, 2.0**200, 2.0**900])
 @pytest.mark.parametrize("degree", [1, 2])
 def test_pairs_of_any_size(scale, degree):
@@ -75,6 +78,7 @@ def test_pairs_of_any_size(scale, degree):
     assert_all_agree(degenerate(rng, 40, 60, degree, scale))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("degree", [1, 2, 3, 5])
 def test_spans_that_start_elsewhere(degree):
     rng = np.random.default_rng(7)
@@ -85,6 +89,7 @@ def test_spans_that_start_elsewhere(degree):
         assert_all_agree(table)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("length", [2.0**-300, 2.0**-160, 2.0**160, 2.0**300])
 def test_spans_of_any_length(length):
     """Velocities and accelerations are such that the same happens in a unit of length."""
@@ -95,6 +100,7 @@ def test_spans_of_any_length(length):
         assert assert_all_agree(table).found.any()
 
 
+@pytest.mark.long
 def test_a_common_higher_term_does_not_matter():
     """What all bodies do together, such as falling, is no relative motion."""
     rng = np.random.default_rng(9)
@@ -107,6 +113,7 @@ def test_a_common_higher_term_does_not_matter():
     assert contacts.exact_share == 0.0
 
 
+@pytest.mark.long
 def test_motions_of_higher_degree_are_decided_exactly_where_boxes_meet():
     contacts = assert_all_agree(generic(np.random.default_rng(10), 60, 100, 4))
 

@@ -24,6 +24,7 @@ def assert_all_agree(queries, ask=first_contact_allpairs):
     return contacts
 
 
+@pytest.mark.long
 def test_generic_queries():
     contacts = assert_all_agree(generic(np.random.default_rng(1), 600))
 
@@ -38,11 +39,13 @@ def test_exact_arithmetic_decides_less_than_one_generic_query_in_a_thousand():
     assert 10_000 < contacts.found.sum() < 100_000
 
 
+@pytest.mark.long
 def test_degenerate_queries():
     for queries in degenerate(np.random.default_rng(3), 1600):
         assert_all_agree(queries, lambda scene: first_contact(scene, method="pairs"))
 
 
+@pytest.mark.long
 def test_degenerate_queries_by_a_tiling():
     for queries in degenerate(np.random.default_rng(4), 160):
         assert_all_agree(queries, first_contact)
@@ -66,6 +69,7 @@ def test_queries_of_any_size(size):
     assert_all_agree(generic(rng, 60, size))
 
 
+@pytest.mark.long
 def test_velocities_beyond_all_doubles_within_the_span():
     rng = np.random.default_rng(7)
     rows = rng.choice([-1.7e308, -1.0, 0.0, 5e-324, 1e-200, 1.0, 1.7e308], (6, 200, 2))
@@ -73,6 +77,7 @@ def test_velocities_beyond_all_doubles_within_the_span():
     assert_all_agree(Queries(*rows[:3], rows[3:], (-1e300, 1.7e308)).of_segments())
 
 
+@pytest.mark.long("-3.5")
 @pytest.mark.parametrize("start", [-3.5, 0.1, 1e6, -(2.0**40)])
 def test_spans_that_start_elsewhere(start):
     """The same questions with time counted from another instant, so far as doubles allow it."""
@@ -103,6 +108,7 @@ number = st.one_of(
 )  # fmt: skip
 
 
+@pytest.mark.long
 @given(st.lists(number, min_size=12, max_size=12))
 def test_any_query(row):
     rows = np.array(row).reshape(6, 1, 2)
@@ -151,6 +157,7 @@ def test_the_length_of_a_chunk_does_not_matter(monkeypatch):
         assert np.array_equal(getattr(whole, name), getattr(parts, name)), name
 
 
+@pytest.mark.long
 def test_memory_is_that_of_the_arrays_and_a_chunk():
     queries = generic(np.random.default_rng(12), 400_000)
     queries.asked()

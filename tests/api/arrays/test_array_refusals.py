@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from folding import every
 
 from exactpt import InputError, Scene
 from exactpt.arrays import first_contacts, point_segment_contacts
@@ -13,7 +14,7 @@ def pairs_of(vertices=CORNERS, offsets=(0, 3, 4), pairs=((0, 1),), **options):
     return first_contacts(vertices, offsets, pairs, **options)
 
 
-@pytest.mark.parametrize(
+@every(
     "given, line",
     [
         ({"vertices": [(0, 0), (1, np.nan)]}, "vertices[1, 1]: not a finite number: nan"),

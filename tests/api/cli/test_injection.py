@@ -163,6 +163,7 @@ def test_shapes_that_are_refused_or_touch(folder, capsys, name):
     assert is_harmless(out + err)
 
 
+@pytest.mark.long
 def test_a_name_that_the_terminal_cannot_show(tmp_path):
     """A stream that cannot encode it: once a broken invariant, now an escape."""
     bodies = [Body("бокс", [(0, 0)], Translation([0, 1])), Body("壁", [(5, 0)])]

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from folding import every
 
 from exactpt import first_contact
 from exactpt.cli import cli, main
@@ -68,6 +69,7 @@ def test_the_oracle_answers_in_order_and_the_judge_agrees(tmp_path):
     assert code_of("judge", tmp_path / "a.jsonl") == 0
 
 
+@pytest.mark.long
 def test_the_oracle_answers_a_single_line_at_once():
     """In lockstep through a pipe: the answer comes before the next question is asked."""
     with asking() as process:
@@ -82,6 +84,7 @@ def test_the_oracle_answers_a_single_line_at_once():
         assert process.wait() == 0
 
 
+@pytest.mark.long
 def test_the_oracle_reads_half_a_line_and_a_last_one_without_end():
     with asking() as process:
         text = json.dumps({"time": [0, 1], "a": STILL, "b": STILL}).encode()
@@ -124,7 +127,7 @@ def test_roots_of_quadratics_and_their_canonical_form():
         assert answer["time"] == (contact.time.to_json() if contact else None)
 
 
-@pytest.mark.parametrize(
+@every(
     "line, says",
     [
         (b"{", "not JSON: '{'"),

@@ -8,6 +8,7 @@ QUICK = ("row", "mirror", "polygons in step, corner")
 MOST_REBUILDS = 30
 
 
+@pytest.mark.long("row end to end", "row, closing in")
 @pytest.mark.parametrize(
     "name",
     [

@@ -32,6 +32,16 @@ def assert_same(found, expected):
     )
 
 
+@pytest.mark.long(
+    "chains-few",
+    "flat-few",
+    "grids_passing-few",
+    "hairs-few",
+    "mixed_shapes-few",
+    "pieces-few",
+    "polygons_in_step-few",
+    "turning-few",
+)
 @pytest.mark.parametrize(
     "count", [3, pytest.param(75, marks=pytest.mark.slow)], ids=["few", "many"]
 )
@@ -172,6 +182,7 @@ def test_degenerate_battery(name, tiling):
         assert found.time == time
 
 
+@pytest.mark.long
 def test_given_scenes():
     """The convex scenes with known answers."""
     answers = json.loads((SCENES / "answers.json").read_text())

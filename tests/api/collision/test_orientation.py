@@ -56,6 +56,7 @@ def test_every_method_finds_the_contact_of_the_reference(seed):
         )
 
 
+@pytest.mark.long
 def test_the_images_of_a_turned_scene_have_the_images_of_its_contact():
     scene = next(s for s in map(turned_scene, range(9)) if first_contact_allpairs(s))
     contact = first_contact_allpairs(scene)

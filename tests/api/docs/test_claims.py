@@ -28,6 +28,7 @@ WISHES = (ROOT / "docs" / "wishes.md").read_text(encoding="utf-8")
 SPEED = (ROOT / "docs" / "speed.md").read_text(encoding="utf-8")
 
 
+@pytest.mark.long
 def test_the_answer_on_the_format_page_is_that_of_its_scene(tmp_path):
     scene, stated = re.findall(r"```json\n(.*?)```", FORMAT, re.DOTALL)[:2]
     (tmp_path / "scene.json").write_text(scene)

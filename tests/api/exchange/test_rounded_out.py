@@ -52,6 +52,7 @@ def test_the_default_is_a_hundredth_of_the_radius():
     assert len(SCENE.to_shapely(0)["ring"].interiors) == 1
 
 
+@pytest.mark.long("geojson")
 @pytest.mark.parametrize("ending", ["geojson", "wkt", "svg"])
 def test_files_hold_the_outlines(tmp_path, ending):
     path = tmp_path / f"shapes.{ending}"

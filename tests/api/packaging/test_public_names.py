@@ -7,6 +7,7 @@ import inspect
 from pathlib import Path
 
 import pytest
+from folding import every
 
 import exactpt
 from exactpt import Body, Scene, Simulation
@@ -22,7 +23,7 @@ def made():
     return {"Simulation": simulation, "FreeSpace": simulation.space()}
 
 
-@pytest.mark.parametrize("line", LINES)
+@every("line", LINES)
 def test_a_public_name_of_the_first_version_is_still_there(line, made):
     """``Name``, ``Name.attribute``, ``name(parameter)`` or ``Name.method(parameter)``."""
     place, _, parameter = line.rstrip(")").partition("(")

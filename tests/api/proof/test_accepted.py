@@ -3,6 +3,7 @@
 import sys
 
 import pytest
+from folding import every
 from proving import agrees, by_both_checkers, proof_of, verdict  # noqa: F401 - a fixture
 
 from exactpt import Body, Pieces, Rigid, Scene, Spin, Translation, proof_check
@@ -12,6 +13,7 @@ from exactpt.scene.generate import FAMILIES, POINTS, generate
 pytestmark = pytest.mark.usefixtures("by_both_checkers")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", [*FAMILIES, *POINTS])
 def test_families(family):
     for seed in (11, 12):
@@ -60,7 +62,7 @@ def test_no_contact():
     assert verdict(scene, lines) == "accepted: no contact from t = 0 to t = 10"
 
 
-@pytest.mark.parametrize(
+@every(
     "bodies, what",
     [
         ([box("a", 0, 0), box("b", 1, 0)], "a vertex 1 with b vertex 0"),
@@ -82,7 +84,7 @@ def test_contact_at_the_start_is_one_line(bodies, what):
     assert verdict(scene, lines) == f"accepted: no contact before T = 0; contact of {what} at T"
 
 
-@pytest.mark.parametrize(
+@every(
     "bodies",
     [
         [],

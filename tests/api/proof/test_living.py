@@ -100,6 +100,7 @@ def test_a_response_that_changes_nothing(tmp_path):
     assert "accepted: no contact before T = " in line
 
 
+@pytest.mark.long("python-keyframed")
 @pytest.mark.parametrize("family", ["stars", "deforming", "keyframed", "pieces", "clamps", "row"])
 def test_the_last_part_ends_with_the_contact(family, tmp_path):
     for seed in (1, 2):

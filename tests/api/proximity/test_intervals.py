@@ -123,6 +123,7 @@ def compare(scene, a, b):
     return len(found)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "count", [150, pytest.param(4_000, marks=pytest.mark.slow)], ids=["few", "many"]
 )
@@ -136,6 +137,7 @@ def test_tiny_scenes_against_the_definition(count):
     assert found > count / 4
 
 
+@pytest.mark.long("bodies_on_grid")
 @pytest.mark.parametrize("family", sorted(FAMILIES))
 def test_pairs_of_the_families(family):
     """Of each family the three smallest pairs of bodies: the definition takes long."""

@@ -20,6 +20,7 @@ def scene(tmp_path):
     return tmp_path / "scene.json"
 
 
+@pytest.mark.long
 def test_demo(tmp_path):
     page = tmp_path / "demo.html"
     result = run("demo", "--out", page)
@@ -95,6 +96,7 @@ def test_without_arguments_there_are_three_commands_to_try(tmp_path, monkeypatch
         assert not run(*words).exit_code
 
 
+@pytest.mark.long
 def test_the_demo_opens_a_browser(tmp_path, monkeypatch, capsys):
     opened = []
     monkeypatch.setattr(click, "launch", lambda place: opened.append(place) or 0)

@@ -11,6 +11,7 @@ import signal
 import sys
 
 import pytest
+from folding import every
 
 from exactpt.cli import main
 
@@ -148,6 +149,7 @@ def test_the_valid_scene_is_valid(run):
     assert out.startswith("no contact")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "count", [400, pytest.param(10_000, marks=pytest.mark.slow)], ids=["few", "many"]
 )
@@ -162,6 +164,7 @@ def test_mutated_scenes_are_run_or_refused(run, count):
     assert refused > count / 2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "count", [300, pytest.param(10_000, marks=pytest.mark.slow)], ids=["few", "many"]
 )
@@ -188,7 +191,7 @@ def test_damaged_bytes_are_run_or_refused(run, count):
         assert_run_or_refused(run(bytes(content)))
 
 
-@pytest.mark.parametrize("raw", RAW, ids=lambda raw: ascii(raw)[1:16].replace("\\", "_"))
+@pytest.mark.long("bodies-4-keyframes-1-t")
 @pytest.mark.parametrize(
     "path",
     [("exactpt",), ("time", 1), ("bodies",), ("bodies", 0), ("bodies", 0, "name"),
@@ -196,6 +199,7 @@ def test_damaged_bytes_are_run_or_refused(run, count):
      ("bodies", 4, "keyframes", 1, "t")],
     ids=lambda path: "-".join(map(str, path)),
 )  # fmt: skip
+@every("raw", RAW)
 def test_raw_text_in_place_of_a_value(run, raw, path):
     data = copy.deepcopy(VALID)
     at(data, path[:-1])[path[-1]] = "MARK"
@@ -208,6 +212,7 @@ def test_raw_text_in_place_of_a_value(run, raw, path):
         assert_refused(answer)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "content",
     [
@@ -252,6 +257,7 @@ def test_a_huge_number_in_a_wrong_place_is_shown_short(run):
     assert len(assert_refused(answer)) < 500
 
 
+@pytest.mark.long
 def test_many_bodies_and_vertices_are_refused_by_the_last(run):
     """All of a large file is read before anything runs."""
     data = {"exactpt": 1, "time": [0, 1], "bodies": [

@@ -43,6 +43,7 @@ def test_a_last_vertex_that_repeats_the_first_is_dropped_in_each_ring():
     assert Body("b", [*BOX, BOX[0]], holes=[[*HOLE, HOLE[0]]]) == Body("b", BOX, holes=[HOLE])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", sorted(RINGS))
 def test_copies_and_files(family):
     for seed in range(20):

@@ -5,6 +5,7 @@ from fractions import Fraction
 from itertools import combinations
 
 import pytest
+from folding import every
 from hypothesis import example, given
 from hypothesis import strategies as st
 from oracles import exact
@@ -124,7 +125,7 @@ def test_counts_and_repr():
     ]
 
 
-@pytest.mark.parametrize(
+@every(
     "time, words",
     [
         ((1, 1), "time: the span from 1 to 1 is empty"),

@@ -53,6 +53,7 @@ def test_the_log_is_the_golden_one(key, exact_only):
     assert log(*key, exact_only=exact_only) == golden
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("hash_seed", ["0", "1", "12345"])
 def test_the_log_does_not_depend_on_the_hash_seed(hash_seed):
     """In a process of its own, all of them."""

@@ -4,6 +4,7 @@ import json
 import math
 
 import pytest
+from folding import every
 
 from exactpt import (
     Affine,
@@ -56,7 +57,7 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("name", WRONG)
+@every("name", WRONG)
 def test_what_is_wrong_is_refused_in_one_line(name):
     with pytest.raises(InputError) as refusal:
         WRONG[name]()

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from folding import every
 from toi_mistakes import MISTAKES, toi, wrong
 
 from exactpt.errors import InputError
@@ -17,6 +18,7 @@ ROOT = Path(__file__).parents[3]
 CASES = 6 * len(FAMILIES)
 
 
+@pytest.mark.long
 def test_an_exact_function_is_right_about_every_family():
     report = check(toi, cases=3 * len(FAMILIES))
 
@@ -25,6 +27,7 @@ def test_an_exact_function_is_right_about_every_family():
     assert set(report.table.rows) == set(FAMILIES)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_planted_mistake_is_found_and_gets_small(mistake):
     report = check(wrong(mistake), cases=CASES)
@@ -58,7 +61,7 @@ def test_questions_are_the_same_everywhere():
     }
 
 
-@pytest.mark.parametrize("family", LINEAR)
+@every("family", LINEAR)
 def test_linear_families_are_linear(family):
     question = make_question(family)
 
@@ -85,6 +88,7 @@ def half_wrong(question):
     return None if time is None else float(time) + 1.0
 
 
+@pytest.mark.long
 def test_counterexamples_are_a_pytest_file_that_fails_until_the_function_is_mended(tmp_path):
     report = check(half_wrong, cases=4, families=["edge_to_edge"])
     text = report.pytest_file()
@@ -109,6 +113,7 @@ def test_counterexamples_are_a_pytest_file_that_fails_until_the_function_is_mend
     assert right_run.returncode == 0, right_run.stdout
 
 
+@pytest.mark.long
 def test_what_crashes_is_counted_and_shown():
     def crashing(question):
         raise ZeroDivisionError("no")
@@ -121,6 +126,7 @@ def test_what_crashes_is_counted_and_shown():
     assert "from my_module import toi" in report.pytest_file()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("answer", [math.nan, math.inf, "soon", (1, 2), True])
 def test_what_is_no_time_counts_as_crashed(answer):
     report = check(lambda _: answer, cases=1, families=["sliding"])
@@ -140,6 +146,7 @@ def test_a_negative_tolerance_is_refused():
         check(toi, tolerance=-1)
 
 
+@pytest.mark.long
 def test_the_tolerance_is_exact():
     def off(question):
         return truth_of(question).time.low + 1

@@ -5,6 +5,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from folding import every
 
 pytestmark = pytest.mark.cgal
 
@@ -36,7 +37,7 @@ def test_there_is_an_example_of_every_request():
     assert README.read_text(encoding="utf-8").count("```request") == len(EXAMPLES)
 
 
-@pytest.mark.parametrize("request_text, answer", EXAMPLES)
+@every("request_text, answer", EXAMPLES)
 def test_example_of_the_readme(program, request_text, answer):
     code, answers = run(program, GREETING + request_text)
 
@@ -302,7 +303,7 @@ def test_sound_tilings_of_this_file_are_accepted(program, base):
     assert (code, answer.split()[0], answer.split()[-2:]) == (0, "ok", ["witnesses", "2"])
 
 
-@pytest.mark.parametrize("request_text, reason", WITHOUT_COORDINATES)
+@every("request_text, reason", WITHOUT_COORDINATES)
 def test_reason_that_needs_no_regions(program, request_text, reason):
     assert run(program, GREETING + request_text) == (0, [f"bad {reason}"])
 

@@ -6,6 +6,7 @@ from importlib.resources import files
 
 import click
 import pytest
+from folding import every
 
 from exactpt.cli import cli, main
 
@@ -46,7 +47,7 @@ def test_the_examples_that_take_long_are_among_them():
     assert {line for name in COMMANDS for line in examples(COMMANDS[name])} >= set(MINUTES)
 
 
-@pytest.mark.parametrize("name", COMMANDS)
+@every("name", COMMANDS)
 def test_every_help_has_examples_and_explains_every_option(name):
     command = COMMANDS[name]
 

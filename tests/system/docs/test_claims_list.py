@@ -5,7 +5,7 @@ import shlex
 from pathlib import Path
 
 import click
-import pytest
+from folding import every
 
 from exactpt.cli import cli
 from fuzz import __main__ as fuzzer
@@ -30,7 +30,7 @@ DISPATCHING = {"-m", "--hostile", "--soak"}
 COMMANDS = [word for word in SHOWN if not word.startswith("tests/")]
 
 
-@pytest.mark.parametrize("path, claim", [(path, claim) for path, claim, _ in CLAIMS])
+@every("path, claim", [(path, claim) for path, claim, _ in CLAIMS])
 def test_a_claim_stands_on_its_page(path, claim):
     text = path.read_text(encoding="utf-8")
 
@@ -42,7 +42,7 @@ def test_every_claim_is_shown_by_something():
     assert all("`" in shown or "](" in shown for *_, shown in CLAIMS)
 
 
-@pytest.mark.parametrize("test", TESTS)
+@every("test", TESTS)
 def test_a_test_is_there(test):
     file, name = test.split("::")
 
@@ -65,7 +65,7 @@ def command_of(words):
     return next(how[word] for word in [*words[3:4], *words] if word in how)
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@every("command", COMMANDS)
 def test_a_command_is_there(command, pytestconfig):
     words = shlex.split(command)
     if words[0] in {"pytest", "python"} and words[:3] != ["python", "-m", "fuzz"]:

@@ -5,6 +5,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from folding import every
 
 from docs.draw_demo import drawn
 from docs.draw_gallery import blocks, run
@@ -44,9 +45,7 @@ def test_the_readme_has_at_most_90_lines():
     assert len(README.splitlines()) <= 90
 
 
-@pytest.mark.parametrize(
-    "page", [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
-)
+@every("page", [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))])
 def test_links_lead_somewhere(page):
     for target in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")):
         if "://" not in target:

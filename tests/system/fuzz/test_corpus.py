@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from folding import every
 
 from exactpt.scene.scene import Scene
 from fuzz import corpus
@@ -20,7 +21,7 @@ def test_what_once_failed_does_not(path, witness):
     assert failure_of(witness, Scene.load(path), patience=20.0) is None
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+@every("path", FILES)
 def test_every_scene_of_the_corpus_has_a_note(path):
     assert path.with_suffix(".txt").read_text(encoding="utf-8").strip()
     assert json.loads(path.read_text(encoding="utf-8"))["exactpt"] == 1

@@ -1,11 +1,15 @@
 """Hostile files: what the harness makes, and that it notices what it is there for."""
 
 import json
+import os
+import signal
+import subprocess
 import sys
 from pathlib import Path
 from random import Random
 
 import pytest
+from folding import every
 
 from exactpt.scene.format import loads
 from exactpt.simulation.store import _checksum
@@ -13,12 +17,14 @@ from fuzz.hostile import readers
 from fuzz.hostile.files import FORMATS, hostile, scene_text
 from fuzz.hostile.run import run, table
 
+ROOT = Path(__file__).parents[3]
+
 
 @pytest.mark.parametrize("kind", FORMATS)
 def test_files_of_every_format_are_read_or_refused(tmp_path, kind):
     faults = []
 
-    tallies = run([kind], 60, report=faults.append, keep=tmp_path)
+    tallies = run([kind], 60, report=faults.append, keep=tmp_path).tallies
 
     tally = tallies[kind]
     assert faults == []
@@ -85,14 +91,14 @@ def test_faults_are_noticed_and_kept(tmp_path, monkeypatch, target, how, fault):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     told = []
 
-    tallies = run(["scene"], 3, report=told.append, keep=tmp_path / "found")
+    tallies = run(["scene"], 3, report=told.append, keep=tmp_path / "found").tallies
 
     assert tallies["scene"].outcomes["FAULT"] == 3
     assert all(fault in line for line in told)
     assert len(list((tmp_path / "found").iterdir())) == 3
 
 
-@pytest.mark.parametrize(
+@every(
     "code, out, err, written, fault",
     [
         (0, "answer\n", "", ["out.json"], ""),
@@ -126,3 +132,43 @@ def test_the_working_folder_stays(tmp_path):
     readers.read("scene", hostile("scene", 1, 0), Random(1), tmp_path)
 
     assert Path.cwd() == here
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of a Unix")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_bug_an_interrupt_was_counted_as_a_fault(tmp_path, number):
+    """The third command of the campaign interrupts it: the file is not counted, and is the next."""
+    program = f"""
+import os, signal, sys
+from fuzz import __main__ as fuzzer
+from fuzz.hostile import readers
+
+main, calls = readers.main, []
+
+def interrupting(words):
+    calls.append(words)
+    if len(calls) == 3:
+        os.kill(os.getpid(), {int(number)})
+    return main(words)
+
+def command(words):
+    try:
+        return interrupting(words)
+    except KeyboardInterrupt:
+        raise SystemExit(130) from None
+
+readers.main = command
+signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGTERM, signal.SIG_DFL)
+sys.argv = ["fuzz", "--hostile", "--cases", "1000", "--seed", "5", "--format", "scene"]
+fuzzer.main()
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=False,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+
+    assert done.returncode == 130
+    assert done.stderr == "interrupted; to go on: --seed 5 --start 2\n"
+    assert done.stdout.splitlines()[1].split()[:2] == ["scene", "2"]
+    assert not list(tmp_path.iterdir())

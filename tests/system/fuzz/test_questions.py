@@ -5,6 +5,7 @@ from random import Random
 import pytest
 import shapely
 from click.testing import CliRunner
+from folding import every
 
 from exactpt import Body, Scene
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -124,7 +125,7 @@ def test_overlap_by_vertical_lines_is_an_area_in_common():
     assert seen == {True, False}
 
 
-@pytest.mark.parametrize(
+@every(
     "first, second, expected",
     [
         ([(0, 0), (4, 0), (0, 4)], [(1, 1)], True),

@@ -3,6 +3,7 @@
 from random import Random
 
 import pytest
+from folding import every
 
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 from exactpt.scene.scene import Scene
@@ -13,7 +14,7 @@ from fuzz.thin import SUFFIX
 ALL = [*FAMILIES, *POINTS]
 
 
-@pytest.mark.parametrize("family", ALL)
+@every("family", ALL)
 def test_a_subscene_is_a_part_of_the_scene(family):
     for seed in range(1, 6):
         whole, part = to_json(generate(family, seed)), to_json(scene_of(family, seed))
@@ -23,7 +24,7 @@ def test_a_subscene_is_a_part_of_the_scene(family):
         assert len(kept) >= min(2, len(whole["bodies"]))
 
 
-@pytest.mark.parametrize("family", ALL)
+@every("family", ALL)
 def test_now_and_then_a_scene_is_whole(family):
     assert to_json(scene_of(family, 5 * WHOLE)) == to_json(generate(family, 5 * WHOLE))
 

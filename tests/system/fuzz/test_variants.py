@@ -5,6 +5,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
+from folding import every
 
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
@@ -39,8 +40,8 @@ def test_the_reference_is_symmetric(family):
         )
 
 
-@pytest.mark.parametrize("name", VARIANTS)
-@pytest.mark.parametrize("family", ["turning", "deforming", "pieces", "keyframed", "blobs"])
+@every("name", VARIANTS)
+@every("family", ["turning", "deforming", "pieces", "keyframed", "blobs"])
 def test_positions_go_where_they_should(family, name):
     """At a time of the scene, each vertex of the image is at the image of the vertex."""
     scene, variant = generate(family, 1).until("1/1000"), VARIANTS[name]

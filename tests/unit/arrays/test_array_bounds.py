@@ -62,6 +62,7 @@ def at(f, s):
     return tuple(sum(c[k] * s**n for n, c in enumerate(f)) for k in (0, 1))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("turning", [False, True])
 def test_orientations_are_within_their_bounds(turning):
     r, truths = relative(hostile(np.random.default_rng(1), (12, 4000)), turning=turning)
@@ -79,6 +80,7 @@ def test_orientations_are_within_their_bounds(turning):
     assert closest > 0.1
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("turning", [False, True])
 def test_a_vertex_is_on_the_side_that_is_sure(turning):
     rng = np.random.default_rng(2)
@@ -127,6 +129,7 @@ def test_segments_meet_or_not_where_that_is_sure():
         assert polygon.segments_meet(a, b, c, d) == crossing[i]
 
 
+@pytest.mark.long
 def test_sums_and_products_of_twice_the_precision():
     rng = np.random.default_rng(4)
     a, b, c, d = rng.uniform(-1.0, 1.0, (4, 3000)) * 2.0 ** rng.integers(-60, 60, (4, 3000))
@@ -141,6 +144,7 @@ def test_sums_and_products_of_twice_the_precision():
         assert abs(of_both - p * q) <= 10 * exact(U) ** 2 * abs(p * q)
 
 
+@pytest.mark.long
 def test_motions_and_their_reach_are_within_their_bounds():
     rng = np.random.default_rng(5)
     n, m, degree = 60, 500, 3
@@ -176,6 +180,7 @@ def _binomial(n, k):
     return 1 if k in (0, n) else _binomial(n - 1, k - 1) + _binomial(n - 1, k)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("turning", [False, True])
 @pytest.mark.parametrize("start", [0.0, 2.5])
 def test_sharpened_enclosures_hold_the_zero(turning, start):
@@ -221,6 +226,7 @@ def sign_change(f, ends):
     return (a * b > 0) - (a * b < 0)
 
 
+@pytest.mark.long
 def test_what_surely_is_simple_is_simple():
     rng = np.random.default_rng(7)
     sure = simple = 0

@@ -9,6 +9,7 @@ from exactpt.arrays.contacts import KINDS
 RNG = np.random.default_rng(4)
 
 
+@pytest.mark.long
 def test_answers_are_those_of_first_contact():
     n = 60
     corners = RNG.integers(-6, 7, (2 * n, 2)).astype(float)

@@ -4,6 +4,7 @@ import json
 from fractions import Fraction
 
 import pytest
+from folding import every
 from scenes_of_two import far_misses, generic_lines, nearly_degenerate, tiny_and_far
 
 from exactpt.arrays import screening
@@ -35,6 +36,7 @@ WRITTEN = {
 }
 
 
+@pytest.mark.long("texts")
 @pytest.mark.parametrize("kind", WRITTEN)
 def test_generic_scenes_are_all_decided_by_filters(kind, monkeypatch):
     lines = generic_lines(300, seed=3, write=WRITTEN[kind])
@@ -55,6 +57,7 @@ FAMILIES = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", FAMILIES)
 def test_no_answer_of_a_filter_differs_from_the_exact_one(family, monkeypatch):
     lines = FAMILIES[family]()
@@ -76,6 +79,7 @@ def test_no_answer_of_a_filter_differs_in_many_scenes(seed, monkeypatch):
     assert [(d, e) for d, e in zip(found, expected, strict=True) if d is not None and d != e] == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", ["far misses", "tiny and far"])
 def test_without_the_bounds_on_rounding_there_are_wrong_answers(family, monkeypatch):
     monkeypatch.setattr(screening, "U", 0.0)
@@ -151,7 +155,7 @@ NOT_PLAIN = {
 }
 
 
-@pytest.mark.parametrize("what", NOT_PLAIN)
+@every("what", NOT_PLAIN)
 def test_what_is_not_plain_is_answered_as_if_alone(what):
     line = NOT_PLAIN[what]
     (found,) = answers([line])

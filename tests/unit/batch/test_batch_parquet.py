@@ -27,6 +27,7 @@ def expected(lines):
     return [json.dumps({"line": k, **data}) for k, data in enumerate(answers(lines), 1)]
 
 
+@pytest.mark.long("2")
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_from_parquet_to_parquet(scenes, tmp_path, jobs):
     out = tmp_path / "answers.parquet"
@@ -45,6 +46,7 @@ def test_from_parquet_to_parquet(scenes, tmp_path, jobs):
     assert sum(row["time"] is not None for row in rows) > 20
 
 
+@pytest.mark.long
 def test_the_same_rows_make_the_same_bytes(scenes, tmp_path):
     outs = [tmp_path / "one.parquet", tmp_path / "two.parquet", tmp_path / "lines.jsonl"]
     run(scenes, outs[0])

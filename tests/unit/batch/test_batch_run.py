@@ -43,6 +43,7 @@ def left(folder):
     return sorted(path.name for path in folder.iterdir())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("jobs", [1, 2, 3])
 def test_the_bytes_do_not_depend_on_the_workers(scenes, tmp_path, jobs):
     out = tmp_path / "answers.jsonl"
@@ -68,6 +69,7 @@ def interrupted_after(chunks):
     return report
 
 
+@pytest.mark.long("2")
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_an_interrupted_batch_goes_on(scenes, tmp_path, jobs, monkeypatch):
     out = tmp_path / "answers.jsonl"
@@ -179,6 +181,7 @@ def test_two_batches_do_not_write_the_same_answers(scenes, tmp_path):
     assert out.read_text() == EXPECTED
 
 
+@pytest.mark.long
 def test_a_worker_that_is_killed_loses_no_scene(scenes, tmp_path):
     out = tmp_path / "answers.jsonl"
     killed = []
@@ -195,6 +198,7 @@ def test_a_worker_that_is_killed_loses_no_scene(scenes, tmp_path):
     assert len(killed) == 2
 
 
+@pytest.mark.long
 def test_scenes_of_a_chunk_that_ends_workers_are_answered_one_by_one():
     text = "\n".join([*SCENES[:4], "", *SCENES[-2:]]).encode()
     chunk = Chunk(7, 100, 100 + len(text), "digest", text)
@@ -223,6 +227,7 @@ def chunks_in(journal):
     return journal.read_bytes().count(b"\n") - 1 if journal.exists() else 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("how", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -9)]
 )
@@ -432,6 +437,7 @@ def test_a_cluster_gives_the_same_bytes_and_loses_a_worker(scenes, tmp_path):
     assert out.read_text() == EXPECTED
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("default")
 def test_a_scheduler_that_does_not_answer_is_refused(scenes, tmp_path):
     pytest.importorskip("distributed")

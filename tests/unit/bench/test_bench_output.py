@@ -46,6 +46,7 @@ def test_no_plot_is_drawn_of_nothing(tmp_path):
     assert (results.names(), results.said) == ([], [])
 
 
+@pytest.mark.long
 def test_a_plot_is_the_same_every_time():
     pytest.importorskip("matplotlib")
     drawn = [draw_lines("t", ("x", "y"), {"exactpt": [(1, 2), (3, 4)]}) for _ in range(2)]
@@ -54,6 +55,7 @@ def test_a_plot_is_the_same_every_time():
     assert "<svg" in drawn[0]
 
 
+@pytest.mark.long
 def test_a_field_shows_shares():
     pytest.importorskip("matplotlib")
     drawn = draw_shares("t", ["row"], ["a", "b", "c"], [[0.0, None, 0.25]])

@@ -3,6 +3,7 @@
 from random import Random
 
 import pytest
+from folding import every
 
 from exactpt.bench.methods.method import Method
 from exactpt.bench.methods.own import OWN
@@ -22,7 +23,7 @@ def planted(family, count=4):
     return [FAMILIES[family](Random(f"{family}:test:{i}")) for i in range(count)]
 
 
-@pytest.mark.parametrize("family", FAMILIES)
+@every("family", FAMILIES)
 def test_the_planted_answer_is_true(family):
     for scene, truth in planted(family):
         contact = first_contact_allpairs(scene)

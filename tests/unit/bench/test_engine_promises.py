@@ -2,6 +2,7 @@
 
 import pytest
 from bench_help import square
+from folding import every
 
 from exactpt.bench.engines.domain import as_asked, from_zero, kind_of, why_not
 from exactpt.bench.engines.promise import WITHIN, Leeway, fault, leeway
@@ -55,7 +56,7 @@ CASES = [
 ]
 
 
-@pytest.mark.parametrize("question, answer, allowed, verdict", CASES)
+@every("question, answer, allowed, verdict", CASES)
 def test_a_verdict(question, answer, allowed, verdict):
     assert fault(question, truth_of(question), answer, allowed) == verdict
 
@@ -126,7 +127,7 @@ CURVED = square(3.0, 0.0, x=(0.0, -1.0, 0.5), y=(0.0, 0.0))
 LONG = square(3.0, 2.0**-30, x=(0.0, -1.0), y=(0.0, 0.0))
 
 
-@pytest.mark.parametrize(
+@every(
     "takes, moving, why",
     [
         ({}, square(3.0, 0.0), None),

@@ -27,6 +27,7 @@ def share(scene, tiling):
     return stats["exact"] / decisions, stats["reasons"]
 
 
+@pytest.mark.long("wobbling-doubles-greedy")
 @pytest.mark.parametrize("tiling", ["greedy", "lazy"])
 @pytest.mark.parametrize("numbers", NUMBERS)
 @pytest.mark.parametrize("motion", MOTIONS)
@@ -57,6 +58,7 @@ def test_few_decisions_are_exact_anywhere_with_any_numbers(motion, setting, numb
     few_are_exact(motion, numbers, setting)
 
 
+@pytest.mark.long("doubles-mixed", "ratios-mixed")
 @pytest.mark.parametrize("tiling", ["greedy", "lazy", "mixed"])
 @pytest.mark.parametrize("numbers", NUMBERS)
 def test_few_decisions_are_exact_in_lanes(numbers, tiling):

@@ -1,6 +1,6 @@
 """Which vertices touch which edges now: the touches as they are told."""
 
-import pytest
+from folding import every
 
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.incidences import FEW, touches
@@ -20,8 +20,8 @@ def touches_now(*bodies):
     return touches(certifier, vertices, vertices.ids())
 
 
-@pytest.mark.parametrize("others", [0, FEW])
-@pytest.mark.parametrize(
+@every("others", [0, FEW])
+@every(
     "body, expected",
     [
         (Body("on an edge", [(2, 1)]), [ON_EDGE]),

@@ -106,6 +106,7 @@ def times_between(queue_times, end):
     return [(a.high + b.low) / 2 for a, b in pairwise([*queue_times, end]) if a < b]
 
 
+@pytest.mark.long
 @settings(deadline=None)
 @given(points=clouds)
 def test_the_closest_pair_is_closest_between_any_two_events(built, points):
@@ -122,6 +123,7 @@ def test_the_closest_pair_is_closest_between_any_two_events(built, points):
         raise AssertionError("no end")
 
 
+@pytest.mark.long
 @settings(deadline=None)
 @given(points=clouds)
 def test_the_hull_has_every_point_on_its_left_after_every_event(built, points):

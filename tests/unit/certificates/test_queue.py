@@ -200,7 +200,7 @@ class QueueMachine(RuleBasedStateMachine):
             assert (None if time is None else time.a) == self.model.get(slot)
 
 
-TestQueue = QueueMachine.TestCase
+TestQueue = pytest.mark.long(QueueMachine.TestCase)
 
 
 def test_bug_ends_of_motions_within_one_double_are_told_apart():

@@ -4,6 +4,7 @@ import json
 from random import Random
 
 import pytest
+from folding import every
 
 from exactpt import (
     Affine,
@@ -76,6 +77,7 @@ def test_a_box_that_is_pressed_down_at_once_and_later():
     assert new(box("box", later), FLOOR) == (3, {("box", "floor")})
 
 
+@pytest.mark.long
 def test_cells_of_a_map_that_share_borders_for_ever():
     cells = [box(f"cell {i} {j}", x=2 * i, y=2 * j) for i in range(4) for j in range(3)]
     ship = Body("ship", [(-5, 3), (-4, "5/2"), (-4, "7/2")], Translation([0, 1]))
@@ -146,7 +148,7 @@ def test_since_a_later_time():
     assert first_contact(scene, since=12) is None
 
 
-@pytest.mark.parametrize(
+@every(
     "options, words",
     [
         ({"after_start": True, "method": "kinetic"}, "a tiling watches all bodies"),
@@ -193,6 +195,7 @@ def compare(scene, between=None, **options):
     return contact.kind
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "count", [100, pytest.param(4_000, marks=pytest.mark.slow)], ids=["few", "many"]
 )

@@ -22,6 +22,7 @@ def bounds_of(*bodies, time=(0, 3)):
     return first_contact_enclosed(Scene(bodies, time=time))
 
 
+@pytest.mark.long("1e-12")
 @pytest.mark.parametrize("error", ["1/100", "1/1000", "1e-6", "1e-12"])
 def test_the_true_time_is_enclosed_as_nearly_as_the_error_allows(error):
     found = bounds_of(Body("blade", [(0, 0), (2, 0)], spin(error)), WALL)

@@ -22,6 +22,7 @@ def without_planner(obstacles, body, time):
     return first_contact(Scene([*obstacles, body], time), ignoring=[names])
 
 
+@pytest.mark.long("hairs")
 @pytest.mark.parametrize("family", sorted({**FAMILIES, **POINTS}))
 def test_a_body_of_a_scene_among_the_others(family):
     """Under its own motion, another body's, and one that turns."""

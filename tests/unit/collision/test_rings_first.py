@@ -25,6 +25,7 @@ def frame(*more, **options):
     return Body("frame", parts=[{"vertices": FRAME, "holes": [HOLE]}, *more], **options)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", sorted(RINGS))
 def test_first_contacts_are_those_of_the_reference(family):
     kinds = set()
@@ -129,6 +130,7 @@ def test_nesting():
         assert first_contact(Scene([a, b], (0, 1))) is None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", sorted(RINGS))
 def test_planners_answer_as_first_contacts(family):
     for seed in range(15):

@@ -224,6 +224,7 @@ def alike(scene):
     return expected
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", sorted(ROUNDED))
 @pytest.mark.parametrize("count", [12, pytest.param(300, marks=pytest.mark.slow)])
 def test_families_against_the_definition(family, count):
@@ -248,6 +249,7 @@ def exact_places(body, t):
     return [(value(p.x) / value(p.w), value(p.y) / value(p.w)) for p in tracks]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", ["discs", "rounded_motions", "rounded_grid"])
 def test_point_and_normal_are_the_nearest_doubles(family):
     """Computed again from the cores, in 200 digits."""

@@ -87,6 +87,7 @@ def scenes(count, name):
         yield scene
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("few", [0, 10**6])
 @pytest.mark.parametrize("count", [150, pytest.param(5000, marks=pytest.mark.slow)])
 def test_close_to_degeneracy(few, count, monkeypatch):
@@ -157,6 +158,7 @@ def touching_at_ends(rng, *, in_doubles, far):
     return (scene, time) if exact or not in_doubles else None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("in_doubles", [True, False])
 @pytest.mark.parametrize("far", [0, 1000])
 @pytest.mark.parametrize("few", [0, 10**6])

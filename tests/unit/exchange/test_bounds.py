@@ -47,6 +47,7 @@ def test_collections_in_collections_of_wkt(refused, depth):
     assert "geometry 0: nested more than 100 deep" in refused("shapes.wkt", text)
 
 
+@pytest.mark.long("101")
 @pytest.mark.parametrize("depth", [101, 300, 100_000])
 def test_collections_in_collections_of_geojson(refused, depth):
     inner = '{"type": "Point", "coordinates": [1, 2]}'
@@ -130,6 +131,7 @@ def test_one_name_for_all(wanted):
     assert taken.asked < 8000
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("how", ["parts", "features"])
 def test_many_bodies_of_one_name(tmp_path, how):
     places = [[i, i] for i in range(3000)]
@@ -154,6 +156,7 @@ def rings(kind, count):
     return [[(x, y), (x + a, y), (x + a, y + a), (x, y + a)] for x, y, a in corners]
 
 
+@pytest.mark.long("concentric")
 @pytest.mark.parametrize("kind", ["apart", "concentric"])
 def test_many_rings_of_one_path(monkeypatch, kind):
     inside, asked = shapes._inside, []

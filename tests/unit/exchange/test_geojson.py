@@ -4,6 +4,7 @@ import json
 from itertools import pairwise
 
 import pytest
+from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -41,7 +42,7 @@ def test_a_decimal_is_the_decimal_that_is_written(x, y):
     assert body.at(0) == [(parse_rational(f"{x:f}"), parse_rational(f"{y:f}"))]
 
 
-@pytest.mark.parametrize(
+@every(
     "kind, coordinates, sizes",
     [
         ("Point", [1, 2, 300], [1]),
@@ -108,7 +109,7 @@ def test_holes_are_refused_or_filled_on_demand():
     assert scene(HOLED, holes="fill").bodies[0].size == 4
 
 
-@pytest.mark.parametrize(
+@every(
     "data, message",
     [
         (text("Polygon", [[[0, 0], [1, 1], [0, 0]]]), "'feature 0' has no area: remove it"),

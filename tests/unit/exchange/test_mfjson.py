@@ -4,6 +4,7 @@ import json
 from fractions import Fraction
 
 import pytest
+from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -36,7 +37,7 @@ def collection(*features):
     return {"type": "FeatureCollection", "features": list(features)}
 
 
-@pytest.mark.parametrize(
+@every(
     "text, seconds",
     [
         ("1970-01-01T00:00:00Z", 0),
@@ -55,7 +56,7 @@ def test_dates_are_exact_seconds(text, seconds):
     assert seconds_of(text, "here") == seconds
 
 
-@pytest.mark.parametrize(
+@every(
     "text",
     ["2000-01-01", "2000-13-01T00:00:00Z", "2000-01-01T00:00:60Z", "2001-02-29T00:00:00Z",
      "2000-01-01T00:00:00+24", "2000-01-01T00:00:00+01:60", "now", "", None, True, ["1"]],

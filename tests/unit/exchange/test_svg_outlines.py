@@ -4,6 +4,7 @@ import math
 from itertools import pairwise
 
 import pytest
+from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -67,6 +68,7 @@ def test_chords_of_a_bezier_curve_stay_within_the_tolerance(controls, tolerance)
     assert (corners[0], corners[-1]) == ((x, -y), (controls[-1][0], -controls[-1][1]))
 
 
+@pytest.mark.long
 @given(rx=st.integers(1, 9), ry=st.integers(1, 9), turn=st.integers(0, 90), tolerance=tolerances)
 def test_chords_of_an_ellipse_stay_within_the_tolerance(rx, ry, turn, tolerance):
     shape = f'<ellipse rx="{rx}" ry="{ry}" transform="rotate({turn})"/>'
@@ -156,7 +158,7 @@ def test_nested_rings_alternate(order):
     assert found == {6: [5], 4: [3], 2: [1]}
 
 
-@pytest.mark.parametrize(
+@every(
     "text, message",
     [
         ("<svg", "not XML"),

@@ -2,6 +2,7 @@
 
 import pytest
 import shapely
+from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -69,7 +70,7 @@ def test_holes_keep_their_own_points():
     assert [body.size for body in scene(text, holes="fill", parts="split").bodies] == [3, 3]
 
 
-@pytest.mark.parametrize(
+@every(
     "text, message",
     [
         ("POINT EMPTY", "geometry 0: point 'body 0' has no position"),

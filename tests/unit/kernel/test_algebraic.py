@@ -8,6 +8,7 @@ import gmpy2
 import numpy as np
 import pytest
 import sympy
+from folding import every
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from oracles import (
@@ -187,7 +188,7 @@ def test_compares_with_every_kind_of_rational():
     assert AlgebraicNumber(3) == 3 == AlgebraicNumber("6/2")
 
 
-@pytest.mark.parametrize("other", [None, "x", math.nan, math.inf, 1j, object(), [1], True])
+@every("other", [None, "x", math.nan, math.inf, 1j, object(), [1], True])
 def test_what_is_no_number_is_not_equal_and_not_ordered(other):
     x = AlgebraicNumber(1)
 
@@ -208,6 +209,7 @@ def test_sign_of(a, f, extra, history):
     assert_invariant(x, root)
 
 
+@pytest.mark.long
 @given(a=algebraics(), f=int_polys.filter(bool), power=st.integers(0, 3), history=histories)
 def test_sign_after(a, f, power, history):
     x, root = a
@@ -267,6 +269,7 @@ def test_float_at_ties(mantissa, exponent, nudge, negative, hidden):
     assert is_nearest_double(float(x), q)
 
 
+@pytest.mark.long
 @settings(max_examples=20)
 @given(c=st.integers(1, 5), power=st.integers(-2300, 2300), degree=st.sampled_from([2, 3]))
 def test_float_of_huge_and_tiny_numbers(c, power, degree):
@@ -464,6 +467,7 @@ def irrational(case):
     return not case[1].is_rational
 
 
+@pytest.mark.long
 @given(a=algebraics().filter(irrational), one=histories, two=histories)
 def test_the_canonical_interval_of_an_irrational_forgets_the_history(a, one, two):
     x, root = a

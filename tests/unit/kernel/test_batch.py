@@ -23,6 +23,7 @@ def answers(cases):
     return [tuple(row) for row in zip(*(column.tolist() for column in said), strict=True)]
 
 
+@pytest.mark.long("hostile-2")
 @pytest.mark.parametrize("degree", [1, 2])
 @pytest.mark.parametrize("make", [hostile, extreme])
 def test_answers_are_those_of_the_scalar_filter(make, degree):

@@ -88,6 +88,7 @@ def attack(seed, cases):
     return wrong, decided
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(4))
 def test_no_certificate_is_decided_wrongly(seed):
     wrong, decided = attack(seed, 1_000)

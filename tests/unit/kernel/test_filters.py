@@ -8,6 +8,7 @@ from fractions import Fraction
 
 import pytest
 from attacks import Case, answer, extreme, generic, hostile, judge, variants
+from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
 from oracles import value
@@ -35,6 +36,7 @@ def attack(seed, cases, make=hostile):
     return wrong, judged
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(4))
 def test_no_hostile_case_is_decided_wrongly(seed):
     wrong, judged = attack(seed, 1_000)
@@ -77,6 +79,7 @@ def decided(d, cases):
     return sum(said[0] != 0 for said in answers) / cases
 
 
+@pytest.mark.long("4")
 @pytest.mark.parametrize("d", [1, 2, 3, 4])
 def test_generic_certificates_are_decided(d):
     """Three random points on paths of degree d, from a root of another certificate: 99 in 100."""
@@ -91,6 +94,7 @@ def doubles_near(rng, degree):
     return list(case.c), list(case.e), list(case.true)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(6))
 def test_the_bernstein_error_bounds_every_coefficient(seed):
     """The float window against the blossom over `Fraction`, the far end rounded as it is used."""
@@ -186,7 +190,7 @@ def test_tightening_keeps_the_root(f, low, width):
 # What is known without luck
 
 
-@pytest.mark.parametrize(
+@every(
     "c, now, expected",
     [
         ([-1.0, 1.0], 0.0, (-1, 1.0)),
@@ -240,7 +244,7 @@ def test_who_says_that_it_vanishes_now_is_told_what_follows(c, now, expected):
     assert (low, high) == NOTHING if root is None else low <= root <= high
 
 
-@pytest.mark.parametrize(
+@every(
     "c, now",
     [
         ([-1.0, 1.0], 1.0),
@@ -257,8 +261,8 @@ def test_unsure_where_it_must_be(c, now):
     assert answer(plain(c, now)) == filters.UNSURE
 
 
-@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
-@pytest.mark.parametrize("size", [2, 3, 4, 6, 8])
+@every("bad", [math.nan, math.inf, -math.inf])
+@every("size", [2, 3, 4, 6, 8])
 def test_nan_and_infinity_in_a_coefficient_end_as_unsure(bad, size):
     for i in range(size):
         c = SOME[:size]
@@ -267,8 +271,8 @@ def test_nan_and_infinity_in_a_coefficient_end_as_unsure(bad, size):
         assert answer(plain(c, 0.0)) == filters.UNSURE
 
 
-@pytest.mark.parametrize("bad", [math.nan, math.inf])
-@pytest.mark.parametrize("size", [2, 3, 4, 6, 8])
+@every("bad", [math.nan, math.inf])
+@every("size", [2, 3, 4, 6, 8])
 def test_nan_and_infinity_in_a_bound_end_as_unsure(bad, size):
     for i in range(size):
         e = [0.0] * size
@@ -327,6 +331,7 @@ def test_bug_now_is_zero_within_subnormals(more):
     assert judge(case, answer(case)) == ""
 
 
+@pytest.mark.long
 def test_the_attack_hits():
     """The cases reach every degree, sure and unsure, away from a root and on one."""
     rng, seen = random.Random(0), Counter()

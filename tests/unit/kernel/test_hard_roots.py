@@ -105,6 +105,7 @@ def all_roots(f):
     return list(roots_after(p, AlgebraicNumber(-bound), bound))
 
 
+@pytest.mark.long("wilkinson 20 perturbed-0")
 @pytest.mark.parametrize("name, i", CASES)
 def test_the_roots_are_sympys(name, i):
     """All of them, their crossings, their enclosures, their nearest doubles."""
@@ -121,6 +122,7 @@ def test_the_roots_are_sympys(name, i):
         assert r.time.simplified().is_rational == root.is_rational
 
 
+@pytest.mark.long("wilkinson 20 perturbed-0")
 @pytest.mark.parametrize("name, i", CASES)
 def test_the_order_of_the_roots_is_sympys(name, i):
     """Each compared with all others, and with those of the derivative; signs there too."""
@@ -137,6 +139,7 @@ def test_the_order_of_the_roots_is_sympys(name, i):
         assert a.sign_of(as_int_poly(f)) == sign_at_root(f, p)
 
 
+@pytest.mark.long("wilkinson 20-0", "wilkinson 20 perturbed-0", "chebyshev-12", "chebyshev-13")
 @pytest.mark.parametrize("name, i", CASES)
 def test_the_first_root_after_a_root_is_the_next(name, i):
     """From each root (exactly), and from doubles on either side of it."""

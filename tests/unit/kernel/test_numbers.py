@@ -10,6 +10,7 @@ import gmpy2
 import numpy as np
 import pytest
 import sympy
+from folding import every
 from hypothesis import example, given
 from hypothesis import strategies as st
 from oracles import exact, is_nearest_double
@@ -61,7 +62,7 @@ def test_a_written_number_is_read_as_fraction_reads_it(text):
     assert exact(parse_rational(text)) == Fraction(text)
 
 
-@pytest.mark.parametrize(
+@every(
     "text, value",
     [
         ("0", 0),
@@ -91,7 +92,7 @@ def test_the_largest_exponents_are_read():
     assert parse_rational("1e-100000") == gmpy2.mpq(1, gmpy2.mpz(10) ** 100_000)
 
 
-@pytest.mark.parametrize(
+@every(
     "text",
     [
         "", " ", "+", "-", ".", "e5", "1e", "1e+", "--1", "+-1", "1 2", " 1", "1 ", "1\n", "\n1",
@@ -150,9 +151,7 @@ def test_rational_of_a_float_is_its_exact_value(x):
     assert rational(np.float64(x)) == rational(x)
 
 
-@pytest.mark.parametrize(
-    "kind", [np.int8, np.int16, np.int32, np.int64, np.uint8, np.uint16, np.uint32, np.uint64]
-)
+@every("kind", [np.int8, np.int16, np.int32, np.int64, np.uint8, np.uint16, np.uint32, np.uint64])
 def test_rational_takes_every_numpy_integer(kind):
     for value in (np.iinfo(kind).min, 0, 1, np.iinfo(kind).max):
         exact = rational(kind(value))

@@ -1,6 +1,7 @@
 """Polynomials packed into integers, against arithmetic coefficient by coefficient."""
 
 import pytest
+from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -41,6 +42,7 @@ def test_what_is_packed_is_unpacked(f, slack):
     assert unpack(pack(f, width), width, len(f) + slack + 1) == f
 
 
+@pytest.mark.long
 @given(a=tracks, b=tracks, c=tracks, d=tracks)
 def test_determinants_of_tracks(a, b, c, d):
     expected = add(
@@ -59,6 +61,7 @@ def piece_with(track):
     return piece
 
 
+@pytest.mark.long
 @given(a=tracks, c=tracks, offsets=st.tuples(*[polynomials] * 4))
 def test_the_orientation_of_copies(a, c, offsets):
     place = Image([0.0], [0.0], [], -1)
@@ -71,8 +74,8 @@ def test_the_orientation_of_copies(a, c, offsets):
     assert copy_orientation(copies[1], copies[0], other) == negate(expected)
 
 
-@pytest.mark.parametrize("bits", [1, 5, 64, 1000])
-@pytest.mark.parametrize("length", [1, 2, 7])
+@every("bits", [1, 5, 64, 1000])
+@every("length", [1, 2, 7])
 def test_the_largest_coefficients_of_either_sign_fit(bits, length):
     """All products of a determinant reinforce each other in the middle coefficients."""
     top = (ZZ(2) ** bits - 1,) * length

@@ -4,6 +4,7 @@ import math
 from itertools import islice
 
 import pytest
+from folding import every
 from hypothesis import example, given
 from hypothesis import strategies as st
 from oracles import compare, compare_with_rational, is_root, real_roots, sign_just_after
@@ -142,6 +143,7 @@ def test_an_end_just_beside_a_root():
     assert [r.time for r in roots_after(f, zero, third + bit)] == [third]
 
 
+@pytest.mark.long
 @given(f=raw_polys(4), g=raw_polys(4), h=planted_polys(2, 2), case=algebraics(), until=fractions)
 def test_common_roots(f, g, h, case, until):
     start, twin = case
@@ -178,8 +180,8 @@ def test_roots_that_descartes_leaves_to_sturm_are_the_same():
     ]
 
 
-@pytest.mark.parametrize("c2", [1, -1, 3, -(10**30)])
-@pytest.mark.parametrize("shift", [0, 10**25, -(10**25)])
+@every("c2", [1, -1, 3, -(10**30)])
+@every("shift", [0, 10**25, -(10**25)])
 def test_surds_are_enclosed_by_neighbouring_doubles(c2, shift):
     """c2 ((t - shift)^2 - 2), also where the roots cannot be told from shift by doubles."""
     f = as_int_poly([c2 * (shift**2 - 2), -2 * c2 * shift, c2])

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 import pytest
 from attacks import Case, answer, hostile, judge
+from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
 from oracles import value
@@ -63,6 +64,7 @@ def polar(f, arguments):
     return sum(c * symmetric[i] / math.comb(n, i) for i, c in enumerate(f) if c)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(6))
 def test_the_bound_holds_for_bernstein_coefficients(seed):
     """The far end rounded, the window cut to quarters."""
@@ -154,8 +156,8 @@ def case_of(c, now, horizon, *, at_root=False, width=0.0):
     return Case(exact, tuple(c), e, QQ(now), now - width, now + width, horizon, at_root)
 
 
-@pytest.mark.parametrize("width", [0.0, 1e-15])
-@pytest.mark.parametrize("horizon", [2.5, 3.5, 10.0, 1000.0])
+@every("width", [0.0, 1e-15])
+@every("horizon", [2.5, 3.5, 10.0, 1000.0])
 def test_the_root_after_a_root(horizon, width):
     """(t - 2)(t - 3)(t - 5)(t^2 + 1) at 2: negative no more, until 3."""
     c = [-30.0, 31.0, -40.0, 32.0, -10.0, 1.0]

@@ -1,5 +1,6 @@
 """`stays_convex`, against the turns of the polygon at many rational times."""
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from strategies import fractions
@@ -30,6 +31,7 @@ def turns(body, t):
     ]
 
 
+@pytest.mark.long
 @given(squares())
 def test_what_stays_convex_turns_left_at_all_times(body):
     answer = stays_convex(body, range(4), START, END)

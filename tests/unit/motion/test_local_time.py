@@ -118,6 +118,7 @@ class Curve:
         self.c, self.x = np.array(c), np.array(x)
 
 
+@pytest.mark.long
 def test_a_spline_of_scipy_goes_through_its_points():
     interpolate = pytest.importorskip("scipy.interpolate")
     times, places = np.arange(5.0), np.array([(0, 0), (1, 3), (0.1, 0.7), (2, 2), (5, -1)])

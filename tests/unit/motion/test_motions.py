@@ -8,6 +8,7 @@ from itertools import pairwise
 import gmpy2
 import numpy as np
 import pytest
+from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
 from oracles import body_at, exact, motion_at
@@ -37,12 +38,14 @@ def positions(body, t):
     return [(exact(x), exact(y)) for x, y in body.at(as_rational(t))]
 
 
+@pytest.mark.long
 @given(data=body_data(), t=times)
 def test_a_body_is_where_the_contract_says(data, t):
     """Translations, turns, affine maps, pieces; rest, own polynomials, keyframes; all mixed."""
     assert positions(body_of(data), t) == body_at(data, t)
 
 
+@pytest.mark.long
 @given(data=body_data(), t=times)
 def test_the_piece_after_a_time_holds_until_its_end(data, t):
     body = body_of(data)
@@ -55,6 +58,7 @@ def test_the_piece_after_a_time_holds_until_its_end(data, t):
         assert [(exact(x), exact(y)) for x, y in at] == body_at(data, time)
 
 
+@pytest.mark.long
 @given(data=body_data())
 def test_breakpoints_are_the_times_at_which_formulas_change(data):
     body = body_of(data)
@@ -66,6 +70,7 @@ def test_breakpoints_are_the_times_at_which_formulas_change(data):
     assert body.size == len(body_at(data, Fraction(0)))
 
 
+@pytest.mark.long
 @given(data=body_data(), t=times)
 def test_denominators_of_tracks_are_positive_and_all_is_integer(data, t):
     kind = type(gmpy2.mpz())
@@ -77,6 +82,7 @@ def test_denominators_of_tracks_are_positive_and_all_is_integer(data, t):
         assert all(part[-1] != 0 for part in (track.x, track.y, track.w) if part)
 
 
+@pytest.mark.long
 @given(
     shapes=st.lists(st.tuples(points, points), min_size=2, max_size=3),
     turn=st.sampled_from([[], ["1/2"], [0, 1], ["1/3", "1/2", 1]]),
@@ -241,7 +247,7 @@ def test_pieces_that_are_no_sequence_are_refused(pieces, words):
         Pieces(pieces)
 
 
-@pytest.mark.parametrize(
+@every(
     "make, words",
     [
         (lambda: Rigid([0, 1], pivot=(1, 2, 3)), "a pivot has two coordinates"),
@@ -259,7 +265,7 @@ def test_motions_that_are_none_are_refused(make, words):
         make()
 
 
-@pytest.mark.parametrize(
+@every(
     "arguments, words",
     [
         ({"name": "", "vertices": [(0, 0)]}, "a text that is not empty"),

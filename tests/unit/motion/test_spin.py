@@ -41,6 +41,7 @@ def check(spin, rng, count):
         assert all(off(body, t) <= real(spin.error) for t in times)
 
 
+@pytest.mark.long("1-1e-40-time5")
 @pytest.mark.parametrize(
     "omega, error, time",
     [
@@ -91,6 +92,7 @@ def test_a_spin_begins_and_ends_and_drifts():
     assert (spin.omega, spin.error) == (1, QQ(1, 100))
 
 
+@pytest.mark.long
 def test_a_mill_meets_a_post_when_it_should():
     """The true time is within error / omega of the one found: the blade has no width."""
     mill = Body("mill", [(0, 0), (5, 0)], Spin(2, time=(0, 4), error="1e-9"))

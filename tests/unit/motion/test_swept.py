@@ -26,6 +26,7 @@ bodies = st.one_of(
 )  # fmt: skip
 
 
+@pytest.mark.long
 @given(
     st.lists(bodies, min_size=1, max_size=4),
     st.fractions(0, 4, max_denominator=16),
@@ -76,6 +77,7 @@ def test_what_all_have_in_common_moves_no_box():
     assert swept.stride(0.0) == float("inf")
 
 
+@pytest.mark.long("5-5", "5-7", "5-9", "5-11", "5-13")
 @pytest.mark.parametrize("numerator", [5, 7, 9, 11, 13])
 @pytest.mark.parametrize("bits", [5, 12, 40, 79])
 def test_boxes_contain_what_underflows(bits, numerator):

@@ -80,6 +80,7 @@ def assert_enclosed(images, piece, frame, errors):
                 assert math.isnan(c) or abs(QQ(*c.as_integer_ratio()) - value) <= bound
 
 
+@pytest.mark.long
 @given(
     points=st.lists(st.tuples(ratios, ratios), min_size=1, max_size=5, unique=True),
     x=st.lists(ratios, max_size=3),

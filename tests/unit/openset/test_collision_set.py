@@ -43,6 +43,7 @@ def code_of(*arguments):
     return ended.value.code
 
 
+@pytest.mark.long
 def test_the_sample_is_written_again_byte_by_byte(small):
     """Its manifest has the checksums of all files; a few are kept in the repository whole."""
     kept = [path.relative_to(SAMPLE).as_posix() for path in SAMPLE.rglob("*") if path.is_file()]
@@ -52,6 +53,7 @@ def test_the_sample_is_written_again_byte_by_byte(small):
         assert content(small, name) == (SAMPLE / name).read_bytes(), name
 
 
+@pytest.mark.long
 def test_the_page_names_the_checksum_of_the_sample(small):
     page = (Path(__file__).parents[3] / "docs/collision-set.md").read_text(encoding="utf-8")
     manifest = hashlib.sha256((small / "SHA256SUMS").read_bytes()).hexdigest()
@@ -68,6 +70,7 @@ def test_the_page_names_the_checksum_of_the_whole(tmp_path):
     assert f"| `exactpt questions --set` | `{summary.manifest}` |" in page
 
 
+@pytest.mark.long
 def test_two_processes_write_the_same(small, tmp_path):
     summary = write_set(tmp_path / "again", planned(**SIZES), jobs=2)
 

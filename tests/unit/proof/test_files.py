@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from folding import every
 from proving import accepted, proof_of
 
 import exactpt
@@ -70,6 +71,7 @@ def test_command(scene, tmp_path):
     assert sorted(p.name for p in tmp_path.iterdir()) == ["answer.proof", "scene.json"]
 
 
+@pytest.mark.long
 def test_until(scene, tmp_path):
     file, path = tmp_path / "scene.json", tmp_path / "answer.proof"
     scene.save(file)
@@ -85,6 +87,7 @@ def test_until(scene, tmp_path):
         assert check(file, path, *options)[0] == 2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["__future__", "fractions", "hashlib", "json"])
 def test_modules_planted_nearby_do_not_run(scene, tmp_path, name):
     proved = exactpt.prove(scene)
@@ -99,6 +102,7 @@ def test_modules_planted_nearby_do_not_run(scene, tmp_path, name):
         assert "planted" not in done.stdout + done.stderr
 
 
+@pytest.mark.long
 def test_exit_codes(scene, tmp_path):
     file, path = tmp_path / "scene.json", tmp_path / "answer.proof"
     scene.save(file)
@@ -145,7 +149,7 @@ def test_scenes_are_read_as_the_format_says():
     ]
 
 
-@pytest.mark.parametrize(
+@every(
     "text",
     [
         "[]",
@@ -179,6 +183,7 @@ def test_tracks_are_those_of_the_package(family):
         ]
 
 
+@pytest.mark.long
 def test_nothing_that_is_malformed_crashes_the_checker(scene):
     from random import Random
 
@@ -198,6 +203,7 @@ def test_nothing_that_is_malformed_crashes_the_checker(scene):
     assert not accepted(scene, [*lines, lines[-1]])
 
 
+@pytest.mark.long
 def test_a_proof_is_the_same_in_every_process():
     code = (
         "from exactpt.proof import prove; from exactpt.scene.generate import generate;"

@@ -74,6 +74,7 @@ def test_spliced_at_a_contact():
     assert accepted(scene, right)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tiling", ["lazy", "greedy", "mixed"])
 def test_spliced_runs(tiling):
     """Spliced at a touch-and-go contact: rejected; at a time without contact: accepted."""
@@ -223,6 +224,7 @@ def mutants(lines, random):
         yield "no contact", [*lines[:-1], "none"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "family", ["stars", "convex", "chains", "deforming", "turning_stars", "letters"]
 )
@@ -248,6 +250,7 @@ def test_mutants(family):
     assert rejected > 15 * kept
 
 
+@pytest.mark.long
 @pytest.mark.plain
 @pytest.mark.parametrize("tiling", ["lazy", "greedy", "mixed"])
 def test_an_engine_that_is_blind_to_contacts(tiling, monkeypatch):

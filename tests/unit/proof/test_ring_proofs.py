@@ -5,6 +5,7 @@ import json
 
 import proving
 import pytest
+from folding import every
 from proving import accepted, agrees, by_both_checkers, proof_of, verdict  # noqa: F401 - a fixture
 
 from exactpt import Body, Scene, Translation
@@ -33,6 +34,7 @@ def lines_of(scene):
     return lines
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tiling", TILINGS)
 @pytest.mark.parametrize("family", sorted(RINGS))
 def test_right_answers_are_accepted(family, tiling):
@@ -101,7 +103,7 @@ def test_a_scene_in_which_a_hole_is_nowhere():
         assert "not simple" in told or "none can be" in told
 
 
-@pytest.mark.parametrize(
+@every(
     "body",
     [
         '"vertices": [[0,0],[9,0],[0,9]], "holes": [[[1,1],[2,1]]]',

@@ -89,6 +89,7 @@ def value(piece, t):
     return quotient_at(tuple(map(ZZ, piece.numerator)), tuple(map(ZZ, piece.denominator)), t)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "count", [60, pytest.param(2_000, marks=pytest.mark.slow)], ids=["few", "many"]
 )

@@ -5,6 +5,7 @@ from fractions import Fraction
 from random import Random
 
 import pytest
+from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf
@@ -100,6 +101,7 @@ def _gap(a, b, t):
     return float(distance(Scene([a, b], (0, 20)), a.name, b.name, at=t))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "count", [100, pytest.param(4_000, marks=pytest.mark.slow)], ids=["few", "many"]
 )
@@ -125,7 +127,7 @@ def test_the_square_root_is_rounded_correctly(value):
     assert nearest_square_root(QQ(value)) == expected
 
 
-@pytest.mark.parametrize("exponent", [-2148, -2146, -2100, -1074, -1, 0, 1, 2046, 2047, 2048, 2050])
+@every("exponent", [-2148, -2146, -2100, -1074, -1, 0, 1, 2046, 2047, 2048, 2050])
 def test_square_roots_of_powers_of_two(exponent):
     value = Fraction(2) ** exponent
     root = nearest_square_root(QQ(value))

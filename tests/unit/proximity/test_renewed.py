@@ -5,6 +5,7 @@ from random import Random
 
 import pytest
 import shapely
+from folding import every
 
 from exactpt import Body, Pieces, Translation
 from exactpt.kernel.numbers import QQ
@@ -65,7 +66,7 @@ def test_corners_that_touch_and_part_at_one_time():
     assert time_of(Body("box", BOX), into) == 0
 
 
-@pytest.mark.parametrize(
+@every(
     "first, second, expected",
     [
         ([(0, 0), (2, 0), (2, 2), (0, 2)], [(0, 0), (2, 0), (2, 2), (0, 2)], True),

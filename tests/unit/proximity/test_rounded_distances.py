@@ -86,6 +86,7 @@ def test_a_touch_in_passing_is_one_moment():
     assert [(i.start, i.end) for i in contact_intervals(scene, "disc", "post")] == [(9, 9)]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "count", [100, pytest.param(1_000, marks=pytest.mark.slow)], ids=["few", "many"]
 )

@@ -78,6 +78,7 @@ def defined(scene, squared):
     return least and Approach(least, tuple(sorted(ab for time, ab in found if time == least)))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "count", [60, pytest.param(3_000, marks=pytest.mark.slow)], ids=["few", "many"]
 )

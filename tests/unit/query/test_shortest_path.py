@@ -68,6 +68,7 @@ def test_it_is_as_long_as_in_the_visibility_graph_in_1000_scenes(seed):
     assert paths > 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(2))
 def test_among_boxes_on_a_grid_ties_and_straight_bends_abound(seed):
     rng = Random(seed)

@@ -215,6 +215,7 @@ def test_points_that_a_path_covers_anchor_nothing():
     assert brute.anchors_beside([(0, 0), (4, 0)], {"p": [(1, 0)]}, {"p": (1, 0)}) == {}
 
 
+@pytest.mark.long("chains", "flat", "grids_passing", "lakes", "mixed_shapes", "pieces")
 @pytest.mark.parametrize("family", sorted({**FAMILIES, **RINGS}))
 def test_queries_are_those_of_brute_force(family):
     """Places, rays, segments, paths, hulls: a few dozen in each family."""
@@ -255,6 +256,7 @@ def bowl(m):
     return Scene([Body("bowl", outline), Body("far", [(0, 2 * m * m)])], (0, 1))
 
 
+@pytest.mark.long
 def test_few_edges_are_crossed_in_the_relative_hull():
     """Lemma 5.4: O(log n) edges on the way through F1, here two a level of the tree."""
     for m in (8, 64, 512):

@@ -64,6 +64,7 @@ SCENES = [
 ]
 
 
+@pytest.mark.long("demo", "grids_passing-2")
 @pytest.mark.parametrize("scene, tiling", SCENES)
 def test_between_events_the_film_shows_the_snapshot(scene, tiling):
     film = film_of(scene, tiling=tiling)
@@ -93,6 +94,7 @@ def test_the_events_are_those_of_the_simulation(scene, tiling):
     assert all(a.compare(b) < 0 for a, b in pairwise(times))
 
 
+@pytest.mark.long
 def test_at_the_contact_the_film_shows_the_tiling_that_ends_there():
     film = film_of(demo())
     simulation = Simulation(demo())
@@ -103,6 +105,7 @@ def test_at_the_contact_the_film_shows_the_tiling_that_ends_there():
     assert shown(film, len(film.steps)) == in_snapshot(last, demo())
 
 
+@pytest.mark.long
 def test_positions_in_the_data_are_exact():
     film = film_of(demo())
     data = json.loads(json.dumps(data_of(film, at=QQ(5, 2))))
@@ -121,6 +124,7 @@ def test_positions_in_the_data_are_exact():
     assert found == places
 
 
+@pytest.mark.long
 def test_times_in_the_data_are_exact():
     data = data_of(film_of(demo()))
     assert data["steps"][-1]["exact"] == ["-141750", "6750", "1099"]

@@ -23,6 +23,7 @@ def test_scene():
     assert shown["tiles"] == 0
 
 
+@pytest.mark.long
 def test_simulation_while_it_runs():
     simulation = Simulation(demo())
     assert groups(simulation._repr_svg_())["tiles"] == len(simulation.snapshot().faces)

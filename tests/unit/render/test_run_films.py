@@ -75,6 +75,7 @@ def test_frames_are_those_of_the_film():
     assert all(frame.tiles and frame.lines for frame in before)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("ending, start", [(".gif", b"GIF89a"), (".mp4", b"ftyp")])
 def test_a_film_as_a_file(tmp_path, monkeypatch, ending, start):
     pytest.importorskip("resvg_py")

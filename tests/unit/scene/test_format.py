@@ -9,6 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
 from oracles import body_at, exact
@@ -41,6 +42,7 @@ def positions(scene, t):
 # What is read
 
 
+@pytest.mark.long
 @given(data=scene_data(), t=times)
 def test_a_scene_is_read_as_it_is_written(data, t):
     scene = loads(text_of(data))
@@ -51,6 +53,7 @@ def test_a_scene_is_read_as_it_is_written(data, t):
     assert [body.closed for body in scene.bodies] == [b.get("closed", True) for b in data["bodies"]]
 
 
+@pytest.mark.long
 @given(data=scene_data(), t=times)
 def test_written_and_read_again_it_is_the_same(data, t):
     scene = loads(text_of(data))
@@ -62,7 +65,7 @@ def test_written_and_read_again_it_is_the_same(data, t):
     assert (again.start, again.end) == (scene.start, scene.end)
 
 
-@pytest.mark.parametrize(
+@every(
     "written, value",
     [
         ("0", 0),
@@ -347,11 +350,7 @@ WRONG = [
 ]
 
 
-def label(case):
-    return ".".join(map(str, case)) if isinstance(case, tuple) else None
-
-
-@pytest.mark.parametrize("path, value, words", WRONG, ids=label)
+@every("path, value, words", WRONG)
 def test_a_refusal_names_the_body_the_key_and_the_value(path, value, words):
     text = text_of(changed(path, value))
     if words is None:
@@ -363,7 +362,7 @@ def test_a_refusal_names_the_body_the_key_and_the_value(path, value, words):
     assert [word for word in words if word not in message] == []
 
 
-@pytest.mark.parametrize(
+@every(
     "text",
     [
         "",
@@ -406,8 +405,8 @@ def test_a_key_that_is_there_twice_is_refused(path):
     assert "twice" in message
 
 
-@pytest.mark.parametrize("bad", ["NaN", "Infinity", "-Infinity"])
-@pytest.mark.parametrize(
+@every("bad", ["NaN", "Infinity", "-Infinity"])
+@every(
     "path, words",
     [
         ((b, BOX, "vertices", 2, 1), ["'box'", "vertex 2", "y"]),
@@ -425,8 +424,8 @@ def test_bug_nan_and_infinity_are_refused_without_a_place(bad, path, words):
     assert [word for word in [bad, *words] if word not in message] == []
 
 
-@pytest.mark.parametrize("depth", [3, 50, 900, 100_000])
-@pytest.mark.parametrize("left, right", ["[]", ('{"a":', "}")])
+@every("depth", [3, 50, 900, 100_000])
+@every("left, right", ["[]", ('{"a":', "}")])
 def test_deep_nesting_is_refused(depth, left, right):
     for place in ("time", "bodies"):
         data = changed((place,), "MARK")
@@ -437,6 +436,7 @@ def test_deep_nesting_is_refused(depth, left, right):
         assert len(message) < 300
 
 
+@pytest.mark.long
 def test_bug_nesting_just_below_the_limit_is_a_recursion_error():
     """The decoder manages it, but to show the value in the message takes a few frames more."""
     for depth in range(850, 1001):
@@ -458,6 +458,7 @@ def test_a_strange_name_stays_one_line(name):
     assert "vertices" in refusal(text_of(data))
 
 
+@pytest.mark.long
 def test_bug_what_is_missing_first_depends_on_the_hash_seed():
     """The required keys are a set: which is named first changes from run to run."""
     code = (
@@ -627,6 +628,16 @@ def test_bug_saving_to_a_pipe_or_device_replaces_it(tmp_path):
 # The scenes with known answers
 
 
+@pytest.mark.long(
+    "ballistic_k100",
+    "comb_m256",
+    "convex_k300",
+    "deform_k16_m16",
+    "deform_k64_m16",
+    "real_glyphs_serif_drift",
+    "real_land110m_drift",
+    "sparse_k300",
+)
 @pytest.mark.parametrize("name", NAMES)
 def test_the_scenes_with_known_answers_are_read(name):
     known = json.loads((SCENES / "answers.json").read_text())[name]

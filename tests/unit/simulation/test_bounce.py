@@ -5,6 +5,7 @@ from fractions import Fraction
 from random import Random
 
 import pytest
+from folding import every
 
 from exactpt import (
     Body,
@@ -76,7 +77,7 @@ def test_a_bounce_that_was_pickled_is_the_same():
     assert velocities_after(pickle.loads(pickle.dumps(bounce))) == velocities_after(bounce)
 
 
-@pytest.mark.parametrize(
+@every(
     "options, message",
     [
         ({"restitution": 2}, "restitution: not between 0 and 1: 2"),
@@ -153,6 +154,7 @@ def vertex_on_vertex(random):
     return scene if alone and contact.time == 8 else None
 
 
+@pytest.mark.long
 def test_a_vertex_that_meets_a_vertex_goes_on():
     """At the end of a wall, in an inner corner, corner on corner."""
     random = Random(1)

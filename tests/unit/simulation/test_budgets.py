@@ -66,6 +66,7 @@ SEARCHES = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("where", ["main", "thread"])
 @pytest.mark.parametrize("search", SEARCHES)
 def test_degree_2000(search, where):
@@ -88,6 +89,7 @@ def test_a_hundred_thousand_vertices(search):
     assert isinstance(error, BudgetExceeded)
 
 
+@pytest.mark.long("turning-lazy", "turning-greedy", "turning-mixed")
 @pytest.mark.parametrize("tiling", ["lazy", "greedy", "mixed"])
 @pytest.mark.parametrize("family", ["convex", "stars", "turning", "deforming"])
 def test_the_limit_is_asked_for_everywhere(monkeypatch, family, tiling):

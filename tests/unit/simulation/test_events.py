@@ -84,6 +84,7 @@ def test_a_look_computes_the_time_once(computed):
     assert max(computed.count(time) for time in computed) == 1
 
 
+@pytest.mark.long
 @pytest.mark.plain
 def test_an_event_keeps_no_tiling():
     simulation = Simulation(generate("convex", 3), tiling="greedy")
@@ -135,6 +136,7 @@ def told(event):
     return json.dumps(event.to_json())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", [*sorted(FAMILIES), *sorted(POINTS)])
 def test_looked_at_late_they_are_what_they_were_at_once(family, tmp_path):
     scene = generate(family, 2)

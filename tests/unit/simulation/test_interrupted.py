@@ -96,6 +96,7 @@ def is_before(time, contact):
     return time is None or contact.time > time
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SCENES)
 def test_interrupted_at_every_check_before_a_contact(name, tmp_path, monkeypatch):
     scene = SCENES[name]

@@ -124,6 +124,13 @@ def change_plans(scene, tiling, rng, changes, audits, *, deform=False, rigid=Fal
     return simulation, sum(touched) / len(touched)
 
 
+@pytest.mark.long(
+    "rigid-convex-mixed",
+    "rigid-stars-greedy",
+    "rigid-stars-mixed",
+    "deforming-convex-mixed",
+    "deforming-stars-mixed",
+)
 @pytest.mark.parametrize("tiling", ["greedy", "lazy", "mixed"])
 @pytest.mark.parametrize("stars", [False, True], ids=["convex", "stars"])
 @pytest.mark.parametrize("deform", [False, True], ids=["rigid", "deforming"])
@@ -161,6 +168,7 @@ def test_ten_thousand_new_plans_of_two_hundred_bodies():
     assert mean < 100
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tiling", ["greedy", "lazy", "mixed"])
 def test_a_new_plan_costs_what_the_body_has_in_certificates(tiling):
     """Locality: a larger scene does not make a change dearer."""
@@ -227,6 +235,7 @@ def test_a_contact_after_a_new_plan_is_exact():
     assert [event.kind for event in simulation.run()] == ["motion", "contact"]
 
 
+@pytest.mark.long("mixed")
 @pytest.mark.parametrize("tiling", ["greedy", "lazy", "mixed"])
 def test_bodies_come_and_go(tiling):
     rng = Random("come and go")

@@ -74,6 +74,7 @@ def come_and_go(rng, jars, guests, changes):
     return simulation
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("seeds", "changes"), [(3, 40), pytest.param(20, 100, marks=pytest.mark.slow)]
 )
@@ -121,6 +122,7 @@ def spiral(turns):
     return [(QQ(x), QQ(y)) for x, y in [*outer[:turns], *inner[:turns][::-1]]]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("turns", [5, 6, 8, 9, 10, 12])
 @pytest.mark.parametrize("start", [0, 1, 5])
 def test_a_geodesic_may_wind_around_the_end_of_its_body(turns, start):
@@ -179,5 +181,6 @@ def certificates(teeth):
     return set(counts)
 
 
+@pytest.mark.long
 def test_the_certificates_in_a_pocket_do_not_depend_on_the_rest_of_the_body():
     assert certificates(8) == certificates(60)

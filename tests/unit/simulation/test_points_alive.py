@@ -149,6 +149,7 @@ def test_a_restored_run_of_points_has_the_same_log_at_a_hundred_moments(tmp_path
         seed += 1
 
 
+@pytest.mark.long
 def test_a_run_of_points_with_new_plans_is_saved(tmp_path):
     """Also while chains are searched, after long ones; saved twice, the files are the same."""
     logs = []

@@ -95,6 +95,7 @@ def come_and_go(scene, tiling, rng, changes, audits, *, stars=False):
     return simulation, counts
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tiling", ["greedy", "lazy", "mixed"])
 @pytest.mark.parametrize("stars", [False, True], ids=["convex", "stars"])
 def test_after_bodies_come_and_go_the_tiling_is_the_static_one(tiling, stars):
@@ -135,6 +136,7 @@ def mean_costs(tiling, count, *, stars):
     return {key: sum(values) / len(values) for key, values in costs.items()}, total
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tiling", LOCAL)
 @pytest.mark.parametrize("stars", [False, True], ids=["convex", "stars"])
 def test_a_change_of_one_body_costs_what_it_has_in_certificates(tiling, stars):
@@ -205,6 +207,7 @@ def test_what_touches_or_swallows_another_body_is_refused(tiling):
     assert [body.name for body in simulation.scene.bodies] == ["ring", "dot", "fits"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tiling", LOCAL)
 def test_what_has_come_and_gone_is_saved(tiling, tmp_path):
     """Ids that bodies have left are used again in the same order; the log is the same."""

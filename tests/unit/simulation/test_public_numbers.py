@@ -150,6 +150,7 @@ def test_bug_numbers_of_scenes_and_motions_are_pythons_own():
     assert json.dumps(Polynomial([1, 2, "1/3"]).degree) == "2"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tiling", ["greedy", "mixed", "lazy"])
 def test_bug_numbers_of_a_run_are_pythons_own(tiling):
     """A simulation, its events, its answers about the space, and its contact."""
@@ -185,6 +186,7 @@ def test_bug_numbers_of_a_simulation_of_points_are_pythons_own():
 
 
 @pytest.mark.filterwarnings("ignore:Clearance.core_squared:DeprecationWarning")
+@pytest.mark.long
 @pytest.mark.parametrize("method", ["kinetic", "pairs"])
 def test_bug_numbers_of_a_contact_are_pythons_own(method):
     scene = scene_of_every_kind()

@@ -62,6 +62,7 @@ def test_the_inside_of_a_deforming_body_is_tiled_around_its_holes():
     assert (simulation.contact.kind, simulation.contact.time) == ("self", 9)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tiling", TILINGS)
 @pytest.mark.parametrize("family", sorted(RINGS))
 def test_the_tiling_is_valid_between_all_events(family, tiling):
@@ -71,6 +72,7 @@ def test_the_tiling_is_valid_between_all_events(family, tiling):
         assert audited is None or audited.kinetic.stats.rebuilds == 0
 
 
+@pytest.mark.long
 def test_a_saved_run_goes_on(tmp_path):
     for seed in range(6):
         scene = generate("lakes", seed)

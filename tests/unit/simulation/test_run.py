@@ -190,6 +190,7 @@ def run_box(bodies, deforming, contacts, tiling):
     ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tiling", ["greedy", "lazy"])
 def test_bouncing_bodies_never_overlap(tiling):
     """Checked exactly after every bounce; the numbers do not grow."""

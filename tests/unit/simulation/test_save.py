@@ -194,6 +194,7 @@ def without_seal(data):
     return {k: v for k, v in data.items() if k not in {"exactpt-simulation", "sha256"}}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("value", ["2", 2, -1, 1e300, None, [], {}, "1e99999", "x", True])
 def test_a_forged_file_is_refused_or_keeps_its_budget(tmp_path, value):
     """With a checksum of its own: one value of the state is another one."""
@@ -300,6 +301,7 @@ def test_bug_times_that_are_no_roots_are_refused(tmp_path, number):
         Simulation.restore(tmp_path / "run.json")
 
 
+@pytest.mark.long
 def test_bug_repairs_of_forged_points_keep_their_budget():
     """The hostile fuzzer found it: a point is elsewhere than its tangents say, for ever."""
     forged = Path(__file__).parents[2] / "data" / "golden" / "forged_points.json"

@@ -97,6 +97,7 @@ def test_the_time_is_bounded():
         list(Simulation(generate("mixed_shapes", 0), max_seconds=0).run())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", ["mixed_shapes", "small_grid", "turning", "pieces"])
 @pytest.mark.parametrize("tiling", sorted(set(TILINGS) - {"lazy"}))
 def test_a_canonical_tiling_is_the_same_built_and_reached(family, tiling):

@@ -188,6 +188,7 @@ def test_bug_contacts_travel(way):
     assert other.to_json() == contact.to_json()
 
 
+@pytest.mark.long
 @ways
 @pytest.mark.parametrize("tiling", ["greedy", "mixed", "lazy"])
 def test_bug_simulations_travel_and_go_on_alone(way, tiling):
@@ -324,6 +325,7 @@ def test_bug_a_pickle_tells_of_nothing_that_depends_on_the_build():
     }
 
 
+@pytest.mark.long
 def test_bug_values_travel_to_other_processes():
     simulation = Simulation(scene())
     simulation.step()

@@ -60,6 +60,15 @@ def assert_whole(scene, snapshot):
             assert (min(u, v), max(u, v)) in edges
 
 
+@pytest.mark.long(
+    "grids_passing-greedy",
+    "grids_passing-mixed",
+    "grids_passing-lazy",
+    "flat-mixed",
+    "chains-greedy",
+    "chains-mixed",
+    "chains-lazy",
+)
 @pytest.mark.parametrize("tiling", [t for t in TILINGS if t != "incremental"])
 @pytest.mark.parametrize("family", FAMILIES)
 def test_a_tiling_at_an_event_is_whole(family, tiling):
@@ -107,6 +116,7 @@ def test_a_chain_that_is_straight_at_the_start(tiling, seed):
     assert_whole(scene, tile_at(scene, QQ(0), tiling=tiling))
 
 
+@pytest.mark.long
 @pytest.mark.cgal
 @pytest.mark.parametrize("tiling", [t for t in TILINGS if t != "incremental"])
 @pytest.mark.parametrize("family", FAMILIES)

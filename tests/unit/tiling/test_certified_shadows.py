@@ -70,6 +70,7 @@ def test_in_degenerate_scenes_nothing_else_is_tangent(family):
             assert tangent_pairs(mesh, h, instant) <= {at_ends, found}
 
 
+@pytest.mark.long("ballistic_points-mixed", "gears-greedy")
 @pytest.mark.parametrize(("family", "tiling"), RUNS)
 def test_after_every_event_they_are_those_of_a_walk(family, tiling):
     """Both ends in the order of a walk, with their neighbours in the mesh."""

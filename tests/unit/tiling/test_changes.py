@@ -1,6 +1,7 @@
 """What a tiling says about changes of its mesh: all of them, and little more."""
 
 import pytest
+from folding import every
 
 from exactpt.collision.tilings import start_tiling, tilings_for
 from exactpt.indices import NO_VERTEX
@@ -15,6 +16,14 @@ def links(mesh):
     return {h: (m.origin[h], m.following[h]) for h in used}
 
 
+@pytest.mark.long(
+    "polygons_in_step",
+    "linear_points",
+    "piecewise_points",
+    "point_grids_passing",
+    "parabola_points",
+    "simultaneous_swaps",
+)
 @pytest.mark.parametrize("family", [*FAMILIES, *POINTS])
 def test_changes(family):
     scene = generate(family, 4)
@@ -33,7 +42,7 @@ def test_changes(family):
             pass
 
 
-@pytest.mark.parametrize("family", POINTS)
+@every("family", POINTS)
 def test_the_mesh_of_points_is_the_one_of_its_trees(family):
     scene = generate(family, 5)
     kinetic = start_tiling(scene, "incremental", scene._start)

@@ -6,6 +6,7 @@ from math import cos, pi, sin
 from random import Random
 
 import pytest
+from folding import every
 
 from exactpt.bench.statics import swept
 from exactpt.certificates.at_time import PredicatesAt
@@ -62,7 +63,7 @@ def test_extremes_and_sides_are_those_of_all_vertices(seed, after):
             assert is_above(instant, lower, v)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@every("seed", range(12))
 def test_the_tangent_is_found_from_the_chains_as_by_a_walk(seed):
     rng = Random(seed)
     vertices = Vertices.of(bodies(rng), QQ(0), QQ(1))

@@ -91,6 +91,7 @@ def run_and_check(scene, tiling):
     return even
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tiling", TILINGS)
 @pytest.mark.parametrize("family", FAMILIES)
 def test_the_pending_time_of_an_angle_is_its_first_zero(family, tiling):
@@ -98,6 +99,7 @@ def test_the_pending_time_of_an_angle_is_its_first_zero(family, tiling):
         run_and_check(generate(family, seed), tiling)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tiling", TILINGS)
 @pytest.mark.parametrize("path", corpus.files(), ids=lambda path: path.stem)
 def test_the_same_in_scenes_that_once_failed(path, tiling):

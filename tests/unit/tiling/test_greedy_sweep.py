@@ -40,6 +40,7 @@ def swept(bodies):
     return instant, *greedy_diagonals(instant, VerticalDecomposition.at(instant))
 
 
+@pytest.mark.long("4")
 @pytest.mark.parametrize("side", [2, 3, 4])
 def test_the_order_of_parallel_bitangents_on_different_lines_does_not_matter(side):
     rng = Random(side)
@@ -58,6 +59,7 @@ def test_the_order_of_parallel_bitangents_on_different_lines_does_not_matter(sid
     assert parallel
 
 
+@pytest.mark.long
 def test_on_grids_those_on_one_line_are_in_the_right_order():
     """So there is nothing to flip, neither among them nor anywhere else."""
     rng = Random(5)

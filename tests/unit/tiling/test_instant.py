@@ -3,6 +3,7 @@
 from fractions import Fraction
 from itertools import permutations, product
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from moving import END, START, affine, linear, parabolic, place, sign, times, turning, vertices
@@ -36,6 +37,7 @@ def both(moving, t, after):
     return [PredicatesAt(moving, t, after=after, exact_only=exact) for exact in (False, True)]
 
 
+@pytest.mark.long
 @given(scenes, times, st.booleans())
 def test_signs_of_many_triples(moving, t, after):
     fast, exact = both(moving, t, after)
@@ -48,6 +50,7 @@ def test_signs_of_many_triples(moving, t, after):
     assert fast.signs([]) == []
 
 
+@pytest.mark.long
 @given(scenes, times, st.booleans())
 def test_the_order_from_left_to_right(moving, t, after):
     fast, exact = both(moving, t, after)
@@ -58,6 +61,7 @@ def test_the_order_from_left_to_right(moving, t, after):
     assert fast.sorted_by_x(ids) == exact.sorted_by_x(ids)
 
 
+@pytest.mark.long
 @given(scenes, times, st.booleans())
 def test_turns_of_directions(moving, t, after):
     fast, exact = both(moving, t, after)
@@ -68,6 +72,7 @@ def test_turns_of_directions(moving, t, after):
         assert fast.turn_now(a, b, c, d) == exact.turn_now(a, b, c, d)
 
 
+@pytest.mark.long
 @given(scenes, times)
 def test_descents_are_never_in_the_wrong_order(moving, t):
     fast, exact = both(moving, t, after=False)

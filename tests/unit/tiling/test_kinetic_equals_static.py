@@ -38,6 +38,7 @@ def run_all(families, count, tiling):
     return total, +rebuilds
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "count", [FEW, pytest.param(MANY, marks=pytest.mark.slow)], ids=["few", "many"]
 )
@@ -68,6 +69,7 @@ def test_regression(tiling, family, seed):
     run_and_audit(generate(family, seed), tiling)
 
 
+@pytest.mark.long("chains", "grids_passing", "polygons_in_step")
 @pytest.mark.parametrize("family", sorted(FAMILIES))
 def test_filter_changes_nothing(family):
     """The event log is the same, and so is the end, with and without the float filters."""

@@ -202,6 +202,7 @@ def sizes_of(first, second):
     return inner
 
 
+@pytest.mark.long
 def test_bridges_follow_what_separates_the_bodies():
     """Paper, Lemma 5.5, Theorems 5.6 and 5.7, on bodies whose separators are known.
 
@@ -217,6 +218,7 @@ def test_bridges_follow_what_separates_the_bodies():
         assert 3 * teeth <= found <= 4 * teeth
 
 
+@pytest.mark.long
 def test_an_event_takes_few_certificates():
     """Of convex bodies in lanes, at most three times as many as in the greedy tiling."""
     rates = []
@@ -230,6 +232,7 @@ def test_an_event_takes_few_certificates():
     assert rates[1] < 3 * rates[0]
 
 
+@pytest.mark.long
 def test_certificates_that_fail_together_are_not_compared_exactly(request):
     """Of convex bodies in lanes: the angle at a diagonal, and the tangency of its shadow."""
     if request.config.getoption("--exact-only"):

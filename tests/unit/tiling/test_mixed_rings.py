@@ -4,6 +4,7 @@ from random import Random
 
 import brute_rings
 import pytest
+from folding import every
 from test_mixed import free, shuffled
 
 from exactpt.certificates.at_time import PredicatesAt
@@ -110,7 +111,7 @@ def around(mesh, vertices, body, ring):
     return [instant.position(v) for v in loop_along(mesh.map, mesh.labels, tree.nodes[TOP])]
 
 
-@pytest.mark.parametrize("seed", range(8))
+@every("seed", range(8))
 def test_around_all_that_is_in_a_wide_hole_leads_its_convex_hull(seed):
     """Clockwise, for the body of the hole is on the left of it."""
     rng = Random(seed)

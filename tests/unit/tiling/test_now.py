@@ -51,6 +51,7 @@ def certifier_at(moving, t, *, exact_only=False):
     return certifier
 
 
+@pytest.mark.long
 @given(vertices(any_motion), times, st.booleans())
 def test_the_order_of_coordinates_now(moving, t, exact_only):
     certifier = certifier_at(moving, t, exact_only=exact_only)
@@ -62,6 +63,7 @@ def test_the_order_of_coordinates_now(moving, t, exact_only):
         assert coincide(certifier, a, b) == (p == q)
 
 
+@pytest.mark.long
 @given(vertices(any_motion), times)
 def test_the_filter_of_coordinates_is_right_at_irrational_times_too(moving, t):
     """Its sign holds all through the enclosure of now."""
@@ -82,6 +84,7 @@ def on_one_line(moving, t):
     return [abc for abc in permutations(moving.all[:7], 3) if turn(abc, t) == 0]
 
 
+@pytest.mark.long
 @given(vertices(st.one_of(linear, turning)), times)
 def test_between_and_nearer_on_a_line(moving, t):
     certifier = certifier_at(moving, t)
@@ -105,6 +108,7 @@ def test_between_and_nearer_on_a_line(moving, t):
             assert nearer(certifier, p, a, b) == sign(further - far)
 
 
+@pytest.mark.long
 @given(vertices(st.one_of(linear, turning)), times)
 def test_the_nearer_copy_is_the_one_whose_offset_points_there(moving, t):
     certifier = certifier_at(moving, t)
@@ -119,6 +123,7 @@ def test_the_nearer_copy_is_the_one_whose_offset_points_there(moving, t):
         assert nearer_copy(certifier, p, a, b) == expected
 
 
+@pytest.mark.long
 @given(vertices(any_motion), times)
 def test_boxes_contain_what_is_there_now(moving, t):
     boxes = boxes_now(certifier_at(moving, t), moving.all)
@@ -130,6 +135,7 @@ def test_boxes_contain_what_is_there_now(moving, t):
             assert low <= in_frame <= high
 
 
+@pytest.mark.long
 @given(vertices(st.one_of(linear, parabolic, affine)), times, st.booleans())
 def test_signs_just_before_and_just_after_now(moving, t, before):
     certifier = certifier_at(moving, t)
@@ -146,6 +152,7 @@ def test_signs_just_before_and_just_after_now(moving, t, before):
         assert moment.turn(a.id, b.id, b.id, c.id) == sign(cross)
 
 
+@pytest.mark.long
 @given(vertices(any_motion), times, st.booleans())
 def test_signs_at_an_instant(moving, t, after):
     """At the time itself, or just after it; with the filter, without it, and exactly."""
@@ -158,6 +165,7 @@ def test_signs_at_an_instant(moving, t, after):
             assert exactly == turn((a, b, c), t)
 
 
+@pytest.mark.long
 @given(vertices(linear, least=4), times)
 def test_many_certificates_at_once(moving, t):
     """The sign holds up to the time that is told, at which the orientation vanishes."""

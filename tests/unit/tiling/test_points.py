@@ -5,6 +5,7 @@ from collections import Counter
 from random import Random
 
 import pytest
+from folding import every
 from point_audits import points_at, run_and_audit, started, structure_of, tangents_by_slope
 
 from exactpt.certificates.at_time import PredicatesAt
@@ -39,6 +40,7 @@ def static(points):
     return sweep_at(PredicatesAt(vertices, scene.start))
 
 
+@pytest.mark.long("ballistic_points-few", "parabola_points-few", "piecewise_points-few")
 @pytest.mark.parametrize(
     "count", [4, pytest.param(250, marks=pytest.mark.slow)], ids=["few", "many"]
 )
@@ -64,6 +66,7 @@ def test_kinetic_equals_static(family, count):
         assert total["rebuilds"] == 0
 
 
+@pytest.mark.long("parabola_points-few")
 @pytest.mark.parametrize(
     "count", [4, pytest.param(150, marks=pytest.mark.slow)], ids=["few", "many"]
 )
@@ -90,6 +93,7 @@ def test_filter_changes_nothing(family):
         assert logs[0] == logs[1]
 
 
+@pytest.mark.long("ballistic_points-few", "parabola_points-few", "piecewise_points-few")
 @pytest.mark.parametrize(
     "count", [3, pytest.param(60, marks=pytest.mark.slow)], ids=["few", "many"]
 )
@@ -107,6 +111,7 @@ def test_searchable_chains_equal_linked_ones(family, count):
         assert len({str(structure_of(kinetic.structure)) for kinetic, _, _ in results}) == 1
 
 
+@pytest.mark.long
 def test_long_chains_are_searched():
     """Two points change places beside an arc: walked along it is n steps, searched log n."""
     n, swaps = 400, 100
@@ -137,6 +142,7 @@ def test_long_chains_are_searched():
     assert steps["searchable"] < steps["auto"] < steps["linked"]
 
 
+@pytest.mark.long("parabola_points")
 @pytest.mark.parametrize("family", sorted(POINTS))
 def test_fan_changes(family):
     """Paper, section 3.4: the edges that are maintained are those of the trees, and are counted."""
@@ -157,6 +163,7 @@ def test_fan_changes(family):
                 assert m - n >= len(before ^ after)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("velocity", "offset"),
     [
@@ -399,8 +406,8 @@ def test_tangents_change_when_slopes_are_equal():
             )
 
 
-@pytest.mark.parametrize("factor", [QQ(10**40), QQ(1, 10**40), QQ(1, 3)])
-@pytest.mark.parametrize("family", ["linear_points", "grid_points", "points_in_line"])
+@every("factor", [QQ(10**40), QQ(1, 10**40), QQ(1, 3)])
+@every("family", ["linear_points", "grid_points", "points_in_line"])
 def test_scale_and_place_change_nothing(family, factor):
     """Far beyond doubles, or moved by a third: the same events."""
     for seed in range(3):

@@ -56,6 +56,7 @@ times = st.one_of(
 )
 
 
+@pytest.mark.long
 @given(vertices=four_points(), time=times)
 def test_a_certain_sign_is_the_exact_one(vertices, time):
     certifier = Certifier(vertices, QQ(0), QQ(4), exact_only=False)

@@ -22,6 +22,7 @@ def refuse(*_):
     raise RebuildNeeded
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tiling", TILINGS)
 @pytest.mark.parametrize("family", ["convex", "turning", "small_grid", "blobs"])
 def test_a_run_without_any_repair_finds_the_same(monkeypatch, tiling, family):

@@ -100,6 +100,7 @@ def test_repairs_at_one_time_are_checked_unless_they_are_apart(monkeypatch, tili
     assert done["checked"] > 10
 
 
+@pytest.mark.long
 def test_a_batch_of_more_repairs_than_are_pending_is_no_reason_to_build_anew():
     """Squares that rise in step through a grid, all at once: what fails then is all there is."""
     grid = [Body(f"{i},{j}", box(4 * i, 4 * j, 1, 1)) for i in range(70) for j in range(2)]

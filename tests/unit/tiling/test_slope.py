@@ -25,6 +25,7 @@ def rise(instant, a, b, sides, *, upright):
     return (at_b - at_a) / (ay - by if upright else bx - ax)
 
 
+@pytest.mark.long("turning")
 @pytest.mark.parametrize(
     "direction, motion",
     [
