@@ -19,7 +19,12 @@ from exactpt.cli.files import convert, generate
 from exactpt.cli.options import SCENE_FILE
 from exactpt.cli.pictures import demo, draw
 from exactpt.cli.runs import collide, simulate
-from exactpt.cli.terminal import drop_standard_output, encodable, tell
+from exactpt.cli.terminal import (
+    drop_standard_output,
+    drop_unwritten_output,
+    encodable,
+    tell,
+)
 from exactpt.cli.tilings import check, tile
 from exactpt.cli.truths import judge, oracle, questions
 from exactpt.errors import AuditError, BudgetExceeded, InputError, RoundingError
@@ -38,7 +43,10 @@ class _Commands(click.Group):
     def invoke(self, ctx: click.Context) -> object:
         """Run a command and return its exit code, if it has one."""
         try:
-            return super().invoke(ctx)
+            code = super().invoke(ctx)
+            if sys.stdout is not None:
+                sys.stdout.flush()  # a failure belongs to the command, not to the end of Python
+            return code
         except BrokenPipeError:  # the reader of the answer has closed the pipe
             drop_standard_output()
             return OK
@@ -148,6 +156,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         code = SPENT
     except OSError as error:
         tell(f"exactpt: {error.strerror or error}")
+        drop_unwritten_output()
         code = BAD_INPUT
     except (KeyboardInterrupt, click.Abort):
         tell("exactpt: interrupted")

@@ -12,7 +12,14 @@ import click
 
 from exactpt.errors import printable
 
-__all__ = ["drop_standard_output", "encodable", "is_terminal", "say", "tell"]
+__all__ = [
+    "drop_standard_output",
+    "drop_unwritten_output",
+    "encodable",
+    "is_terminal",
+    "say",
+    "tell",
+]
 
 
 def say(*lines: str) -> None:
@@ -60,6 +67,15 @@ def encodable() -> Iterator[None]:
 def drop_standard_output() -> None:
     """Discard further output, after a broken pipe."""
     _discard(sys.stdout.fileno())
+
+
+def drop_unwritten_output() -> None:
+    """Discard what the standard output still holds if it cannot be written, as on a full disk."""
+    try:
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except OSError:
+        drop_standard_output()
 
 
 def _discard(stream: int) -> None:

@@ -47,7 +47,10 @@ def test_a_reader_that_has_seen_enough_is_no_failure(scene, command):
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
-def test_a_full_disk_is_told_in_one_line(scene):
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_full_disk_is_told_in_one_line(scene, monkeypatch, unbuffered):
+    """What is buffered is written before the command ends: Python's own end has no exit code."""
+    monkeypatch.setenv("PYTHONUNBUFFERED", unbuffered)
     with open("/dev/full", "w") as full:
         done = run("collide", scene, "--json", stdout=full, stderr=subprocess.PIPE)
 
