@@ -52,22 +52,23 @@ def test_links_lead_somewhere(page):
             assert (page.parent / target).exists(), target
 
 
-def test_the_packages_of_the_architecture_are_the_packages():
-    packages = {p.parent.name for p in (ROOT / "exactpt").glob("*/__init__.py")}
-
-    named = set(re.findall(r"^\| `exactpt/(\w+)` \|", ARCHITECTURE, re.MULTILINE))
-
-    assert named == packages
-
-
-def test_the_module_graph_is_that_of_the_linter():
+def test_the_packages_of_the_architecture_are_those_of_the_linter():
     contracts = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     layers = contracts["tool"]["importlinter"]["contracts"][0]["layers"]
-    (graph,) = re.findall(r"```\n(.*?)```", ARCHITECTURE, re.DOTALL)
-
-    drawn = [set(line.split()) for line in graph.splitlines()]
+    rows = re.findall(r"^\| ((?:`\w+` ?)+)\|", ARCHITECTURE, re.MULTILINE)
+    drawn = [set(re.findall(r"\w+", row)) for row in rows]
 
     assert drawn == [set(re.findall(r"exactpt\.(\w+)", layer)) for layer in layers]
+    packages = {p.parent.name for p in (ROOT / "exactpt").glob("*/__init__.py")}
+    assert packages <= set.union(*drawn)
+
+
+@pytest.mark.parametrize("page", ["extending", "glossary"])
+def test_paths_on_pages_for_readers_of_the_code_exist(page):
+    text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
+    paths = re.findall(r"`((?:exactpt|fuzz|tests|docs)/[\w/]+(?:\.(?:py|md|toml))?)`", text)
+    assert paths
+    assert [path for path in paths if not (ROOT / path).exists()] == []
 
 
 def test_what_the_architecture_names_is_there():
@@ -82,5 +83,5 @@ def test_what_the_architecture_names_is_there():
     assert len(paths) > 40
     assert [path for path in paths if not (ROOT / path).exists()] == []
     defined = set(re.findall(r"(?:def |class |^|self\.)(\w+)(?=[(:]| *[:=])", source, re.MULTILINE))
-    folders = {p.name for p in [*ROOT.iterdir(), *(ROOT / "exactpt").iterdir()]}
+    folders = {p.stem for p in [*ROOT.iterdir(), *(ROOT / "exactpt").iterdir()]}
     assert sorted(names - defined - folders) == []
