@@ -33,8 +33,8 @@ __all__ = ["cli", "main"]
 
 OK, BAD_INPUT, BROKEN, SPENT, INTERRUPTED = 0, 2, 3, 4, 130
 """Exit codes; code 1 is set by commands: a contact (collide --exit-code), or a failed check."""
-LONGEST: Final = 1000
-"""Maximum number of characters of a message about arguments."""
+LONGEST: Final = 5000
+"""Maximum number of characters of a message: more than the paths of most systems have."""
 
 
 class _Commands(click.Group):
@@ -133,6 +133,13 @@ def _where_to_look(error: click.ClickException) -> str:
     return f" (see {context.command_path} --help)" if context is not None else ""
 
 
+def _cut(message: str) -> str:
+    """Return a message that repeats an argument, cut in the middle if it is too long."""
+    if len(message) <= LONGEST:
+        return message
+    return f"{message[: LONGEST - 100]}...{message[-90:]}"
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit with its code."""
     given = None if arguments is None else list(arguments)
@@ -143,13 +150,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
         error.show()
         code = BAD_INPUT
     except click.ClickException as error:
-        said = error.format_message()
-        if len(said) > LONGEST:  # it repeats an argument
-            said = f"{said[: LONGEST - 100]}...{said[-90:]}"
-        tell(f"exactpt: {said}{_where_to_look(error)}")
+        tell(f"exactpt: {_cut(error.format_message())}{_where_to_look(error)}")
         code = BAD_INPUT
     except (InputError, RoundingError) as error:
-        tell(f"exactpt: {error}")
+        tell(f"exactpt: {_cut(str(error))}")
         code = BAD_INPUT
     except (BudgetExceeded, MemoryError) as error:
         tell(f"exactpt: {error if isinstance(error, BudgetExceeded) else 'the memory is used up'}")

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from exactpt.cli import main
+from exactpt.scene.scene import Scene
 
 BOX = [["0", "0"], ["2", "0"], ["2", "1"], ["0", "1"]]
 COMMANDS = (
@@ -129,3 +130,30 @@ def test_bad_calls(tmp_path, monkeypatch, capsys, command, words):
     assert words in err
     assert len(err.splitlines()) == 1
     assert [path.name for path in tmp_path.iterdir()] == ["scene.json"]
+
+
+@pytest.mark.parametrize("command", ["collide", "simulate", "tile", "draw -o out.svg"])
+def test_no_memory_is_one_line_and_no_bug(command, tmp_path, monkeypatch, capsys):
+    """It was reported as a bug, with a traceback or an empty reason, by exit code 3."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "in.json").write_text(scene(box()))
+
+    def no_memory(*_arguments, **_options):
+        raise MemoryError
+
+    monkeypatch.setattr(Scene, "load", no_memory)
+    name, *options = command.split()
+    with pytest.raises(SystemExit) as end:
+        main([name, "in.json", *options])
+    out, err = capsys.readouterr()
+    assert (end.value.code, out, err) == (4, "", "exactpt: the memory is used up\n")
+    assert [path.name for path in tmp_path.iterdir()] == ["in.json"]
+
+
+@pytest.mark.parametrize("word", ["x" * 100_000, "a " * 50_000])
+@pytest.mark.parametrize("place", [["collide", "{}"], ["{}"], ["collide", "a", "--at", "{}"]])
+def test_long_arguments_are_cut_in_messages(word, place, capsys):
+    with pytest.raises(SystemExit) as end:
+        main([part.format(word) for part in place])
+    assert end.value.code == 2
+    assert len(capsys.readouterr().err) < 5200

@@ -3,13 +3,16 @@
 import json
 import os
 import sys
+import tracemalloc
 
 import pytest
 
 from exactpt.cli import main
 from exactpt.errors import InputError
 from exactpt.exchange import bodies, shapes, svg
+from exactpt.exchange.drawing import read_drawing
 from exactpt.exchange.files import read_shapes
+from exactpt.files import read_bytes
 from exactpt.pairs import start as initial
 from exactpt.scene.scene import Scene
 
@@ -270,3 +273,68 @@ def test_conversion_within_a_time(folder, capsys, monkeypatch):
     assert code_of("convert", "shapes.wkt", "out.json", "--max-seconds", "0.05") == 4
     assert capsys.readouterr().err == "exactpt: the time is used up\n"
     assert not (folder / "out.json").exists()
+
+
+def test_a_file_takes_the_memory_that_it_has(tmp_path):
+    """Reading allocated the whole limit: 100 MB for a file of 1 kB."""
+    path = tmp_path / "scene.json"
+    path.write_bytes(b"x" * 1000)
+    for most in (None, 10**10, 10**30):
+        tracemalloc.start()
+        try:
+            assert read_bytes(path, most) == b"x" * 1000
+            assert tracemalloc.get_traced_memory()[1] < 4_000_000
+        finally:
+            tracemalloc.stop()
+
+
+@pytest.mark.parametrize("most", ["x", -1, 1e9, None])
+def test_a_limit_that_is_no_number_of_bytes(tmp_path, most):
+    path = tmp_path / "scene.json"
+    path.write_bytes(b"")
+    if most is None:
+        assert read_bytes(path, most) == b""
+        return
+    with pytest.raises(InputError, match=r"^max_bytes: not a number of bytes: "):
+        read_bytes(path, most)
+
+
+@pytest.mark.parametrize(
+    ("drawn", "kept"),
+    [
+        (f'<g transform="{"translate(" * 50_000}"/>', {"transform": ""}),
+        (f'<g transform="scale(2) {"translate(" * 9}"/>', {"transform": "scale(2)"}),
+        ('<g transform="scale(2) scale(3)"/>', {"transform": "scale(2) scale(3)"}),
+        (f'<g style="transform:{"translate(" * 9};fill:red"/>', {"style": ";fill:red"}),
+        (f'<polygon points="{"1" * 30},2 -3,4"/>', {"points": "1.111111111111111e+29,2 -3,4"}),
+        (f'<polygon points="-{"1" * 999} 2"/>', {"points": "-1e999 2"}),
+    ],
+)
+def test_attributes_that_take_quadratic_time_are_cut(drawn, kept):
+    """svgelements took 25 s for 180 kB of transforms, and longer for 2,000 digits."""
+    (element,) = read_drawing(f"{HEAD}{drawn}</svg>")
+    assert element.attrib == kept
+
+
+@pytest.mark.parametrize(
+    ("css", "kept"),
+    [
+        ("/*" * 50_000, ""),
+        ("a{fill:red} /* } */ b,i { fill : blue }", "a {fill:red}\nb,i {fill : blue}"),
+        (".a{" * 50_000, ""),
+        (f"a{' ' * 50_000}{{}}b{{c:d}}", "b {c:d}"),
+        ("a" * 50_000, ""),
+        (f"a{{transform:{'translate(' * 50_000}}}", "a {}"),
+    ],
+)
+def test_style_sheets_that_take_quadratic_time_are_rewritten(css, kept):
+    (element,) = read_drawing(f"{HEAD}<style>{css}</style></svg>")
+    assert element.text == kept
+
+
+def test_path_data_that_is_refused_is_shown(refused):
+    """The message was "not a drawing that can be read: ValueError()"."""
+    said = refused("a.svg", f'{HEAD}<path d="M0 0 L{" " * 300}x"/></svg>')
+
+    assert "not a drawing that can be read: path data: 'M0 0 L  " in said
+    assert len(said) < 300
