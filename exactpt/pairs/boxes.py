@@ -66,6 +66,7 @@ class PieceBoxes:
 
     __slots__ = (*_COLUMNS, "drift")
 
+    @np.errstate(all="ignore")
     def __init__(self, rows: Sequence[MotionPiece], margin: float = 0.0) -> None:
         self.body: Indices = np.array([row.body for row in rows], dtype=np.int64)
         straights = [row.straight for row in rows]
