@@ -4,7 +4,7 @@
 
 PYTHON ?= python3
 VENV := .venv
-BIN := $(VENV)/bin
+BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 PACKAGES := g++ cmake libcgal-dev nlohmann-json3-dev
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DATE ?= $(shell date -u +%F)
@@ -12,8 +12,14 @@ LOWEST := $(VENV)/lowest
 COMPILED_TESTS := $(wildcard $(addprefix tests/*/,kernel certificates motion planar pseudotriangulation tiling collision simulation))
 PYODIDE_TESTS := $(wildcard $(addprefix tests/*/,kernel geometry planar motion certificates tiling pairs collision arrays query))
 
+# $(call install,BIN,WHAT): what may name dependency groups, which pip has known since 25.1
+define install
+@$(1)/python -m pip install --quiet --disable-pip-version-check 'pip>=25.1' 2>/dev/null || { echo "$(1)/python -m pip install 'pip>=25.1' failed, and dependency groups need it" >&2; exit 1; }
+$(1)/python -m pip install --quiet --disable-pip-version-check $(2)
+endef
+
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures docs package wheels check-cgal clean
+.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures docs package wheels publish lock check-cgal clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -75,11 +81,17 @@ small-scope: $(VENV)/developing ## a slice of the fuzzer's small scope, another 
 coverage: $(VENV)/developing cgal_check/build/cgal_check ## branches covered by the tests
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser" --cov=exactpt --cov-report=term:skip-covered
 
-lint: $(VENV)/developing ## formatting, rules, types, imports
+lint: $(VENV)/developing ## formatting, rules, types, imports, workflows
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/zizmor --offline --quiet .github/workflows
+	$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-workflows $(wildcard .github/workflows/*.yml)
+
+lock: $(VENV)/developing ## the versions that pip chooses today for development, in .ci/locked.txt
+	$(BIN)/python -m pip install --quiet --dry-run --ignore-installed --report $(VENV)/report.json --editable . --group dev
+	$(BIN)/python .ci/lock.py <$(VENV)/report.json >.ci/locked.txt
 
 pictures: $(VENV)/developing ## draw the pictures of the README, the gallery and the examples anew
 	$(BIN)/exactpt draw exactpt/data/demo.json --at contact -o docs/first-contact.svg
@@ -96,9 +108,14 @@ package: $(VENV)/developing ## build the wheel and the sdist in dist, and try th
 	$(BIN)/python -m pytest -m slow tests/campaign/packaging
 
 wheels: $(VENV)/developing ## manylinux wheels and the sdist in dist, by cibuildwheel (needs Docker; on macOS and Windows theirs)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[release]'
+	$(call install,$(BIN),--editable . --group release)
 	$(BIN)/python -m cibuildwheel --output-dir dist
 	$(BIN)/python -m build --sdist
+
+publish: $(BIN)/python ## upload dist with attestations; only where the package index trusts (.github/workflows/wheels.yml)
+	$(call install,$(BIN),--group publish)
+	$(BIN)/pypi-attestations sign dist/*
+	$(BIN)/uv publish --trusted-publishing always dist/*
 
 check-cgal: cgal_check/build/cgal_check ## build the independent witness
 
@@ -118,14 +135,14 @@ $(VENV)/installed: $(BIN)/python pyproject.toml
 	@touch $@
 
 $(VENV)/developing: $(BIN)/python pyproject.toml
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	$(call install,$(BIN),--editable . --group dev)
 	@touch $@ $(VENV)/installed
 
 $(LOWEST)/installed: $(VENV)/developing .ci/lowest.py
 	rm -rf $(LOWEST)
 	$(PYTHON) -m venv $(LOWEST)
 	$(BIN)/python .ci/lowest.py >$(LOWEST)/constraints.txt
-	PIP_CONSTRAINT=$(LOWEST)/constraints.txt $(LOWEST)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[test,bench,docs]'
+	$(call install,$(LOWEST)/bin,--constraint $(LOWEST)/constraints.txt --editable '.[bench]' --group test --group docs)
 	@touch $@
 
 clean: ## remove what was built (not .venv)

@@ -1,7 +1,7 @@
 """The lowest versions that pyproject.toml allows, as constraints for pip, a line each.
 
 python .ci/lowest.py >constraints.txt
-pip install --constraint constraints.txt '.[test]'
+pip install --constraint constraints.txt --editable . --group test
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ PYPROJECT = Path(__file__).parents[1] / "pyproject.toml"
 
 
 def lowest(pyproject: str) -> list[str]:
-    """``name==version`` for every package with a lower bound, the same one wherever it is named.
+    """Return ``name==version`` of each package with a lower bound, the same one everywhere.
 
     Raises:
         ValueError: if a package has two lower bounds (one install could not test both), or
@@ -30,9 +30,11 @@ def lowest(pyproject: str) -> list[str]:
         data["build-system"]["requires"],
         project["dependencies"],
         *project["optional-dependencies"].values(),
+        *data["dependency-groups"].values(),
     ]
+    named = (entry for entry in chain.from_iterable(groups) if isinstance(entry, str))
     bounds: dict[str, Version] = {}
-    for requirement in map(Requirement, chain.from_iterable(groups)):
+    for requirement in map(Requirement, named):
         name = canonicalize_name(requirement.name)
         if name == canonicalize_name(project["name"]):
             continue

@@ -26,9 +26,14 @@ PAGES: Final = {
     "CHANGELOG.md": "changes.md",
     "CONTRIBUTING.md": "contributing.md",
     "SECURITY.md": "security.md",
+    "CODE_OF_CONDUCT.md": "conduct.md",
 }
 """The pages of the root, and their names in the site."""
-OUTSIDE: Final = {"Makefile": "sources/Makefile.txt"}
+OUTSIDE: Final = {
+    "Makefile": "sources/Makefile.txt",
+    "pyproject.toml": "sources/pyproject.toml.txt",
+    ".ci/locked.txt": "sources/locked.txt",
+}
 """Other files of the root that these pages link to."""
 ALONE: Final = "modules"
 """The page of the modules that are in no room."""

@@ -65,7 +65,7 @@ def test_the_verdict_of_auditwheel(built):
     if sys.platform != "linux" or built[0].name.endswith("none-any.whl"):
         pytest.skip("no compiled wheel for Linux")
     if importlib.util.find_spec("auditwheel") is None:
-        pytest.skip("auditwheel is not installed: pip install 'exactpt[release]'")
+        pytest.skip("auditwheel is not installed: pip install --editable . --group release")
     command = [sys.executable, "-m", "auditwheel", "show", built[0]]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     said = " ".join(done.stdout.split())
