@@ -116,7 +116,7 @@ int main(int count, char** arguments) {
   if (count > 1) {
     if (std::string(arguments[1]) == "proof") return proof::verify(count - 2, arguments + 2);
     if (std::string(arguments[1]) == "proofs" && count == 2) return proof::verify_each(std::cin);
-    answer("error: usage: cgal_check [proof SCENE PROOF [--jobs N] [--until T | --partial] | proofs]");
+    answer("error: usage: cgal_check [proof SCENE PROOF | proof FOLDER | proofs]");
     return 2;
   }
   Reader in(STDIN_FILENO);

@@ -1,9 +1,10 @@
 """Checks a proof that a scene has its first contact at a time T, or none.
 
-    python3 -I proof_check.py SCENE PROOF [--until T | --partial]
+    python3 -I proof_check.py SCENE PROOF [--until T | --partial | --expect ANSWER] [--work N]
+    python3 -I proof_check.py FOLDER [--until T | --partial] [--work N]
 
-This file imports the standard library alone, uses no floats to decide anything, and is made
-to be read. The statement, the file format and the complete argument are in docs/proofs.md.
+This file imports the standard library alone, and uses no floats to decide anything. The
+statement, the file format and the complete argument are in docs/proofs.md.
 
 The proof describes a planar map on the vertices of the scene, and its changes at certain times.
 In each open interval between two of these, every angle of a face stays convex, reflex or
@@ -11,14 +12,15 @@ straight: orientations of three vertices do not vanish, and these are polynomial
 counting angles, the map is drawn without crossings then, and no two bodies touch. At the times
 themselves, a touch can only be among faces with an angle that vanishes just then.
 
-A proof of "no contact" may end before the span of the scene does. It is accepted then if that is
-what is wanted: --until T, where T is not after its end, or --partial, whatever its end.
+A proof of "no contact" may end before the span of the scene does: it is accepted then by --until
+T, where T is not after its end, or by --partial. --expect compares with `exactpt collide --json`.
 
 Without -I, Python runs a file called fractions.py that lies in the current folder or beside this
 one; so this file refuses to run then. (-I does not keep away what the installation of Python
 itself starts, such as sitecustomize.)
 
-Exit code: 0 accepted, 1 rejected (with the first line that fails), 2 no proof of this scene.
+Exit code: 0 accepted, 1 rejected (with the first line that fails, or what is proved and is not
+what was wanted), 2 no proof of this scene, 4 not decided: the budget of work is used up.
 """
 
 import sys
@@ -33,11 +35,11 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from decimal import Decimal
 from fractions import Fraction
 from functools import cmp_to_key, lru_cache
-from itertools import accumulate, pairwise, zip_longest
-from math import floor, gcd, inf, lcm
+from itertools import accumulate, combinations, pairwise, zip_longest
+from math import comb, floor, gcd, lcm
+from pathlib import Path
 from typing import Any, TextIO
 
 Point = tuple[Fraction, Fraction]
@@ -55,20 +57,46 @@ class Rejected(Exception):  # noqa: N818 - a verdict
     """A line of the proof does not hold."""
 
 
+class Exhausted(Exception):  # noqa: N818 - no verdict
+    """The budget of work is used up."""
+
+
+class Work:
+    """The work that is left: products of two words of 64 bits, by estimate."""
+
+    usual = left = 10**11
+
+    def spend(self, products: int) -> None:
+        """Count some work."""
+        self.left -= products
+        if self.left < 0:
+            raise Exhausted("not decided: the budget of work is used up (see --work)")
+
+
+WORK = Work()
+
+
 class Proved(str):
     """What is proved, in words.
 
     Attributes:
-        until: of a proof of no contact, the end of its span; else that of the scene.
+        until: the end of the span of the proof.
         whole: whether the answer is that of the whole span of the scene.
+        time: the time of the contact, or None.
+        incidences: (vertex, 0, vertex) or (vertex, 1, first vertex of an edge); none at the start.
+        scene: the scene.
     """
 
     until: Fraction
     whole: bool
+    time: "Time | None"
+    incidences: set[Angle]
+    scene: "Scene"
 
-    def __new__(cls, text: str, until: Fraction, *, whole: bool) -> "Proved":  # noqa: D102
-        proved = super().__new__(cls, text)
-        proved.until, proved.whole = until, whole
+    def within(self, text: str) -> "Proved":
+        """The same in other words."""
+        proved = Proved(text)
+        proved.__dict__.update(self.__dict__)
         return proved
 
 
@@ -79,6 +107,13 @@ def require(condition: object, why: str) -> None:
 
 
 # ---- Polynomials, and their real roots.
+
+PRIME, TEN = 2**61 - 1, Fraction(10)
+
+
+def words(n: int) -> int:
+    """The number of words of 64 bits of an integer, or of a rational's numerator."""
+    return (n.numerator.bit_length() >> 6) + 1
 
 
 class Poly(tuple[Any, ...]):
@@ -103,7 +138,9 @@ class Poly(tuple[Any, ...]):
 
     def __mul__(self, g: "Poly") -> "Poly":  # type: ignore[override]
         if len(self) == 1:
-            return Poly([self[0] * b for b in g])
+            return g if self[0] == 1 else Poly([self[0] * b for b in g])
+        if len(self) * len(g) > 8:
+            WORK.spend(len(self) * len(g) * words(self[-1]) * words(g[-1]))
         product = [0] * (len(self) + len(g) - 1) if self and g else []
         for i, a in enumerate(self):
             for j, b in enumerate(g):
@@ -113,10 +150,30 @@ class Poly(tuple[Any, ...]):
     def scaled(self, t: Fraction) -> tuple[int, int]:
         """The value at a time n / d times d^k, k the number of coefficients; and d^k."""
         n, d, power, total = t.numerator, t.denominator, 1, 0
+        WORK.spend(len(self) ** 2 * words(n) * words(d))
         for c in reversed(self):
             total = total * n + c * power
             power *= d
         return total * d, power
+
+    def value(self, t: Fraction) -> Fraction:
+        """The value at a time."""
+        total = Fraction(0)
+        for c in reversed(self):
+            total = total * t + c
+        return total
+
+    def bound(self, a: Fraction, b: Fraction) -> Fraction:
+        """A bound of the absolute values in [a, b]: of the Bernstein coefficients."""
+        f = Poly()
+        for c in reversed(self):
+            f = f * Poly([a, b - a]) + Poly([c])
+        n, found = len(f) - 1, Fraction(0)
+        for j in range(n + 1):
+            found = max(
+                found, abs(sum(c * comb(j, i) / comb(n, i) for i, c in enumerate(f[: j + 1])))
+            )
+        return found
 
     def sign_at(self, t: Fraction) -> int:
         """The sign of the value at a time."""
@@ -131,6 +188,7 @@ class Poly(tuple[Any, ...]):
     def divided(self, g: "Poly") -> tuple["Poly", "Poly"]:
         """(q, r) with c f = q g + r for a number c that is not 0, and r of lower degree than g."""
         rest, quotient = list(self), [0] * max(0, len(self) - len(g) + 1)
+        WORK.spend(len(quotient) * len(self) * words(self[-1] if self else 0) * words(g[-1]))
         for i in range(len(self) - len(g), -1, -1):
             top = rest.pop()
             rest, quotient = [g[-1] * c for c in rest], [g[-1] * c for c in quotient]
@@ -139,8 +197,32 @@ class Poly(tuple[Any, ...]):
                 rest[i + j] -= top * c
         return Poly(quotient), Poly(rest)
 
+    def is_prime_to(self, g: "Poly") -> bool:
+        """Whether they are coprime modulo a prime that does not divide our leading coefficient.
+
+        Then they are coprime: modulo the prime, a common divisor keeps its degree.
+        """
+        a, b = ([c % PRIME for c in f] for f in (self, g))
+        if not a or not a[-1]:
+            return False
+        while b:
+            while b and not b[-1]:
+                b.pop()
+            if len(b) < 2:
+                return len(b) == 1
+            WORK.spend(len(b) * len(a))
+            inverse = pow(b[-1], -1, PRIME)
+            for i in range(len(a) - len(b), -1, -1):
+                q = a[i + len(b) - 1] * inverse % PRIME
+                for j, c in enumerate(b if q else []):
+                    a[i + j] = (a[i + j] - q * c) % PRIME
+            a, b = b, a[: len(b) - 1]
+        return False
+
     def common_divisor(self, g: "Poly") -> "Poly":
         """The greatest common divisor, by Euclid."""
+        if self.is_prime_to(g):
+            return Poly([1])
         f = self
         while g:
             f, g = g, f.divided(g)[1].primitive()
@@ -149,6 +231,8 @@ class Poly(tuple[Any, ...]):
     def square_free(self) -> "Poly":
         """The polynomial with the same roots, all of them simple."""
         derivative = Poly([i * c for i, c in enumerate(self)][1:])
+        if len(self) < 3:
+            return self.primitive()
         return self.divided(self.common_divisor(derivative))[0].primitive()
 
     def variations(self, low: Fraction, high: Fraction) -> int:
@@ -158,6 +242,7 @@ class Poly(tuple[Any, ...]):
         coefficients are those of f in the Bernstein basis, times binomials.)
         """
         d = lcm(low.denominator, high.denominator)
+        WORK.spend(len(self) ** 2 * (words(self[-1] if self else 0) + len(self) * words(d)))
         start, width, power = int(low * d), int((high - low) * d), 1
         g: list[int] = []  # of s: d^n f(low + (high - low) s)
         for c in reversed(self):
@@ -170,17 +255,18 @@ class Poly(tuple[Any, ...]):
                 g[j] += g[j + 1]
         return sum(a != b for a, b in pairwise(c > 0 for c in g if c))
 
-    def roots(self, low: Fraction, high: Fraction) -> "Iterator[Time]":
-        """The roots in [low, high], low < high; all roots must be simple."""
+    def roots(self, low: Fraction, high: Fraction, depth: int = -1) -> "Iterator[Time]":
+        """The roots in [low, high], low < high, of simple ones; -1: halve as often as needed."""
         yield from (Time(q) for q in (low, high) if self.sign_at(q) == 0)
-        todo = [(low, high)]
+        todo = [(low, high, depth)]
         while todo:  # halve intervals, until each root is alone in one
-            a, b = todo.pop()
+            a, b, left = todo.pop()
             count, middle = self.variations(a, b), (a + b) / 2
             if count == 1 and self.sign_at(a) and self.sign_at(b):
                 yield Time(a, b, self)
             elif count:
-                todo += [(a, middle), (middle, b)]
+                require(left, f"the roots of a polynomial between {low} and {high} are too near")
+                todo += [(a, middle, left - 1), (middle, b, left - 1)]
                 if self.sign_at(middle) == 0:
                     yield Time(middle)
 
@@ -239,26 +325,50 @@ class Time:
         return g.sign_at(self.low)
 
     def __str__(self) -> str:
-        if self.low == self.high:
-            return str(self.low)
-        between = f"(between {self.low} and {self.high})"
-        for _ in range(99):  # they may stay apart: on both sides of 0, or of a digit
-            if twelve_digits(self.low) == twelve_digits(self.high):
-                break
-            self.refine()
-        return f"{twelve_digits(self.low)} {between}"
+        return str(self.low) if self.low == self.high else f"{twelve_digits(self)}..."
 
 
-def twelve_digits(x: Fraction) -> str:
-    """A number rounded to twelve digits."""
-    return f"{Decimal(x.numerator) / x.denominator:.12g}"
+def twelve_digits(time: Time) -> str:
+    """The first twelve digits of a number, the rest cut off."""
+    sign = time.compare_rational(Fraction(0))
+    if sign == 0:
+        return "0"
+    while time.low * time.high <= 0 or abs(time.high - time.low) * 10**13 > abs(time.low):
+        time.refine()
+    size = abs(time.low)
+    k = (size.numerator.bit_length() - size.denominator.bit_length()) * 30103 // 100000 - 2
+    while time.compare_rational(sign * TEN ** (k + 1)) * sign >= 0:
+        k += 1
+    n, unit = floor(size / TEN ** (k - 11)), TEN ** (k - 11)
+    while time.compare_rational(sign * n * unit) * sign < 0:
+        n -= 1
+    while time.compare_rational(sign * (n + 1) * unit) * sign >= 0:
+        n += 1
+    digits = str(n)
+    if 0 <= k < 11:
+        shown = f"{digits[: k + 1]}.{digits[k + 1 :]}"
+    elif -5 <= k < 0:
+        shown = f"0.{'0' * (-k - 1)}{digits}"
+    else:
+        shown = f"{digits[0]}.{digits[1:]}e{k}"
+    return "-" * (sign < 0) + shown
 
 
-def between(a: Time, b: Time) -> Fraction:
-    """A rational number between two different times: one with few digits."""
-    while a.high >= b.low:
-        a.refine()
-        b.refine()
+def between(a: Time, b: Time, start: Fraction, unit: Fraction) -> Fraction:
+    """A rational number between two times: one with few digits.
+
+    There must be a number between them that is the start plus a multiple of the unit.
+    """
+    while b.low - a.high < unit:
+        require(b.high > a.low, "times do not increase")
+        if max(a.high - a.low, b.high - b.low) * 2 < unit:
+            q = start + (floor((a.low - start) / unit) + 1) * unit  # the first one after a.low
+            q += unit * (a.compare_rational(q) >= 0)
+            require(b.compare_rational(q) > 0, "times do not increase, or by too little")
+            return q
+        for time in (a, b):
+            if time.low < time.high:
+                time.refine()
     power = 1
     while floor(a.high * power) + 1 >= b.low * power:
         power *= 2
@@ -303,28 +413,60 @@ def is_on(time: Time, v: Track, a: Track, b: Track) -> bool:
     return time.sign_of(orientation_of(v, a, b)) == 0 and time.sign_of(dot_of(a, v, b)) <= 0
 
 
-def meet(time: Time, a: Track, b: Track, c: Track, d: Track) -> bool:
-    """Whether the closed segments ab and cd have a point in common at a time."""
-    triples = ((a, b, c), (a, b, d), (c, d, a), (c, d, b))
-    p, q, r, s = (time.sign_of(orientation_of(*t)) for t in triples)
-    ends = is_on(time, c, a, b) or is_on(time, d, a, b)
-    return (p * q < 0 and r * s < 0) or ends or is_on(time, a, c, d) or is_on(time, b, c, d)
+Whole = tuple[int, int, int]  # a point (x / w, y / w), w > 0
 
 
-def is_simple(time: Time, tracks: dict[int, Track], edges: Iterable[Dart]) -> bool:
-    """Whether the edges around polygons meet where they are joined, and nowhere else."""
-    at = time.low
-    x = {v: Fraction(*f.scaled(at)) / Fraction(*w.scaled(at)) for v, (f, _, w) in tracks.items()}
-    spans = sorted((min(x[u], x[v]), max(x[u], x[v]), u, v) for u, v in edges)
-    for k, (_, right, *e) in enumerate(spans):
-        for left, _, *f in spans[k + 1 :]:
+def whole(p: Point) -> Whole:
+    """A point in integers."""
+    w = lcm(p[0].denominator, p[1].denominator)
+    x, y = (c.numerator * (w // c.denominator) for c in p)
+    return x, y, w
+
+
+def turn(a: Whole, b: Whole, c: Whole) -> int:
+    """Positive if a, b, c turn left, 0 if they are on a line."""
+    f = a[0] * (b[1] * c[2] - c[1] * b[2]) + b[0] * (c[1] * a[2] - a[1] * c[2])
+    return f + c[0] * (a[1] * b[2] - b[1] * a[2])
+
+
+def side(v: Whole, a: Whole, b: Whole) -> int:
+    """Positive if v sees a and b in directions less than a right angle apart."""
+    x, y = ((p[0] * v[2] - v[0] * p[2], p[1] * v[2] - v[1] * p[2]) for p in (a, b))
+    return x[0] * y[0] + x[1] * y[1]
+
+
+def meet(a: Whole, b: Whole, c: Whole, d: Whole) -> bool:
+    """Whether the closed segments ab and cd have a point in common."""
+    p, q, r, s = turn(a, b, c), turn(a, b, d), turn(c, d, a), turn(c, d, b)
+    if ((p > 0 > q) or (p < 0 < q)) and ((r > 0 > s) or (r < 0 < s)):
+        return True
+    ends = ((p, c, a, b), (q, d, a, b), (r, a, c, d), (s, b, c, d))
+    return any(f == 0 and side(v, x, y) <= 0 for f, v, x, y in ends)
+
+
+def is_simple(places: Sequence[Point], edges: Iterable[Dart], first: int) -> bool:
+    """Whether edges, by the numbers of their ends from the first one on, meet at joints alone."""
+    points = [whole(p) for p in places]
+    spans = []
+    for u, v in edges:
+        (x, y), (z, w) = places[u - first], places[v - first]
+        if (x, y) == (z, w):
+            return False
+        spans.append((min(x, z), max(x, z), min(y, w), max(y, w), u - first, v - first))
+    spans.sort()
+    for k, (_, right, bottom, top, a, b) in enumerate(spans):
+        for j in range(k + 1, len(spans)):
+            left, _, low, high, c, d = spans[j]
             if left > right:
                 break
-            if e[1] == f[0] or f[1] == e[0]:  # one of them ends where the other begins
-                a, v, b = (tracks[u] for u in ((*e, f[1]) if e[1] == f[0] else (*f, e[1])))
-                if not time.sign_of(orientation_of(a, v, b)) and time.sign_of(dot_of(a, v, b)) >= 0:
+            if low > top or high < bottom:
+                continue
+            WORK.spend(64)
+            if b == c or d == a:  # one of them ends where the other begins
+                p, q, r = (points[i] for i in ((a, b, d) if b == c else (c, d, b)))
+                if turn(p, q, r) == 0 and side(q, p, r) >= 0:
                     return False
-            elif meet(time, *(tracks[u] for u in (*e, *f))):
+            elif meet(points[a], points[b], points[c], points[d]):
                 return False
     return True
 
@@ -344,11 +486,14 @@ def comes_before(d: Point, e: Point) -> bool:
     return p < q or (p == q and d[0] * e[1] - d[1] * e[0] > 0)
 
 
-# ---- The scene (docs/format.md). What is not understood is refused.
+# ---- The scene (docs/scene-grammar.md). All of it is read; what is not understood is refused.
 
-NUMBER = re.compile(r"[+-]?(\d+(/0*[1-9]\d*)?|(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,6})?)", re.ASCII)
-Until = Fraction | float  # the only float is infinity
-Shape = list[tuple[Poly, Poly]]
+NUMBER = re.compile(
+    r"([+-]?\d++)(?:/(\d++))?|([+-]?)(\d*+)\.?(\d*+)(?:[eE]([+-]?\d{1,18}))?", re.ASCII
+)
+MOST_BITS = 33_220  # of a numerator or denominator in a scene: 10,000 digits
+MOST_DIGITS = 10_000  # of one in a proof
+MOST_DEGREE = 64  # of a coordinate of a vertex, in homogeneous coordinates
 
 
 class Bare(str):
@@ -364,26 +509,107 @@ def need(condition: object, what: str, data: Json = "") -> None:
 
 
 def number(data: Json) -> Fraction:
-    """The rational that a text, or a number of JSON, denotes."""
-    need(isinstance(data, str) and NUMBER.fullmatch(data), "not a number:", data)
-    return Fraction(data)
+    """Return the rational that a text, or a number of JSON, denotes."""
+    is_short = isinstance(data, str) and len(data) <= 3 * MOST_DIGITS
+    match = NUMBER.fullmatch(data) if is_short else None
+    if match is None:
+        raise NoProofError(f"the scene: not a number: {data!r:.60}")
+    whole, under, minus, units, decimals, exponent = match.groups()
+    if whole is not None:
+        need(under is None or under.strip("0"), "a denominator is zero:", data)
+        q = Fraction(int(whole), int(under or 1))
+    else:
+        need(units or decimals, "not a number:", data)
+        power, n = int(exponent or 0), int(minus + units + decimals)
+        need(abs(power) <= 100_000, "an exponent beyond 100,000:", data)
+        power = power - len(decimals) if n else 0
+        q = Fraction(n * 10**power) if power >= 0 else Fraction(n, 10**-power)
+    bits = max(q.numerator.bit_length(), q.denominator.bit_length())
+    need(bits <= MOST_BITS, "more than 10,000 digits:", data)
+    return q
 
 
-def keys(data: Json, *allowed: str) -> dict[str, Json]:
-    """A JSON object with these keys at most."""
-    need(isinstance(data, dict) and set(data) <= set(allowed), f"not of the keys {allowed}:", data)
+def keys(data: Json, required: Sequence[str] = (), optional: Sequence[str] = ()) -> dict[str, Json]:
+    """Return a JSON object with all of the required keys, and no others but the optional ones."""
+    known = isinstance(data, dict) and set(required) <= set(data) <= {*required, *optional}
+    need(known, f"not an object with {required}, {optional}:", data)
     return dict(data)
 
 
 def entries(data: Json, length: int | None = None) -> list[Json]:
-    """A JSON list."""
+    """Return a JSON list, of this length if one is given."""
     need(isinstance(data, list) and length in (None, len(data)), "not a list as needed:", data)
     return list(data)
 
 
 def polynomial(data: Json) -> Poly:
-    """The polynomial that a list of numbers is."""
+    """Return the polynomial that a list of numbers is."""
     return Poly([number(c) for c in entries(data)])
+
+
+def degree(*polynomials: Poly) -> int:
+    """Return the highest degree; that of 0 is 0."""
+    return max(1, *map(len, polynomials)) - 1
+
+
+class Motion:
+    """A motion by one formula: (x, y) goes to (a x + b y + e, c x + d y + f) / w.
+
+    ``form`` has these polynomials; ``rigid`` the half turn, the orientation, and the rest.
+    """
+
+    def __init__(self, data: Json, of_shape: int) -> None:
+        one, zero = c_(Fraction(1)), Poly()
+        self.rigid: tuple[Poly, Point, Json] | None = None
+        kind = next((k for k in ("rigid", "affine") if isinstance(data, dict) and k in data), "")
+        optional = ["pivot", "orientation"] if kind == "rigid" else []
+        required = {"rigid": ["half_turn"], "affine": ["matrix"], "": []}[kind]
+        given = keys(keys(data, [kind])[kind] if kind else data, required, ["x", "y", *optional])
+        x, y = (polynomial(given.get(k, [])) for k in "xy")
+        m, high = [one, zero, zero, one], max(of_shape, degree(x, y))
+        if kind == "affine":
+            m = [polynomial(p) for row in entries(given["matrix"], 2) for p in entries(row, 2)]
+            high = max(of_shape + degree(*m), degree(x, y))
+        h = polynomial(given.get("half_turn", []))
+        need(high + 2 * degree(h) <= MOST_DEGREE, f"a degree above {MOST_DEGREE}")
+        need(kind != "affine" or len(m) == 4, "not a matrix:", data)
+        self.keeps_lengths, self.form = kind != "affine", (*m, x, y, one)
+        if kind == "rigid":
+            p, q = (number(c) for c in entries(given.get("pivot", ["0", "0"]), 2))
+            c, s = (number(c) for c in entries(given.get("orientation", ["1", "0"]), 2))
+            need(c * c + s * s == 1, "an orientation that is no unit vector:", data)
+            self.rigid = h, (c, s), (p, q, x, y)
+            # A turn by the angle a with tan(a / 2) = h: (1 - h^2, 2 h) / (1 + h^2) is (cos, sin).
+            w, cosine, sine = one + h * h, one - h * h, h + h
+            a, b = cosine * c_(c) - sine * c_(s), sine * c_(c) + cosine * c_(s)
+            e = w * (c_(p) + x) - a * c_(p) + b * c_(q)
+            f = w * (c_(q) + y) - b * c_(p) - a * c_(q)
+            self.form = a, zero - b, b, a, e, f, w
+
+    def at(self, t: Fraction) -> tuple[Fraction, ...]:
+        """The map at a time: a, b, c, d, e, f divided by w."""
+        *values, w = (f.value(t) for f in self.form)
+        return tuple(v / w for v in values)
+
+    def track(self, x: Poly, y: Poly) -> Track:
+        """The track of a vertex: integer polynomials."""
+        a, b, c, d, e, f, w = self.form
+        found = a * x + b * y + e, c * x + d * y + f, w
+        m = lcm(*(q.denominator for g in found for q in g))
+        p, q, r = ([k.numerator * (m // k.denominator) for k in g] for g in found)
+        m = gcd(*p, *q, *r)
+        return Poly([k // m for k in p]), Poly([k // m for k in q]), Poly([k // m for k in r])
+
+
+def c_(value: Fraction) -> Poly:
+    """A constant polynomial."""
+    return Poly([value])
+
+
+def moved(to: tuple[Fraction, ...], p: Point) -> Point:
+    """Return where a map takes a point."""
+    a, b, c, d, e, f = to
+    return a * p[0] + b * p[1] + e, c * p[0] + d * p[1] + f
 
 
 class Body:
@@ -394,123 +620,252 @@ class Body:
         vertices: the numbers of its vertices in the scene, from ``first`` on.
         closed: whether it is a polygon with its inside.
         rings: the numbers of the vertices of each ring, and whether it bounds a hole.
+        parts: of each part, the indices of its rings, the outline first.
     """
 
-    def __init__(self, data: Json, first: int) -> None:
+    def __init__(self, data: Json, first: int, start: Fraction) -> None:
         shape = "vertices", "keyframes", "parts"
-        body = keys(data, "name", "motion", "closed", "holes", *shape)
+        body = keys(data, ["name"], ["motion", "closed", "holes", "radius", *shape])
         need(sum(key in body for key in shape) == 1, "vertices or keyframes or parts:", data)
         need("holes" not in body or "vertices" in body, "holes without vertices:", data)
-        self.name, closed = body.get("name"), body.get("closed", True)
-        need(isinstance(self.name, str) and isinstance(closed, bool), "name or closed:", data)
-        parts = [keys(part, "vertices", "holes") for part in entries(body.get("parts", []))]
+        self.name, closed = body["name"], body.get("closed", True)
+        is_text = isinstance(self.name, str) and not isinstance(self.name, Bare) and self.name
+        need(is_text and not re.search("[\ud800-\udfff]", self.name), "a name:", self.name)
+        need(isinstance(closed, bool), "closed:", closed)
+        radius = number(body.get("radius", "0"))
+        need(radius == 0, "a radius: no proof is possible:", body.get("radius"))
+        parts = [keys(p, ["vertices"], ["holes"]) for p in entries(body.get("parts", []))]
+        need(parts or "parts" not in body, "no parts:", data)
         rings = [
-            (entries(ring), k > 0)
+            [entries(r) for r in (part.get("vertices", []), *entries(part.get("holes", [])))]
             for part in (parts or [body])
-            for k, ring in enumerate([part.get("vertices", []), *entries(part.get("holes", []))])
         ]
-        several = "parts" in body or len(rings) > 1
-        need(not several or (closed and min(len(r) for r, _ in rings) > 2), "rings:", data)
-        flat = [vertex for ring, _ in rings for vertex in ring]
-        self.shapes = keyframes(body["keyframes"]) if "keyframes" in body else resting(flat)
-        self.motions = motions(body.get("motion", {}))
-        self.first, self.size = first, len(self.shapes[0][1])
+        flat = [ring for part in rings for ring in part]
+        several = "parts" in body or len(flat) > 1
+        need(not several or (closed and min(map(len, flat)) > 2), "rings:", data)
+        self.shape: list[tuple[Poly, Poly]] = []
+        self.frames: list[tuple[Fraction, list[Point]]] = []
+        self.linear: dict[int, list[tuple[Poly, Poly]]] = {}
+        if "keyframes" in body:
+            self.frames = keyframes(body["keyframes"])
+        else:
+            self.shape = [vertex(data) for ring in flat for data in ring]
+        self.first, self.size = first, len(self.frames[0][1] if self.frames else self.shape)
         need(self.size, "no vertices:", self.name)
+        self.read_motion(body.get("motion", {}))
         self.vertices, self.closed = range(first, first + self.size), closed and self.size > 2
-        ends = {t for t, _ in self.shapes} | {t for t, _ in self.motions}
-        self.breaks = sorted(t for t in ends if isinstance(t, Fraction))
-        ends_at = [*accumulate(len(ring) for ring, _ in rings)] if several else [self.size]
+        self.breaks = sorted({*self.ends, *(t for t, _ in self.frames)})
+        ends_at = [*accumulate(len(ring) for ring in flat)] if several else [self.size]
         spans = pairwise([0, *ends_at])
-        self.rings = [(self.vertices[i:j], rings[k][1]) for k, (i, j) in enumerate(spans)]
+        holes = [k > 0 for part in rings for k in range(len(part))]
+        self.rings = [(self.vertices[i:j], holes[k]) for k, (i, j) in enumerate(spans)]
+        self.parts, k = list[range](), 0
+        for part in rings:
+            self.parts.append(range(k, k + len(part)))
+            k += len(part)
         self.edges = [
             edge
             for ring, _ in self.rings
             for edge in [*pairwise(ring), *[(ring[-1], ring[0])][: self.closed]]
         ]
         self.tracks: dict[tuple[int, int], Track] = {}
+        self.check_simple(self.places(start))
+
+    def read_motion(self, data: Json) -> None:
+        """Read the motions, which follow one upon the other at the times ``ends``."""
+        of_shape = 1 if self.frames else degree(*(f for pair in self.shape for f in pair))
+        rows, spin = [{"motion": data}], None
+        if isinstance(data, dict) and "pieces" in data:
+            given = keys(data, ["pieces"], ["spin"])
+            rows = [keys(p, ["motion"], ["until"]) for p in entries(given["pieces"])]
+            if "spin" in given:
+                rate = keys(given["spin"], ["omega", "error"])
+                spin = number(rate["omega"]), number(rate["error"])
+        whole = rows and "until" not in rows[-1] and all("until" in p for p in rows[:-1])
+        need(whole, '"until" belongs to all pieces but the last:', data)
+        self.ends = [number(p["until"]) for p in rows[:-1]]
+        need(all(s < t for s, t in pairwise(self.ends)), "pieces not in order:", data)
+        self.motions = [Motion(p["motion"], of_shape) for p in rows]
+        for t, (before, after) in zip(self.ends, pairwise(self.motions), strict=True):
+            f, g = before.at(t), after.at(t)
+            jumps = f != g and any(moved(f, p) != moved(g, p) for p in self.outline(t))
+            need(not jumps, f"{self.name!a} jumps at t = {t}")
+        need(spin is None or turns_by(self.ends, self.motions, *spin), "not such a spin:", data)
+
+    def coordinates(self, t: Fraction) -> list[tuple[Poly, Poly]]:
+        """The coordinates of vertices just after a time, before the motion."""
+        if not self.frames:
+            return self.shape
+        k = bisect_right(self.frames, t, key=lambda frame: frame[0])
+        if k not in self.linear:  # at rest before the first frame and after the last one
+            (s, p), (e, q) = self.frames[max(k - 1, 0)], self.frames[min(k, len(self.frames) - 1)]
+            self.linear[k] = [
+                (line(s, e, a[0], b[0]), line(s, e, a[1], b[1])) for a, b in zip(p, q, strict=True)
+            ]
+        return self.linear[k]
+
+    def outline(self, t: Fraction) -> list[Point]:
+        """Where the vertices are at a time, before the motion."""
+        return [(x.value(t), y.value(t)) for x, y in self.coordinates(t)]
+
+    def places(self, t: Fraction) -> list[Point]:
+        """Return where the vertices are at a time."""
+        to = self.motions[bisect_right(self.ends, t)].at(t)
+        return [moved(to, p) for p in self.outline(t)]
+
+    def check_simple(self, places: Sequence[Point]) -> None:
+        """See that edges meet where they are joined alone, and holes and parts are in place."""
+        need(is_simple(places, self.edges, self.first), f"{self.name!a} is not simple at the start")
+        if len(self.rings) == 1:
+            return
+        outlines = [[places[v - self.first] for v in ring] for ring, _ in self.rings]
+
+        def is_in(i: int, j: int) -> bool:
+            return surrounds(outlines[j], outlines[i][0])
+
+        for one, *holes in self.parts:
+            wrong = any(not is_in(k, one) for k in holes)
+            wrong |= any(is_in(k, m) for k in holes for m in holes if k != m)
+            for other, *others in self.parts:
+                within = other != one and is_in(one, other)
+                wrong |= within and not any(is_in(one, hole) for hole in others)
+            need(not wrong, f"{self.name!a}: a hole or part is where none can be")
 
     def track(self, i: int, piece: int) -> Track:
         """The track of vertex i in a piece."""
         if (i, piece) not in self.tracks:
-            t = self.breaks[piece - 1] if piece else -inf
-            shape = next(shape for end, shape in self.shapes if end > t)
-            motion = next(motion for end, motion in self.motions if end > t)
-            self.tracks[i, piece] = moved(motion, *shape[i])
+            after = self.after(piece)
+            motion = self.motions[bisect_right(self.ends, after)]
+            self.tracks[i, piece] = motion.track(*self.coordinates(after)[i])
         return self.tracks[i, piece]
 
+    def after(self, piece: int) -> Fraction:
+        """A time just after which a piece holds."""
+        return self.breaks[piece - 1] if piece else (self.breaks or [Fraction(0)])[0] - 1
 
-def resting(vertices: list[Json]) -> list[tuple[Until, Shape]]:
-    """One shape for ever: a vertex is two numbers, or an object with polynomials x and y."""
-    shape: Shape = []
-    for data in vertices:
-        given = keys(data, "x", "y") if isinstance(data, dict) else None
-        x, y = (
-            ([c] for c in entries(data, 2)) if given is None else (given.get(k, []) for k in "xy")
-        )
-        shape.append((polynomial(x), polynomial(y)))
-    return [(inf, shape)]
+    def keeps_lengths(self, t: Fraction) -> bool:
+        """Whether it is but translated and turned just after a time."""
+        (x, y), *others = self.coordinates(t)
+        same = all(f[1:] == x[1:] and g[1:] == y[1:] for f, g in others)
+        return same and self.motions[bisect_right(self.ends, t)].keeps_lengths
 
 
-def keyframes(data: Json) -> list[tuple[Until, Shape]]:
-    """Linear between keyframes, at rest before the first and after the last: (until, shape)."""
-    path: list[tuple[Fraction, list[list[Fraction]]]] = []
-    for frame in (keys(f, "t", "vertices") for f in entries(data)):
-        points = [[number(c) for c in entries(p, 2)] for p in entries(frame.get("vertices"))]
-        path.append((number(frame.get("t")), points))
+def line(s: Fraction, e: Fraction, a: Fraction, b: Fraction) -> Poly:
+    """The polynomial of degree 1 that is a at s and b at e."""
+    slope = (b - a) / (e - s) if a != b else Fraction(0)
+    return Poly([a - slope * s, slope])
+
+
+def vertex(data: Json) -> tuple[Poly, Poly]:
+    """Return a vertex: two numbers, or an object with polynomials x and y."""
+    if isinstance(data, dict):
+        given = keys(data, optional=["x", "y"])
+        return polynomial(given.get("x", [])), polynomial(given.get("y", []))
+    x, y = entries(data, 2)
+    return c_(number(x)), c_(number(y))
+
+
+def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:
+    """Return the times and the places of keyframes; between them all is linear."""
+    path: list[tuple[Fraction, list[Point]]] = []
+    for frame in (keys(f, ["t", "vertices"]) for f in entries(data)):
+        points: list[Point] = []
+        for x, y in (entries(p, 2) for p in entries(frame["vertices"])):
+            points.append((number(x), number(y)))
+        path.append((number(frame["t"]), points))
     need(len({len(points) for _, points in path}) == 1, "keyframes:", data)
     need(all(s < t for (s, _), (t, _) in pairwise(path)), "keyframes not in order:", data)
-    path = [(path[0][0] - 1, path[0][1]), *path, (path[-1][0] + 1, path[-1][1])]
-    found: list[tuple[Until, Shape]] = []
-    for (s, p), (t, q) in pairwise(path):
-        shape: Shape = []
-        for a, b in zip(p, q, strict=True):
-            m, n = ((d - c) / (t - s) for c, d in zip(a, b, strict=True))
-            shape.append((Poly([a[0] - m * s, m]), Poly([a[1] - n * s, n])))
-        found.append((t, shape))
-    return [*found[:-1], (inf, found[-1][1])]
+    return path
 
 
-def motions(data: Json) -> list[tuple[Until, dict[str, Json]]]:
-    """The motions of a body, one after the other: (until, motion)."""
-    pieces = [{"motion": data}]
-    if isinstance(data, dict) and "pieces" in data:
-        pieces = [
-            keys(p, "until", "motion") for p in entries(keys(data, "pieces", "spin")["pieces"])
-        ]
-    whole = pieces and "until" not in pieces[-1] and all("until" in p for p in pieces[:-1])
-    need(whole, '"until" belongs to all pieces but the last:', data)
-    ends: list[Until] = [*(number(p["until"]) for p in pieces[:-1]), inf]
-    need(all(s < t for s, t in pairwise(ends)), "pieces not in order:", data)
-    found = [keys(p.get("motion"), "x", "y", "rigid", "affine") for p in pieces]
-    return list(zip(ends, found, strict=True))
+# ---- A spin: pieces that turn by the angle omega t, but for an error. Let a piece turn by the
+# angle p + 2 arctan h(t), |h| <= 1. At nine times in it, the difference from omega t (and full
+# turns, the same number of them) is in an interval of rationals. Between these times it changes
+# by at most the largest slope times half of their distance; and the slope, (2 h' - omega (1 +
+# h^2)) / (1 + h^2), is at most the largest Bernstein coefficient of its numerator.
+
+SAMPLES, MOST_ANGLE_BITS = 8, 512
+Bounds = tuple[Fraction, Fraction]
 
 
-def moved(motion: dict[str, Json], x: Poly, y: Poly) -> Track:
-    """The track of a vertex that a motion carries."""
-    w = one = Poly([Fraction(1)])
-    data = motion
-    if "rigid" in motion:
-        # A turn by the angle a with tan(a / 2) = h: (1 - h^2, 2 h) / (1 + h^2) is (cos, sin).
-        allowed = "half_turn", "pivot", "x", "y", "orientation"
-        data = keys(keys(motion, "rigid")["rigid"], *allowed)
-        h = polynomial(data.get("half_turn"))
-        px, py = (polynomial([c]) for c in entries(data.get("pivot", ["0", "0"]), 2))
-        c, s = (polynomial([c]) for c in entries(data.get("orientation", ["1", "0"]), 2))
-        need(c * c + s * s == one, "an orientation that is no unit vector:", data)
-        w, cosine, sine = one + h * h, one - h * h, h + h
-        x, y = x - px, y - py
-        x, y = c * x - s * y, s * x + c * y
-        x, y = cosine * x - sine * y + w * px, sine * x + cosine * y + w * py
-    elif "affine" in motion:
-        data = keys(keys(motion, "affine")["affine"], "matrix", "x", "y")
-        rows = [entries(row, 2) for row in entries(data.get("matrix"), 2)]
-        (a, b), (c, d) = ([polynomial(p) for p in row] for row in rows)
-        x, y = a * x + b * y, c * x + d * y
-    x, y = x + w * polynomial(data.get("x", [])), y + w * polynomial(data.get("y", []))
-    m = lcm(*(c.denominator for f in (x, y, w) for c in f))
-    f, g, e = ([int(c * m) for c in f] for f in (x, y, w))
-    m = gcd(*f, *g, *e)
-    return Poly([c // m for c in f]), Poly([c // m for c in g]), Poly([c // m for c in e])
+def turns_by(
+    ends: Sequence[Fraction], motions: Sequence[Motion], omega: Fraction, error: Fraction
+) -> bool:
+    """Return True if this shows that motions turn by omega t, from the first end to the last."""
+    turns = [motion.rigid for motion in motions if motion.rigid]
+    if error <= 0 or len(turns) < max(len(motions), 3):
+        return False
+    if degree(turns[0][0], turns[-1][0]) > 0 or any(turn[2] != turns[0][2] for turn in turns):
+        return False
+    spans = zip(turns[1:-1], pairwise(ends), strict=True)
+    return all(turns_in(h, turned, a, b, omega, error) for (h, turned, _), (a, b) in spans)
+
+
+def turns_in(
+    h: Poly, turned: Point, a: Fraction, b: Fraction, omega: Fraction, error: Fraction
+) -> bool:
+    """Return True if this shows it of one piece, from a to b."""
+    slope = Poly([2 * i * c for i, c in enumerate(h)][1:]) - c_(omega) * (c_(Fraction(1)) + h * h)
+    between = slope.bound(a, b) * (b - a) / (2 * SAMPLES)
+    times = [a + (b - a) * i / SAMPLES for i in range(SAMPLES + 1)]
+    bits = max(8, 5 - error.numerator.bit_length() + error.denominator.bit_length())
+    bits += floor(abs(omega) * max(abs(a), abs(b))).bit_length()
+    if bits > MOST_ANGLE_BITS or between > error or any(abs(h.value(t)) > 1 for t in times):
+        return False
+    low, high = angle_of(turned, bits + 8)
+    full = [2 * bound for bound in pi_bounds(bits + 8)]
+    differences = []
+    for t in times:
+        half = arctan(h.value(t), bits + 8)
+        differences.append((low + 2 * half[0] - omega * t, high + 2 * half[1] - omega * t))
+    k = floor(differences[0][0] / full[0] + Fraction(1, 2))
+    least, most = sorted((k * full[0], k * full[1]))
+    return all(max(q - least, most - p) + between <= error for p, q in differences)
+
+
+def angle_of(direction: Point, bits: int) -> Bounds:
+    """Return bounds of the angle of a unit vector."""
+    (c, s), quarters = direction, 0
+    while c <= 0 or abs(s) > c:
+        c, s, quarters = s, -c, quarters + 1
+    (low, high), (p, q) = arctan(s / (1 + c), bits), pi_bounds(bits)
+    return 2 * low + quarters * p / 2, 2 * high + quarters * q / 2
+
+
+@lru_cache
+def pi_bounds(bits: int) -> Bounds:
+    """Return bounds of pi, by Machin's formula."""
+    (a, b), (c, d) = (series(Fraction(1, n), bits + 6) for n in (5, 239))
+    return 16 * a - 4 * d, 16 * b - 4 * c
+
+
+def arctan(x: Fraction, bits: int) -> Bounds:
+    """Return bounds of the arc tangent of x, |x| <= 1."""
+    if x < 0:
+        low, high = arctan(-x, bits)
+        return -high, -low
+    if 2 * x <= 1:
+        return series(x, bits)
+    low, high = series((1 - x) / (1 + x), bits + 1)  # pi / 4 is the sum of both arc tangents
+    p, q = pi_bounds(bits + 1)
+    return p / 4 - high, q / 4 - low
+
+
+def series(x: Fraction, bits: int) -> Bounds:
+    """Return bounds of the arc tangent of x, 0 <= x <= 1/2, by its series.
+
+    In units of 2^-n: a power of x is too small by less than 2 (its error e becomes less than
+    e / 4 + 3 / 2 with the next factor x^2 <= 1/4), a term by less than 3, and what is left
+    out is less than 3 when powers are below 1.
+    """
+    n = bits + 16
+    power = floor(x * 2**n)
+    square = (power * power) >> n
+    total, terms = 0, 0
+    while power:
+        total += (-1) ** terms * (power // (2 * terms + 1))
+        power, terms = (power * square) >> n, terms + 1
+    return Fraction(total - 3 * terms - 4, 2**n), Fraction(total + 3 * terms + 4, 2**n)
 
 
 class Scene:
@@ -523,20 +878,24 @@ class Scene:
 
         try:
             data = json.loads(text, parse_int=Bare, parse_float=Bare, object_pairs_hook=unique)
+            self.read(data)
         except (ValueError, RecursionError) as error:
-            raise NoProofError(f"the scene is not JSON: {error}") from None
-        top = keys(data, "exactpt", "time", "bodies")
-        version = top.get("exactpt")
+            raise NoProofError(f"the scene is not JSON, or nested too deeply: {error}") from None
+        self.known: tuple[Fraction, dict[int, Point]] = self.start, {}
+
+    def read(self, data: Json) -> None:
+        """Read all of it."""
+        top = keys(data, ["exactpt", "time", "bodies"])
+        version = top["exactpt"]
         need(version == "1" and isinstance(version, Bare), "not of format 1:", version)
-        self.start, self.end = (number(t) for t in entries(top.get("time"), 2))
+        self.start, self.end = (number(t) for t in entries(top["time"], 2))
         need(self.start < self.end, "an empty time span:", top["time"])
         self.bodies: list[Body] = []
         self.body_of: list[int] = []
-        for i, entry in enumerate(entries(top.get("bodies"))):
-            self.bodies.append(Body(entry, len(self.body_of)))
+        for i, entry in enumerate(entries(top["bodies"])):
+            self.bodies.append(Body(entry, len(self.body_of), self.start))
             self.body_of += [i] * self.bodies[-1].size
         need(len({body.name for body in self.bodies}) == len(self.bodies), "a name is there twice")
-        self.known: tuple[Fraction, dict[int, Point]] = self.start, {}
 
     def of(self, v: int) -> Body:
         """The body of a vertex."""
@@ -579,6 +938,8 @@ class Scene:
         if not body.closed:
             triples = triples[1:-1] if n > 2 else [(v, path[0], v) for v in path[1:]]
         for t in [self.start, *(q for q in body.breaks if self.start < q < end)]:
+            if body.keeps_lengths(t):
+                continue
             for a, v, b in ([self.track(u, t) for u in triple] for triple in triples):
                 of_a, of_b = a[2] * v[2], b[2] * v[2]  # the denominators of a - v and b - v
                 forms = [(dot_of(a, v, a), of_a * of_a), (dot_of(b, v, b), of_b * of_b)]
@@ -718,7 +1079,7 @@ CONVEX, REFLEX, FLAT, FULL = "convex", "reflex", "flat", "full"
 class Life:
     """The life of the angle of a half-edge v -> w, with u -> v before it.
 
-    It has begun at a time, by a line; its kind is known from the sample on.
+    It has begun by a line; its kind is known from the sample on.
     """
 
     u: int
@@ -736,7 +1097,7 @@ class Checker:
 
     def __init__(self, scene: Scene) -> None:
         self.scene, self.end, self.line = scene, scene.end, 0
-        self.now = Time(scene.start)
+        self.now, self.name, self.named = Time(scene.start), Poly(), set[int]()
         self.map = PlanarMap(len(scene.body_of))
         self.body_darts = {d for b in scene.bodies for u, v in b.edges for d in ((u, v), (v, u))}
         self.rings: list[list[int]] = []  # of rigid closed bodies, which are on their left
@@ -759,34 +1120,66 @@ class Checker:
             self.read_body(body)
         faces = [row for row in rows if row[1][0] in ("face", "inside", "outer")]
         cycles, time, k = list[list[int]](), self.now, 0
-        for self.line, words in faces:
-            cycles.append(self.vertices(words[1:]))
+        for self.line, row in faces:
+            cycles.append(self.vertices(row[1:]))
         if cycles:
             self.begin(cycles)
-        for number, words in rows[1 + len(faces) :]:
-            made, self.line = self.line, number
-            k = next((i for i, w in enumerate(words) if w in STARTS), len(words))
-            time = self.read_time(words[1:k]) if k > 1 else Time(self.end)
+        for line, row in rows[1 + len(faces) :]:
+            made, self.line = self.line, line
+            k = next((i for i, w in enumerate(row) if w in STARTS), len(row))
+            time = self.read_time(row[1:k]) if k > 1 else Time(self.end)
             require(time.compare_rational(self.end) <= 0, "a time after the time span")
             if cycles:
-                require(self.now.compare(time) < 0, "times do not increase")
+                unit = (self.end - start) / 2**APART
+                sample = between(self.now, time, start, unit)
                 self.line = made
-                self.look_at(between(self.now, time))
-                self.line = number
-            elif words != ["none"] or self.scene.bodies:
-                at_start = words[0] == "contact" and time.compare(self.now) == 0
+                self.look_at(sample)
+                self.line = line
+            elif row != ["none"] or self.scene.bodies:
+                at_start = row[0] == "contact" and time.compare_rational(start) == 0
                 require(at_start, "there is no map")
-            if words[0] == "event":
-                self.event(time, words[k:])
+                self.now = time = Time(start)  # the interval of a root has other ends
+            if row[0] == "event":
+                self.event(time, row[k:])
         vanishing = self.end_lives(self.life, time)
-        if words == ["none"]:
+        if row == ["none"]:
             self.check_clusters(vanishing, time)
-            proved = f"accepted: no contact from t = {start} to t = {self.end}"
-            return Proved(proved, self.end, whole=self.end == self.scene.end)
-        what = self.check_contact(words[k:], time)
-        return Proved(
-            f"accepted: no contact before T = {time}; contact of {what} at T", self.end, whole=True
-        )
+            return self.proved(None, set(), "")
+        claim = self.check_contact(row[k:], time)
+        if not cycles:
+            return self.proved(time, set(), claim)
+        found = self.incidences(vanishing, time)
+        return self.proved(time, found, root_in_words(row[1:k], time, self.name))
+
+    # What is proved, in words: b2.1 is vertex 1, or the edge from it on, of the body 2.
+
+    def proved(self, time: Time | None, found: set[Angle], what: str) -> Proved:
+        """Put into words what is proved."""
+        start, end, last = self.scene.start, self.end, self.scene.end
+        if time is None:
+            text, named = f"no contact in [{start}, {end}]", set[int]()
+            text += ", the whole span"
+            if end < last:
+                text = f"no contact in [{start}, {end}]; the span of the scene is "
+                text += f"[{start}, {last}]: nothing is said of ({end}, {last}]"
+        elif not found:
+            text, named = f"contact at the start t = {start}: {what}", self.named
+        else:
+            shown = [
+                f"{self.short(u)} {'on edge' if on else 'at'} {self.short(v)}"
+                for u, on, v in sorted(found)
+            ]
+            text = f"first contact at T = {what}: incidences exactly {', '.join(shown)}"
+            named = {self.scene.body_of[v] for u, _, w in found for v in (u, w)}
+        names = ", ".join(f"b{i} is {self.scene.bodies[i].name!a}" for i in sorted(named))
+        proved = Proved(text + (f" ({names})" if names else ""))
+        proved.until, proved.whole = end, time is not None or end == last
+        proved.time, proved.incidences, proved.scene = time, found, self.scene
+        return proved
+
+    def short(self, v: int) -> str:
+        """A vertex, in short."""
+        return f"b{self.scene.body_of[v]}.{v - self.scene.of(v).first}"
 
     def read_time(self, words: list[str]) -> Time:
         """The time that these words are."""
@@ -799,14 +1192,19 @@ class Checker:
             f = orientation_of(*p) if len(p) == 3 else vector_of(*p)[0]
         else:
             f = Poly(map(int, words[2:]))
+        self.name = f.primitive()
         if low == high and (len(words) == 2 or (f and f.sign_at(low) == 0)):
             return Time(low)
         require(f, "no time is named by what is always 0")
-        roots = list(f.square_free().roots(low, high)) if low < high else []
-        require(len(roots) == 1, f"{len(roots)} roots between {low} and {high}, not one")
-        while (roots[0].high - roots[0].low) * 2**20 > self.end - self.scene.start:
-            roots[0].refine()  # for speed alone
-        return roots[0]
+        if low < high and f.sign_at(low) and f.sign_at(high) and f.variations(low, high) == 1:
+            time = Time(low, high, f)
+        else:
+            roots = list(f.square_free().roots(low, high, DEPTH)) if low < high else []
+            require(len(roots) == 1, f"{len(roots)} roots between {low} and {high}, not one")
+            time = roots[0]
+        while (time.high - time.low) * 2**20 > self.end - self.scene.start:
+            time.refine()  # for speed alone
+        return time
 
     def vertices(self, words: Iterable[str]) -> list[int]:
         """The vertices that these words are."""
@@ -819,21 +1217,14 @@ class Checker:
 
     def read_body(self, body: Body) -> None:
         """Look at a body by itself."""
-        start, vertices = Time(self.scene.start), [*body.vertices]
-        for k, q in enumerate(body.breaks):
-            for i in range(body.size if start.low < q <= self.end else 0):
-                jump = vector_of(body.track(i, k), body.track(i, k + 1))
-                require(
-                    not any(f.sign_at(q) for f in jump), f"{body.name}: vertex {i} jumps at {q}"
-                )
         self.rigid.append(self.scene.is_rigid(body, self.end))
         if not body.closed:
             return
-        places = [[self.scene.at(v, start.low) for v in ring] for ring, _ in body.rings]
-        for i, (ring, is_hole) in enumerate(body.rings):
-            turns = pairwise([*places[i], places[i][0]])
+        for ring, is_hole in body.rings:
+            place = [self.scene.at(v, self.scene.start) for v in ring]
+            turns = pairwise([*place, place[0]])
             area = sum(p[0] * q[1] - p[1] * q[0] for p, q in turns)
-            require(area, f"{body.name} has no area at the start")
+            require(area, f"{body.name!a} has no area at the start")
             cycle = [*ring] if (area > 0) != is_hole else [*ring[::-1]]
             edges = [*pairwise([*cycle, cycle[0]])]
             self.ahead.update(edges)
@@ -841,13 +1232,6 @@ class Checker:
                 self.rings.append(cycle)
                 self.holes += cycle[:1] if is_hole else []
                 self.solid.update(edges)
-            # Rings are disjoint: nested, they are outlines and holes in turn.
-            around = sum(surrounds(other, places[i][0]) for j, other in enumerate(places) if j != i)
-            require(around % 2 == is_hole, f"{body.name}: a hole or part is where none can be")
-        if self.rigid[-1] or len(places) > 1:
-            tracks = {v: self.scene.track(v, start.low) for v in vertices}
-            simple = is_simple(start, tracks, body.edges)
-            require(simple, f"{body.name} is not simple at the start")
 
     # Step 2: the map, and its changes.
 
@@ -1041,40 +1425,101 @@ class Checker:
 
     # Step 8: the contact.
 
-    def check_contact(self, words: list[str], time: Time) -> str:
+    def incidences(self, faces: set[Face], time: Time) -> set[Angle]:
+        """All that touches at a time, by the faces with an angle that vanishes then.
+
+        They are taken together, whatever clusters they are in: docs/proofs.md.
+        """
+        darts = {d for face in faces for d in face}
+        tracks = self.scene.tracks_at({v for v, _ in darts}, time)
+
+        def order(u: int, v: int) -> int:
+            x, y = vector_of(tracks[v], tracks[u])
+            return time.sign_of(x) or time.sign_of(y)
+
+        groups: list[list[int]] = []
+        rank: dict[int, int] = {}
+        for v in sorted(tracks, key=cmp_to_key(order)):
+            if not groups or order(groups[-1][0], v):
+                groups.append([])
+            groups[-1].append(v)
+            rank[v] = len(groups) - 1
+        found = {(min(u, v), 0, max(u, v)) for g in groups for u, v in combinations(g, 2)}
+        for u, w in {(min(d), max(d)) for d in darts & self.body_darts}:
+            first, last = sorted((rank[u], rank[w]))
+            for group in groups[first + 1 : last]:
+                tracked = tracks[u], tracks[group[0]], tracks[w]
+                if time.sign_of(orientation_of(*tracked)) == 0:
+                    edge = u if self.after_on_ring(u) == w else w
+                    found |= {(v, 1, edge) for v in group}
+        return found
+
+    def after_on_ring(self, v: int) -> int:
+        """The next vertex of a ring or chain, in the order of the scene."""
+        body = self.scene.of(v)
+        ring = next(ring for ring, _ in body.rings if v in ring)
+        return v + 1 if v + 1 in ring else ring[0]
+
+    def check_contact(self, row: list[str], time: Time) -> str:
         """See that the contact is there at a time; what it is, in words."""
-        scene, kind = self.scene, " ".join(w for w in words if w.isalpha())
-        numbers = [w for w in words if not w.isalpha()]
+        scene, kind = self.scene, " ".join(w for w in row if w.isalpha())
+        numbers = [w for w in row if not w.isalpha()]
         if kind == "vertex inside":
             require(int(numbers[1]) < len(scene.bodies), f"there is no body {numbers[1]}")
             numbers[1:] = map(str, scene.bodies[int(numbers[1])].vertices)
         v = self.vertices(numbers)
-        tracks, body, other = scene.tracks_at(v, time), scene.of(v[0]), scene.of(v[-1])
-        p = [tracks[u] for u in v]
+        body, other = scene.of(v[0]), scene.of(v[-1])
         edges = {(v[-2], v[-1]), (v[0], v[1])} if kind == "edge edge" else {(v[-2], v[-1])}
         at_start = time.compare_rational(scene.start) == 0 and body is not other
         if kind == "vertex vertex":
+            p = [*scene.tracks_at(v, time).values()]
             there = v[0] != v[1] and is_on(time, p[0], p[1], p[1])
         elif kind == "vertex edge":
-            there = edges <= self.body_darts and v[0] not in v[1:] and is_on(time, *p)
+            tracks = scene.tracks_at(v, time)
+            there = edges <= self.body_darts and v[0] not in v[1:]
+            there = there and is_on(time, *(tracks[u] for u in v))
         elif kind == "edge edge":
-            there = at_start and edges <= self.body_darts and meet(time, *p)
+            there = at_start and edges <= self.body_darts
+            there = there and meet(*(whole(scene.at(u, scene.start)) for u in v))
         else:
             place = {u: scene.at(u, scene.start) for u in v}
             rings = [[place[u] for u in ring] for ring, _ in other.rings]
             inside = sum(surrounds(ring, place[v[0]]) for ring in rings) % 2
-            there = bool(inside and at_start and other.closed)
-        require(there, f"there is no such contact at t = {time}: {' '.join(words)}")
-        names = [f"{scene.of(u).name} vertex {u - scene.of(u).first}" for u in v]
-        one = f"the edge {names[0]} - {names[1]}" if kind == "edge edge" else names[0]
-        two = f"the edge {names[-2]} - {names[-1]}" if kind.endswith("edge") else names[-1]
-        return f"{one} with {f'the inside of {other.name}' if kind == 'vertex inside' else two}"
+            edge = any(
+                turn(*(whole(place[u]) for u in (*e, v[0]))) == 0
+                and side(*(whole(place[u]) for u in (v[0], *e))) <= 0
+                for e in other.edges
+            )
+            there = bool((inside or edge) and at_start and other.closed)
+        require(there, f"there is no such contact at t = {time}: {' '.join(row)}")
+        self.named = {scene.body_of[v[0]], scene.body_of[v[-1]]}
+        if kind == "vertex inside":
+            return f"{self.short(v[0])} in the inside of b{scene.body_of[v[-1]]}"
+        if kind == "vertex vertex":
+            return f"{self.short(min(v))} at {self.short(max(v))}"
+        one, two = (self.short(a if self.after_on_ring(a) == b else b) for a, b in (v[:2], v[-2:]))
+        if kind == "edge edge":
+            return f"edge {one} meets edge {two}"
+        return f"{self.short(v[0])} on edge {two}"
+
+
+def root_in_words(row: list[str], time: Time, f: Poly) -> str:
+    """A time as it is written in a proof: a number, or a root of f in an interval."""
+    low, high = Fraction(row[0]), Fraction(row[1])
+    if low == high:
+        return str(low)
+    coefficients = " ".join(map(str, f))
+    return f"{twelve_digits(time)}..., the root of {coefficients} in [{low}, {high}]"
 
 
 # ---- The file.
 
-R, V = r"-?[0-9]+(/[0-9]*[1-9][0-9]*)?", "[0-9]{1,9}"  # a rational, and a vertex or body
-TIME = f"{R} {R}( @( {V}){{2,3}}|( -?[0-9]+)*)"
+DEPTH = 64  # so often an interval in a proof is halved to find its root
+APART = 2048  # between times are multiples of the span / 2^APART
+MOST_BYTES, MOST_IN_LINE = 10**9, 10**8
+MOST_TERMS, MOST_DIGITS_OF_TIME = 193, 20_000  # of the polynomial that names a time
+R, V = r"-?[0-9]++(/[0-9]++)?", "[0-9]{1,9}"  # a rational, and a vertex or body
+TIME = f"{R} {R}( @( {V}){{2,3}}|( -?[0-9]++)*+)"
 ITEM = f" -( {V}){{2}}| =( {V}){{2}}| [+]( {V}){{4}}"
 WHAT = f"vertex {V} (vertex|inside|edge {V}) {V}|edge {V} {V} edge {V} {V}"
 FORMS = {  # of lines, by their first words
@@ -1082,75 +1527,229 @@ FORMS = {  # of lines, by their first words
     "scene": "scene sha256 [^ ]+",
     "span": f"span {R} {R}",
     **{kind: f"{kind}( {V})+" for kind in ("face", "inside", "outer")},
-    "event": f"event {TIME}({ITEM})*",
+    "event": f"event {TIME}({ITEM})*+",
     "contact": f"contact {TIME} ({WHAT})",
     "none": "none",
 }
 STARTS = ("-", "+", "=", "vertex", "edge")  # of what follows the time in a line
-ORDER = "exactpt-proof scene span( face| inside| outer)*( event)* (contact|none)"
+ORDER = "exactpt-proof scene span( face| inside| outer)*+( event)*+ (contact|none)"
+
+
+def is_rational(word: str) -> bool:
+    """Whether a word is a rational of at most `MOST_DIGITS` digits above and below."""
+    over, _, under = word.removeprefix("-").partition("/")
+    return bool(
+        re.fullmatch(R, word)
+        and max(len(over), len(under)) <= MOST_DIGITS
+        and ("/" not in word or under.strip("0"))
+    )
+
+
+def is_bounded(row: list[str]) -> bool:
+    """Whether the numbers of a line and the polynomial of its time are small enough."""
+    if row[0] not in ("span", "event", "contact"):
+        return True
+    end = next((i for i, w in enumerate(row) if w in (*STARTS, "@")), len(row))
+    f = row[3:end]
+    return (
+        all(map(is_rational, row[1:3]))
+        and len(f) <= MOST_TERMS
+        and sum(len(c.removeprefix("-")) for c in f) <= MOST_DIGITS_OF_TIME
+    )
 
 
 def read(proof: bytes) -> list[tuple[int, list[str]]]:
     """The numbers and words of the lines of a proof, all of which are in the format."""
     rows = []
     for i, line in enumerate(proof.decode().split("\n"), 1):
-        words = re.findall(r"[^ \t\r]+", line)
-        if words and not line.startswith("#"):
-            if not re.fullmatch(FORMS.get(words[0], "none"), " ".join(words)):
+        if len(line) > MOST_IN_LINE:
+            raise NoProofError(f"line {i} is too long")
+        row = re.findall(r"[^ \t\r]+", line)
+        if row and not line.startswith("#"):
+            form = FORMS.get(row[0], "none")
+            if not re.fullmatch(form, " ".join(row)) or not is_bounded(row):
                 raise NoProofError(f"line {i} is not in the format")
-            rows.append((i, words))
-    if not re.fullmatch(ORDER, " ".join(words[0] for _, words in rows)):
+            rows.append((i, row))
+    if not re.fullmatch(ORDER, " ".join(row[0] for _, row in rows)):
         raise NoProofError("the file is no proof, or the order of its lines is another one")
     return rows
 
 
-def check(scene_file: bytes, proof_file: bytes) -> Proved:
-    """Check a proof; what it proves. Raises `Rejected`, or `NoProofError`."""
+def check(scene_file: bytes, proof_file: bytes, work: int = Work.usual) -> Proved:
+    """Check a proof; what it proves. Raises `Rejected`, `NoProofError`, or `Exhausted`."""
     digits = sys.get_int_max_str_digits()
-    sys.set_int_max_str_digits(0)  # the numbers of a scene are as long as its writer likes
+    sys.set_int_max_str_digits(0)  # lengths have bounds of their own
+    WORK.left, checker = work, None
+    orientation_of.cache_clear()
     try:
-        return check_files(scene_file, proof_file)
+        need(max(len(scene_file), len(proof_file)) <= MOST_BYTES, "or the proof: too many bytes")
+        rows, text = read(proof_file), scene_file.decode("utf-8-sig")
+        digest = hashlib.sha256(scene_file).hexdigest()
+        if rows[1][1][2] != digest:
+            raise NoProofError("the proof is of another scene: the hash of its file is another one")
+        checker = Checker(Scene(text))
+        proved = checker.check_rows(rows[2:])
+        return proved.within(f"accepted: {digest[:16]} {proved}")
+    except UnicodeDecodeError:
+        raise NoProofError("a file is not UTF-8") from None
+    except Rejected as verdict:
+        raise Rejected(f"rejected: line {checker.line if checker else 0}: {verdict}") from None
     finally:
         sys.set_int_max_str_digits(digits)
 
 
-def check_files(scene_file: bytes, proof_file: bytes) -> Proved:
-    """Check a proof whose numbers may have any length."""
-    try:
-        rows, text = read(proof_file), scene_file.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise NoProofError("a file is not UTF-8") from None
-    if rows[1][1][2] != hashlib.sha256(scene_file).hexdigest():
-        raise NoProofError("the proof is of another scene: the hash of its file is another one")
-    checker = Checker(Scene(text))
-    try:
-        return checker.check_rows(rows[2:])
-    except Rejected as verdict:
-        raise Rejected(f"rejected: line {checker.line}: {verdict}") from None
+# ---- What is wanted.
 
 
-USAGE = "usage: python3 -I proof_check.py SCENE PROOF [--until T | --partial]"
+def wishes(arguments: list[str]) -> tuple[list[Path], dict[str, str]]:
+    """The paths and the options of a call."""
+    paths, given, rest = list[Path](), dict[str, str](), iter(arguments)
+    for word in rest:
+        if word in ("--partial", "--until", "--expect", "--work"):
+            given[word] = "" if word == "--partial" else next(rest, "-")
+        else:
+            paths.append(Path(word))
+    ok = is_rational(given.get("--until", "0")) and re.fullmatch(
+        "[0-9]{1,18}", given.get("--work", "0")
+    )
+    one = len(given.keys() - {"--work"}) <= 1 and not any(str(p)[:2] == "--" for p in paths)
+    if not ok or not one or len(paths) not in (1, 2) or (len(paths) == 1 and "--expect" in given):
+        raise NoProofError(USAGE)
+    return paths, given
+
+
+def judge(proved: Proved, given: dict[str, str]) -> None:
+    """See that it is what is asked for."""
+    if "--expect" in given:
+        if reason := differs(proved, Path(given["--expect"]).read_bytes()):
+            raise Rejected(f"rejected: {reason} {given['--expect']!a}; proved is: {proved}")
+    elif not proved.whole and "--partial" not in given:
+        enough = "--until" in given and Fraction(given["--until"]) <= proved.until
+        require(enough, f"rejected: proved up to {proved.until} only (see --until, --partial)")
+
+
+def differs(proved: Proved, answer: bytes) -> str:
+    """How an answer of `exactpt collide --json` differs from what is proved; empty if not."""
+    try:
+        data = json.loads(answer, parse_int=Bare, parse_float=Bare)
+        contact, pairs = data["contact"], set[Angle]()
+        if contact is None:
+            is_same = proved.time is None and proved.until >= number(data["until"])
+            return "" if is_same else "no contact is the answer of"
+        f = Poly(int(number(c)) for c in contact["time"]["polynomial"])
+        low, high = (number(contact["time"][k]) for k in ("low", "high"))
+        if not f or (low == high and f.sign_at(low)):
+            raise ValueError("no time")
+        bodies = {body.name: body for body in proved.scene.bodies}
+        for pair in contact["pairs"]:
+            a, b = ((bodies[pair[k]["body"]].vertices, pair[k]) for k in "ab")
+            u, v = a[0][int(a[1]["vertex"])], b[0][int(b[1].get("edge", b[1].get("vertex")))]
+            pairs.add((u, 1, v) if "edge" in b[1] else (min(u, v), 0, max(u, v)))
+    except (ValueError, KeyError, TypeError, IndexError, RecursionError, AttributeError) as error:
+        raise NoProofError(f"the answer is none of exactpt collide --json: {error!a:.60}") from None
+    if proved.time is None:
+        return "a contact is the answer of"
+    within = proved.time.compare_rational(low) >= 0 >= proved.time.compare_rational(high)
+    if not within or proved.time.sign_of(f) != 0:
+        return "another time is the answer of"
+    if contact["kind"] == "initial":
+        return "" if not proved.incidences else "a contact at the start is the answer of"
+    return "" if pairs == proved.incidences else "other incidences are in the answer of"
+
+
+USAGE = (
+    "usage: python3 -I proof_check.py SCENE PROOF [--until T | --partial | --expect ANSWER] "
+    "[--work N], or FOLDER [--until T | --partial] [--work N]"
+)
 
 
 def main(arguments: list[str]) -> int:
-    """Check a file; the exit code."""
+    """Check a file or a folder; the exit code."""
     try:
-        paths, until = arguments[:2], arguments[2:]
-        wanted = until == ["--partial"] or (len(until) == 2 and until[0] == "--until")
-        if len(paths) != 2 or (until and not wanted):
-            raise NoProofError(USAGE)
-        if until[1:] and not re.fullmatch(R, until[1]):
-            raise NoProofError(f"--until: not a number, p or p/q: {until[1]!r:.60}")
-        with open(paths[0], "rb") as scene, open(paths[1], "rb") as proof:
-            proved = check(scene.read(), proof.read())
-        least = Fraction(until[1]) if until[1:] else None if until else inf
-        if least is not None and not proved.whole and proved.until < least:
-            raise Rejected(f"rejected: proved up to t = {proved.until} only (see --partial)")
+        if arguments == ["--version"]:
+            return say(hashlib.sha256(Path(__file__).read_bytes()).hexdigest(), 0, sys.stdout)
+        paths, given = wishes(arguments)
+        work = int(given.get("--work", Work.usual))
+        if len(paths) == 1:
+            proved = check_chain(paths[0], work)
+        else:
+            proved = check(file_bytes(paths[0]), file_bytes(paths[1]), work)
+        judge(proved, given)
         return say(proved, 0, sys.stdout)
     except Rejected as verdict:
         return say(str(verdict), 1, sys.stdout)
-    except (NoProofError, OSError) as error:
+    except Exhausted as verdict:
+        return say(str(verdict), 4, sys.stdout)
+    except (NoProofError, OSError, ValueError) as error:
         return say(str(error), 2, sys.stderr)
+
+
+def file_bytes(path: Path) -> bytes:
+    """The bytes of a file, not too many."""
+    with path.open("rb") as file:
+        return file.read(MOST_BYTES + 1)
+
+
+# ---- Chains: proofs one after the other, of the parts of one run.
+
+
+def check_chain(folder: Path, work: int = Work.usual) -> Proved:
+    """Check ``1.proof`` with ``1.scene.json``, and so on, and that each goes on where one ends."""
+    if not folder.is_dir():
+        raise NoProofError(f"{str(folder)!a} is no folder")
+    numbers = sorted(
+        int(p.stem) for p in folder.glob("*.proof") if re.fullmatch("[1-9][0-9]{0,8}", p.stem)
+    )
+    if not numbers or numbers[0] != 1:
+        raise NoProofError(f"{str(folder)!a} has no 1.proof")
+    require(numbers[-1] == len(numbers), "rejected: the numbers of the parts have a gap")
+    seams, last, start = list[str](), None, Fraction(0)
+    chain = ["exactpt-chain 1"]
+    for k in numbers:
+        try:
+            scene, proof = (file_bytes(folder / f"{k}.{e}") for e in ("scene.json", "proof"))
+            proved = check(scene, proof, work)
+        except Rejected as verdict:
+            raise Rejected(f"{verdict} (part {k})") from None
+        work, here = WORK.left, proved.scene
+        if last is None:
+            start = here.start
+        else:
+            seams += seam(last, proved, k)
+        hashes = (hashlib.sha256(b).hexdigest() for b in (scene, proof, chain[-1].encode()))
+        a, b, before = hashes
+        chain.append(f"{k} {a} {b} {here.start} {proved.until} {before}")
+        last = proved
+    manifest = folder / "run.chain"
+    if manifest.exists():
+        same = file_bytes(manifest) == ("\n".join(chain) + "\n").encode()
+        require(same, "rejected: the parts are not those of run.chain")
+    assert last is not None  # noqa: S101
+    digest = hashlib.sha256(chain[-1].encode()).hexdigest()[:16]
+    said = last.split(" ", 2)[2]
+    if last.time is None:
+        said = said.replace(f"[{last.scene.start}, ", f"[{start}, ", 1)
+    text = f"accepted: {digest} along {len(numbers)} parts from t = {start}: {said}"
+    return last.within("; ".join([text, *seams]))
+
+
+def seam(before: Proved, after: Proved, k: int) -> list[str]:
+    """See that a part goes on where the one before ends; which bodies come and go there."""
+    t = after.scene.start
+    require(before.time is None, f"rejected: part {k - 1} ends with a contact")
+    require(before.until == t, f"rejected: part {k} begins at {t}, not at {before.until}")
+    old, new = ({body.name: body for body in p.scene.bodies} for p in (before, after))
+    for name in [name for name in new if name in old]:
+        a, b = old[name], new[name]
+        same = [r.start - a.first for r, _ in a.rings] == [r.start - b.first for r, _ in b.rings]
+        same = same and [h for _, h in a.rings] == [h for _, h in b.rings]
+        same = same and a.closed == b.closed and a.places(t) == b.places(t)
+        require(same, f"rejected: part {k}: {name!a} is not what or where it was")
+    come, go = [n for n in new if n not in old], [n for n in old if n not in new]
+    words = [
+        f"{w} {', '.join(map(ascii, ns))}" for w, ns in (("enters", come), ("leaves", go)) if ns
+    ]
+    return [f"at t = {t} {' and '.join(words)}"] if words else []
 
 
 def say(text: str, code: int, file: TextIO) -> int:

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "clusters.hpp"
 #include "faults.hpp"
 
 namespace proof {
@@ -27,6 +26,7 @@ void Checker::check_all() {
   if (text_.faces.empty() && text_.events.empty() && text_.contact) {
     line_ = text_.last_line;
     check_contact_at_start(*text_.contact);
+    is_at_start_ = true;
     return;
   }
   begin();
@@ -34,7 +34,7 @@ void Checker::check_all() {
     line_ = event.line;
     check_items(event);
     go_on_to(time_of(event.time));
-    check_contacts(ending(event), times_.back());
+    if (map_) check_contacts(ending(event), times_.back());
     change(event);
   }
   line_ = text_.last_line;
@@ -67,7 +67,8 @@ void Checker::check_items(const EventText& event) const {
     check_edge(u, v);
     check_vertices({w, x});
   }
-  if (!map_) throw Rejected("there is nothing to change");
+  const bool has_items = !event.added.empty() || !event.removed.empty() || !event.renewed.empty();
+  if (!map_ && (has_items || scene_.size() == 0)) throw Rejected("there is nothing to change");
   for (const auto& [u, v, w, x] : event.added)
     if (component(u) != component(v))
       throw Rejected("the edge " + std::to_string(u) + " " + std::to_string(v) +
@@ -97,6 +98,7 @@ std::vector<int> Checker::ending(const EventText& event) const {
 
 void Checker::change(const EventText& event) {
   fresh_line_ = line_;
+  if (!map_) return;
   std::vector<int> changed = map_->change(event);
   angles_.resize(static_cast<std::size_t>(map_->halves()));
   face_.resize(angles_.size(), -1);
@@ -194,11 +196,15 @@ std::vector<int> Checker::living() const {
 
 void Checker::finish() {
   const Time last = text_.contact ? time_of(text_.contact->time) : Time(text_.end);
-  if (last.compare(text_.end) > 0) throw Rejected("the contact is after the time span");
+  if (last.compare(text_.end) > 0)
+    throw Rejected("the contact is after the time span");
   go_on_to(last);
   if (map_) {
     const std::vector<int> halves = living();
     if (!text_.contact) check_contacts(halves, times_.back());
+    if (text_.contact)
+      found_ = incidences(scene_, *map_, predicates_, vanishing(halves, times_.back()),
+                          times_.back());
     for (const int h : halves) end_life(h);
   }
   if (text_.contact) check_contact(*text_.contact, times_.back());

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <deque>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "clusters.hpp"
 #include "map.hpp"
 #include "predicates.hpp"
 #include "scene.hpp"
@@ -30,8 +32,12 @@ class Checker {
   // The failure, if there is one.
   std::optional<Failure> run();
 
-  // What has been proved, after a run without failure.
+  // What has been proved, after a run without failure, in words (statement.cpp).
   std::string conclusion() const;
+
+  // How an answer of exactpt collide --json differs from it; nothing if it does not. Throws
+  // NoProof if it is none.
+  std::string difference(const std::string& answer) const;
 
  private:
   // An angle, by the half-edge at its clockwise end.
@@ -73,11 +79,13 @@ class Checker {
   void count_corners(int h, const Time& sample);
   void check_star(int v, const Time& sample);
   bool is_upward(int h, const Time& sample);
+  std::vector<int> vanishing(const std::vector<int>& halves, const Time& t);
   void check_contacts(const std::vector<int>& halves, const Time& t);
   std::vector<int> living() const;
   void finish();
 
   // Times and contacts as they are written (claims.cpp).
+  Poly<Integer> polynomial_of(const TimeText& text) const;
   Time time_of(const TimeText& text) const;
   void check_contact(const ContactText& contact, const Time& t);
   void check_contact_at_start(const ContactText& contact);
@@ -105,6 +113,8 @@ class Checker {
   std::vector<int> face_;       // of each half-edge
   std::vector<bool> is_outer_;  // of each face that there has ever been
   std::size_t faces_ = 0, outer_faces_ = 0;
+  std::set<Incidence> found_;   // at the time of the contact, if that is not the start
+  bool is_at_start_ = false;    // the contact
 };
 
 template <class Check>

@@ -17,23 +17,28 @@ std::size_t piece_in(const Body& body, const Rational& low, const Rational& high
 
 }  // namespace
 
-Time Checker::time_of(const TimeText& text) const {
-  if (text.low > text.high) throw Rejected("the interval of the time is reversed");
+Poly<Integer> Checker::polynomial_of(const TimeText& text) const {
   Poly<Integer> f = text.coefficients;
   trim(f);
-  if (!text.vertices.empty()) {
-    check_vertices(text.vertices);
-    std::vector<const Path*> paths;
-    for (const int v : text.vertices)
-      paths.push_back(&scene_.path(v, piece_in(scene_.body(v), text.low, text.high)));
-    f = paths.size() == 3 ? orientation(*paths[0], *paths[1], *paths[2])
-                          : paths[1]->x * paths[0]->w - paths[0]->x * paths[1]->w;
-  } else if (text.coefficients.empty() && text.low == text.high) {
+  if (text.vertices.empty()) return primitive(f);
+  check_vertices(text.vertices);
+  std::vector<const Path*> paths;
+  for (const int v : text.vertices)
+    paths.push_back(&scene_.path(v, piece_in(scene_.body(v), text.low, text.high)));
+  return primitive(paths.size() == 3 ? orientation(*paths[0], *paths[1], *paths[2])
+                                     : paths[1]->x * paths[0]->w - paths[0]->x * paths[1]->w);
+}
+
+Time Checker::time_of(const TimeText& text) const {
+  if (text.low > text.high) throw Rejected("the interval of the time is reversed");
+  const Poly<Integer> f = polynomial_of(text);
+  if (text.vertices.empty() && text.coefficients.empty() && text.low == text.high)
     return Time(text.low);
-  }
   if (f.empty()) throw Rejected("the polynomial of the time is zero, or missing");
   const std::optional<Time> time = Time::root(f, text.low, text.high);
-  if (!time) throw Rejected("the polynomial of the time has not exactly one root in the interval");
+  if (!time)
+    throw Rejected("the polynomial of the time has not exactly one root in the interval, by "
+                   "Descartes' rule");
   return *time;
 }
 
@@ -68,10 +73,10 @@ void Checker::check_contact_at_start(const ContactText& contact) {
     if (body >= scene_.bodies().size() || !scene_.bodies()[body].is_polygon ||
         scene_.body_of(contact.vertex) == c)
       throw Rejected("a contact with something that has no inside, or with its own vertex");
-    // In an odd number of rings: none is around another one of its kind.
+    // On an edge, or in an odd number of rings: none is around another one of its kind.
     int around = 0;
     for (const Polygon& polygon : polygons(scene_.bodies()[body], t.low())) {
-      if (!is_simple(polygon)) throw Rejected("there is no contact");
+      if (is_on_boundary(polygon, at(contact.vertex))) return;
       around += is_in(polygon, at(contact.vertex));
     }
     if (around % 2 == 0) throw Rejected("there is no contact");
@@ -83,26 +88,6 @@ void Checker::check_contact_at_start(const ContactText& contact) {
     throw Rejected("a contact of edges that are not of two bodies");
   if (!do_meet(at(contact.vertex), at(contact.end), at(c), at(d)))
     throw Rejected("there is no contact");
-}
-
-std::string Checker::conclusion() const {
-  if (!text_.contact)
-    return "no contact from t = " + text_.start.get_str() + " to t = " + text_.end.get_str();
-  using Kind = ContactText::Kind;
-  const ContactText& contact = *text_.contact;
-  const auto& [a, b] = contact.edge;
-  const auto edge = [&](int u, int v) {
-    return "the edge " + scene_.in_words(u) + " - " + scene_.in_words(v);
-  };
-  std::string what = contact.kind == Kind::crossing ? edge(contact.vertex, contact.end)
-                                                    : scene_.in_words(contact.vertex);
-  what += " with ";
-  if (contact.kind == Kind::vertex) what += scene_.in_words(a);
-  if (contact.kind == Kind::edge || contact.kind == Kind::crossing) what += edge(a, b);
-  if (contact.kind == Kind::inside)
-    what += "the inside of " + scene_.bodies()[static_cast<std::size_t>(a)].name;
-  return "no contact before T = " + time_of(contact.time).in_words() + "; contact of " + what +
-         " at T";
 }
 
 }  // namespace proof

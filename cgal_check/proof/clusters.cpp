@@ -78,27 +78,11 @@ Item item(const Map& map, Predicates& predicates, int vertex, int half, const Ti
           std::min(p.y.inf(), q.y.inf()), std::max(p.y.sup(), q.y.sup()), vertex, half};
 }
 
-void check_pair(const Map& map, Predicates& predicates, const Item& a, const Item& b,
-                const Time& t) {
-  if (a.vertex < 0 && b.vertex < 0) return;
-  if (a.is_beside(b)) return;
-  if (a.vertex >= 0 && b.vertex >= 0) {
-    if (predicates.coincide(a.vertex, b.vertex, t))
-      throw Rejected("vertices " + std::to_string(std::min(a.vertex, b.vertex)) + " and " +
-                     std::to_string(std::max(a.vertex, b.vertex)) + " coincide at t = " +
-                     t.in_words());
-    return;
-  }
-  const int v = std::max(a.vertex, b.vertex), h = std::max(a.half, b.half);
-  const int p = map.origin(h), q = map.target(h);
-  if (v != p && v != q && predicates.is_on(v, p, q, t))
-    throw Rejected("vertex " + std::to_string(v) + " is on the edge " +
-                   std::to_string(std::min(p, q)) + " " + std::to_string(std::max(p, q)) +
-                   " at t = " + t.in_words());
-}
-
-// A sweep from the left to the right over boxes.
-void check(const Map& map, Predicates& predicates, const Cluster& cluster, const Time& t) {
+// A sweep from the left to the right over boxes: of a vertex and another one, or of a vertex and
+// an edge that does not end there, which may touch.
+template <class Pair>
+void sweep(const Map& map, Predicates& predicates, const Cluster& cluster, const Time& t,
+           Pair pair) {
   std::vector<Item> items;
   for (const int v : cluster.vertices) items.push_back(item(map, predicates, v, -1, t));
   for (const int h : cluster.edges) items.push_back(item(map, predicates, -1, h, t));
@@ -109,9 +93,31 @@ void check(const Map& map, Predicates& predicates, const Cluster& cluster, const
     open.erase(std::remove_if(open.begin(), open.end(),
                               [&](const Item& past) { return past.right < here.left; }),
                open.end());
-    for (const Item& other : open) check_pair(map, predicates, other, here, t);
+    spend(static_cast<double>(open.size()));
+    for (const Item& other : open) {
+      if ((here.vertex < 0 && other.vertex < 0) || here.is_beside(other)) continue;
+      const int v = std::max(here.vertex, other.vertex), h = std::max(here.half, other.half);
+      if (h < 0)
+        pair(std::min(here.vertex, other.vertex), v, -1);
+      else if (v != map.origin(h) && v != map.target(h))
+        pair(v, -1, h);
+    }
     open.push_back(here);
   }
+}
+
+void check(const Map& map, Predicates& predicates, const Cluster& cluster, const Time& t) {
+  sweep(map, predicates, cluster, t, [&](int u, int v, int h) {
+    if (h < 0 && predicates.coincide(u, v, t))
+      throw Rejected("vertices " + std::to_string(u) + " and " + std::to_string(v) +
+                     " coincide at t = " + t.in_words());
+    if (h < 0) return;
+    const int p = map.origin(h), q = map.target(h);
+    if (predicates.is_on(u, p, q, t))
+      throw Rejected("vertex " + std::to_string(u) + " is on the edge " +
+                     std::to_string(std::min(p, q)) + " " + std::to_string(std::max(p, q)) +
+                     " at t = " + t.in_words());
+  });
 }
 
 }  // namespace
@@ -120,6 +126,31 @@ void check_clusters(const Scene& scene, const Map& map, Predicates& predicates,
                     const std::vector<int>& halves, const Time& t) {
   for (const Cluster& cluster : clusters_of(scene, map, faces_of(map, halves)))
     check(map, predicates, cluster, t);
+}
+
+std::set<Incidence> incidences(const Scene& scene, const Map& map, Predicates& predicates,
+                               const std::vector<int>& halves, const Time& t) {
+  Cluster all;
+  for (const Cluster& cluster : clusters_of(scene, map, faces_of(map, halves))) {
+    all.vertices.insert(all.vertices.end(), cluster.vertices.begin(), cluster.vertices.end());
+    all.edges.insert(all.edges.end(), cluster.edges.begin(), cluster.edges.end());
+  }
+  for (std::vector<int>* each : {&all.vertices, &all.edges}) {
+    std::sort(each->begin(), each->end());
+    each->erase(std::unique(each->begin(), each->end()), each->end());
+  }
+  std::set<Incidence> found;
+  sweep(map, predicates, all, t, [&](int u, int v, int h) {
+    if (h < 0) {
+      if (predicates.coincide(u, v, t)) found.insert({u, false, v});
+      return;
+    }
+    const int p = map.origin(h), q = map.target(h);
+    if (predicates.is_on(u, p, q, t) && !predicates.coincide(u, p, t) &&
+        !predicates.coincide(u, q, t))
+      found.insert({u, true, scene.first_of_edge(p, q)});
+  });
+  return found;
 }
 
 }  // namespace proof

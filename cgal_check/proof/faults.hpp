@@ -20,4 +20,18 @@ struct Rejected : std::runtime_error {
   std::size_t line;  // 0: the line in hand
 };
 
+// The budget of work is used up: exit code 4.
+struct Exhausted : std::runtime_error {
+  Exhausted() : std::runtime_error("the budget of work is used up (see --work)") {}
+};
+
+// What may still be done, in products of two words of 64 bits, as they are estimated.
+constexpr double usual_work = 1e11;
+inline double work_left = usual_work;
+
+inline void spend(double products) {
+  work_left -= products;
+  if (work_left < 0) throw Exhausted();
+}
+
 }  // namespace proof

@@ -7,10 +7,19 @@
 
 namespace proof {
 
+namespace {
+
+constexpr mp_bitcnt_t least_apart = 2048;  // of times: the span / 2^2048
+
+}  // namespace
+
 void Checker::go_on_to(Time next) {
   Time& now = times_.back();
-  if (now.compare(next) >= 0) throw Rejected("times do not increase");
-  if (map_) settle(Time(rational_between(now.high(), next.low())));
+  Rational unit = text_.end - text_.start;
+  mpq_div_2exp(unit.get_mpq_t(), unit.get_mpq_t(), least_apart);
+  const std::optional<Rational> sample = Time::sample(now, next, text_.start, unit);
+  if (!sample) throw Rejected("times do not increase, or by too little");
+  if (map_) settle(Time(*sample));
   if (map_ && times_.size() == 1) check_contacts(living(), now);
   times_.push_back(std::move(next));
 }
@@ -96,20 +105,22 @@ bool Checker::is_upward(int h, const Time& sample) {
   return y > 0 || (y == 0 && predicates_.difference_of_x(u, v, sample) > 0);
 }
 
+std::vector<int> Checker::vanishing(const std::vector<int>& halves, const Time& t) {
+  std::vector<int> found;
+  for (const int h : halves) {
+    if (angle(h).is_solid) continue;
+    const int u = map_->target(angle(h).end), v = map_->origin(h), w = map_->target(h);
+    const bool is_straight = angle(h).kind == Kind::flat || angle(h).kind == Kind::full;
+    const int sign = is_straight ? predicates_.dot_product(u, v, w, t)
+                                 : predicates_.orientation(u, v, w, t);
+    if (sign == 0) found.push_back(h);
+  }
+  return found;
+}
+
 // Step 6, of those of some angles that vanish at a time.
 void Checker::check_contacts(const std::vector<int>& halves, const Time& t) {
-  in_share([&] {
-    std::vector<int> found;
-    for (const int h : halves) {
-      if (angle(h).is_solid) continue;
-      const int u = map_->target(angle(h).end), v = map_->origin(h), w = map_->target(h);
-      const bool is_straight = angle(h).kind == Kind::flat || angle(h).kind == Kind::full;
-      const int sign = is_straight ? predicates_.dot_product(u, v, w, t)
-                                   : predicates_.orientation(u, v, w, t);
-      if (sign == 0) found.push_back(h);
-    }
-    check_clusters(scene_, *map_, predicates_, found, t);
-  });
+  in_share([&] { check_clusters(scene_, *map_, predicates_, vanishing(halves, t), t); });
 }
 
 }  // namespace proof

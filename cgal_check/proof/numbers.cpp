@@ -10,6 +10,7 @@ namespace proof {
 namespace {
 
 constexpr long highest_exponent = 100'000;
+constexpr std::size_t most_bits = 33'220;  // of 10,000 digits
 
 }  // namespace
 
@@ -61,17 +62,24 @@ std::optional<Rational> decimal(std::string_view text) {
     text.remove_prefix(1);
     const bool small = !text.empty() && text.front() == '-';
     if (!text.empty() && (small || text.front() == '+')) text.remove_prefix(1);
-    if (text.empty() || text.size() > 9 || leading_digits(text) != text.size()) return std::nullopt;
+    if (text.empty() || text.size() > 18 || leading_digits(text) != text.size())
+      return std::nullopt;
     const long written = std::stol(std::string(text));
     if (written > highest_exponent) return std::nullopt;
     exponent += small ? -written : written;
   }
+  const Integer n(figures, 10);
+  if (n == 0) return Rational(0);
   Integer power;
   mpz_ui_pow_ui(power.get_mpz_t(), 10, static_cast<unsigned long>(std::labs(exponent)));
-  const Integer n(figures, 10);
   Rational q = exponent < 0 ? Rational(n, power) : Rational(Integer(n * power));
   q.canonicalize();
   return negative ? Rational(-q) : q;
+}
+
+bool is_long(const Rational& q) {
+  return mpz_sizeinbase(q.get_num_mpz_t(), 2) > most_bits ||
+         mpz_sizeinbase(q.get_den_mpz_t(), 2) > most_bits;
 }
 
 }  // namespace proof

@@ -32,6 +32,9 @@ std::size_t leading_digits(std::string_view text);
 // "1.25", "-3e-2"; nothing if it is not, or the exponent is huge.
 std::optional<Rational> decimal(std::string_view text);
 
+// Whether the numerator or the denominator has more than 10,000 digits.
+bool is_long(const Rational& q);
+
 inline int sign(const Integer& n) { return mpz_sgn(n.get_mpz_t()); }
 inline int sign(const Rational& q) { return mpq_sgn(q.get_mpq_t()); }
 inline int opposite(int sign, bool turned) { return turned ? -sign : sign; }

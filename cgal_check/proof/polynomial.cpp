@@ -1,5 +1,7 @@
 #include "polynomial.hpp"
 
+#include "faults.hpp"
+
 namespace proof {
 
 Poly<Integer> primitive(Poly<Integer> f) {
@@ -24,6 +26,7 @@ int sign_at(const Poly<Integer>& f, const Rational& t) {
   const Integer& p = t.get_num();
   const Integer& q = t.get_den();
   Integer sum = 0, power = 1;
+  spend(static_cast<double>(f.size() * f.size() * mpz_size(p.get_mpz_t()) * mpz_size(q.get_mpz_t())));
   for (std::size_t i = f.size(); i-- > 0;) {
     sum *= p;
     sum += f[i] * power;
@@ -51,6 +54,8 @@ Poly<Integer> between(const Poly<Integer>& f, const Rational& low, const Rationa
   const Integer q = lcm(low.get_den(), high.get_den());
   const Integer a = low.get_num() * (q / low.get_den());
   const Integer b = high.get_num() * (q / high.get_den());
+  const double n = static_cast<double>(f.size()), long_q = static_cast<double>(mpz_size(q.get_mpz_t()));
+  spend(f.empty() ? 0 : n * n * (static_cast<double>(mpz_size(f.back().get_mpz_t())) + n * long_q));
   return between(f, a, b, q, f.empty() ? 0 : f.size() - 1);
 }
 

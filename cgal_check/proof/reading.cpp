@@ -1,8 +1,11 @@
 #include "reading.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "faults.hpp"
+#include "simple.hpp"
+#include "spin.hpp"
 
 namespace proof {
 
@@ -12,12 +15,7 @@ using Rationals = Poly<Rational>;
 using Position = std::pair<Rationals, Rationals>;
 
 constexpr std::size_t most_digits = 10'000;
-
-const Json* member(const Json& json, std::string_view key) {
-  const Json* found = json.find(key);
-  if (!found) throw NoProof("the scene lacks the key " + std::string(key));
-  return found;
-}
+constexpr std::size_t most_degree = 64;  // of a homogeneous coordinate of a vertex
 
 Rationals polynomial(const Json* json) {
   if (!json) return {};
@@ -62,86 +60,121 @@ Path make_path(const Rationals& x, const Rationals& y, const Rationals& w) {
   return path;
 }
 
+std::size_t degree(const Rationals& f) { return std::max<std::size_t>(f.size(), 1) - 1; }
+
+void check_degree(std::size_t degree) {
+  if (degree > most_degree) throw NoProof("the scene has a coordinate of a degree above 64");
+}
+
 // A motion by one formula: of a rest position, the path.
 struct Motion {
   Rationals a, b, c, d;  // the matrix
   Rationals x, y;        // added then
   Rationals w;           // all is divided by it
+  std::optional<Turn> turn;
 
   Path path(const Position& p) const {
     return make_path(a * p.first + b * p.second + x, c * p.first + d * p.second + y, w);
   }
+
+  // The map at a time: a, b, c, d, x, y divided by w.
+  std::vector<Rational> at(const Rational& t) const {
+    std::vector<Rational> values;
+    const Rational unit = value(w, t);
+    for (const Rationals* f : {&a, &b, &c, &d, &x, &y}) values.push_back(value(*f, t) / unit);
+    return values;
+  }
 };
 
-Motion translation(const Json* json) {
+Place moved(const std::vector<Rational>& map, const Place& p) {
+  return {map[0] * p.first + map[1] * p.second + map[4],
+          map[2] * p.first + map[3] * p.second + map[5]};
+}
+
+Motion translation(const Json* json, std::size_t shape) {
   const Rationals one = constant(1);
-  if (!json) return {one, {}, {}, one, {}, {}, one};
+  check_degree(shape);
+  if (!json) return {one, {}, {}, one, {}, {}, one, {}};
   allow_keys(*json, {"x", "y"});
-  return {one, {}, {}, one, polynomial(json->find("x")), polynomial(json->find("y")), one};
+  const Rationals x = polynomial(json->find("x")), y = polynomial(json->find("y"));
+  check_degree(std::max(degree(x), degree(y)));
+  return {one, {}, {}, one, x, y, one, {}};
 }
 
 // Two constants: a pivot, or an orientation.
-std::pair<Rationals, Rationals> pair(const Json* json, int x, int y) {
-  if (!json) return {constant(x), constant(y)};
+Place pair(const Json* json, int x, int y) {
+  if (!json) return {x, y};
   const std::vector<Json>& both = list(json);
   if (both.size() != 2) throw NoProof("the scene has a rotation with a pair that is none");
-  return {constant(exact_number(&both[0])), constant(exact_number(&both[1]))};
+  return {exact_number(&both[0]), exact_number(&both[1])};
 }
 
-Motion rotation(const Json& json) {
+Motion rotation(const Json& json, std::size_t shape) {
   allow_keys(json, {"pivot", "half_turn", "x", "y", "orientation"});
-  const auto [px, py] = pair(json.find("pivot"), 0, 0);
-  const auto [c, s] = pair(json.find("orientation"), 1, 0);
+  const Place pivot = pair(json.find("pivot"), 0, 0), o = pair(json.find("orientation"), 1, 0);
   const Rationals h = polynomial(member(json, "half_turn")), one = constant(1);
+  const Rationals x = polynomial(json.find("x")), y = polynomial(json.find("y"));
+  check_degree(2 * degree(h) + std::max({shape, degree(x), degree(y)}));
+  const Rationals px = constant(pivot.first), py = constant(pivot.second);
+  const Rationals c = constant(o.first), s = constant(o.second);
   if (c * c + s * s != one) throw NoProof("the scene has an orientation that is no unit vector");
   const Rationals w = one + h * h, cos_h = one - h * h, sin_h = h + h;
   const Rationals cosine = cos_h * c - sin_h * s, sine = sin_h * c + cos_h * s;
-  const Rationals x = polynomial(json.find("x")), y = polynomial(json.find("y"));
   const Rationals zero;
   return {cosine, zero - sine, sine, cosine,
-          w * (px + x) - cosine * px + sine * py, w * (py + y) - sine * px - cosine * py, w};
+          w * (px + x) - cosine * px + sine * py, w * (py + y) - sine * px - cosine * py, w,
+          Turn{h, o, {pivot.first, pivot.second}, x, y}};
 }
 
-Motion affine(const Json& json) {
+Motion affine(const Json& json, std::size_t shape) {
   allow_keys(json, {"matrix", "x", "y"});
   std::vector<Rationals> entries;
-  for (const Json& row : list(member(json, "matrix"))) {
+  std::size_t highest = 0;
+  const std::vector<Json>& rows = list(member(json, "matrix"));
+  for (const Json& row : rows) {
     if (list(&row).size() != 2) throw NoProof("the scene has a matrix that is not 2 by 2");
-    for (const Json& entry : list(&row)) entries.push_back(polynomial(&entry));
+    for (const Json& entry : list(&row)) {
+      entries.push_back(polynomial(&entry));
+      highest = std::max(highest, degree(entries.back()));
+    }
   }
-  if (entries.size() != 4) throw NoProof("the scene has a matrix that is not 2 by 2");
-  return {entries[0], entries[1], entries[2], entries[3],
-          polynomial(json.find("x")), polynomial(json.find("y")), constant(1)};
+  if (rows.size() != 2) throw NoProof("the scene has a matrix that is not 2 by 2");
+  const Rationals x = polynomial(json.find("x")), y = polynomial(json.find("y"));
+  check_degree(std::max({shape + highest, degree(x), degree(y)}));
+  return {entries[0], entries[1], entries[2], entries[3], x, y, constant(1), {}};
 }
 
-Motion simple_motion(const Json* json) {
+Motion simple_motion(const Json* json, std::size_t shape) {
   if (json && json->kind == Json::Kind::object) {
     for (const auto& [name, make] : {std::pair("rigid", rotation), std::pair("affine", affine)}) {
       if (const Json* found = json->find(name)) {
         allow_keys(*json, {name});
-        return make(*found);
+        return make(*found, shape);
       }
     }
   }
-  return translation(json);
+  return translation(json, shape);
 }
 
-// Something that changes at breakpoints.
 template <class T>
 struct Pieces {
   std::vector<Rational> until;
   std::vector<T> all;  // one more
 
   const T& just_before(const Rational* end) const {  // or the last one
-    std::size_t i = 0;
-    while (i < until.size() && !(end && *end <= until[i])) ++i;
-    return all[i];
+    const auto found = end ? std::lower_bound(until.begin(), until.end(), *end) : until.end();
+    return all[static_cast<std::size_t>(found - until.begin())];
+  }
+
+  const T& after(const Rational& t) const {
+    const auto found = std::upper_bound(until.begin(), until.end(), t);
+    return all[static_cast<std::size_t>(found - until.begin())];
   }
 };
 
-Pieces<Motion> motions(const Json* json) {
+Pieces<Motion> motions(const Json* json, std::size_t shape) {
   if (!json || json->kind != Json::Kind::object || !json->find("pieces"))
-    return {{}, {simple_motion(json)}};
+    return {{}, {simple_motion(json, shape)}};
   allow_keys(*json, {"pieces", "spin"});
   Pieces<Motion> pieces;
   const std::vector<Json>& rows = list(json->find("pieces"));
@@ -153,7 +186,17 @@ Pieces<Motion> motions(const Json* json) {
     if (const Json* until = row.find("until")) pieces.until.push_back(exact_number(until));
     if (pieces.until.size() > 1 && *(pieces.until.end() - 2) >= pieces.until.back())
       throw NoProof("the scene has pieces that go back in time");
-    pieces.all.push_back(simple_motion(member(row, "motion")));
+    pieces.all.push_back(simple_motion(member(row, "motion"), shape));
+  }
+  if (const Json* spin = json->find("spin")) {
+    allow_keys(*spin, {"omega", "error"});
+    std::vector<Turn> turns;
+    for (const Motion& motion : pieces.all)
+      if (motion.turn) turns.push_back(*motion.turn);
+    const Rational omega = exact_number(member(*spin, "omega"));
+    const Rational error = exact_number(member(*spin, "error"));
+    if (turns.size() < pieces.all.size() || !is_spin(pieces.until, turns, omega, error))
+      throw NoProof("the scene has a spin whose pieces do not turn so");
   }
   return pieces;
 }
@@ -179,7 +222,8 @@ Pieces<Shape> keyframes(const Json& json) {
     if (frames.back().size() != frames.front().size())
       throw NoProof("the scene has keyframes of different sizes");
   }
-  if (frames.empty()) throw NoProof("the scene has a body without keyframes");
+  if (frames.empty() || frames.front().empty())
+    throw NoProof("the scene has a body without keyframes, or with empty ones");
   Pieces<Shape> pieces;
   pieces.until = times;
   for (std::size_t i = 0; i <= frames.size(); ++i) {
@@ -256,10 +300,62 @@ std::vector<Ring> rings(const Json& json, const Body& body, bool is_closed) {
     first += size;
   }
   const bool are_several = result.size() > 1 || json.find("parts");
+  if (result.empty()) throw NoProof("the scene has a body of no parts");
   for (const Ring& ring : result)
     if (are_several && (ring.size < 3 || !is_closed))
       throw NoProof("the scene has a ring that bounds nothing");
   return result;
+}
+
+std::vector<Place> places(const Shape& shape, const Rational& t) {
+  std::vector<Place> result;
+  for (const auto& [x, y] : shape) result.emplace_back(value(x, t), value(y, t));
+  return result;
+}
+
+void check_jumps(const Body& body, const Pieces<Shape>& shape, const Pieces<Motion>& motion) {
+  for (std::size_t i = 0; i < motion.until.size(); ++i) {
+    const Rational& t = motion.until[i];
+    const std::vector<Rational> one = motion.all[i].at(t), other = motion.all[i + 1].at(t);
+    if (one == other) continue;
+    for (const Place& p : places(shape.after(t), t))
+      if (moved(one, p) != moved(other, p))
+        throw NoProof("the body " + body.name + " jumps at t = " + t.get_str());
+  }
+}
+
+// Rings are simple and apart; each hole is in its outline and in no other hole of it, each part
+// in no other one, unless in a hole of that one.
+void check_start(const Body& body, const std::vector<Place>& all) {
+  std::vector<std::pair<int, int>> edges;
+  for (const Ring& ring : body.rings) {
+    for (int k = 0; k < ring.size; ++k) {
+      const int i = ring.first - body.first;
+      if (body.is_polygon || k + 1 < ring.size) edges.emplace_back(i + k, i + (k + 1) % ring.size);
+    }
+  }
+  if (!is_simple(all, edges)) throw NoProof("the body " + body.name + " is not simple at the start");
+  std::vector<std::vector<Polygon>> parts;  // outlines first
+  for (const Ring& ring : body.rings) {
+    if (!ring.is_hole) parts.emplace_back();
+    const auto from = all.begin() + (ring.first - body.first);
+    parts.back().emplace_back(from, from + ring.size);
+  }
+  if (body.rings.size() == 1) return;
+  const auto within = [](const Polygon& p, const Polygon& q) { return is_in(q, p.front()); };
+  const auto fault = [&] { throw NoProof("the body " + body.name + " has a hole or part amiss"); };
+  for (const auto& part : parts) {
+    for (std::size_t i = 1; i < part.size(); ++i) {
+      if (!within(part[i], part[0])) fault();
+      for (std::size_t j = 1; j < part.size(); ++j)
+        if (i != j && within(part[i], part[j])) fault();
+    }
+    for (const auto& other : parts) {
+      if (&other == &part || !within(part[0], other[0])) continue;
+      const auto is_hole_around = [&](const Polygon& hole) { return within(part[0], hole); };
+      if (std::none_of(other.begin() + 1, other.end(), is_hole_around)) fault();
+    }
+  }
 }
 
 }  // namespace
@@ -268,10 +364,10 @@ Rational exact_number(const Json* json) {
   if (json->kind != Json::Kind::number && json->kind != Json::Kind::text)
     throw NoProof("the scene has something that is not a number");
   std::string_view text = json->text;
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix(1);
   if (text.size() <= 3 * most_digits) {
-    if (is_fraction(text)) return fraction(text);
-    if (const auto value = decimal(text)) return *value;
+    const auto value = is_fraction(text) ? std::optional(fraction(text)) : decimal(text);
+    if (value && !is_long(*value)) return *value;
   }
   throw NoProof("the scene has something that is not a number: " +
                 std::string(text.substr(0, 40)));
@@ -289,25 +385,41 @@ void allow_keys(const Json& json, std::initializer_list<std::string_view> keys) 
       throw NoProof("the scene has an unknown key: " + name);
 }
 
-Body read_body(const Json& json, int first) {
-  allow_keys(json, {"name", "vertices", "keyframes", "motion", "closed", "holes", "parts"});
+const Json* member(const Json& json, std::string_view key) {
+  const Json* found = json.find(key);
+  if (!found) throw NoProof("the scene lacks the key " + std::string(key));
+  return found;
+}
+
+Body read_body(const Json& json, int first, const Rational& start) {
+  allow_keys(json, {"name", "vertices", "keyframes", "motion", "closed", "holes", "parts", "radius"});
   Body body;
   const Json* name = member(json, "name");
-  if (name->kind != Json::Kind::text) throw NoProof("the scene has a name that is no text");
+  if (name->kind != Json::Kind::text || name->text.empty())
+    throw NoProof("the scene has a name that is no text, or empty");
   body.name = name->text;
   body.first = first;
   const Json* closed = json.find("closed");
   if (closed && closed->kind != Json::Kind::boolean)
     throw NoProof("the scene has a body that is neither closed nor open");
+  if (const Json* radius = json.find("radius"))
+    if (exact_number(radius) != 0) throw NoProof("the scene has a radius: no proof is possible");
   const Pieces<Shape> shape = shapes(json);
-  const Pieces<Motion> motion = motions(json.find("motion"));
   if (shape.all.front().empty()) throw NoProof("the scene has a body without vertices");
+  std::size_t highest = json.find("keyframes") ? 1 : 0;
+  for (const auto& [x, y] : shape.all.front())
+    if (!json.find("keyframes")) highest = std::max({highest, degree(x), degree(y)});
+  const Pieces<Motion> motion = motions(json.find("motion"), highest);
   body.size = static_cast<int>(shape.all.front().size());
   const bool is_closed = !closed || closed->truth;
   body.is_polygon = body.size > 2 && is_closed;
   if (json.find("holes") && !json.find("vertices"))
     throw NoProof("the scene has holes without vertices");
   body.rings = rings(json, body, is_closed);
+  check_jumps(body, shape, motion);
+  std::vector<Place> all = places(shape.after(start), start);
+  for (Place& p : all) p = moved(motion.after(start).at(start), p);
+  check_start(body, all);
   body.breaks = shape.until;
   body.breaks.insert(body.breaks.end(), motion.until.begin(), motion.until.end());
   std::sort(body.breaks.begin(), body.breaks.end());

@@ -11,10 +11,13 @@ Rational exact_number(const Json* json);
 
 const std::vector<Json>& list(const Json* json);
 
-// The numbering of its vertices begins at `first`.
-Body read_body(const Json& json, int first);
+// The numbering of its vertices begins at `first`; it is simple at the start.
+Body read_body(const Json& json, int first, const Rational& start);
 
 // The members of an object, which must be among the keys. Throws NoProof.
 void allow_keys(const Json& json, std::initializer_list<std::string_view> keys);
+
+// A member that must be there.
+const Json* member(const Json& json, std::string_view key);
 
 }  // namespace proof

@@ -48,10 +48,6 @@ Root::Root(const Poly<Integer>& f, const Rational& low, const Rational& high)
     : real_(std::make_shared<Real>(Real{kernel1.construct_algebraic_real_1_object()(
           polynomial(f), bound(low), bound(high))})) {}
 
-int Root::compare(const Root& other) const {
-  return number(kernel1.compare_1_object()(real_->value, other.real_->value));
-}
-
 int Root::sign_of(const Poly<Integer>& g) const {
   return g.empty() ? 0 : number(kernel1.sign_at_1_object()(polynomial(g), real_->value));
 }
@@ -61,10 +57,6 @@ Poly<Integer> square_free(const Poly<Integer>& f) {
   Poly<Integer> result;
   for (int i = 0; i <= g.degree(); ++i) result.emplace_back(g[i].get_mp());
   return primitive(result);
-}
-
-std::size_t count_roots(const Poly<Integer>& f, const Rational& low, const Rational& high) {
-  return roots_of(f, low, high).size();
 }
 
 bool has_root(const Poly<Integer>& f, const Rational& low, const Rational& high,

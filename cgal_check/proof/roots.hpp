@@ -13,7 +13,6 @@ class Root {
   // The only root in (low, high) of a square-free polynomial that has signs there.
   Root(const Poly<Integer>& f, const Rational& low, const Rational& high);
 
-  int compare(const Root& other) const;
   int sign_of(const Poly<Integer>& g) const;
 
  private:
@@ -24,9 +23,6 @@ class Root {
 };
 
 Poly<Integer> square_free(const Poly<Integer>& f);
-
-// The number of distinct real roots in the closed interval.
-std::size_t count_roots(const Poly<Integer>& f, const Rational& low, const Rational& high);
 
 // Whether f, not 0, has a root r with low <= r <= high that is more than `after` and less
 // than `before`, if these are given.

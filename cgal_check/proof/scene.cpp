@@ -61,14 +61,6 @@ bool is_rigid(const Body& body, const Rational& start, const Rational& end) {
   return true;
 }
 
-void check_jumps(const Body& body) {
-  for (std::size_t i = 0; i < body.breaks.size(); ++i)
-    for (std::size_t k = 0; k < body.pieces[i].size(); ++k)
-      if (place(body.pieces[i][k], body.breaks[i]) != place(body.pieces[i + 1][k], body.breaks[i]))
-        throw Rejected("vertex " + std::to_string(k) + " of the body " + body.name +
-                       " jumps at t = " + body.breaks[i].get_str());
-}
-
 int sign_of_area(const std::vector<Place>& polygon) {
   Rational sum = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -77,21 +69,6 @@ int sign_of_area(const std::vector<Place>& polygon) {
     sum += p.first * q.second - p.second * q.first;
   }
   return sign(sum);
-}
-
-// Rings that are disjoint are outlines and holes in turn, from the outermost one on.
-void check_rings(const Body& body, const std::vector<Polygon>& polygons) {
-  const auto fault = [&](const char* what) { throw Rejected("the body " + body.name + what); };
-  for (std::size_t i = 0; i < polygons.size(); ++i) {
-    if (!is_simple(polygons[i])) fault(" is not simple at the start");
-    int around = 0;
-    for (std::size_t j = 0; j < polygons.size(); ++j) {
-      if (i == j) continue;
-      if (j < i && do_edges_meet(polygons[i], polygons[j])) fault(" is not simple at the start");
-      around += is_in(polygons[j], polygons[i].front());
-    }
-    if ((around % 2 == 1) != body.rings[i].is_hole) fault(" has a hole or part where none can be");
-  }
 }
 
 }  // namespace
@@ -153,7 +130,7 @@ Scene::Scene(const std::string& text) {
   if (start_ >= end_) throw NoProof("the scene has an empty time span");
   std::set<std::string> names;
   for (const Json& body : list(bodies)) {
-    bodies_.push_back(read_body(body, size()));
+    bodies_.push_back(read_body(body, size(), start_));
     if (!names.insert(bodies_.back().name).second) throw NoProof("the scene has a name twice");
     body_of_.resize(body_of_.size() + static_cast<std::size_t>(bodies_.back().size),
                     static_cast<int>(bodies_.size()) - 1);
@@ -162,7 +139,6 @@ Scene::Scene(const std::string& text) {
 
 void Scene::examine(const Rational& end) {
   for (Body& body : bodies_) {
-    check_jumps(body);
     body.is_rigid = proof::is_rigid(body, start_, end);
     if (!body.is_polygon) continue;
     const std::vector<Polygon> all = polygons(body, start_);
@@ -171,7 +147,6 @@ void Scene::examine(const Rational& end) {
       if (area == 0) throw Rejected("the body " + body.name + " has no area at the start");
       body.rings[i].has_body_on_left = (area > 0) != body.rings[i].is_hole;
     }
-    if (body.is_rigid || all.size() > 1) check_rings(body, all);
   }
 }
 
@@ -186,8 +161,13 @@ bool Scene::are_rigid(int u, int v, int w) const {
   return body_of(u) == body_of(v) && body_of(v) == body_of(w) && body(v).is_rigid;
 }
 
-std::string Scene::in_words(int v) const {
-  return body(v).name + " vertex " + std::to_string(v - body(v).first);
+std::string Scene::in_short(int v) const {
+  return "b" + std::to_string(body_of(v)) + "." + std::to_string(v - body(v).first);
+}
+
+int Scene::first_of_edge(int u, int v) const {
+  const bool is_last = !body(u).is_polygon && u == body(u).first + body(u).size - 1;
+  return !is_last && body(u).next(u) == v ? u : v;
 }
 
 int Scene::after(int v, int step) const {
@@ -195,9 +175,9 @@ int Scene::after(int v, int step) const {
 }
 
 std::size_t Scene::piece(const Body& body, const Time& t) {
-  std::size_t i = 0;
-  while (i < body.breaks.size() && t.compare(body.breaks[i]) >= 0) ++i;
-  return i;
+  const auto is_over = [&](const Rational& at) { return t.compare(at) >= 0; };
+  const auto found = std::partition_point(body.breaks.begin(), body.breaks.end(), is_over);
+  return static_cast<std::size_t>(found - body.breaks.begin());
 }
 
 const Path& Scene::path(int v, std::size_t piece) const {

@@ -56,7 +56,7 @@ std::vector<Polygon> polygons(const Body& body, const Rational& t);
 
 class Scene {
  public:
-  // Of the text of a scene file. Throws NoProof.
+  // Of the text of a scene file, all of which is read. Throws NoProof.
   explicit Scene(const std::string& text);
 
   const Rational& start() const { return start_; }
@@ -64,14 +64,15 @@ class Scene {
   const std::vector<Body>& bodies() const { return bodies_; }
   int size() const { return static_cast<int>(body_of_.size()); }
 
-  // What is true of its bodies up to a time. Throws Rejected.
+  // Which of its bodies are rigid up to a time. Throws Rejected.
   void examine(const Rational& end);
 
   int body_of(int v) const { return body_of_[static_cast<std::size_t>(v)]; }
   const Body& body(int v) const { return bodies_[static_cast<std::size_t>(body_of(v))]; }
   bool is_body_edge(int u, int v) const;
   bool are_rigid(int u, int v, int w) const;  // all of one rigid body
-  std::string in_words(int v) const;          // "box vertex 1"
+  std::string in_short(int v) const;          // "b2.1": vertex 1 of the body 2
+  int first_of_edge(int u, int v) const;      // of a body's edge, in the order of its ring
 
   // The vertices before and after a vertex on its ring, with the polygon on the left.
   int before(int v) const { return after(v, -1); }

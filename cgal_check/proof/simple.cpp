@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "faults.hpp"
+
 #include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/intersections.h>
@@ -22,16 +24,43 @@ std::vector<Exact::Point_2> points(const std::vector<Place>& places) {
   return result;
 }
 
-// Whether two intervals, each by its ends in any order, have nothing in common.
-bool are_apart(const Rational& a, const Rational& b, const Rational& c, const Rational& d) {
-  return std::max(a, b) < std::min(c, d) || std::max(c, d) < std::min(a, b);
-}
-
 }  // namespace
 
-bool is_simple(const std::vector<Place>& polygon) {
-  const auto all = points(polygon);
-  return CGAL::is_simple_2(all.begin(), all.end(), Exact());
+bool is_simple(const std::vector<Place>& places, const std::vector<std::pair<int, int>>& edges) {
+  struct Box {
+    Rational left, right, bottom, top;
+    int u, v;
+  };
+  const auto at = [&](int i) { return point(places[static_cast<std::size_t>(i)]); };
+  std::vector<Box> boxes;
+  for (const auto& [u, v] : edges) {
+    const Place &p = places[static_cast<std::size_t>(u)], &q = places[static_cast<std::size_t>(v)];
+    if (p == q) return false;
+    boxes.push_back({std::min(p.first, q.first), std::max(p.first, q.first),
+                     std::min(p.second, q.second), std::max(p.second, q.second), u, v});
+  }
+  std::sort(boxes.begin(), boxes.end(),
+            [](const Box& a, const Box& b) { return a.left < b.left; });
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].left <= boxes[i].right; ++j) {
+      const Box &a = boxes[i], &b = boxes[j];
+      if (a.top < b.bottom || b.top < a.bottom) continue;
+      spend(64);
+      if (a.v != b.u && b.v != a.u) {
+        if (CGAL::do_intersect(Exact::Segment_2(at(a.u), at(a.v)),
+                               Exact::Segment_2(at(b.u), at(b.v))))
+          return false;
+        continue;
+      }
+      // Edges that are joined: they have more in common if one goes back along the other.
+      const int p = a.v == b.u ? a.u : b.u, q = a.v == b.u ? a.v : b.v,
+                r = a.v == b.u ? b.v : a.v;
+      if (CGAL::collinear(at(p), at(q), at(r)) &&
+          CGAL::angle(at(p), at(q), at(r)) == CGAL::ACUTE)
+        return false;
+    }
+  }
+  return true;
 }
 
 bool is_in(const std::vector<Place>& polygon, const Place& p) {
@@ -40,17 +69,10 @@ bool is_in(const std::vector<Place>& polygon, const Place& p) {
          CGAL::ON_UNBOUNDED_SIDE;
 }
 
-bool do_edges_meet(const std::vector<Place>& one, const std::vector<Place>& other) {
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    const Place &a = one[i], &b = one[(i + 1) % one.size()];
-    for (std::size_t j = 0; j < other.size(); ++j) {
-      const Place &c = other[j], &d = other[(j + 1) % other.size()];
-      if (are_apart(a.first, b.first, c.first, d.first)) continue;
-      if (are_apart(a.second, b.second, c.second, d.second)) continue;
-      if (do_meet(a, b, c, d)) return true;
-    }
-  }
-  return false;
+bool is_on_boundary(const std::vector<Place>& polygon, const Place& p) {
+  const auto all = points(polygon);
+  return CGAL::bounded_side_2(all.begin(), all.end(), point(p), Exact()) ==
+         CGAL::ON_BOUNDARY;
 }
 
 bool do_meet(const Place& a, const Place& b, const Place& c, const Place& d) {

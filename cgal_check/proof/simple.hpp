@@ -1,4 +1,4 @@
-// Polygons at one instant, by CGAL.
+// Polygons and chains at one instant, by CGAL.
 #pragma once
 
 #include <utility>
@@ -8,18 +8,18 @@
 
 namespace proof {
 
-// Whether edges meet where they are joined and nowhere else, and vertices are apart.
-bool is_simple(const std::vector<std::pair<Rational, Rational>>& polygon);
+// Whether edges, by the indices of their ends, have length, and meet where one ends and another
+// one begins alone.
+bool is_simple(const std::vector<std::pair<Rational, Rational>>& places,
+               const std::vector<std::pair<int, int>>& edges);
 
-// Whether a point is inside a simple polygon or on its edges.
+// Whether a point is in a polygon or on its boundary; on its boundary.
 bool is_in(const std::vector<std::pair<Rational, Rational>>& polygon,
-           const std::pair<Rational, Rational>& point);
+           const std::pair<Rational, Rational>& p);
+bool is_on_boundary(const std::vector<std::pair<Rational, Rational>>& polygon,
+                    const std::pair<Rational, Rational>& p);
 
-// Whether an edge of one polygon meets one of another.
-bool do_edges_meet(const std::vector<std::pair<Rational, Rational>>& one,
-                   const std::vector<std::pair<Rational, Rational>>& other);
-
-// Whether two segments, or points, have a point in common.
+// Whether two closed segments have a point in common.
 bool do_meet(const std::pair<Rational, Rational>& a, const std::pair<Rational, Rational>& b,
              const std::pair<Rational, Rational>& c, const std::pair<Rational, Rational>& d);
 

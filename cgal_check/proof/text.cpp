@@ -9,6 +9,11 @@ namespace proof {
 
 namespace {
 
+constexpr std::size_t most_digits = 10'000;      // of a numerator or denominator
+constexpr std::size_t most_in_time = 20'000;     // digits of all coefficients of a time
+constexpr std::size_t most_terms = 193;          // of the polynomial of a time
+constexpr std::size_t most_in_line = 100'000'000;
+
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 // A piece of the file, made fit to stand in a one-line message.
@@ -57,6 +62,10 @@ class Words {
   Rational rational() {
     const std::string_view text = word();
     if (!is_fraction(text)) fault("not a number: " + shown(text));
+    const std::string_view over = text.substr(0, text.find('/'));
+    const std::size_t digits = over.size() - (over.front() == '-');
+    if (digits > most_digits || text.size() - over.size() > most_digits + 1)
+      fault("a number of more than 10,000 digits");
     return fraction(text);
   }
 
@@ -88,8 +97,14 @@ TimeText read_time(Words& words) {
     if (time.vertices.size() < 2) words.fault("a time is named by two or three vertices");
     return time;
   }
-  while (!words.at_end() && is_integer(words.look()))
-    time.coefficients.emplace_back(std::string(words.word()), 10);
+  std::size_t digits = 0;
+  while (!words.at_end() && is_integer(words.look())) {
+    const std::string_view word = words.word();
+    digits += word.size() - (word.front() == '-');
+    if (digits > most_in_time || time.coefficients.size() == most_terms)
+      words.fault("a polynomial of too many digits or too high a degree");
+    time.coefficients.emplace_back(std::string(word), 10);
+  }
   return time;
 }
 
@@ -165,6 +180,7 @@ std::vector<Words> lines(const std::string& bytes) {
   for (std::size_t i = 0; i < bytes.size(); ++number) {
     const std::size_t end = std::min(bytes.find('\n', i), bytes.size());
     const std::string_view line = std::string_view(bytes).substr(i, end - i);
+    if (line.size() > most_in_line) throw NoProof("a line is too long");
     Words words(number, line);
     if (!words.at_end() && line.front() != '#') result.push_back(std::move(words));
     i = end + 1;

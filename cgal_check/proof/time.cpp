@@ -7,6 +7,8 @@ namespace proof {
 
 namespace {
 
+constexpr int most_halvings = 64;
+
 long next_number = 0;
 
 // Numbers in proportion to these, at most 1 in size; only to steer by.
@@ -35,6 +37,36 @@ double bisected(const std::vector<double>& f) {
   return low;
 }
 
+// The roots of a square-free f in [low, high], by intervals with clear ends in which Descartes'
+// rule counts one, or equal ends; none if halving does not tell them apart soon.
+std::vector<std::pair<Rational, Rational>> isolated(const Poly<Integer>& f, const Rational& low,
+                                                    const Rational& high) {
+  struct Piece {
+    Rational low, high;
+    int depth;
+  };
+  std::vector<std::pair<Rational, Rational>> found;
+  for (const Rational& q : {low, high})
+    if (sign_at(f, q) == 0) found.emplace_back(q, q);
+  std::vector<Piece> open{{low, high, 0}};
+  while (!open.empty()) {
+    const Piece piece = open.back();
+    open.pop_back();
+    const Poly<Integer> signs = between(f, piece.low, piece.high);
+    const int count = variations(signs);
+    if (count == 1 && sign(signs.front()) != 0 && sign(signs.back()) != 0) {
+      found.emplace_back(piece.low, piece.high);
+    } else if (count > 0) {
+      if (piece.depth == most_halvings) return {};
+      const Rational middle = (piece.low + piece.high) / 2;
+      if (sign_at(f, middle) == 0) found.emplace_back(middle, middle);
+      open.push_back({piece.low, middle, piece.depth + 1});
+      open.push_back({middle, piece.high, piece.depth + 1});
+    }
+  }
+  return found;
+}
+
 // f(low + (high - low) u), times a positive number, as a polynomial in u.
 Poly<Integer> in_unit_interval(const Poly<Integer>& f, const Rational& low, const Rational& high) {
   const Rational width = high - low;
@@ -61,14 +93,14 @@ Time::Time(Poly<Integer> f, const Rational& low, const Rational& high)
 std::optional<Time> Time::root(const Poly<Integer>& f, const Rational& low, const Rational& high) {
   if (low == high) return sign_at(f, low) == 0 ? std::optional(Time(low)) : std::nullopt;
   Poly<Integer> g = primitive(f);
-  const Poly<Integer> signs = between(g, low, high);
-  const bool clear = sign(signs.front()) != 0 && sign(signs.back()) != 0;
-  if (clear && variations(signs) == 0) return std::nullopt;
-  if (!clear || variations(signs) > 1) {  // a single variation is a single simple root
+  Poly<Integer> signs = between(g, low, high);
+  const auto is_clear = [&] { return sign(signs.front()) != 0 && sign(signs.back()) != 0; };
+  if (!is_clear() || variations(signs) != 1) {  // a single variation is a single simple root
     g = square_free(g);
-    if (count_roots(g, low, high) != 1) return std::nullopt;
-    for (const Rational& end : {low, high})
-      if (sign_at(g, end) == 0) return Time(end);
+    const auto found = isolated(g, low, high);
+    if (found.size() != 1) return std::nullopt;
+    const auto& [from, to] = found[0];
+    return from == to ? Time(from) : Time(g, from, to);
   }
   return Time(g, low, high);
 }
@@ -121,23 +153,62 @@ int Time::compare(const Rational& q) const {
   return found == 0 ? 0 : found == low_sign_ ? 1 : -1;
 }
 
-int Time::compare(Time& other) {
-  if (other.is_rational()) {
-    const int order = compare(other.low_);
-    while (order < 0 && high_ >= other.low_) halve();
-    while (order > 0 && low_ <= other.low_) halve();
-    set_interval();
-    return order;
+// The first start + m unit that is more than t, whose interval is shorter than half a unit.
+Rational Time::first_after(const Rational& start, const Rational& unit) const {
+  const Rational ratio = (low_ - start) / unit;
+  Integer m;
+  mpz_fdiv_q(m.get_mpz_t(), ratio.get_num_mpz_t(), ratio.get_den_mpz_t());
+  const Rational q = start + Rational(Integer(m + 1)) * unit;
+  return compare(q) >= 0 ? Rational(q + unit) : q;
+}
+
+std::optional<Rational> Time::sample(Time& from, Time& to, const Rational& start,
+                                     const Rational& unit) {
+  while (to.low_ - from.high_ < unit) {
+    if (to.high_ <= from.low_) return std::nullopt;
+    if ((from.high_ - from.low_) * 2 < unit && (to.high_ - to.low_) * 2 < unit) {
+      const Rational q = from.first_after(start, unit);
+      return to.compare(q) > 0 ? std::optional(q) : std::nullopt;
+    }
+    for (Time* time : {&from, &to})
+      if (!time->is_rational()) time->halve();
   }
-  if (is_rational()) return -other.compare(*this);
-  if (low_ <= other.high_ && other.low_ <= high_ && real()->compare(*other.real()) == 0) return 0;
-  while (low_ <= other.high_ && other.low_ <= high_) {
-    if (!is_rational()) halve();
-    if (!other.is_rational()) other.halve();
+  from.set_interval();
+  to.set_interval();
+  return rational_between(from.high_, to.low_);
+}
+
+std::string Time::twelve_digits() const {
+  const int side = compare(Rational(0));
+  if (side == 0) return "0";
+  Time t = *this;
+  while (sign(t.low_) * sign(t.high_) <= 0 || abs(t.high_ - t.low_) * 10'000'000'000'000 > abs(t.low_))
+    t.halve();
+  const Rational size = abs(t.low_);
+  const auto power = [](long k) {
+    Integer p;
+    mpz_ui_pow_ui(p.get_mpz_t(), 10, static_cast<unsigned long>(std::labs(k)));
+    return k < 0 ? Rational(1, p) : Rational(p);
+  };
+  const auto reaches = [&](const Rational& q) { return t.compare(side * q) * side >= 0; };
+  const long bits = static_cast<long>(mpz_sizeinbase(size.get_num_mpz_t(), 2)) -
+                    static_cast<long>(mpz_sizeinbase(size.get_den_mpz_t(), 2));
+  long k = bits * 30103 / 100000 - 3;
+  while (reaches(power(k + 1))) ++k;
+  const Rational unit = power(k - 11), ratio = size / unit;
+  Integer n;
+  mpz_fdiv_q(n.get_mpz_t(), ratio.get_num_mpz_t(), ratio.get_den_mpz_t());
+  while (!reaches(Rational(n) * unit)) --n;
+  while (reaches(Rational(Integer(n + 1)) * unit)) ++n;
+  std::string digits = n.get_str(), end;
+  if (k < 0 && k >= -5) {
+    digits = "0." + std::string(static_cast<std::size_t>(-k - 1), '0') + digits;
+  } else {
+    const bool is_plain = k >= 0 && k < 11;
+    digits.insert(is_plain ? static_cast<std::size_t>(k) + 1 : 1, ".");
+    if (!is_plain) end = "e" + std::to_string(k);
   }
-  set_interval();
-  other.set_interval();
-  return high_ < other.low_ ? -1 : 1;
+  return (side < 0 ? "-" : "") + digits + end;
 }
 
 int Time::sign_of(const Poly<Integer>& g) const {
@@ -168,11 +239,7 @@ const Root* Time::real() const {
 }
 
 std::string Time::in_words() const {
-  if (is_rational()) return low_.get_str();
-  char approximate[40];
-  const Rational middle = (low_ + high_) / 2;
-  std::snprintf(approximate, sizeof approximate, "%.12g", middle.get_d());
-  return std::string(approximate) + " (between " + low_.get_str() + " and " + high_.get_str() + ")";
+  return is_rational() ? low_.get_str() : twelve_digits() + "...";
 }
 
 Rational rational_between(const Rational& low, const Rational& high) {

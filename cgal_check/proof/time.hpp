@@ -14,7 +14,8 @@ class Time {
  public:
   explicit Time(const Rational& t);
 
-  // The only real root of f in [low, high], f not 0; nothing if there is not exactly one.
+  // The only real root of f, not 0, in [low, high]; nothing if Descartes' rule does not show
+  // that there is exactly one: of f, or of its square-free part in halves of halves, 64 deep.
   static std::optional<Time> root(const Poly<Integer>& f, const Rational& low,
                                   const Rational& high);
 
@@ -25,7 +26,11 @@ class Time {
   long number() const { return number_; }  // another one for every time
 
   int compare(const Rational& q) const;
-  int compare(Time& other);  // refines both, so that their intervals are apart
+
+  // A rational between two times, which are refined; nothing unless the second one is later,
+  // and a number start + m unit lies between them.
+  static std::optional<Rational> sample(Time& from, Time& to, const Rational& start,
+                                        const Rational& unit);
 
   int sign_of(const Poly<Integer>& g) const;
 
@@ -36,6 +41,7 @@ class Time {
 
   const Root* real() const;  // null if rational
   std::string in_words() const;
+  std::string twelve_digits() const;  // the rest cut off
 
  private:
   Time(Poly<Integer> f, const Rational& low, const Rational& high);
@@ -43,6 +49,7 @@ class Time {
   void halve();
   bool narrow(const Poly<Integer>& f, const Integer& left, const Integer& right, int bits);
   void set_interval();
+  Rational first_after(const Rational& start, const Rational& unit) const;
 
   Rational low_, high_;
   Poly<Integer> f_;    // primitive; with one simple root in [low, high], not at the ends

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <istream>
@@ -14,56 +15,73 @@
 #include <string>
 #include <vector>
 
+#include "chain.hpp"
 #include "checker.hpp"
 #include "faults.hpp"
 #include "sha256.hpp"
+#include "statement.hpp"
 
 namespace proof {
 
 namespace {
 
 constexpr std::size_t most_jobs = 256;
+constexpr std::size_t most_bytes = 1'000'000'000;
+constexpr const char* usage =
+    "usage: cgal_check proof SCENE PROOF [--until T | --partial | --expect ANSWER] [--work N] "
+    "[--jobs N], or proof FOLDER";
 
 struct Call {
-  std::string scene, proof;
+  std::vector<std::string> paths;
   std::size_t jobs = 1;
   bool is_partial = false;        // whether a proof may end before the span of the scene
   std::optional<Rational> until;  // the time before which it may not end
+  std::string expected;           // the path of an answer
+  double work = usual_work;
 };
 
 struct Verdict {
-  std::optional<Failure> failure;
-  std::string conclusion;  // or what went wrong
-  bool is_broken = false;
+  int code = 0;
+  std::string text;        // what is proved, or what went wrong
+  std::string difference;  // from the answer that is expected
+  std::size_t number = 0, line = 0;  // of a failure
 };
+
+std::size_t number_of(const std::string& option, const std::string& word, std::size_t digits) {
+  if (!is_integer(word) || word.front() == '-' || word.size() > digits)
+    throw NoProof(option + ": not a number: " + quoted(word));
+  return std::stoul(word);
+}
 
 Call read_call(const std::vector<std::string>& words) {
   Call call;
-  std::vector<std::string> paths;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "--partial") {
+    const std::string& option = words[i];
+    if (option == "--partial") {
       call.is_partial = true;
-      continue;
+    } else if (option.substr(0, 2) != "--") {
+      call.paths.push_back(option);
+    } else {
+      const std::string value = ++i < words.size() ? words[i] : "";
+      if (option == "--jobs") {
+        call.jobs = number_of(option, value, 3);
+        if (call.jobs == 0 || call.jobs > most_jobs)
+          throw NoProof("--jobs: a number from 1 to " + std::to_string(most_jobs));
+      } else if (option == "--work") {
+        call.work = static_cast<double>(number_of(option, value, 18));
+      } else if (option == "--until" && is_fraction(value)) {
+        call.until = fraction(value);
+      } else if (option == "--expect" && !value.empty()) {
+        call.expected = value;
+      } else {
+        throw NoProof(usage);
+      }
     }
-    if (words[i] == "--until") {
-      const std::string number = ++i < words.size() ? words[i] : "";
-      if (!is_fraction(number)) throw NoProof("--until: not a number, p or p/q");
-      call.until = fraction(number);
-      continue;
-    }
-    if (words[i] != "--jobs") {
-      paths.push_back(words[i]);
-      continue;
-    }
-    const std::string number = ++i < words.size() ? words[i] : "";
-    if (!is_integer(number) || number.front() == '-' || number.size() > 3 ||
-        std::stoul(number) == 0 || std::stoul(number) > most_jobs)
-      throw NoProof("--jobs: a number from 1 to " + std::to_string(most_jobs));
-    call.jobs = std::stoul(number);
   }
-  if (paths.size() != 2 || (call.is_partial && call.until))
-    throw NoProof("usage: cgal_check proof SCENE PROOF [--jobs N] [--until T | --partial]");
-  call.scene = paths[0], call.proof = paths[1];
+  const int wishes = call.is_partial + call.until.has_value() + !call.expected.empty();
+  const std::size_t count = call.paths.size();
+  if (count == 0 || count > 2 || wishes > 1 || (count == 1 && !call.expected.empty()))
+    throw NoProof(usage);
   return call;
 }
 
@@ -78,37 +96,43 @@ std::string bytes_of(const std::string& path) {
     file.setstate(std::ios::failbit);
   }
   if (!file) throw NoProof(path + " cannot be read");
+  if (static_cast<std::size_t>(bytes.tellp()) > most_bytes) throw NoProof(path + " is too long");
   return bytes.str();
 }
 
-Verdict verdict(Scene& scene, const ProofText& text, std::size_t share, std::size_t shares) {
+Verdict verdict(Scene& scene, const ProofText& text, const std::string* answer, std::size_t share,
+                std::size_t shares) {
   try {
     Checker checker(scene, text, share, shares);
-    std::optional<Failure> failure = checker.run();
-    return {failure, failure ? "" : checker.conclusion(), false};
+    const std::optional<Failure> failure = checker.run();
+    if (failure) return {1, failure->why, "", failure->number, failure->line};
+    return {0, checker.conclusion(), answer ? checker.difference(*answer) : "", 0, 0};
+  } catch (const Exhausted& fault) {
+    return {4, fault.what(), "", 0, 0};
+  } catch (const NoProof& fault) {
+    return {2, fault.what(), "", 0, 0};
   } catch (const std::exception& fault) {
-    return {std::nullopt, fault.what(), true};
+    return {3, fault.what(), "", 0, 0};
   }
 }
 
 // A verdict as bytes through a pipe.
 std::string packed(const Verdict& verdict) {
-  if (verdict.is_broken) return "broken\n" + verdict.conclusion;
-  if (!verdict.failure) return "accepted\n" + verdict.conclusion;
-  return "rejected " + std::to_string(verdict.failure->number) + " " +
-         std::to_string(verdict.failure->line) + "\n" + verdict.failure->why;
+  return std::to_string(verdict.code) + " " + std::to_string(verdict.number) + " " +
+         std::to_string(verdict.line) + "\n" + verdict.difference + "\n" + verdict.text;
 }
 
 Verdict unpacked(const std::string& bytes) {
-  const std::size_t end = std::min(bytes.find('\n'), bytes.size());
-  std::istringstream head(bytes.substr(0, end));
-  const std::string rest = bytes.substr(std::min(end + 1, bytes.size()));
-  std::string word;
-  Failure failure{0, 0, rest};
-  head >> word >> failure.number >> failure.line;
-  if (word == "rejected") return {failure, "", false};
-  if (word == "accepted") return {std::nullopt, rest, false};
-  return {std::nullopt, word == "broken" ? rest : "a process has ended too early", true};
+  std::istringstream lines(bytes);
+  Verdict verdict;
+  std::string head;
+  std::getline(lines, head);
+  std::istringstream numbers(head);
+  if (!(numbers >> verdict.code >> verdict.number >> verdict.line))
+    return {3, "a process has ended too early", "", 0, 0};
+  std::getline(lines, verdict.difference);
+  std::getline(lines, verdict.text, '\0');
+  return verdict;
 }
 
 std::string read_all(int file) {
@@ -123,7 +147,8 @@ std::string read_all(int file) {
 }
 
 // A process for each share; they are started before the answers are read.
-Verdict by_processes(Scene& scene, const ProofText& text, std::size_t jobs) {
+Verdict by_processes(Scene& scene, const ProofText& text, const std::string* answer,
+                     std::size_t jobs) {
   std::vector<std::pair<pid_t, int>> children;
   for (std::size_t share = 0; share < jobs; ++share) {
     int ends[2];
@@ -132,9 +157,9 @@ Verdict by_processes(Scene& scene, const ProofText& text, std::size_t jobs) {
     if (child < 0) throw std::runtime_error("no process");
     if (child == 0) {
       ::close(ends[0]);
-      const std::string answer = packed(verdict(scene, text, share, jobs));
-      for (std::size_t sent = 0; sent < answer.size();) {
-        const ssize_t put = ::write(ends[1], answer.data() + sent, answer.size() - sent);
+      const std::string bytes = packed(verdict(scene, text, answer, share, jobs));
+      for (std::size_t sent = 0; sent < bytes.size();) {
+        const ssize_t put = ::write(ends[1], bytes.data() + sent, bytes.size() - sent);
         if (put <= 0) ::_exit(3);
         sent += static_cast<std::size_t>(put);
       }
@@ -144,58 +169,102 @@ Verdict by_processes(Scene& scene, const ProofText& text, std::size_t jobs) {
     children.emplace_back(child, ends[0]);
   }
   Verdict first;
+  const auto is_before = [](const Verdict& a, const Verdict& b) {
+    if (a.code != b.code) return a.code != 0 && (b.code == 0 || b.code == 1);
+    return a.code == 1 && a.number < b.number;
+  };
   for (std::size_t share = 0; share < jobs; ++share) {
     Verdict here = unpacked(read_all(children[share].second));
     ::waitpid(children[share].first, nullptr, 0);
-    const bool is_first = share == 0 || (here.failure && !first.is_broken &&
-                          (!first.failure || here.failure->number < first.failure->number));
-    if (is_first || here.is_broken) first = std::move(here);
+    if (share == 0 || is_before(here, first)) first = std::move(here);
   }
   return first;
 }
 
-// A line without line breaks.
-void answer(const std::string& text) {
+// A line without line breaks, in the printable characters of ASCII.
+int answer(const std::string& text, int code) {
   std::string line;
-  for (const char c : text) line += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+  for (const char c : text) line += c >= ' ' && c <= '~' ? c : '?';
   std::puts(line.c_str());
   std::fflush(stdout);
+  return code;
+}
+
+int answer_failure(const Verdict& found, const std::string& where) {
+  const std::string end = found.text + where;
+  if (found.code == 1) return answer("rejected: line " + std::to_string(found.line) + ": " + end, 1);
+  if (found.code == 2) return answer("no proof: " + end, 2);
+  if (found.code == 4) return answer("not decided: " + end, 4);
+  return answer("error internal: " + end, 3);
+}
+
+// Whether less than what is wanted has been proved.
+bool is_too_short(const Call& call, const Scene& scene, const ProofText& text) {
+  return !text.contact && text.end < scene.end() && !call.is_partial && call.expected.empty() &&
+         !(call.until && *call.until <= text.end);
+}
+
+int answer_too_short(const ProofText& text) {
+  return answer("rejected: proved up to " + text.end.get_str() + " only (see --until, --partial)", 1);
+}
+
+int verify_pair(const Call& call) {
+  const std::string scene_bytes = bytes_of(call.paths[0]);
+  const ProofText text = parse_proof(bytes_of(call.paths[1]));
+  const std::string hash = sha256(scene_bytes);
+  if (text.hash != hash)
+    throw NoProof("the proof is of another scene: the hash of its file is another one");
+  Scene scene(scene_bytes);
+  const std::string expected = call.expected.empty() ? "" : bytes_of(call.expected);
+  const std::string* wanted = call.expected.empty() ? nullptr : &expected;
+  const Verdict found = call.jobs == 1 ? verdict(scene, text, wanted, 0, 1)
+                                       : by_processes(scene, text, wanted, call.jobs);
+  if (found.code != 0) return answer_failure(found, "");
+  if (!found.difference.empty())
+    return answer("rejected: " + found.difference + " in " + quoted(call.expected) +
+                  "; proved is: " + found.text, 1);
+  if (is_too_short(call, scene, text)) return answer_too_short(text);
+  return answer("accepted: " + hash.substr(0, 16) + " " + found.text, 0);
+}
+
+int verify_folder(const Call& call) {
+  Chain chain(call.paths[0]);
+  for (std::size_t k = 1; k <= chain.size(); ++k) {
+    const std::string scene_bytes = bytes_of(chain.path(k, ".scene.json"));
+    const std::string proof_bytes = bytes_of(chain.path(k, ".proof"));
+    const std::string where = " (part " + std::to_string(k) + ")";
+    const ProofText text = parse_proof(proof_bytes);
+    if (text.hash != sha256(scene_bytes)) throw NoProof("the proof is of another scene" + where);
+    Scene scene(scene_bytes);
+    const Verdict found = call.jobs == 1 ? verdict(scene, text, nullptr, 0, 1)
+                                         : by_processes(scene, text, nullptr, call.jobs);
+    if (found.code != 0) return answer_failure(found, where);
+    if (k == chain.size() && is_too_short(call, scene, text)) return answer_too_short(text);
+    chain.add({std::move(scene), sha256(scene_bytes), sha256(proof_bytes), text.start, text.end,
+               text.contact.has_value(), found.text});
+  }
+  const std::string manifest = chain.path(0, "run.chain");
+  if (std::filesystem::exists(manifest) && bytes_of(manifest) != chain.manifest())
+    throw Rejected("the parts are not those of run.chain");
+  return answer("accepted: " + chain.conclusion(), 0);
 }
 
 int verify(const Call& call) {
-  const std::string scene_bytes = bytes_of(call.scene);
-  const ProofText text = parse_proof(bytes_of(call.proof));
-  if (text.hash != sha256(scene_bytes))
-    throw NoProof("the proof is of another scene: the hash of its file is another one");
-  Scene scene(scene_bytes);
-  const Verdict found =
-      call.jobs == 1 ? verdict(scene, text, 0, 1) : by_processes(scene, text, call.jobs);
-  if (found.is_broken) {
-    answer("error internal: " + found.conclusion);
-    return 3;
-  }
-  if (found.failure) {
-    answer("rejected: line " + std::to_string(found.failure->line) + ": " + found.failure->why);
-    return 1;
-  }
-  const bool is_short = !text.contact && text.end < scene.end();
-  if (is_short && !call.is_partial && !(call.until && *call.until <= text.end)) {
-    answer("rejected: proved up to t = " + text.end.get_str() + " only (see --partial)");
-    return 1;
-  }
-  answer("accepted: " + found.conclusion);
-  return 0;
+  work_left = call.work;
+  return call.paths.size() == 1 ? verify_folder(call) : verify_pair(call);
 }
 
 int guarded(const std::function<int()>& verification) {
   try {
     return verification();
   } catch (const NoProof& fault) {
-    answer(std::string("no proof: ") + fault.what());
-    return 2;
+    return answer(std::string("no proof: ") + fault.what(), 2);
+  } catch (const Rejected& fault) {
+    return answer(std::string("rejected: ") + fault.what(), 1);
+  } catch (const Exhausted& fault) {
+    return answer(std::string("not decided: ") + fault.what(), 4);
   } catch (const std::exception& fault) {
-    answer(std::string("error internal: ") + fault.what());
-    return 3;
+    return answer(std::string("error internal: ") + fault.what(), 3);
   }
 }
 
@@ -208,7 +277,8 @@ int verify(int count, const char* const* arguments) {
 int verify_each(std::istream& calls) {
   Call call;
   call.is_partial = true;
-  while (std::getline(calls, call.scene) && std::getline(calls, call.proof))
+  call.paths.resize(2);
+  while (std::getline(calls, call.paths[0]) && std::getline(calls, call.paths[1]))
     guarded([&] { return verify(call); });
   return 0;
 }

@@ -9,7 +9,7 @@ docs/format.md. Proofs are verified by a call of their own (`proofs`).
 from exactpt.cgal.build import build_program
 from exactpt.cgal.claims import BodyShape, IsolatedRoot, RootClaim, Signs, Tile, Verdict
 from exactpt.cgal.client import CgalCheck, find_program
-from exactpt.cgal.proofs import ProofVerdict, check_proof
+from exactpt.cgal.proofs import ProofVerdict, check_proof, check_proofs
 
 __all__ = [
     "BodyShape",
@@ -22,5 +22,6 @@ __all__ = [
     "Verdict",
     "build_program",
     "check_proof",
+    "check_proofs",
     "find_program",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 from pathlib import Path
 from typing import Final, NamedTuple
@@ -9,23 +10,41 @@ from typing import Final, NamedTuple
 from exactpt.cgal.client import find_program, recognise
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 
-__all__ = ["ProofVerdict", "check_proof"]
+__all__ = ["ProofVerdict", "check_proof", "check_proofs"]
 
 _ACCEPTED: Final = 0
 _REJECTED: Final = 1
 _NO_PROOF: Final = 2
+_NOT_DECIDED: Final = 4
+_PARTIAL: Final = re.compile(r"no contact in \[\S+ (\S+)\]; the span of the scene is ")
 
 
 class ProofVerdict(NamedTuple):
     """The verdict on a proof.
 
     Attributes:
-        accepted: whether the proof holds.
+        accepted: True if the proof holds.
         line: the answer in words: what has been proved, or the first line that does not hold.
     """
 
     accepted: bool
     line: str
+
+    @property
+    def statement(self) -> str | None:
+        """What has been proved, without the hash of the scene; None if the proof does not hold."""
+        return self.line.split(" ", 2)[2] if self.accepted else None
+
+    @property
+    def whole(self) -> bool:
+        """True if the proof holds, and answers for the whole time span of the scene."""
+        return self.accepted and self.until is None
+
+    @property
+    def until(self) -> str | None:
+        """The rational end of the span without contact, if it is before that of the scene."""
+        found = _PARTIAL.search(self.line) if self.accepted else None
+        return found[1] if found else None
 
 
 def check_proof(
@@ -36,7 +55,7 @@ def check_proof(
     program: str | Path | None = None,
     max_seconds: float | None = None,
 ) -> ProofVerdict:
-    """Have cgal_check verify a proof.
+    """Have cgal_check verify a proof, which may end before the scene: see `ProofVerdict.whole`.
 
     Args:
         scene: the path of the scene's file.
@@ -48,11 +67,31 @@ def check_proof(
     Raises:
         InputError: if there is no program or it is another one, or the file is no proof of this
             scene.
-        BudgetExceeded: if ``max_seconds`` is exceeded.
+        BudgetExceeded: if ``max_seconds``, or the program's own budget of work, is exceeded.
         AuditError: if the program itself fails.
     """
+    return _verdict([str(scene), str(proof)], jobs, program, max_seconds)
+
+
+def check_proofs(
+    folder: str | Path,
+    *,
+    jobs: int = 1,
+    program: str | Path | None = None,
+    max_seconds: float | None = None,
+) -> ProofVerdict:
+    """Have cgal_check verify the proofs of a run, which ``Simulation(proof=folder)`` has written.
+
+    Args and raises: as `check_proof`.
+    """
+    return _verdict([str(folder)], jobs, program, max_seconds)
+
+
+def _verdict(
+    paths: list[str], jobs: int, program: str | Path | None, max_seconds: float | None
+) -> ProofVerdict:
     path = find_program() if program is None else Path(program)
-    command = [str(path), "proof", str(scene), str(proof), "--jobs", str(jobs), "--partial"]
+    command = [str(path), "proof", *paths, "--jobs", str(jobs), "--partial"]
     try:
         done = subprocess.run(command, capture_output=True, timeout=max_seconds, check=False)
     except subprocess.TimeoutExpired:
@@ -67,5 +106,7 @@ def check_proof(
     recognise(path)
     if done.returncode == _NO_PROOF:
         raise InputError(f"cgal_check: {line}")
+    if done.returncode == _NOT_DECIDED:
+        raise BudgetExceeded(f"cgal_check: {line}", None)
     said = done.stderr[-2000:].decode("utf-8", "replace").strip()
     raise AuditError(f"cgal_check ended with {done.returncode}: {line} {said}".rstrip())

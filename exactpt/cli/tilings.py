@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import shlex
 from pathlib import Path
@@ -12,7 +13,7 @@ from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, max_memory, naming_at, output
 from exactpt.cli.progress import QUIET, progress
 from exactpt.cli.terminal import say, tell
-from exactpt.errors import BudgetExceeded
+from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import QQ, rational
 
 __all__ = ["check", "tile"]
@@ -78,8 +79,52 @@ def _build(ctx: click.Context, _parameter: click.Parameter, folder: Path | None)
     ctx.exit()
 
 
+def _write_checker(ctx: click.Context, _: click.Parameter, path: Path | None) -> None:
+    """Write the checker of proofs and end, before a scene is asked for."""
+    if path is None or ctx.resilient_parsing:
+        return
+    from exactpt import proof_check
+    from exactpt.files import write_atomically
+
+    content = Path(proof_check.__file__).read_bytes()
+    write_atomically(path, content)
+    say(f"{hashlib.sha256(content).hexdigest()}  {path}")
+    tell(f"run it as: python3 -I {path} SCENE PROOF")
+    ctx.exit()
+
+
+def _check_folder(folder: Path, *, quiet: bool, max_seconds: float | None) -> int:
+    """Have both checkers verify the proofs of a run; what they prove has to be the same."""
+    from exactpt import proof_check
+    from exactpt.cgal import check_proofs
+
+    try:
+        by_python: str = proof_check.check_chain(folder)
+    except proof_check.Rejected as rejected:
+        by_python = str(rejected)
+    except proof_check.NoProofError as refused:
+        raise InputError(f"{folder}: {refused}") from None
+    except proof_check.Exhausted as exhausted:
+        raise BudgetExceeded(str(exhausted), None) from None
+    verdict = check_proofs(folder, max_seconds=max_seconds)
+    accepted = by_python.startswith("accepted: ")
+    agree = by_python == verdict.line if accepted else not verdict.accepted
+    if not quiet:
+        say(by_python, f"cgal_check {'agrees' if agree else 'DISAGREES: ' + verdict.line}")
+    return 0 if accepted and agree else 1
+
+
 @click.command()
 @SCENE
+@click.option(
+    "--write-checker",
+    metavar="FILE",
+    type=click.Path(path_type=Path, dir_okay=False),
+    is_eager=True,
+    expose_value=False,
+    callback=_write_checker,
+    help="Write the checker of proofs, one file of Python, to this path instead.",
+)
 @click.option(
     "--build",
     metavar="DIR",
@@ -103,10 +148,15 @@ def check(
 ) -> int:
     """Have an independent program verify a proof, every tiling and every event time.
 
+    Of a folder that exactpt simulate --proof has written: have two checkers verify its proofs,
+    and that each part goes on where the one before ends.
+
     \b
     Examples:
       exactpt check scene.json
       exactpt check scene.json --json
+      exactpt check folder
+      exactpt check --write-checker check.py
       exactpt check scene.json --quiet && echo "CGAL agrees"
       eval "$(exactpt check --build ~/.cache/exactpt/cgal_check)"
 
@@ -117,6 +167,9 @@ def check(
     """
     from exactpt.check import check_scene
 
+    if scene.is_dir():
+        with time_limit(max_seconds, max_memory()):
+            return _check_folder(scene, quiet=quiet, max_seconds=max_seconds)
     try:
         with time_limit(max_seconds, max_memory()):
             given = load(scene)

@@ -7,11 +7,12 @@ begins to deform.
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryFile
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, Final, final
 
 from exactpt.errors import InputError
 from exactpt.files import write_atomically, writing
@@ -29,10 +30,15 @@ if TYPE_CHECKING:
 
 __all__ = ["ProofFolder"]
 
+CHAIN: Final = "exactpt-chain 1"
+"""The first line of ``run.chain``."""
+
 
 @final
 class ProofFolder:
     """A `Recorder` that writes ``1.proof``, ``2.proof``, ... and ``1.scene.json``, ... to a folder.
+
+    ``run.chain`` has a line for each part as soon as it is written (docs/proofs.md).
 
     Args:
         folder: the folder; it is made if it does not exist.
@@ -45,13 +51,14 @@ class ProofFolder:
         self._folder = Path(folder)
         try:
             self._folder.mkdir(exist_ok=True)
-            is_used = any(self._folder.glob("*.proof"))
+            is_used = any(self._folder.glob("*.proof")) or (self._folder / "run.chain").exists()
         except (OSError, ValueError) as error:
             reason = error.strerror if isinstance(error, OSError) else error
             raise InputError(f"{folder}: cannot be written: {reason}") from None
         if is_used:
             raise InputError(f"{folder}: contains proofs")
         self._written = 0
+        self._before = CHAIN
         self._part: _Part | None = None
 
     def touching(self, scene: Scene) -> None:
@@ -100,9 +107,24 @@ class ProofFolder:
         self._written += 1
         path = self._folder / f"{self._written}.proof"
         write_atomically(path.with_suffix(".scene.json"), scene)
+        digest, span = hashlib.sha256(), ""
         with writing(path) as write:
             for line in lines:
                 write(f"{line}\n")
+                digest.update(f"{line}\n".encode())
+                span = span or line.removeprefix("span ") if line.startswith("span ") else span
+        self._note(f"{hashlib.sha256(scene).hexdigest()} {digest.hexdigest()} {span}")
+
+    def _note(self, part: str) -> None:
+        """Add the line of a part to ``run.chain``, with the hash of the line before."""
+        before = hashlib.sha256(self._before.encode()).hexdigest()
+        line = f"{self._written} {part} {before}"
+        try:
+            with (self._folder / "run.chain").open("a", encoding="utf-8", newline="") as file:
+                file.write(f"{line}\n" if self._written > 1 else f"{CHAIN}\n{line}\n")
+        except OSError as error:
+            raise InputError(f"{self._folder}: cannot be written: {error.strerror}") from None
+        self._before = line
 
 
 @final

@@ -6,7 +6,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, final
 
-from exactpt.errors import AuditError
+from exactpt.errors import AuditError, BudgetExceeded
 from exactpt.files import write_atomically, writing
 from exactpt.kernel.budget import searching
 from exactpt.kernel.counters import Counts
@@ -16,6 +16,7 @@ from exactpt.tiling.report import report
 
 if TYPE_CHECKING:
     from exactpt.pairs.contact import Contact
+    from exactpt.proof_check import Proved
 
 __all__ = ["Proof", "ProvedSearch", "prove", "write_proof"]
 
@@ -33,11 +34,16 @@ class Proof(NamedTuple):
     scene: bytes
     text: bytes
 
-    def check(self) -> str:
-        """Have `exactpt.proof_check` verify the proof; returns what it proves, in words.
+    def check(self) -> Proved:
+        """Have `exactpt.proof_check` verify the proof.
+
+        Returns:
+            what it proves, in words: a text with the attributes ``until`` and ``whole`` (whether
+            it answers for the whole time span of the scene).
 
         Raises:
             AuditError: if a line of it does not hold.
+            BudgetExceeded: if the checker's budget of work is used up.
         """
         from exactpt import proof_check
 
@@ -45,6 +51,8 @@ class Proof(NamedTuple):
             return proof_check.check(self.scene, self.text)
         except proof_check.Rejected as rejected:
             raise AuditError(str(rejected)) from None
+        except proof_check.Exhausted as exhausted:
+            raise BudgetExceeded(str(exhausted), None) from None
 
     def save(self, path: str | Path) -> None:
         """Write the proof, and its scene beside it, with ``.scene.json`` appended to its name.
@@ -63,8 +71,9 @@ def prove(
 
     >>> import exactpt
     >>> p = exactpt.Body("p", [(0, 0)], exactpt.Translation([0, 1]))
-    >>> exactpt.prove(exactpt.Scene([p, exactpt.Body("q", [(3, 0)])], time=(0, 9))).check()
-    'accepted: no contact before T = 3; contact of p vertex 0 with q vertex 0 at T'
+    >>> scene = exactpt.Scene([p, exactpt.Body("q", [(3, 0)])], time=(0, 9))
+    >>> exactpt.prove(scene).check().split(" ", 2)[2]
+    "first contact at T = 3: incidences exactly b0.0 at b1.0 (b0 is 'p', b1 is 'q')"
 
     Args:
         scene: the scene.

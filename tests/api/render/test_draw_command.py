@@ -30,7 +30,7 @@ def test_demo(tmp_path):
     assert "vertex 0 of boat on edge 6 of harbour" in result.output
     assert str(page) in result.output
     last = result.output.splitlines()[-1]
-    assert last.startswith("  accepted: no contact before T = 8.6938")
+    assert " first contact at T = 8.6938" in last
     assert page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
 
 

@@ -1,0 +1,145 @@
+#include "spin.hpp"
+
+#include <algorithm>
+
+namespace proof {
+
+namespace {
+
+using Bounds = std::pair<Rational, Rational>;
+using Rationals = Poly<Rational>;
+
+constexpr int samples = 8;
+constexpr long most_bits = 512;
+
+Integer floor(const Rational& q) {
+  Integer result;
+  mpz_fdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
+  return result;
+}
+
+Rational over_power_of_two(const Integer& n, long bits) {
+  Rational q(n);
+  mpq_div_2exp(q.get_mpq_t(), q.get_mpq_t(), static_cast<mp_bitcnt_t>(bits));
+  return q;
+}
+
+// Of the arc tangent of x, 0 <= x <= 1/2, by its series. In units of 2^-n, a computed power is
+// too small by less than 2, a term by less than 3, and what is left out is less than 3.
+Bounds series(const Rational& x, long bits) {
+  const long n = bits + 16;
+  Rational scaled(x);
+  mpq_mul_2exp(scaled.get_mpq_t(), scaled.get_mpq_t(), static_cast<mp_bitcnt_t>(n));
+  Integer power = floor(scaled), total = 0;
+  const Integer square = (power * power) >> static_cast<mp_bitcnt_t>(n);
+  long terms = 0;
+  for (; power != 0; ++terms) {
+    const Integer term = power / (2 * terms + 1);
+    total += terms % 2 == 0 ? term : Integer(-term);
+    power = (power * square) >> static_cast<mp_bitcnt_t>(n);
+  }
+  const Integer off = 3 * terms + 4;
+  return {over_power_of_two(total - off, n), over_power_of_two(total + off, n)};
+}
+
+// Of pi, by Machin's formula.
+Bounds pi(long bits) {
+  const Bounds a = series(Rational(1, 5), bits + 6), b = series(Rational(1, 239), bits + 6);
+  return {16 * a.first - 4 * b.second, 16 * a.second - 4 * b.first};
+}
+
+// Of the arc tangent of x, |x| <= 1.
+Bounds arc_tangent(const Rational& x, long bits) {
+  if (x < 0) {
+    const Bounds b = arc_tangent(-x, bits);
+    return {-b.second, -b.first};
+  }
+  if (2 * x <= 1) return series(x, bits);
+  const Bounds rest = series((1 - x) / (1 + x), bits + 1), whole = pi(bits + 1);
+  return {whole.first / 4 - rest.second, whole.second / 4 - rest.first};
+}
+
+Bounds angle(Rational c, Rational s, long bits) {
+  int quarters = 0;
+  for (; c <= 0 || abs(s) > c; ++quarters) {
+    const Rational before = c;
+    c = s;
+    s = -before;
+  }
+  const Bounds b = arc_tangent(s / (1 + c), bits), whole = pi(bits);
+  return {2 * b.first + quarters * whole.first / 2, 2 * b.second + quarters * whole.second / 2};
+}
+
+// A bound of |f| between two times: the largest of its Bernstein coefficients.
+Rational bound(const Rationals& f, const Rational& a, const Rational& b) {
+  Rationals line{a, b - a}, g;
+  trim(line);
+  for (std::size_t i = f.size(); i-- > 0;) {
+    Rationals term{f[i]};
+    trim(term);
+    g = g * line + term;
+  }
+  Rational most = 0;
+  for (std::size_t j = 0; j < g.size(); ++j) {
+    Rational sum = 0;
+    for (std::size_t i = 0; i <= j; ++i) {
+      Integer over, under;
+      mpz_bin_uiui(over.get_mpz_t(), j, i);
+      mpz_bin_uiui(under.get_mpz_t(), g.size() - 1, i);
+      Rational part(over, under);
+      part.canonicalize();
+      sum += part * g[i];
+    }
+    most = std::max(most, Rational(abs(sum)));
+  }
+  return most;
+}
+
+long bit_length(const Integer& n) {
+  return n == 0 ? 0 : static_cast<long>(mpz_sizeinbase(n.get_mpz_t(), 2));
+}
+
+bool is_spin(const Turn& turn, const Rational& a, const Rational& b, const Rational& omega,
+             const Rational& error) {
+  const Rationals& h = turn.half_turn;
+  Rationals slope, rate{omega};
+  trim(rate);
+  for (std::size_t i = 1; i < h.size(); ++i) slope.push_back(2 * static_cast<long>(i) * h[i]);
+  const Rational between = bound(slope - rate * (Rationals{1} + h * h), a, b) * (b - a) / (2 * samples);
+  const Rational furthest = abs(omega) * std::max(Rational(abs(a)), Rational(abs(b)));
+  const long small = 5 - bit_length(error.get_num()) + bit_length(error.get_den());
+  long bits = std::max(8L, small) + bit_length(floor(furthest));
+  if (bits > most_bits || between > error) return false;
+  bits += 8;
+  const Bounds turned = angle(turn.orientation.first, turn.orientation.second, bits);
+  const Bounds half_circle = pi(bits);
+  std::vector<Bounds> differences;
+  for (int i = 0; i <= samples; ++i) {
+    const Rational t = a + (b - a) * Rational(i) / samples, at = value(h, t);
+    if (abs(at) > 1) return false;
+    const Bounds half = arc_tangent(at, bits);
+    differences.emplace_back(turned.first + 2 * half.first - omega * t,
+                             turned.second + 2 * half.second - omega * t);
+  }
+  const Integer k = floor(differences[0].first / (2 * half_circle.first) + Rational(1, 2));
+  Rational least = 2 * half_circle.first * k, most = 2 * half_circle.second * k;
+  if (least > most) std::swap(least, most);
+  return std::all_of(differences.begin(), differences.end(), [&](const Bounds& d) {
+    return std::max(Rational(d.second - least), Rational(most - d.first)) + between <= error;
+  });
+}
+
+}  // namespace
+
+bool is_spin(const std::vector<Rational>& until, const std::vector<Turn>& turns,
+             const Rational& omega, const Rational& error) {
+  if (error <= 0 || turns.size() < 3) return false;
+  if (turns.front().half_turn.size() > 1 || turns.back().half_turn.size() > 1) return false;
+  for (const Turn& turn : turns)
+    if (turn.pivot != turns[0].pivot || turn.x != turns[0].x || turn.y != turns[0].y) return false;
+  for (std::size_t i = 1; i + 1 < turns.size(); ++i)
+    if (!is_spin(turns[i], until[i - 1], until[i], omega, error)) return false;
+  return true;
+}
+
+}  // namespace proof

@@ -1,0 +1,100 @@
+"""What both checkers say: all incidences at T, and whether an answer is the one that is proved."""
+
+import json
+import subprocess
+
+import pytest
+from click.testing import CliRunner
+
+from exactpt import first_contact, proof_check, prove
+from exactpt.cli import cli
+from exactpt.scene.generate import FAMILIES, POINTS, RINGS, generate
+
+pytestmark = pytest.mark.cgal
+
+
+def incidences(scene, contact):
+    """The numbers of vertices, and of the first vertices of edges, as `Proved` has them."""
+    first, found = {}, set()
+    for body in scene.bodies:
+        first[body.name] = sum(b.size for b in scene.bodies[: len(first)])
+    for p in contact.pairs:
+        v = first[p.body] + p.vertex
+        if p.edge is not None:
+            found.add((v, 1, first[p.other] + p.edge))
+        else:
+            w = first[p.other] + p.other_vertex
+            found.add((min(v, w), 0, max(v, w)))
+    return found
+
+
+@pytest.mark.parametrize("family", [*FAMILIES, *POINTS, *RINGS])
+def test_all_incidences_are_proved(family, program, tmp_path):
+    for seed in (11, 12):
+        scene = generate(family, seed)
+        if sum(body.size for body in scene.bodies) > 90:
+            continue
+        proved = prove(scene, tiling="lazy")
+        proved.save(tmp_path / "p")
+        found = proof_check.check(proved.scene, proved.text)
+        command = [program, "proof", tmp_path / "p.scene.json", tmp_path / "p"]
+        done = subprocess.run(command, capture_output=True, check=False, text=True)
+        assert (done.returncode, done.stdout) == (0, found + "\n")
+        if proved.contact is not None and proved.contact.kind != "initial":
+            expected = first_contact(scene, method="pairs")
+            assert found.incidences == incidences(scene, expected), seed
+
+
+@pytest.fixture
+def answered(tmp_path, program, capsys):
+    """Runs both checkers with ``--expect`` on a proof; returns the exit code."""
+    scene = generate("stars", 6)
+    scene.save(tmp_path / "s.json")
+    paths = [str(tmp_path / "s.json"), str(tmp_path / "p")]
+    words = ["collide", paths[0], "--proof", paths[1], "--json"]
+    answer = json.loads(CliRunner().invoke(cli, words, catch_exceptions=False).stdout)
+
+    def run(change):
+        data = json.loads(json.dumps(answer))
+        change(data)
+        file = tmp_path / "answer.json"
+        file.write_text(data if isinstance(data, str) else json.dumps(data))
+        call = [*paths, "--expect", str(file)]
+        code = subprocess.run([program, "proof", *call], capture_output=True, check=False)
+        assert proof_check.main(call) == code.returncode, (code.stdout, capsys.readouterr())
+        return code.returncode
+
+    return run
+
+
+def test_an_answer_is_compared(answered):
+    def at(**new):
+        return lambda data: data["contact"]["time"].update(new)
+
+    def pairs(change):
+        return lambda data: change(data["contact"]["pairs"])
+
+    assert answered(dict) == 0
+    assert answered(lambda data: data.update(contact=None)) == 1
+    assert answered(at(low="1", high="1", polynomial=["-1", "1"])) == 1
+    assert answered(at(polynomial=["0", "-249", "155"], low="1", high="2")) == 0
+    assert answered(lambda data: data["contact"].update(kind="initial")) == 1
+    assert answered(pairs(lambda rows: rows.clear())) == 1
+    assert answered(pairs(lambda rows: rows.append(rows[0]))) == 0
+    assert answered(pairs(lambda rows: rows[0]["b"].update(edge=0))) == 1
+    assert answered(pairs(lambda rows: rows[0]["b"].update(body="nobody"))) == 2
+    assert answered(pairs(lambda rows: rows[0]["b"].update(edge=99))) == 2
+    assert answered(at(polynomial=[])) == 2
+    assert answered(at(polynomial=["x"])) == 2
+    assert answered(lambda data: data.pop("contact")) == 2
+
+
+def test_a_budget_of_work(program, tmp_path, capsys):
+    proved = prove(generate("stars", 6))
+    proved.save(tmp_path / "p")
+    call = [str(tmp_path / "p.scene.json"), str(tmp_path / "p"), "--work"]
+    for work, code in (("10", 4), ("99999999999", 0), ("-1", 2), ("x", 2)):
+        done = subprocess.run([program, "proof", *call, work], capture_output=True, check=False)
+        assert done.returncode == proof_check.main([*call, work]) == code, capsys.readouterr()
+    with pytest.raises(proof_check.Exhausted):
+        proof_check.check(proved.scene, proved.text, 10)
