@@ -30,6 +30,7 @@ from exactpt.tiling import engine
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.clock import Clock
 from exactpt.tiling.greedy.greedy import VerticalRules
+from exactpt.tiling.isolated import IsolatedEvents
 from exactpt.tiling.repairs import Repairs
 from fuzz.cases import Failure, failure_of
 from fuzz.small_scope.look import look
@@ -242,6 +243,18 @@ PLANTED: Final[dict[str, Callable[[], Any]]] = {
     ),
     "the angle across not certified": lambda: _edited(
         Repairs, "_record_slide", "twin(h), before, m.following[before]]", "twin(h), before]"
+    ),
+    "the wrong end of an isolated edge slides": lambda: _edited(
+        IsolatedEvents, "_choose", "return signs if order > 0 else -signs", "return -signs"
+    ),
+    "a contact taken for an isolated event": lambda: _edited(
+        IsolatedEvents, "_choose", "(stays_after if order > 0 else stays_before)", "False"
+    ),
+    "an isolated angle across not certified": lambda: _edited(
+        IsolatedEvents,
+        "_recertify",
+        "twin(h), before, following[before]",
+        "twin(h), before, before",
     ),
     "ends of pieces missed": lambda: _replaced(Clock, "end_of_piece", _always(None)),
     "swept boxes too small": lambda: _edited(

@@ -13,7 +13,7 @@ from exactpt.motion.image import Image
 from exactpt.motion.vertex import Vertex
 from exactpt.motion.vertices import Vertices
 
-__all__ = ["K", "Positions", "cross_sign", "positions_at"]
+__all__ = ["K", "Positions", "cross_sign", "linear_position", "positions_at"]
 
 Floats: TypeAlias = NDArray[np.float64]
 
@@ -89,18 +89,10 @@ class Positions:
 
     def _find_linear(self, vertex: Vertex, image: Image) -> None:
         """`_find_any` for degree 1: the formula of `_value`, with one bound for x and y."""
-        m, r = self._middle, self._width
-        reach = abs(m) + r
-        x0, y0, x1, y1 = image.x0, image.y0, image.x1, image.y1
-        start, start_y, slope, slope_y = abs(x0), abs(y0), abs(x1), abs(y1)
-        if start_y > start:  # noqa: PLR1730 - `max` is a call in plain Python
-            start = start_y
-        if slope_y > slope:  # noqa: PLR1730
-            slope = slope_y
-        bound = slope * reach + start
-        of_image = self._errors[0] + self._errors[1] * reach
-        error = (16.0 * U * bound + of_image + r * slope) * SLACK + TINY
-        vertex.x, vertex.y, vertex.error = x1 * m + x0, y1 * m + y0, min(INFINITY, error)
+        m, r, errors = self._middle, self._width, self._errors
+        vertex.x, vertex.y, vertex.error = linear_position(
+            image.x0, image.y0, image.x1, image.y1, m, r, errors[0], errors[1]
+        )
 
     def _find_any(self, vertex: Vertex, image: Image) -> None:
         x, dx = self._value(image.xs)
@@ -165,6 +157,25 @@ class Positions:
             error = error * reach + errors[i]
         unit = (4 * len(cs) + 8) * U
         return value, (unit * bound + error + r * slope) * SLACK + TINY
+
+
+def linear_position(
+    x0: float, y0: float, x1: float, y1: float, m: float, r: float, error0: float, error1: float
+) -> tuple[float, float, float]:
+    """Return x and y of a vertex in linear translation, and a bound on the errors of both.
+
+    The errors of the coefficients x0, y0, and x1, y1, are at most error0, and error1; m is the
+    middle of the enclosure of the time, and r its width. The formula is `Positions._value`.
+    """
+    reach = abs(m) + r
+    start, start_y, slope, slope_y = abs(x0), abs(y0), abs(x1), abs(y1)
+    if start_y > start:  # noqa: PLR1730 - `max` is a call in plain Python
+        start = start_y
+    if slope_y > slope:  # noqa: PLR1730
+        slope = slope_y
+    error = 16.0 * U * (slope * reach + start) + (error0 + error1 * reach) + r * slope
+    error = error * SLACK + TINY
+    return x1 * m + x0, y1 * m + y0, min(INFINITY, error)
 
 
 def _quotient(x: float, dx: float, w: float, dw: float) -> tuple[float, float]:

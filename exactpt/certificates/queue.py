@@ -22,6 +22,8 @@ from exactpt.kernel.rounding import INFINITY
 __all__ = ["EventQueue", "EventTime", "ExactQueue", "Resolver", "earlier"]
 
 
+NO_CERTIFICATE: Final = CertificateId(-1)
+
 LARGEST: Final[float] = float.fromhex("0x1.fffffffffffffp+1023")
 """The largest finite double."""
 
@@ -127,7 +129,18 @@ class EventQueue(Calendar):
     def pending(self, slot: CertificateId) -> EventTime | None:
         """Return the time of the event in a slot, or None."""
         span, at = self._spans[slot % ROWS], 2 * (slot // ROWS)
-        return None if at >= len(span) or span[at] == INFINITY else self._time_of(slot)
+        return None if at >= len(span) or span[at] == INFINITY else self.time_of(slot)
+
+    def time_of(self, slot: CertificateId) -> EventTime:
+        """Return the time of a slot that is not empty."""
+        if self._kept:
+            kept = self._kept.get(slot)
+            if kept is not None:
+                return kept
+        row, part = slot % ROWS, slot // ROWS
+        span, key, at = self._spans[row], self._keys[row], 3 * part
+        a, b, c = i64(key[at]), i64(key[at + 1]), i64(key[at + 2])
+        return EventTime(span[2 * part], span[2 * part + 1], a, b, c)
 
     def slots(self) -> list[CertificateId]:
         """Return all slots with a pending event, in increasing order."""
@@ -137,6 +150,43 @@ class EventQueue(Calendar):
             parts = range(len(span) // 2)
             found += [CertificateId(ROWS * p + row) for p in parts if span[2 * p] != INFINITY]
         return sorted(found)
+
+    def first_alone(self, until: float) -> CertificateId:
+        """Return the slot of the first event, which stays, if doubles decide that.
+
+        Returns:
+            -1 if there is none, it is not certainly before ``until``, another enclosure overlaps
+            its own, or the sign does not change then.
+        """
+        if not self._find_first():
+            return NO_CERTIFICATE
+        slot = self._heap_slot[0]
+        low, high = self._heap_low[0], self._spans[slot % ROWS][2 * (slot // ROWS) + 1]
+        if high > until:
+            return NO_CERTIFICATE
+        if self._kept:
+            kept = self._kept.get(CertificateId(slot))
+            if kept is not None and not kept.crossing:
+                return NO_CERTIFICATE
+        while (self._heap_size > 1 and self._heap_low[1] <= high) or (
+            self._heap_size > 2 and self._heap_low[2] <= high
+        ):
+            self._drop_top()
+            other = self._heap_slot[0]
+            if other != slot and (
+                self._spans[other % ROWS][2 * (other // ROWS)] == self._heap_low[0]
+            ):
+                self._push(slot, low)
+                return NO_CERTIFICATE
+            self._heap_slot[0] = slot
+            self._heap_low[0] = low
+        return CertificateId(slot)
+
+    def take_first(self, slot: CertificateId) -> None:
+        """Remove the event that `first_alone` has returned."""
+        self._drop_top()
+        self._counters.filtered += 1
+        self.cancel(slot)
 
     def pop(self) -> tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None:
         """Remove the earliest events; return their time and their slots, None if there are none.
@@ -149,7 +199,7 @@ class EventQueue(Calendar):
         if not self._find_first():
             return None
         slot = CertificateId(self._heap_slot[0])
-        time = self._time_of(slot)
+        time = self.time_of(slot)
         self._drop_top()
         candidates: dict[CertificateId, EventTime] = {}  # a slot may be in the heap twice
         bound = time.high
@@ -157,7 +207,7 @@ class EventQueue(Calendar):
             other, low = CertificateId(self._heap_slot[0]), self._heap_low[0]
             self._drop_top()
             if other != slot and self._spans[other % ROWS][2 * (other // ROWS)] == low:
-                its = self._time_of(other)
+                its = self.time_of(other)
                 candidates[other] = its
                 bound = min(bound, its.high)
         if not candidates:
@@ -166,17 +216,6 @@ class EventQueue(Calendar):
             return time, [(slot, time)]
         candidates[slot] = time
         return self._pop_exactly(sorted(candidates.items()))
-
-    def _time_of(self, slot: CertificateId) -> EventTime:
-        """Return the time of a slot that is not empty."""
-        if self._kept:
-            kept = self._kept.get(slot)
-            if kept is not None:
-                return kept
-        row, part = slot % ROWS, slot // ROWS
-        span, key, at = self._spans[row], self._keys[row], 3 * part
-        a, b, c = i64(key[at]), i64(key[at + 1]), i64(key[at + 2])
-        return EventTime(span[2 * part], span[2 * part + 1], a, b, c)
 
     def _pop_exactly(
         self, entries: list[tuple[CertificateId, EventTime]]

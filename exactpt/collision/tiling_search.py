@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time as clock
 from fractions import Fraction
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, Final, final
 
 from exactpt.collision.tilings import proved_until, start_tiling, tiling_for_contact
 from exactpt.errors import BudgetExceeded
@@ -21,7 +21,10 @@ from exactpt.tiling.report import report
 if TYPE_CHECKING:
     from exactpt.tiling.tiling import Tiling
 
-__all__ = ["TilingSearch"]
+__all__ = ["MANY", "TilingSearch"]
+
+MANY: Final = 64
+"""Number of event times from one look at the limits to the next."""
 
 
 @final
@@ -59,7 +62,6 @@ class TilingSearch:
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
         self._kinetic: Tiling | None = None
         self._begun = False
-        self._passed: float | None = None
 
     @property
     def stats(self) -> dict[str, object]:
@@ -72,7 +74,7 @@ class TilingSearch:
         """See `Search.passed`."""
         if not self._begun:
             return None
-        return proved_until(self._kinetic, self._scene._start, self._passed)
+        return proved_until(self._kinetic, self._scene._start)
 
     def run_to_contact(self) -> Contact | None:
         """The first contact in the closed time span of the scene; None if there is none.
@@ -94,10 +96,13 @@ class TilingSearch:
         self._kinetic = kinetic
         events = 0
         try:
-            while (happened := kinetic.advance(scene._end)) is not None:
-                self._passed = kinetic.certifier.now.low
-                events += len(happened)
-                self._check(kinetic, events)
+            if self._max_events is None:
+                while kinetic.advance_many(scene._end, MANY):
+                    self._check(kinetic, events)
+            else:
+                while (happened := kinetic.advance(scene._end)) is not None:
+                    events += len(happened)
+                    self._check(kinetic, events)
         except ContactFound as found:
             return contact_of(scene, kinetic.now, found.touches)
         return None

@@ -104,18 +104,16 @@ def start_tiling(scene: Scene, name: str, start: QQ, *, exact_only: bool = False
         return plan_tiling(scene, name, start).start(start, exact_only=exact_only)
 
 
-def proved_until(kinetic: Tiling | None, start: QQ, passed: float | None) -> Fraction:
+def proved_until(kinetic: Tiling | None, start: QQ) -> Fraction:
     """Return a rational time until which a run has passed no contact, also during an event.
 
     Args:
         kinetic: the tiling; None before there is one.
         start: the start of the run, at which there is no contact.
-        passed: ``certifier.now.low`` after the last completed call of `Tiling.advance`, which
-            raises at a contact; None before the first one.
     """
-    if kinetic is None or passed is None:
+    if kinetic is None or kinetic.passed is None:
         return fraction(start)
-    return fraction(max(start, kinetic.vertices.frame.exact_time(passed)))
+    return fraction(max(start, kinetic.vertices.frame.exact_time(kinetic.passed.low)))
 
 
 def _are_points(scene: Scene) -> bool:

@@ -70,13 +70,12 @@ class ProofRun:
         self.kinetic: Tiling | None = None
         self.contact: Contact | None = None
         self._begun = False
-        self._passed: float | None = None
 
     def passed(self) -> Fraction | None:
         """See `Search.passed`."""
         if not self._begun:
             return None
-        return proved_until(self.kinetic, self._scene._start, self._passed)
+        return proved_until(self.kinetic, self._scene._start)
 
     def lines(self) -> Iterator[str]:
         """The lines, without line ends."""
@@ -100,7 +99,6 @@ class ProofRun:
         yield from self.maker.faces(watch.first())
         try:
             while (happened := kinetic.advance(scene._end)) is not None:
-                self._passed = kinetic.certifier.now.low
                 events += len(happened)
                 if most is not None and events > most:
                     raise BudgetExceeded("the number of events is used up", self.passed())

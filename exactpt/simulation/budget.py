@@ -101,6 +101,11 @@ class Budget:
         """Whether the number of events or the time has a limit."""
         return self._events is not None or self._deadline is not None
 
+    @property
+    def limits_events(self) -> bool:
+        """Whether the number of events has a limit."""
+        return self._events is not None
+
     def spend(self, events: int) -> bool:
         """Use up some events; whether there were as many."""
         if self._events is None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple, final
 
-from exactpt.certificates.queue import EventTime
 from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -83,11 +82,6 @@ class LivingScene:
         if self._teller is None:
             raise InputError("the bodies touch at the start: there is no tiling")
         return self._teller
-
-    @property
-    def passed(self) -> EventTime | None:
-        """The last time up to which the current tiling has been advanced."""
-        return None if self._teller is None else self._teller.passed
 
     @property
     def name(self) -> str:

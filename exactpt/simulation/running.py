@@ -8,6 +8,7 @@ from contextlib import suppress
 from fractions import Fraction
 from typing import TypeAlias, final
 
+from exactpt.collision.tiling_search import MANY
 from exactpt.collision.tilings import plan_tiling, proved_until
 from exactpt.errors import AuditError, BudgetExceeded, InputError, carry, carrying
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -114,9 +115,13 @@ class Run:
     def _pass_to_contact(self, end: QQ) -> None:
         with self._guarded():
             try:
-                while (events := self._pass(end)) is not None:
-                    self._count(len(events))
-                    self._check_time()
+                if self.recorder is None and not self._budget.limits_events:
+                    while self.living.kinetic.advance_many(end, MANY):
+                        self._check_time()
+                else:
+                    while (events := self._pass(end)) is not None:
+                        self._count(len(events))
+                        self._check_time()
             except ContactFound as found:
                 self._end_with(found)
 
@@ -144,11 +149,11 @@ class Run:
 
     def _pass(self, end: QQ) -> list[TilingEvent] | None:
         """Advance the tiling to its next event up to a time, see `Tiling.advance`."""
-        recorder, teller = self.recorder, self.living.teller
+        recorder, kinetic = self.recorder, self.living.kinetic
         if recorder is None:
-            return teller.advance(end)
-        recorder.begin(self.living.scene, self.living.kinetic)
-        events = teller.advance(end)
+            return kinetic.advance(end)
+        recorder.begin(self.living.scene, kinetic)
+        events = kinetic.advance(end)
         recorder.advanced()
         return events
 
@@ -273,10 +278,8 @@ class Run:
 
     def passed(self) -> Fraction | None:
         """See `Search.passed`."""
-        tiling, passed = self.living.tiling, self.living.passed
-        if tiling is None:
-            return None
-        return proved_until(tiling, self._proved, None if passed is None else passed.low)
+        tiling = self.living.tiling
+        return None if tiling is None else proved_until(tiling, self._proved)
 
     def rest(self) -> tuple[int | None, float | None, int | None]:
         """The events, seconds and memory that are left, None for no limit."""

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, final
 
-from exactpt.certificates.queue import EventTime
 from exactpt.motion.vertex import Vertex
 from exactpt.simulation.event import Event
 from exactpt.tiling.events import TilingEvent
 from exactpt.tiling.tiling import Tiling
 
 if TYPE_CHECKING:
-    from exactpt.kernel.numbers import QQ
     from exactpt.tiling.events import Edges
 
 __all__ = ["Teller"]
@@ -20,25 +18,17 @@ __all__ = ["Teller"]
 
 @final
 class Teller:
-    """A tiling, and how far it has come.
+    """Makes the events of a tiling, as users see them.
 
     Nothing of an event is computed until it is asked for, neither its time nor the names of its
     vertices. An event keeps the vertices, since their ids may be those of other ones by then.
 
     Attributes:
         tiling: the tiling.
-        passed: the last time up to which it has been advanced.
     """
 
     def __init__(self, tiling: Tiling) -> None:
         self.tiling: Tiling = tiling
-        self.passed: EventTime | None = None
-
-    def advance(self, until: QQ) -> list[TilingEvent] | None:
-        """As `Tiling.advance`."""
-        events = self.tiling.advance(until)
-        self.passed = self.tiling.certifier.now
-        return events
 
     def told(self, events: Sequence[TilingEvent]) -> list[Event]:
         """Events that have just happened, with the vertices that have their ids now."""

@@ -8,14 +8,17 @@ of a triangle fail together and share one certificate.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, final
+from typing import TYPE_CHECKING, Final, final
+
+from librt.vecs import vec
+from mypy_extensions import i64
 
 from exactpt.certificates.certificate import ANGLE, MOTION, SHRINK, pack
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.one_sided import OneSided
 from exactpt.certificates.queue import EventTime
 from exactpt.certificates.table import CertificateTable
-from exactpt.indices import HalfEdge, Triple, VertexId
+from exactpt.indices import NO_HALF_EDGE, HalfEdge, Triple, VertexId, half_edge_vec
 from exactpt.motion.vertex import Vertex
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import twin
@@ -26,6 +29,9 @@ if TYPE_CHECKING:
     from exactpt.tiling.rules import Rules
 
 __all__ = ["CertifiedMesh"]
+
+MOST_OF_FIVE: Final[int] = 20
+"""Maximum number of angles that `CertifiedMesh.certify_five` certifies."""
 
 
 @final
@@ -53,6 +59,7 @@ class CertifiedMesh:
         self.batch: Batch = Batch()
         self.checks_rigid: bool = False
         self._after: OneSided = OneSided(certifier, before=False)
+        self._todo: vec[HalfEdge] = half_edge_vec([NO_HALF_EDGE] * MOST_OF_FIVE)
 
     def after(self) -> OneSided:
         """Predicates just after the current time, whichever that is."""
@@ -158,6 +165,41 @@ class CertifiedMesh:
         for h in todo:
             self.certify(h)
         self.rules.changed(half_edges)
+
+    def certify_five(
+        self, h0: HalfEdge, h1: HalfEdge, h2: HalfEdge, h3: HalfEdge, h4: HalfEdge
+    ) -> None:
+        """Certify the same angles as `recertify`, in the same order, and nothing else."""
+        todo = self._todo
+        n = self._list(h4, self._list(h3, self._list(h2, self._list(h1, self._list(h0, 0)))))
+        i: i64 = 0
+        while i < n:
+            self.certify(todo[i])
+            i += 1
+
+    def _list(self, h: HalfEdge, n: i64) -> i64:
+        """List h, and its face if that is or was a triangle; n are listed; return their number."""
+        following = self.mesh.map.following
+        second = following[h]
+        third = following[second]
+        fourth = following[third]
+        n = self._list_one(h, n)
+        if fourth == h or following[fourth] == h:
+            n = self._list_one(third, self._list_one(second, n))
+            if fourth != h:
+                n = self._list_one(fourth, n)
+        return n
+
+    def _list_one(self, h: HalfEdge, n: i64) -> i64:
+        """List h if it is not one of the n listed; return their number."""
+        todo = self._todo
+        i: i64 = 0
+        while i < n:
+            if todo[i] == h:
+                return n
+            i += 1
+        todo[n] = h
+        return n + 1
 
     def certify_body(self, i: int) -> list[HalfEdge]:
         """Certify again whatever depends on a body; returns the angles that vanish now."""

@@ -68,17 +68,21 @@ class Clock:
 
     def pop(self, until: QQ) -> tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None:
         """Take the next failures off the queue, with their time; None if after ``until``."""
-        if until is not self._until[0]:
-            self._until = (until, self._frame.time(until)[0])
         popped = self.table.pending.pop()
         if popped is not None:
             time, entries = popped
-            if time.high > self._until[1]:
+            if time.high > self.low_of(until):
                 number = time.exact or self.certifier.resolve(time)
                 if number.compare_rational(until) > 0:
                     self._put_back(entries)
                     return None
         return popped
+
+    def low_of(self, until: QQ) -> float:
+        """Return a lower bound of a rational time, normalised."""
+        if until is not self._until[0]:
+            self._until = (until, self._frame.time(until)[0])
+        return self._until[1]
 
     def enter(self, time: EventTime, entries: list[tuple[CertificateId, EventTime]]) -> None:
         """Advance to a time at which some certificates fail."""

@@ -29,6 +29,7 @@ from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.catalogue import Entry
 from exactpt.tiling.events import Stats, TilingEvent
+from exactpt.tiling.isolated import LEFT, OPEN, IsolatedEvents
 from exactpt.tiling.pieces import certify_piece
 from exactpt.tiling.population import add_ring, remove_ring
 from exactpt.tiling.repairs import RebuildNeeded, Repairs
@@ -65,6 +66,11 @@ class Engine(Tiling):
         self.rules: Rules = rules(self.certified, self.log)
         self.certified.rules = self.rules
         self.repairs: Repairs = Repairs(self.certified, self.rules, self.log)
+        self._isolated: IsolatedEvents | None = None
+        if rules.slides_are_plain and not certifier.exact_only:
+            self._isolated = IsolatedEvents(
+                self.certified, self.queue, self.clock, self.log, self.rules
+            )
 
     # Building
 
@@ -154,10 +160,30 @@ class Engine(Tiling):
                 certified.checks_rigid = True
                 self.stats.batches += len(entries) > 1
                 self._begin_batch([certificate for certificate, _ in entries])
+        except RebuildNeeded:
+            self._rebuild()
+        else:
+            self._repair()
+        self._end_batch()
+
+    def _repair(self) -> None:
+        """Repair whatever is violated, if need be by building the tiling again."""
+        try:
             self.repairs.repair_all()
         except RebuildNeeded:
             self._rebuild()
-        self._end_batch()
+
+    def _step(self, until: QQ) -> bool:
+        """See `Tiling._step`."""
+        if self._isolated is not None:
+            outcome = self._isolated.step(self.clock.low_of(until))
+            if outcome != LEFT:
+                if outcome == OPEN:
+                    self._repair()
+                    self._end_batch()
+                self.passed = self.certifier.now
+                return True
+        return super()._step(until)
 
     def _end_batch(self) -> None:
         self.certified.checks_rigid = False

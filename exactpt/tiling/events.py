@@ -8,7 +8,7 @@ from mypy_extensions import mypyc_attr
 
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
-from exactpt.indices import Ends
+from exactpt.indices import Ends, VertexId
 from exactpt.motion.incidence import Touch
 
 __all__ = ["ContactFound", "Edges", "Log", "Stats", "TilingEvent"]
@@ -86,12 +86,21 @@ class Log:
 
     Attributes:
         stats: counts of the run.
+        is_recording: whether events are reported; otherwise they are only counted.
     """
 
     def __init__(self, certifier: Certifier, stats: Stats) -> None:
         self._certifier: Certifier = certifier
         self.stats: Stats = stats
+        self.is_recording: bool = True
         self._events: list[TilingEvent] = []
+
+    def slide(self, kind: str, old: VertexId, fixed: VertexId, new: VertexId) -> None:
+        """Record the slide of one end of an edge; no vertex has copies."""
+        self.stats.count(kind)
+        if self.is_recording:
+            now = self._certifier.now
+            self._events.append(TilingEvent(now, kind, ((old, fixed),), ((new, fixed),)))
 
     def record(self, kind: str, removed: Edges, added: Edges) -> None:
         """Record a change; one that only permutes copies of a vertex is counted as internal."""
@@ -99,7 +108,8 @@ class Log:
             self.stats.count("internal")
         else:
             self.stats.count(kind)
-            self._events.append(TilingEvent(self._certifier.now, kind, removed, added))
+            if self.is_recording:
+                self._events.append(TilingEvent(self._certifier.now, kind, removed, added))
 
     def take(self) -> list[TilingEvent]:
         """The events not yet reported, which then count as reported."""

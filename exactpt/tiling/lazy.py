@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import final
+from typing import ClassVar, final
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.convex_bodies import all_stay_convex
@@ -20,6 +20,9 @@ __all__ = ["LazyRules"]
 @final
 class LazyRules(Rules):
     """The rules of a tiling that only repairs violated angles and never flips."""
+
+    slides_are_plain: ClassVar[bool] = True
+    only_angles: ClassVar[bool] = True
 
     @staticmethod
     def build(instant: PredicatesAt) -> Mesh:

@@ -8,7 +8,7 @@ repairs, and the flips that make the tiling canonical again after a change.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from mypy_extensions import mypyc_attr
 
@@ -41,9 +41,16 @@ class Rules(ABC):
     an instance does not find the one of a subclass in plain Python.
 
     Attributes:
+        slides_are_plain: whether a slide changes the mesh as `Mesh` itself does, so that
+            isolated events are processed by `exactpt.tiling.isolated`. Set by the class.
+        only_angles: whether only angles are certified, and nothing follows a repair; the methods
+            `changed`, `is_violated` and `restore` are then not called after isolated events.
         certified: the mesh, with the certificates of its angles.
         log: the record of events.
     """
+
+    slides_are_plain: ClassVar[bool] = False
+    only_angles: ClassVar[bool] = False
 
     def __init__(self, certified: CertifiedMesh, log: Log) -> None:
         self.certified: CertifiedMesh = certified

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue, EventTime
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 
 __all__ = ["State", "Tiling"]
 
+FEW: Final = 16
+"""Number of event times from one look at the budget to the next."""
+
 State: TypeAlias = "dict[str, Any]"
 """A JSON object, not validated here."""
 
@@ -42,6 +45,7 @@ class Tiling(ABC):
         table: the pending and the violated certificates, and the flat angles.
         clock: advances the current time.
         log: the record of events.
+        passed: the last time up to which it has been advanced, without a contact; None before.
     """
 
     def __init__(
@@ -53,6 +57,7 @@ class Tiling(ABC):
         self.table: CertificateTable = CertificateTable(certifier)
         self.clock: Clock = Clock(certifier, self.table, vertices.frame)
         self.log: Log = Log(certifier, stats)
+        self.passed: EventTime | None = None
 
     @abstractmethod
     def begin(self, start: QQ) -> None:
@@ -191,13 +196,44 @@ class Tiling(ABC):
             ContactFound: if there is a contact at that time.
         """
         ask()
+        return self.log.take() if self._step(until) else None
+
+    def advance_many(self, until: QQ, most: int) -> int:
+        """Process the events of up to ``most`` event times; they are counted, not reported.
+
+        Returns:
+            The number of event times; 0 if none was left, and the current time is now ``until``.
+
+        Raises:
+            ContactFound: if there is a contact; the events before it have been processed.
+        """
+        done = 0
+        self.log.is_recording = False
+        try:
+            while done < most:
+                if done % FEW == 0:
+                    ask()
+                if not self._step(until):
+                    break
+                done += 1
+        finally:
+            self.log.is_recording = True
+        return done
+
+    def _step(self, until: QQ) -> bool:
+        """Process the events of the next event time; if there are none, move to ``until``.
+
+        Returns:
+            Whether there was an event time up to ``until``.
+        """
         popped = self.clock.pop(until)
         if popped is None:
             self.clock.move_to(until)
-            return None
-        time, entries = popped
-        self._process(time, entries)
-        return self.log.take()
+        else:
+            time, entries = popped
+            self._process(time, entries)
+        self.passed = self.certifier.now
+        return popped is not None
 
     def retreat(self, grid: QQ) -> QQ:
         """After `ContactFound`: return to a rational time just before the contact.

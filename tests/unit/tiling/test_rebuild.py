@@ -12,10 +12,17 @@ from exactpt.pseudotriangulation.audit import audit_angles
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.tiling.engine import Engine
+from exactpt.tiling.lazy import LazyRules
 from exactpt.tiling.repairs import RebuildNeeded, Repairs
 from fuzz.statics import run_and_audit
 
 pytestmark = pytest.mark.plain
+
+
+@pytest.fixture(autouse=True)
+def every_event_is_repaired(monkeypatch):
+    """Isolated events of the lazy tiling are processed without `Repairs`."""
+    monkeypatch.setattr(LazyRules, "slides_are_plain", False)
 
 
 def refuse(*_):
