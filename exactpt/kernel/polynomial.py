@@ -43,7 +43,7 @@ class Polynomial:
     >>> f.derivative()
     Polynomial(['1/2', '-2'])
     >>> (t**2 - 2).roots(after=0)
-    [<root of (-2, 0, 1) near 1.4142135623730951>]
+    [<1.4142135623730951... (root of a polynomial of degree 2)>]
     """
 
     __slots__ = ("_doubles", "_exact")
@@ -115,6 +115,17 @@ class Polynomial:
     def degree(self) -> int:
         """The degree; -1 for the zero polynomial."""
         return len(self._coefficients if self._doubles is None else self._doubles) - 1
+
+    def __getitem__(self, i: int) -> Fraction:
+        """Return the coefficient of t**i: 0 beyond the degree.
+
+        Raises:
+            IndexError: if i is negative.
+        """
+        if i < 0:
+            raise IndexError(f"expected an exponent of at least 0, got {i}")
+        values = self._coefficients
+        return fraction(values[i] if i < len(values) else QQ(0))
 
     @overload
     def __call__(self, t: Rational) -> Fraction: ...

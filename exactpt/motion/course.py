@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Sequence
 from itertools import pairwise
@@ -14,7 +15,7 @@ from exactpt.motion.motions import Motion, Pieces, Position, SimpleMotion, Trans
 from exactpt.motion.shape import Places, Shape
 from exactpt.motion.track import Track
 
-__all__ = ["Course", "Piece"]
+__all__ = ["Course", "Piece", "jump"]
 
 
 @final
@@ -166,9 +167,22 @@ class Course:
             both = zip(_places(shape, before, t), _places(shape, after, t), strict=True)
             for i, (a, b) in enumerate(both):
                 if a != b:
-                    raise InputError(
-                        f"vertex {i} jumps at t = {show(t)} from {show(*a)} to {show(*b)}"
-                    )
+                    raise InputError(f"vertex {i} {jump(t, a, b)}; see exactpt.in_local_time")
+
+
+def jump(t: QQ, a: tuple[QQ, QQ], b: tuple[QQ, QQ]) -> str:
+    """Return the words of a message about a jump at t from a to b."""
+    size = math.hypot(_nearest(b[0] - a[0]), _nearest(b[1] - a[1]))
+    places = [f"({_nearest(x):.9g}, {_nearest(y):.9g})" for x, y in (a, b)]
+    return f"jumps at t = {show(t)} from {places[0]} to {places[1]}, by {size:.3g}"
+
+
+def _nearest(x: QQ) -> float:
+    """Return the nearest double; an infinity beyond the range."""
+    try:
+        return float(x)
+    except OverflowError:
+        return math.inf if x > 0 else -math.inf
 
 
 def _exact(x: float) -> QQ:

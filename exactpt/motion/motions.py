@@ -278,6 +278,11 @@ class Pieces(_Given):
         """The end times of all motions but the last."""
         return fractions(self._until)
 
+    @property
+    def pieces(self) -> tuple[tuple[Fraction | None, SimpleMotion], ...]:
+        """The motions with their end times, None for the last: the argument of `Pieces`."""
+        return tuple(zip([*self.until, None], self.motions, strict=True))
+
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
         ends = [*map(str, self._until), None]
         return (tuple(zip(ends, self.motions, strict=True)),), {}

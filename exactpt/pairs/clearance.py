@@ -25,7 +25,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import lowest_terms, quotient_at, square_root
 from exactpt.kernel.budget import ask
 from exactpt.kernel.integer_polynomial import IntPoly, derivative, evaluate, multiply, subtract
-from exactpt.kernel.numbers import QQ, ZZ, Rational, fraction, rational, show
+from exactpt.kernel.numbers import QQ, ZZ, Rational, fraction, rational, shorten, show
 from exactpt.kernel.roots import roots_after
 from exactpt.kernel.square_root import nearest_root_less
 from exactpt.motion.body import Body
@@ -56,6 +56,9 @@ class ClearancePiece(NamedTuple):
     features: tuple[Feature, Feature] | None
     numerator: tuple[int, ...]
     denominator: tuple[int, ...]
+
+    def __repr__(self) -> str:
+        return f"<ClearancePiece from t = {self.start:.6g} to {self.end:.6g}>"
 
 
 class Minimum(NamedTuple):
@@ -93,6 +96,12 @@ class Clearance:
     b: str
     pieces: tuple[ClearancePiece, ...]
     radius: Fraction = Fraction(0)
+
+    def __repr__(self) -> str:
+        names = f"{shorten(self.a, 30)} and {shorten(self.b, 30)}"
+        start, end = self.pieces[0].start, self.pieces[-1].end
+        count = len(self.pieces)
+        return f"<Clearance of {names}: {count} pieces from t = {start:.6g} to {end:.6g}>"
 
     def squared(self, at: Rational) -> Fraction:
         """The squared distance at a rational time.

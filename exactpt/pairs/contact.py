@@ -7,6 +7,7 @@ from typing import ClassVar, NamedTuple, final
 
 from exactpt.extensions import extension
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import shorten
 from exactpt.motion.incidence import Touch
 from exactpt.pairs.incidences import Pair, details
 from exactpt.scene.scene import Scene
@@ -99,10 +100,18 @@ class Contact:
         return Contact, (self.time, self.kind, self.pairs, self.overlaps)
 
     def __repr__(self) -> str:
-        return (
-            f"Contact(time={self.time!r}, kind={self.kind!r}, pairs={self.pairs!r}, "
-            f"overlaps={self.overlaps!r})"
-        )
+        pairs = self.pairs
+        first = f", {_in_brief(pairs[0])}" if pairs else ""
+        more = f" and {len(pairs) - 1} more" if len(pairs) > 1 else ""
+        names = [f"{shorten(a, 20)} and {shorten(b, 20)}" for a, b in self.overlaps[:1]]
+        overlaps = f", {names[0]} overlap" if names and not pairs else ""
+        return f"<Contact at t = {str(self.time)[:90]}, {self.kind}{first}{more}{overlaps}>"
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """The names of all bodies in contact, in the order in which they first occur."""
+        named = [name for pair in self.pairs for name in (pair.body, pair.other)]
+        return tuple(dict.fromkeys([*named, *(name for pair in self.overlaps for name in pair)]))
 
     def to_json(self) -> dict[str, object]:
         """The contact as a JSON object, see docs/format.md."""
@@ -118,6 +127,13 @@ class Contact:
     def _repr_html_(self) -> str:
         """An HTML table of the time and the incidences, for notebooks."""
         return str(extension("table of a contact")(self))
+
+
+def _in_brief(pair: Pair) -> str:
+    """Return an incidence in a few words."""
+    feature = f"vertex {pair.other_vertex}" if pair.edge is None else f"edge {pair.edge}"
+    body, other = shorten(pair.body, 20), shorten(pair.other, 20)
+    return f"vertex {pair.vertex} of {body} on {feature} of {other}"
 
 
 def contact_of(

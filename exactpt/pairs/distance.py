@@ -27,6 +27,7 @@ class Distance:
     """The distance of two bodies at one time; ``float`` gives the nearest double.
 
     That of rounded bodies is the distance of their cores less the radii; 0 where they overlap.
+    Distances are ordered by their exact values; equal ones (==) have equal attributes, too.
 
     Attributes:
         core_squared: the square of the distance of the cores, exactly.
@@ -49,8 +50,44 @@ class Distance:
         """
         return squared_gap(self.core_squared, self.radius)
 
+    def __lt__(self, other: object) -> bool:
+        """Return True if this distance is less than another one, exactly."""
+        return NotImplemented if not isinstance(other, Distance) else _is_less(self, other)
+
+    def __gt__(self, other: object) -> bool:
+        return NotImplemented if not isinstance(other, Distance) else _is_less(other, self)
+
+    def __le__(self, other: object) -> bool:
+        return NotImplemented if not isinstance(other, Distance) else not _is_less(other, self)
+
+    def __ge__(self, other: object) -> bool:
+        return NotImplemented if not isinstance(other, Distance) else not _is_less(self, other)
+
+    def __repr__(self) -> str:
+        count = len(self.features)
+        return f"<Distance {float(self)!r}, nearest pairs of features: {count}>"
+
     def __float__(self) -> float:
         return max(0.0, nearest_root_less(QQ(self.core_squared), QQ(self.radius)))
+
+
+def _is_less(one: Distance, other: Distance) -> bool:
+    """Return True if max(0, sqrt(c) - r) is less for one distance than for another."""
+    c, r = QQ(one.core_squared), QQ(one.radius)
+    d, s = QQ(other.core_squared), QQ(other.radius)
+    if d <= s * s:
+        return False
+    if c <= r * r:
+        return True
+    # sqrt(c) < sqrt(d) + (r - s); with k = r - s, of either sign:
+    k = r - s
+    if k < 0 and d <= k * k:
+        return False
+    # both sides are positive: c - d - k^2 < 2 k sqrt(d)
+    left = c - d - k * k
+    if k >= 0:
+        return left < 0 or left * left < 4 * k * k * d
+    return left < 0 and left * left > 4 * k * k * d
 
 
 def distance(scene: Scene, a: str, b: str, at: Rational | AlgebraicNumber) -> Distance:

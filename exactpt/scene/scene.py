@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -173,6 +173,33 @@ class Scene:
         if found is not None:
             return found
         raise InputError(f"there is no body {shorten(name)}")
+
+    def __getitem__(self, name: str) -> Body:
+        """Return the body of this name.
+
+        Raises:
+            KeyError: if there is none.
+        """
+        try:
+            return self.body(name)
+        except InputError as error:
+            raise KeyError(str(error)) from None
+
+    def __iter__(self) -> Iterator[Body]:
+        """Iterate over the bodies."""
+        return iter(self.bodies)
+
+    def __contains__(self, name: object) -> bool:
+        """Return True if a body has this name."""
+        return any(body.name == name for body in self.bodies)
+
+    def __len__(self) -> int:
+        """Return the number of bodies."""
+        return len(self.bodies)
+
+    def __bool__(self) -> bool:
+        """Return True, also without bodies."""
+        return True
 
     @overload
     def at(self, t: Rational) -> dict[str, list[tuple[Fraction, Fraction]]]: ...

@@ -76,10 +76,10 @@ class Event:
         }
 
     def __repr__(self) -> str:
-        return (
-            f"Event(time={self.time!r}, kind={self.kind!r}, "
-            f"removed={self.removed!r}, added={self.added!r})"
-        )
+        edges = f"removed={self.removed!r}, added={self.added!r}"
+        if len(edges) > 90:
+            edges = f"{len(self.removed)} edges removed, {len(self.added)} added"
+        return f"Event(time={self.time!r}, kind={self.kind!r}, {edges})"
 
     def __reduce__(self) -> tuple[object, ...]:
         return Event, (self.time, self.kind, self.removed, self.added)

@@ -20,6 +20,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, floor, power_of_two, rational, rationals, show
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
+from exactpt.motion.course import jump
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, SimpleMotion, Translation
 
 __all__ = ["GRID", "onward", "planned", "rounded", "translation_at"]
@@ -51,8 +52,8 @@ def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
     for i, (p, q) in enumerate(zip(body._at(t), new._at(t), strict=True)):
         if p != q:
             raise InputError(
-                f"body {body.name!r}: vertex {i} jumps at t = {show(t)} "
-                f"from {show(*p)} to {show(*q)}"
+                f"body {body.name!r}: vertex {i} {jump(t, p, q)}; "
+                f"exactpt.onward continues from where the body is"
             )
     return new
 
