@@ -77,12 +77,16 @@ class _Worker(Generic[Item, Result]):
 def _deaf() -> Iterator[None]:
     """Put off Ctrl-C until the end of the context; processes started in it never receive it.
 
-    They inherit the mask. Here another thread, one of numpy say, may take the signal, and Python
-    would interrupt this one: a process that has been started by half prints a traceback.
+    They inherit the mask; starting the tracker of resources clears it, so that is done before.
+    Here another thread, one of numpy say, may take the signal, and Python would interrupt this
+    one: a process that has been started by half prints a traceback.
     """
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return
+    from multiprocessing.resource_tracker import ensure_running  # not on Windows
+
+    ensure_running()
     heard: list[int] = []
     before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
     handler = signal.getsignal(signal.SIGINT)
