@@ -24,6 +24,7 @@ from fuzz.cases import Outcome
 from fuzz.hostile import run as hostile_run
 from fuzz.hostile.files import FORMATS
 from fuzz.pair_record import pair_record
+from fuzz.proofs.both import proof_both
 from fuzz.proofs.command import proof_mutants
 from fuzz.questions.command import questions
 from fuzz.record import differences, record
@@ -263,6 +264,7 @@ COMMANDS = {
     "space-queries": public_queries,
     "battery": run_battery,
     "planted": find_planted,
+    "proof-both": proof_both,
     "proof-mutants": proof_mutants,
     "small-scope": small_scope,
     "questions": questions,

@@ -57,7 +57,7 @@ class Checker:
         except BaseException:  # an answer that nobody waits for would be taken for the next one
             self.close()
             raise
-        if not answer.startswith(("accepted: ", "rejected: ", "no proof: ")):
+        if not answer.startswith(("accepted: ", "rejected: ", "no proof: ", "not decided: ")):
             self.close()
             raise AuditError(f"cgal_check: {answer or 'the process has ended'}")
         return answer

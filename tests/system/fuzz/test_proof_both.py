@@ -1,0 +1,40 @@
+"""Damaged proofs and scenes get one exit code, and one statement, from both checkers."""
+
+from itertools import islice
+
+import pytest
+from click.testing import CliRunner
+
+from fuzz.proofs import both
+
+pytestmark = pytest.mark.cgal
+
+
+def test_both_checkers_agree_on_what_is_damaged(program, monkeypatch, tmp_path):
+    monkeypatch.setenv("EXACTPT_CGAL_CHECK", str(program))
+    words = ["--cases", "60", "--seed", "7", "--keep", str(tmp_path / "found")]
+    done = CliRunner().invoke(both.proof_both, words, catch_exceptions=False)
+    assert done.exit_code == 0, done.output
+    assert done.output.endswith("; 0 disagreements\n")
+    assert not (tmp_path / "found").exists()
+
+
+def test_another_statement_is_a_disagreement(program, monkeypatch, tmp_path):
+    monkeypatch.setenv("EXACTPT_CGAL_CHECK", str(program))
+    verdicts = [
+        ((0, "accepted: 1"), (0, "accepted: 2")),
+        ((1, "a"), (2, "b")),
+        ((1, "a"), (1, "b")),
+    ]
+    found = iter(verdicts)
+    monkeypatch.setattr(both, "verdicts", lambda *_: next(found))
+    words = ["--cases", "3", "--keep", str(tmp_path / "found")]
+    done = CliRunner().invoke(both.proof_both, words)
+    assert done.exit_code == 1
+    assert "; 2 disagreements" in done.output
+    assert len(list((tmp_path / "found").iterdir())) == 4
+
+
+def test_damages_are_of_every_class():
+    codes = [both.verdicts(*pair)[0][0] for pair in islice(both.damaged(3), 40)]
+    assert {0, 1, 2} <= set(codes)
