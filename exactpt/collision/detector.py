@@ -84,7 +84,7 @@ def first_contact(
             between=between,
             proof=None if proof is None else Path(proof),
         )
-        return search_for(scene, question, counting=False).run_to_contact()
+        return search_for(scene, question).run_to_contact()
 
 
 def _budget(

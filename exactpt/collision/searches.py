@@ -39,14 +39,12 @@ class Question(NamedTuple):
     max_seconds: float | None = None
 
 
-def search_for(scene: Scene, question: Question, *, counting: bool = True) -> Search:
+def search_for(scene: Scene, question: Question) -> Search:
     """The search that answers a question.
 
     Args:
         scene: the bodies, their motions and the time span.
         question: the question.
-        counting: whether the search counts its decisions; the fastest one for straight motion
-            does not.
 
     Raises:
         InputError: if the method cannot answer this question.
@@ -62,9 +60,9 @@ def search_for(scene: Scene, question: Question, *, counting: bool = True) -> Se
         method = "kinetic"
     seconds = question.max_seconds
     if searches_pairs(method, tiling, groups):
-        rows = None if counting or exact_only else scene_pieces_if_linear(scene)
+        rows = None if exact_only else scene_pieces_if_linear(scene)
         if rows is not None:
-            return LinearSearch(scene, rows, groups)
+            return LinearSearch(scene, rows, groups, seconds)
         from exactpt.pairs.features_sweep import PairsSearch
 
         search = PairsSearch(scene, exact_only=exact_only, max_seconds=seconds, ignoring=groups)

@@ -7,14 +7,17 @@ in the order in which their boxes meet, up to the first contact.
 from __future__ import annotations
 
 import math
+import time as clock
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from fractions import Fraction
 from itertools import combinations
 from typing import TYPE_CHECKING, Final, NamedTuple, final
 
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.budget import ask
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.budget import ask, searching
+from exactpt.kernel.counters import Counters
+from exactpt.kernel.numbers import QQ, fraction
 from exactpt.motion.incidence import Touch
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.pieces import Distance, FewPieces, MotionPiece, contact_distance, linear_pieces
@@ -59,6 +62,7 @@ class LinearSearch:
         scene: the bodies, their motions and the time span.
         rows: the pieces of the bodies.
         ignoring: groups of body names; contacts within a group are ignored.
+        max_seconds: time limit, in seconds; None for no limit.
 
     Attributes:
         name: the name of the tiling: None.
@@ -67,42 +71,66 @@ class LinearSearch:
     name = None
 
     def __init__(
-        self, scene: Scene, rows: FewPieces | ScenePieces, ignoring: Iterable[Collection[str]] = ()
+        self,
+        scene: Scene,
+        rows: FewPieces | ScenePieces,
+        ignoring: Iterable[Collection[str]] = (),
+        max_seconds: float | None = None,
     ) -> None:
         self._scene = scene
         self._rows = rows
         self._group = groups_of(scene, ignoring)
+        self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
+        self._search = _Search(contact_distance, self._deadline)
+        self._is_apart = False  # whether it is known that no two bodies touch at the start
 
     @property
     def stats(self) -> dict[str, object]:
-        """The sizes of the scene."""
-        scene = self._scene
-        return {"bodies": len(scene.bodies), "vertices": scene.vertex_count, "events": 0}
+        """The counts of the search so far, see docs/format.md: pairs of pieces are decided."""
+        counters = self._search.counters
+        return {
+            "bodies": len(self._scene.bodies),
+            "vertices": self._scene.vertex_count,
+            "events": 0,
+            "certificates": counters.exact + counters.filtered,
+            "skipped": 0,
+            "exact": counters.exact,
+            "filtered": counters.filtered,
+        }
 
-    def passed(self) -> None:
-        """No time up to which there is no contact is known before the end of the search."""
+    def passed(self) -> Fraction | None:
+        """Return the end of a closed interval from the start on without contact; None if none is.
+
+        A pair of pieces that has not been compared does not touch before its boxes intersect.
+        """
+        if not self._is_apart:
+            return None
+        start, low = self._scene._start, self._search.low
+        before = math.nextafter(low, -math.inf)
+        return fraction(max(start, QQ(before)) if math.isfinite(before) else start)
 
     def run_to_contact(self) -> Contact | None:
-        """The first contact in the closed time span of the scene; None if there is none.
+        """Return the first contact in the closed time span of the scene; None if there is none.
 
         Raises:
-            BudgetExceeded: if the time or memory of this thread is used up.
+            BudgetExceeded: if the time or memory of this thread, or of the search, is used up.
         """
+        with searching(self._deadline, self.passed):
+            return self._first_contact()
+
+    def _first_contact(self) -> Contact | None:
         scene, rows = self._scene, self._rows
         near = [(i, j) for i, j in rows.near_at_start() if self._counts(i, j)]
         if near:
             touches, overlaps = initial_touches(scene, near)
             if overlaps:
                 return contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)
-        try:
-            found = first_among_candidates(
-                (enter, rows[k], rows[l])
-                for enter, k, l in rows.near()
-                if self._counts(rows.body(k), rows.body(l))
-            )
-        except BudgetExceeded as spent:
-            spent.reached = scene.start
-            raise
+        self._is_apart = True
+        found = self._search.run(
+            (enter, rows[k], rows[l])
+            for enter, k, l in rows.near()
+            if self._counts(rows.body(k), rows.body(l))
+        )
         return None if found is None else contact_of(scene, found.number, found.touches)
 
     def _counts(self, i: int, j: int) -> bool:
@@ -163,28 +191,49 @@ def first_among_candidates(
         pairs: two pieces, and a time before which they do not touch; in the order of these times.
         distance: the distance of the cores at which bodies touch.
     """
-    search = _Search(distance)
-    for enter, a, b in pairs:
-        ask()
-        if enter > search.high:
-            break
-        search.compare(a, b)
-    return search.best
+    return _Search(distance).run(pairs)
 
 
 class _Search:
     """The first contact among the pieces compared so far.
 
+    Args:
+        distance: the distance of the cores at which bodies touch.
+        deadline: the time on the clock after which the search ends; None for no limit.
+
     Attributes:
         best: the contact.
         high: a double at least its time.
+        low: no two pieces touch before it.
+        counters: of the pairs compared, those decided by the filter, and those decided exactly.
     """
 
-    def __init__(self, distance: Distance) -> None:
+    def __init__(self, distance: Distance, deadline: float | None = None) -> None:
         self._distance = distance
+        self._deadline = deadline
         self._spans: dict[tuple[QQ, QQ], Span] = {}
         self.best: FirstContact | None = None
         self.high: float = math.inf
+        self._enter = -math.inf
+        self.counters = Counters()
+
+    @property
+    def low(self) -> float:
+        """A double such that no two pieces touch before it."""
+        best = math.inf if self.best is None else self.best.number.enclosure()[0]
+        return min(self._enter, best)
+
+    def run(self, pairs: Iterable[tuple[float, MotionPiece, MotionPiece]]) -> FirstContact | None:
+        """Compare pairs of pieces in the order of the times before which they do not touch."""
+        for enter, a, b in pairs:
+            ask()
+            if self._deadline is not None and clock.monotonic() > self._deadline:
+                raise BudgetExceeded("the time is used up", None)
+            if enter > self.high:
+                break
+            self._enter = enter
+            self.compare(a, b)
+        return self.best
 
     def compare(self, a: MotionPiece, b: MotionPiece) -> None:
         """Compare two pieces."""
@@ -195,7 +244,9 @@ class _Search:
         span = self._spans.get((start, end))
         if span is None:
             span = self._spans[start, end] = span_of(start, end)
-        met = first_meeting(a.straight, b.straight, span, self.high, self._distance(a, b))
+        met = first_meeting(
+            a.straight, b.straight, span, self.high, self._distance(a, b), self.counters
+        )
         if met is None:
             return
         touches = list(_touches(met, a.body, b.body))

@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.motion.outline import Straight
 from exactpt.pairs.features import Feature, FeaturePair
@@ -45,6 +46,7 @@ def first_meeting(
     span: Span,
     before: float = math.inf,
     distance: ContactDistance | None = None,
+    counters: Counters | None = None,
 ) -> Meeting | None:
     """Return the first contact of two bodies in (start, end]; None if there is none.
 
@@ -54,9 +56,13 @@ def first_meeting(
         span: the start and the end.
         before: contacts certainly later than this do not count.
         distance: the contact distance of the cores; None if it is 0.
+        counters: counts whether the filter or exact arithmetic decides.
     """
     nearest = 0.0 if distance is None else distance.nearest
     candidates = candidates_of(a, b, span, before, nearest)
+    if counters is not None:
+        counters.exact += bool(candidates)
+        counters.filtered += not candidates
     if not candidates:
         return None
     if distance is None:

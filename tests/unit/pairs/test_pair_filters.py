@@ -6,7 +6,8 @@ from random import Random
 
 import pytest
 
-from exactpt import Body, Scene, Translation, first_contact
+from exactpt import Body, BudgetExceeded, Scene, Translation, first_contact
+from exactpt.collision.searches import Question, search_for
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.outline import straight_pieces
 from exactpt.pairs import search
@@ -94,7 +95,7 @@ def test_bodies_with_radii_in_linear_motion_are_not_searched_in_slabs(monkeypatc
 
 
 def test_overlap_at_the_start_ends_the_search(monkeypatch):
-    monkeypatch.setattr(search, "first_among_candidates", None)
+    monkeypatch.setattr(search._Search, "run", None)
     monkeypatch.setattr(PairsSearch, "_run", None)
     far = [Body(f"far{k}", [(30 + 3 * k, 0)], Translation([0, -k])) for k in range(12)]
     two = [Body("a", [(0, 0)], radius=2), Body("b", [(1, 0)], radius=1)]
@@ -103,3 +104,38 @@ def test_overlap_at_the_start_ends_the_search(monkeypatch):
         contact = first_contact(Scene(bodies, time=(0, 1)))
         assert contact.kind == "initial"
         assert contact.overlaps == (("a", "b"),)
+
+
+def test_search_interrupted_between_pieces_has_passed_no_contact(monkeypatch):
+    """At each comparison, the claimed interval is closed and has no contact."""
+    bodies = [Body("point", [(200, 0)], Translation([0, 1])), Body("wall", [(208, -1), (208, 1)])]
+    for k in range(6):  # parallel segments that pass each other: their boxes intersect at 2 + k
+        by = 20 * k - 10 - k
+        bodies.append(Body(f"post {k}", [(20 * k, 0), (20 * k + 8, 8)]))
+        passing = [(by + 3, -10 - k), (by + 11, -2 - k)]
+        bodies.append(Body(f"passes {k}", passing, Translation([0, 1], [0, 1])))
+    scene = Scene(bodies, time=(0, 9))
+    first = first_contact(scene).time
+    claimed, compare = [], search._Search.compare
+
+    def watched(self, a, b):
+        claimed.append(running.passed())
+        compare(self, a, b)
+        claimed.append(running.passed())
+
+    monkeypatch.setattr(search._Search, "compare", watched)
+    running = search_for(scene, Question("auto", "auto"))
+    assert running.passed() is None
+    assert running.run_to_contact().time == first
+    assert len(claimed) >= 4
+    assert all(0 <= t < first for t in claimed)
+    stats = running.stats
+    assert stats["certificates"] == stats["exact"] + stats["filtered"] == len(claimed) // 2
+
+
+def test_linear_search_out_of_time_says_so():
+    bodies = [Body("a", [(0, 0)], Translation([0, 1])), Body("b", [(4, -1), (4, 1)])]
+    running = search_for(Scene(bodies, time=(0, 9)), Question("auto", "auto", max_seconds=0.0))
+    with pytest.raises(BudgetExceeded) as spent:
+        running.run_to_contact()
+    assert spent.value.reached == 0

@@ -45,7 +45,7 @@ def searches(scene, folder):
     """A function that makes a search, by the name of the method."""
 
     def ask_for(method, **options):
-        return lambda: search_for(scene, Question(method, "auto", **options), counting=False)
+        return lambda: search_for(scene, Question(method, "auto", **options))
 
     found = {"pairs": ask_for("pairs"), "auto": ask_for("auto")}
     if not scene.is_rounded:
