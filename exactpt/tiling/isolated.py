@@ -190,9 +190,9 @@ class IsolatedEvents:
             t = twin(before)
             e0, e1, e2, e3, e4 = before, following[before], h, t, following[t]
         certified.certify_five(e0, e1, e2, e3, e4)
-        stats, pending = self._log.stats, len(self._queue)
-        stats.most = max(stats.most, pending)
         if rules.only_angles and not certified.table.angles:
+            stats = self._log.stats
+            stats.most = max(stats.most, len(self._queue))
             return DONE
         changed = [e0, e1, e2, e3, e4]
         certified.batch.clear()

@@ -43,7 +43,7 @@ class Rules(ABC):
     Attributes:
         slides_are_plain: whether a slide changes the mesh as `Mesh` itself does, so that
             isolated events are processed by `exactpt.tiling.isolated`. Set by the class.
-        only_angles: whether only angles are certified, and nothing follows a repair; the methods
+        only_angles: whether nothing but certificates of angles follows from a slide; the methods
             `changed`, `is_violated` and `restore` are then not called after isolated events.
         certified: the mesh, with the certificates of its angles.
         log: the record of events.

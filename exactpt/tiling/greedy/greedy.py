@@ -7,7 +7,7 @@ vertical, and the bitangents that become vertical and so get the smallest theta.
 
 from __future__ import annotations
 
-from typing import final
+from typing import ClassVar, final
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certificate import CELL, kind_of, part_of
@@ -56,6 +56,9 @@ class VerticalRules(Rules):
     Attributes:
         cells: the vertical decomposition, with its certificates.
     """
+
+    slides_are_plain: ClassVar[bool] = True
+    only_angles: ClassVar[bool] = True
 
     def __init__(self, certified: CertifiedMesh, log: Log) -> None:
         super().__init__(certified, log)

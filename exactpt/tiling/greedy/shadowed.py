@@ -9,7 +9,7 @@ certificates, and no events of shadow edges.
 
 from __future__ import annotations
 
-from typing import cast, final
+from typing import ClassVar, cast, final
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certificate import TURN, kind_of, pack, part_of
@@ -31,6 +31,8 @@ __all__ = ["ShadowRules"]
 @final
 class ShadowRules(FlippingRules):
     """The canonical greedy tiling of simple polygons."""
+
+    slides_are_plain: ClassVar[bool] = True
 
     def __init__(self, certified: CertifiedMesh, log: Log) -> None:
         super().__init__(certified, log)

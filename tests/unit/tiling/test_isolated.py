@@ -22,6 +22,8 @@ from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
 from exactpt.tiling import tiling as tilings
 from exactpt.tiling.events import ContactFound
+from exactpt.tiling.greedy.greedy import VerticalRules
+from exactpt.tiling.greedy.shadowed import ShadowRules
 from exactpt.tiling.isolated import DONE, LEFT, OPEN, IsolatedEvents
 from exactpt.tiling.lazy import LazyRules
 from fuzz.statics import audit_at, run_and_audit
@@ -70,9 +72,9 @@ def state_of(kinetic):
     }
 
 
-def run(scene, most=10**9):
-    """The events of the lazy tiling, its states after them, and the contact."""
-    kinetic = start_tiling(scene, "lazy", scene._start)
+def run(scene, most=10**9, name="lazy"):
+    """The events of a tiling, its state after them, and the contact."""
+    kinetic = start_tiling(scene, name, scene._start)
     events, contact = [], None
     try:
         while len(events) < most and (happened := kinetic.advance(scene._end)) is not None:
@@ -85,13 +87,14 @@ def run(scene, most=10**9):
 def without(monkeypatch, run):
     """The result without isolated events."""
     with monkeypatch.context() as patched:
-        patched.setattr(LazyRules, "slides_are_plain", False)
+        for rules in (LazyRules, VerticalRules, ShadowRules):
+            patched.setattr(rules, "slides_are_plain", False)
         return run()
 
 
-def check_equal(monkeypatch, scene, most=10**9):
-    found = run(scene, most)
-    expected = without(monkeypatch, lambda: run(scene, most))
+def check_equal(monkeypatch, scene, most=10**9, name="lazy"):
+    found = run(scene, most, name)
+    expected = without(monkeypatch, lambda: run(scene, most, name))
     assert found[:3] == expected[:3]
     return found[3]
 
@@ -102,12 +105,20 @@ def test_events_of_a_crowd_equal_those_of_the_engine(monkeypatch, outcomes, seed
     assert outcomes[DONE] > 8 * outcomes[LEFT]
 
 
+@pytest.mark.parametrize("seed", range(2))
+def test_greedy_events_of_a_crowd_equal_those_of_the_engine(monkeypatch, outcomes, seed):
+    check_equal(monkeypatch, crowded(seed), name="greedy")
+    assert outcomes[DONE] > 30
+    assert outcomes[LEFT] > 30
+
+
+@pytest.mark.parametrize("name", ["greedy", "lazy"])
 @pytest.mark.parametrize("family", FAMILIES)
-def test_events_of_every_family_equal_those_of_the_engine(monkeypatch, family):
+def test_events_of_every_family_equal_those_of_the_engine(monkeypatch, family, name):
     for seed in range(3):
         scene = generate(family, seed)
         if not initial_touches(scene)[1]:
-            check_equal(monkeypatch, scene)
+            check_equal(monkeypatch, scene, name=name)
 
 
 def test_audits_run_through_isolated_events(outcomes):

@@ -12,6 +12,8 @@ from exactpt.pseudotriangulation.audit import audit_angles
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.tiling.engine import Engine
+from exactpt.tiling.greedy.greedy import VerticalRules
+from exactpt.tiling.greedy.shadowed import ShadowRules
 from exactpt.tiling.lazy import LazyRules
 from exactpt.tiling.repairs import RebuildNeeded, Repairs
 from fuzz.statics import run_and_audit
@@ -21,8 +23,9 @@ pytestmark = pytest.mark.plain
 
 @pytest.fixture(autouse=True)
 def every_event_is_repaired(monkeypatch):
-    """Isolated events of the lazy tiling are processed without `Repairs`."""
-    monkeypatch.setattr(LazyRules, "slides_are_plain", False)
+    """Isolated events are processed without `Repairs`."""
+    for rules in (LazyRules, VerticalRules, ShadowRules):
+        monkeypatch.setattr(rules, "slides_are_plain", False)
 
 
 def refuse(*_):
