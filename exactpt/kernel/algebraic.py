@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 import re
+from decimal import Context, Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final, final
 
@@ -347,10 +348,12 @@ class AlgebraicNumber(IsolatedRoot):
         match = re.search(r"\.(\d+)[eEfFgG%]$", spec)
         if match is None or int(match[1]) <= 15:
             return format(float(self), spec)
-        from exactpt.kernel.quotients import decimal_quotient
-
-        digits = int(match[1]) + max(0, len(str(abs(int(self))))) + 3
-        return format(decimal_quotient((ZZ(0), ZZ(1)), (ZZ(1),), self, digits), spec)
+        context = Context(int(match[1]) + len(str(int(self))) + 30)
+        while True:
+            low, high = (format(_quotient(q, context), spec) for q in (self._low, self._high))
+            if low == high:
+                return low
+            self.refine()
 
     def __int__(self) -> int:
         """Return the integer part, towards zero."""
@@ -373,6 +376,10 @@ class AlgebraicNumber(IsolatedRoot):
 
 def _cut(text: str) -> str:
     return text if len(text) <= LONGEST else f"{text[: LONGEST // 2]}...{text[-8:]}"
+
+
+def _quotient(q: QQ, context: Context) -> Decimal:
+    return context.divide(Decimal(int(q.numerator)), Decimal(int(q.denominator)))
 
 
 def _operand(value: Rational) -> QQ:

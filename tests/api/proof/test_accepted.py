@@ -175,7 +175,7 @@ def test_bug_a_proof_with_numbers_longer_than_python_reads_is_checked_in_the_sam
     proved = prove(scene)
     proved.save(tmp_path / "a.proof")
 
-    assert proved.check()[24:].startswith(" first contact at T = 1000")
+    assert " first contact at T = 1000" in proved.check()
     files = [str(tmp_path / "a.proof.scene.json"), str(tmp_path / "a.proof")]
     assert proof_check.main(files) == 0
     assert sys.get_int_max_str_digits() == limit

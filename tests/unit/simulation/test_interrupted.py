@@ -134,6 +134,7 @@ def late(*args, **options):
     raise BudgetExceeded("the memory is used up", None)
 
 
+@pytest.mark.plain
 @pytest.mark.parametrize("what", ["kinetic", "proof", "simulation"])
 def test_bug_interrupted_inside_the_event_of_a_contact_at_3(what, tmp_path, monkeypatch):
     search = searches(SCENES["rational"], tmp_path)[what]()
@@ -156,6 +157,7 @@ def test_bug_while_the_contact_is_written_a_proof_claimed_its_time():
     assert reached[-1] < 3
 
 
+@pytest.mark.plain
 @pytest.mark.parametrize("method", ["auto", "kinetic"])
 def test_bug_a_proof_out_of_time_claimed_nothing(method, tmp_path, monkeypatch):
     monkeypatch.setattr("exactpt.tiling.touching.touches", late)
