@@ -72,7 +72,7 @@ def test_an_example_runs(line, tmp_path, monkeypatch, request):
         pytest.importorskip("pyarrow.parquet").write_table(rows, tmp_path / "scenes.parquet")
     scene = (files("exactpt") / "data" / "demo.json").read_text(encoding="utf-8")
     (tmp_path / "scene.json").write_text(scene)
-    if line.endswith(" folder"):
+    if line == "exactpt check folder":
         list(Simulation(Scene.load("scene.json"), proof=tmp_path / "folder").run())
 
     with pytest.raises(SystemExit) as left:
