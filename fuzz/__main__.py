@@ -29,7 +29,7 @@ from fuzz.proofs.command import proof_mutants
 from fuzz.questions.command import questions
 from fuzz.record import differences, record
 from fuzz.small_scope.command import small_scope
-from fuzz.space_queries import compare_public_queries
+from fuzz.space_queries import compare_public_queries, score_engines
 from fuzz.thin import SUFFIX
 from fuzz.transformations.command import transformations
 from fuzz.witnesses import WITNESSES
@@ -199,13 +199,17 @@ def make_record(output: Path, count: int, seed: int, against: Path | None, *, pa
 @click.command("space-queries", context_settings=HELP)
 @click.argument("folder", type=click.Path(exists=True, file_okay=False, path_type=Path))
 @click.option("--repeat", "count", type=click.IntRange(min=1), help="Number of queries in arrays.")
-def public_queries(folder: Path, count: int | None) -> None:
+@click.option("--engines", is_flag=True, help="Score other programs, too.")
+def public_queries(folder: Path, count: int | None, *, engines: bool) -> None:
     """Compare first contacts in space with the answers of a public benchmark.
 
     The CSV files of FOLDER have eight rows a query, seven integers a row: x, y and z as numerator
     and denominator, and 1 if there is a contact; "vertex-face" in the name of a file, or not.
     """
-    sys.exit(FAILED if compare_public_queries(folder, count, click.echo) else 0)
+    differences = compare_public_queries(folder, count, click.echo)
+    if engines:
+        score_engines(folder, click.echo)
+    sys.exit(FAILED if differences else 0)
 
 
 @click.command("--hostile", context_settings=HELP)

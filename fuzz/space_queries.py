@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from exactpt.bench.peers import is_installed
+from exactpt.bench.space import engines, score
 from exactpt.errors import InputError
 from exactpt.testing.space import (
     SpaceContact,
@@ -18,8 +20,9 @@ from exactpt.testing.space import (
     vertex_face,
     vertex_face_array,
 )
+from exactpt.testing.space.queries import Kind, SpaceQuery
 
-__all__ = ["compare_public_queries"]
+__all__ = ["compare_public_queries", "score_engines"]
 
 Points = list[list[Fraction]]
 
@@ -73,6 +76,19 @@ def compare_public_queries(folder: Path, count: int | None, say: Callable[[str],
             f"{contacts.exact_share:.1%} decided exactly, {rate:,.0f} a second"
         )
     return differences
+
+
+def score_engines(folder: Path, say: Callable[[str], None]) -> None:
+    """Print for each engine of `exactpt bench space` its row, one value a line."""
+    queries = []
+    for number, query in enumerate(_read(folder)):
+        points = [(float(x), float(y), float(z)) for x, y, z in query.points]
+        kind: Kind = "vertex-face" if query.kind == "vertex-face" else "edge-edge"
+        queries.append(SpaceQuery(kind, tuple(points[:4]), tuple(points[4:]), number))
+    for row, missed in score(queries, engines(has_ipctk=is_installed("ipctk")), lambda _: None):
+        say("  ".join(f"{key}: {value}" for key, value in row.items() if value is not None))
+        if missed is not None:
+            say(f"  first missed: query {missed.name}")
 
 
 def _decide(query: Public) -> SpaceContact | None:

@@ -44,7 +44,7 @@ class Sizes(NamedTuple):
 
 
 QUICK: Final = Sizes(10)
-FULL: Final = Sizes(200)
+FULL: Final = Sizes(50)
 
 
 class Engine:

@@ -50,7 +50,7 @@ class CertificateQueue:
     >>> queue.watch("below 2", 2 - t**2)
     >>> queue.watch("never below 3", (t - 3) ** 2)
     >>> queue.advance(), queue.now
-    (['below 2'], <root of (-2, 0, 1) near 1.4142135623730951>)
+    (['below 2'], <1.4142135623730951... (root of a polynomial of degree 2)>)
     >>> queue.advance(), queue.now
     ([], AlgebraicNumber('10'))
 

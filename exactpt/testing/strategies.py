@@ -25,6 +25,8 @@ from exactpt.scene.generate import EVERY, generate
 from exactpt.scene.scene import Scene
 from exactpt.testing.families import FAMILIES, make_question
 from exactpt.testing.questions import Moving, Question
+from exactpt.testing.space.families import make_query
+from exactpt.testing.space.queries import Kind, SpaceQuery
 
 try:
     from hypothesis import strategies as st
@@ -40,6 +42,7 @@ __all__ = [
     "pairs_in_motion",
     "scenes",
     "simple_polygons",
+    "space_queries",
 ]
 
 Outline: TypeAlias = list[tuple[float, float]]
@@ -112,6 +115,26 @@ def scenes(family: str | None = None) -> SearchStrategy[Scene]:
         raise InputError(f"no family {family!r}; there are: {', '.join([*FAMILIES, *EVERY])}")
     names = st.sampled_from(list(EVERY)) if family is None else st.just(family)
     return st.builds(generate, names, st.integers(0, 2**32))
+
+
+def space_queries(kind: Kind, family: str | None = None) -> SearchStrategy[SpaceQuery]:
+    """Queries about a vertex and a triangle, or about two segments, in space.
+
+    Args:
+        kind: "vertex-face" or "edge-edge".
+        family: one of `exactpt.testing.space.FAMILIES`, drawn by its number; if not given, any
+            vertices with coordinates as `coordinates` draws them.
+
+    Raises:
+        InputError: if there is no such kind or family.
+    """
+    if family is None:
+        make_query(kind, "generic")  # refuses unknown kinds
+        number = coordinates()
+        four = st.tuples(*[st.tuples(number, number, number)] * 4)
+        return st.builds(lambda start, end: SpaceQuery(kind, start, end), four, four)
+    make_query(kind, family)  # refuses unknown names
+    return st.integers(0, 2**32).map(lambda number: make_query(kind, family, number=number))
 
 
 def _points(least: int, most: int) -> SearchStrategy[Outline]:

@@ -21,10 +21,12 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals and lim
 needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
 
 MAIN = "from exactpt.cli import main; main()"
-# What is started in the background of a shell ignores SIGINT, and so does what it starts.
+# A child of a shell's background ignores SIGINT, one of nohup SIGHUP.
 STUCK = """
 import signal, time
 signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
+signal.signal(signal.SIGTERM, signal.SIG_DFL)
 from exactpt.simulation.simulation import Simulation
 run = Simulation.run
 def stuck(self):

@@ -7,9 +7,11 @@ from random import Random
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from hypothesis import given, settings
 
 from exactpt.cli import cli
 from exactpt.errors import InputError
+from exactpt.testing import strategies
 from exactpt.testing.oracle import Refusals, answers
 from exactpt.testing.space import (
     FAMILIES,
@@ -281,3 +283,22 @@ def test_enumeration_finds_a_planted_mistake(monkeypatch):
     monkeypatch.setattr(exact_module, "_contains_origin", lambda *_: False)
 
     assert any(checked("space", 9, number).fault for number in range(80))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_strategies_draw_queries_of_a_kind(kind):
+    drawn = []
+
+    @settings(max_examples=30, database=None)
+    @given(strategies.space_queries(kind), strategies.space_queries(kind, "graze"))
+    def draw(any_query, grazing):
+        assert any_query.kind == grazing.kind == kind
+        assert str(grazing.name).startswith("graze:0:")
+        contact = contact_of(any_query)
+        drawn.append(contact is not None)
+
+    draw()
+
+    assert len(drawn) >= 25
+    with pytest.raises(InputError, match="no family"):
+        strategies.space_queries(kind, "none")
