@@ -23,6 +23,7 @@ def pieces(a, b):
     return [(body._piece_after(QQ(0)), 0) for body in bodies]
 
 
+@pytest.mark.long
 @given(x=ordinary, y=ordinary, u=paths, v=paths, start=st.integers(-5, 5))
 def test_two_vertices_cross_when_their_trajectories_do(x, y, u, v, start):
     (p, _), (q, _) = both = pieces((x, u), (y, v))

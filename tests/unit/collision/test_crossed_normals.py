@@ -84,6 +84,7 @@ def deforming(random):
         return body
 
 
+@pytest.mark.long
 def test_out_of_a_polygon_by_sampling_its_sides():
     random, seen = Random("normals"), Counter()
     for _ in range(250):

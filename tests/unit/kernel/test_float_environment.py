@@ -212,6 +212,7 @@ def _tiny_and_huge():
         yield exactpt.Scene([left, right], (0, 20))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("handling", ["raise", "call"])
 def test_bug_errstate_of_numpy_does_not_leak(handling):
     """A coordinate near 0 raised FloatingPointError: underflow encountered in nextafter."""

@@ -24,6 +24,7 @@ def walker(name, rng):
     return Body(name, [(0, 0), (2, 0), (2, 1), (0, 1)], Pieces(pieces))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("others", [[], [Body("mill", [(0, 0), (40, 0)], Rigid([0, 1]))]])
 def test_contacts_of_many_pieces_need_few_boxes_and_lose_no_pair(others, monkeypatch):
     rng = Random(5)

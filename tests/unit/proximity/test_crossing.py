@@ -180,6 +180,7 @@ def chain(random):
             return points
 
 
+@pytest.mark.long
 def test_chains_on_a_grid_cross_as_counted():
     random, seen = Random(7), Counter()
     for _ in range(1000):

@@ -212,6 +212,7 @@ def room(rng):
     return Scene([*WALLS, *bodies], (0, 3))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tiling", ["lazy", "greedy"])
 def test_each_contact_of_a_run_is_that_of_all_pairs(tiling):
     """Of the scene that goes on from the last response."""

@@ -200,6 +200,7 @@ def test_ctrl_c_while_modules_are_imported():
     assert done.stderr == b"exactpt: interrupted\n"
 
 
+@pytest.mark.long
 def test_between_two_times_of_a_forged_state():
     """Numbers in a wrong order have nothing between them: the search asks for the time."""
     with pytest.raises(BudgetExceeded), within(clock.monotonic() + 0.2):

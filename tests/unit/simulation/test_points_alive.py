@@ -129,6 +129,7 @@ def test_points_bounce_and_keep_their_tiling():
     assert contacts > 15
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", sorted(POINTS))
 def test_a_restored_run_of_points_has_the_same_log(family, tmp_path):
     for seed in range(3):

@@ -207,6 +207,7 @@ def test_queries_are_the_same_everywhere():
         SpaceQuery.from_json({**query.to_json(), "end": [[0, 0, 0]]})
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("check", [check_vertex_face, check_edge_edge])
 def test_check_counts_and_shrinks_the_mistakes_of_a_function(check):
     def toi(query):

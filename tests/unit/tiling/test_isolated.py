@@ -112,6 +112,7 @@ def test_greedy_events_of_a_crowd_equal_those_of_the_engine(monkeypatch, outcome
     assert outcomes[LEFT] > 30
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["greedy", "lazy"])
 @pytest.mark.parametrize("family", FAMILIES)
 def test_events_of_every_family_equal_those_of_the_engine(monkeypatch, family, name):
@@ -203,6 +204,7 @@ def test_overlapping_times_are_the_engines(monkeypatch, outcomes):
     assert outcomes[LEFT] > 10
 
 
+@pytest.mark.long
 def test_an_end_within_an_enclosure_is_the_engines(monkeypatch, outcomes):
     """Advancing to the times of events, rounded, neither misses nor repeats any."""
     scene = crowded(7)

@@ -81,6 +81,7 @@ def test_first_contact_equals_reference(family, count):
             assert found.to_json() == expected.to_json()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", sorted(POINTS))
 def test_filter_changes_nothing(family):
     """The event log is the same, and so is the end, with and without the float filters."""
