@@ -258,7 +258,7 @@ PLANTED: Final[dict[str, Callable[[], Any]]] = {
     ),
     "ends of pieces missed": lambda: _replaced(Clock, "end_of_piece", _always(None)),
     "swept boxes too small": lambda: _edited(
-        SweptBoxes, "_range", "r = np.maximum(", "r = 0.5 * np.maximum("
+        SweptBoxes, "_ranges", "r = np.maximum(", "r = 0.5 * np.maximum("
     ),
     "the last root taken for the first": lambda: _edited(
         roots, "_quadratic_roots", "(middle - s, middle + s + 1)", "(middle + s + 1,)"
