@@ -40,7 +40,7 @@ from exactpt.geometry.ragged import Flags
 from exactpt.kernel.budget import ask
 from exactpt.kernel.doubles import Floats
 from exactpt.kernel.numbers import shorten
-from exactpt.kernel.rounding import TINY, U
+from exactpt.kernel.rounding import TINY, U, check_rounding
 from exactpt.testing.space.exact import SpaceContact, first_contact_of
 from exactpt.testing.space.queries import Kind
 
@@ -161,6 +161,7 @@ def edge_edge_array(points: ArrayLike, *, errors: Errors = "raise") -> SpaceCont
 
 
 def _decide(kind: Kind, points: ArrayLike, errors: str) -> SpaceContacts:
+    check_rounding()
     if errors not in ("raise", "mask"):
         raise InputError(f'errors: expected "raise" or "mask", got {shorten(errors)}')
     try:
