@@ -6,6 +6,7 @@ import hashlib
 import os
 import secrets
 import shutil
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
@@ -69,8 +70,13 @@ def write_set(
         done: called after each part.
 
     Raises:
-        InputError: if the folder is there and not empty, or cannot be written.
+        InputError: if the folder is there and not empty, or cannot be written, or if docstrings,
+            which the README of a set quotes, were removed.
     """
+    if sys.flags.optimize > 1:
+        raise InputError(
+            "PYTHONOPTIMIZE=2 removes the descriptions that the README of a set quotes"
+        )
     with _written_beside(folder) as place:
         written: list[Written] = []
         for files in _each(place, parts, jobs):

@@ -44,3 +44,16 @@ def test_a_bad_scene_is_refused_in_one_line(level, tmp_path):
 
 def test_help_without_docstrings_has_the_options(tmp_path):
     assert "--tiling" in run("2", tmp_path, "collide", "--help")[1]
+
+
+def test_a_set_whose_readme_would_lack_its_descriptions_is_refused(tmp_path):
+    """The README said "None" of each family."""
+    status, out, said = run(
+        "2", tmp_path, "questions", "--set", "set", "--questions", "0", "--scenes", "0"
+    )
+
+    assert (status, out) == (2, "")
+    assert said == (
+        "exactpt: PYTHONOPTIMIZE=2 removes the descriptions that the README of a set quotes\n"
+    )
+    assert not (tmp_path / "set").exists()

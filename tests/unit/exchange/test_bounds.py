@@ -2,12 +2,14 @@
 
 import json
 import os
+import signal
 import sys
 import tracemalloc
 
 import pytest
 
 from exactpt.cli import main
+from exactpt.cli.alarm import GRACE
 from exactpt.errors import InputError
 from exactpt.exchange import bodies, shapes, svg
 from exactpt.exchange.drawing import read_drawing
@@ -265,13 +267,22 @@ def test_a_pipe_is_read_up_to_the_limit():
     os.close(ours)
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signal")
 def test_conversion_within_a_time(folder, capsys, monkeypatch):
+    """The alarm that the option sets rings while a body is made."""
     (folder / "shapes.wkt").write_text("POINT (1 1)")
-    monkeypatch.setattr("exactpt.cli.alarm.GRACE", 0.01)
-    monkeypatch.setattr(bodies.Body, "__init__", lambda *_, **__: any(0 for _ in iter(int, 1)))
+    left = []
 
-    assert code_of("convert", "shapes.wkt", "out.json", "--max-seconds", "0.05") == 4
+    def late(*_, **__):
+        left.append(signal.getitimer(signal.ITIMER_REAL)[0])
+        signal.raise_signal(signal.SIGALRM)
+
+    monkeypatch.setattr(bodies.Body, "__init__", late)
+
+    assert code_of("convert", "shapes.wkt", "out.json", "--max-seconds", "900") == 4
     assert capsys.readouterr().err == "exactpt: the time is used up\n"
+    assert len(left) == 1
+    assert 0 < left[0] <= 900 + GRACE
     assert not (folder / "out.json").exists()
 
 

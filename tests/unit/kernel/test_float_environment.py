@@ -18,10 +18,13 @@ from exactpt.kernel.budget import ask
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.kernel.rounding import check_rounding
 from exactpt.scene.generate import FAMILIES, generate
+from exactpt.testing import space
 
 DOWN, UP, TO_ZERO, FTZ, DAZ = 0x2000, 0x4000, 0x6000, 0x8000, 0x0040
 """Bits of MXCSR, the control register of SSE."""
 SQUARE = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], float)
+APART = np.array([[(0, 0, 9), (1, 0, 0), (0, 1, -9), (0, 0, -9)] * 2], float)
+"""A query in space that the float filter decides alone: no contact."""
 
 
 def _library():
@@ -68,6 +71,8 @@ def _questions():
     still = [(0, 0), (9, 9)]
     yield "arrays", lambda: arrays.first_contacts([*SQUARE, (5, 0)], [0, 4, 5], [(0, 1)])
     yield "queries", lambda: arrays.point_segment_contacts([still[0]], [still[1]], [(9, 8)])
+    yield "vertex_face_array", lambda: space.vertex_face_array(APART)
+    yield "edge_edge_array", lambda: space.edge_edge_array(APART)
     yield "from_arrays", lambda: exactpt.Scene.from_arrays(SQUARE, [0, 4])
     yield "Scene", lambda: exactpt.Scene([ball, wall])
     yield "from_json", lambda: exactpt.Scene.from_json(scene.to_json())
