@@ -34,11 +34,12 @@ if TYPE_CHECKING:
     from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
     from exactpt.motion.spin import Spin
     from exactpt.pairs.approach import Approach, first_within
-    from exactpt.pairs.clearance import Clearance, clearance
+    from exactpt.pairs.clearance import Clearance
     from exactpt.pairs.contact import Contact, Pair
     from exactpt.pairs.distance import Distance, distance
     from exactpt.pairs.intervals import ContactInterval, contact_intervals, contacts
     from exactpt.pairs.planner import Planner
+    from exactpt.pairs.surroundings import Surroundings, clearance
     from exactpt.proof.written import Proof, prove
     from exactpt.query.answers import Hit, Path, Place
     from exactpt.query.space import FreeSpace
@@ -82,6 +83,7 @@ __all__ = [
     "Scene",
     "Simulation",
     "Spin",
+    "Surroundings",
     "Translation",
     "UnreachableError",
     "Velocity",
@@ -146,8 +148,9 @@ _ROOMS: Final = {
         "Proof",
         "prove",
     ),
-    "exactpt.pairs.clearance": (
-        "Clearance",
+    "exactpt.pairs.clearance": ("Clearance",),
+    "exactpt.pairs.surroundings": (
+        "Surroundings",
         "clearance",
     ),
     "exactpt.pairs.distance": (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import combinations, islice, pairwise, takewhile
@@ -15,17 +15,19 @@ from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, isqrt
 from exactpt.kernel.square_root import exact_square_root
+from exactpt.motion.body import Body
 from exactpt.pairs.approach_search import ApproachSearch, Nearest
 from exactpt.pairs.near import pairs_that_come_near
 from exactpt.pairs.pieces import MotionPiece, linear_pieces
 from exactpt.pairs.search import first_among_pieces
+from exactpt.pairs.selection import Selection
 from exactpt.pairs.start import near_at_start, within_at_start
 from exactpt.pairs.stretches import two_bodies
 from exactpt.pairs.two_pieces import ContactDistance
 from exactpt.pairs.within import Norm, asked_distance, of_cores, time_within
-from exactpt.scene.scene import Scene, a_scene
+from exactpt.scene.scene import Scene, a_scene, scene_of
 
-__all__ = ["Approach", "first_within"]
+__all__ = ["Approach", "first_within", "time_within_of_two"]
 
 BITS: Final = 64
 """Bits of an upper bound of a distance, at least."""
@@ -65,6 +67,8 @@ def first_within(
     distance: Rational | None = None,
     norm: Norm | None = None,
     distance_squared: Rational | None = None,
+    between: Iterable[Sequence[str]] | None = None,
+    ignoring: Iterable[Collection[str]] = (),
 ) -> Approach | None: ...
 
 
@@ -76,6 +80,8 @@ def first_within(
     *,
     norm: Norm | None = None,
     distance_squared: Rational | None = None,
+    between: Iterable[Sequence[str]] | None = None,
+    ignoring: Iterable[Collection[str]] = (),
 ) -> AlgebraicNumber | Approach | None:
     """The first time in the scene's span at which bodies are at most a distance apart.
 
@@ -98,6 +104,9 @@ def first_within(
         distance_squared: the square of the distance, instead of it, so that the square root of
             a rational number can be asked for; for the Euclidean norm. (Of rounded bodies it must
             be the square of a rational number.)
+        between: pairs of names, for a question without names; other pairs do not count.
+        ignoring: groups of body names, for a question without names; two bodies of one group
+            do not count.
 
     Returns:
         The exact time, of any two bodies with the pairs; None if the bodies stay farther apart.
@@ -119,12 +128,15 @@ def first_within(
         )
         norm = "max"
     norm, d = asked_distance(distance, distance_squared, norm)
+    selection = Selection(scene, between, ignoring)
     if a is not None and b is not None:
+        if not selection.is_all:
+            raise InputError("between and ignoring select among all pairs: name no two bodies then")
         first, second = two_bodies(scene, a, b)
         return time_within(first, second, scene._start, scene._end, d, norm)
     found: Nearest | None = None
     if len(scene.bodies) > 1:
-        found = _first(scene, d, norm)
+        found = _first(scene, d, norm) if selection.is_all else _selected(scene, selection, d, norm)
     if found is None:
         return None
     names = [(scene.bodies[i].name, scene.bodies[j].name) for i, j in found.pairs]
@@ -138,6 +150,14 @@ def _first(scene: Scene, d: QQ, norm: Norm) -> Nearest | None:
     if norm == "max":
         return _by_pairs(scene, pairs_that_come_near(scene, d), d, norm)
     return _on_axis(scene, d, norm)
+
+
+def _selected(scene: Scene, selection: Selection, d: QQ, norm: Norm) -> Nearest | None:
+    """Return the first approach of the pairs that count."""
+    if norm in ("x", "y"):  # a gap on one axis bounds no box
+        return _by_pairs(scene, selection.of(combinations(range(len(scene.bodies)), 2)), d, norm)
+    reach = _root_above(d) if norm == "euclidean" else d
+    return _by_pairs(scene, selection.of(pairs_that_come_near(scene, reach)), d, norm)
 
 
 def _on_axis(scene: Scene, d: QQ, norm: Literal["x", "y"]) -> Nearest | None:
@@ -179,12 +199,22 @@ def _by_pairs(
     pairs: list[tuple[int, int]] = []
     for i, j in map(sorted, candidates):
         until = scene._end if best is None else min(best._high, scene._end)
-        time = time_within(scene.bodies[i], scene.bodies[j], scene._start, until, d, norm)
+        time = time_within_of_two(scene.bodies[i], scene.bodies[j], scene._start, until, d, norm)
         order = -1 if best is None else 1 if time is None else time.compare(best)
         if time is None or order > 0:
             continue
         best, pairs = (time, [(i, j)]) if order < 0 else (best, [*pairs, (i, j)])
     return None if best is None else Nearest(best, tuple(pairs))
+
+
+def time_within_of_two(
+    a: Body, b: Body, start: QQ, end: QQ, d: QQ, norm: Norm
+) -> AlgebraicNumber | None:
+    """Return the first time in [start, end] at which two bodies are within d."""
+    if norm != "euclidean" or start == end:
+        return time_within(a, b, start, end, d, norm)
+    found = _euclidean(scene_of((a, b), start, end), d)  # filtered by doubles
+    return None if found is None else found.time
 
 
 def _euclidean(scene: Scene, squared: QQ) -> Nearest | None:

@@ -18,13 +18,21 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, cmp_to_key
+from itertools import zip_longest
 from typing import NamedTuple, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import lowest_terms, quotient_at, square_root
 from exactpt.kernel.budget import ask
-from exactpt.kernel.integer_polynomial import IntPoly, derivative, evaluate, multiply, subtract
+from exactpt.kernel.integer_polynomial import (
+    IntPoly,
+    derivative,
+    evaluate,
+    multiply,
+    scale,
+    subtract,
+)
 from exactpt.kernel.numbers import QQ, ZZ, Rational, fraction, rational, shorten, show
 from exactpt.kernel.roots import roots_after
 from exactpt.kernel.square_root import nearest_root_less
@@ -35,7 +43,14 @@ from exactpt.pairs.intervals import intervals
 from exactpt.pairs.stretches import stretches, two_bodies
 from exactpt.scene.scene import Scene
 
-__all__ = ["Clearance", "ClearancePiece", "Minimum", "clearance"]
+__all__ = [
+    "Clearance",
+    "ClearancePiece",
+    "CloseInterval",
+    "Minimum",
+    "a_distance",
+    "clearance_of_two",
+]
 
 _in_order = cmp_to_key(AlgebraicNumber.compare)
 
@@ -79,6 +94,26 @@ class Minimum(NamedTuple):
 
     def __float__(self) -> float:
         return float(self.distance)
+
+
+class CloseInterval(NamedTuple):
+    """A maximal closed interval of time in which two bodies are within a distance.
+
+    Attributes:
+        a, b: the names of the bodies.
+        start, end: the exact ends; equal if the bodies come to the distance at one time only.
+        pieces: the parts of the pieces of the `Clearance` in it, with the nearest features.
+    """
+
+    a: str
+    b: str
+    start: AlgebraicNumber
+    end: AlgebraicNumber
+    pieces: tuple[ClearancePiece, ...]
+
+    def __repr__(self) -> str:
+        names = f"{shorten(self.a, 30)} and {shorten(self.b, 30)}"
+        return f"<CloseInterval of {names} from t = {self.start:.6g} to {self.end:.6g}>"
 
 
 @final
@@ -142,6 +177,28 @@ class Clearance:
         """The double nearest to the distance at a rational time."""
         return nearest_root_less(QQ(self.squared_with_radius(at)), QQ(self.radius))
 
+    def below(self, distance: Rational) -> tuple[CloseInterval, ...]:
+        """Return the maximal closed intervals in which the bodies are at most a distance apart.
+
+        Raises:
+            InputError: if the distance is negative.
+        """
+        limit = (a_distance(distance) + QQ(self.radius)) ** 2
+        found: list[list[ClearancePiece]] = []
+        for part in (part for piece in self.pieces for part in _parts_within(piece, limit)):
+            continues = bool(found) and found[-1][-1].end == part.start
+            if continues and found[-1][-1].start < part.start:
+                if part.start < part.end:
+                    found[-1].append(part)
+            elif continues:  # a single time before
+                found[-1] = [part]
+            else:
+                found.append([part])
+        return tuple(
+            CloseInterval(self.a, self.b, parts[0].start, parts[-1].end, tuple(parts))
+            for parts in found
+        )
+
     @cached_property
     def minimum(self) -> Minimum:
         """The least distance in the time span, and the first time at which it occurs."""
@@ -155,20 +212,8 @@ class Clearance:
         return Minimum(best[0], _squared_gap(best[1], self.radius))
 
 
-def clearance(scene: Scene, a: str, b: str) -> Clearance:
-    """The Euclidean distance of two bodies over the time span of a scene.
-
-    >>> from exactpt import Body, Scene, Translation
-    >>> ball = Body("ball", [(-9, 3)], Translation([0, 1]))
-    >>> box = Body("box", [(0, 0), (2, 0), (2, 2), (0, 2)])
-    >>> gap = clearance(Scene([ball, box], time=(0, 20)), "ball", "box")
-    >>> gap.squared(0), gap(10), gap.minimum.time, float(gap.minimum)
-    (Fraction(82, 1), 1.0, AlgebraicNumber('9'), 1.0)
-
-    Args:
-        scene: the bodies and the time span.
-        a: the name of a body.
-        b: the name of another body.
+def clearance_of_two(scene: Scene, a: str, b: str) -> Clearance:
+    """Return the distance of two bodies over the time span of a scene.
 
     Raises:
         InputError: if there is no such body, or both are the same.
@@ -185,6 +230,18 @@ def clearance(scene: Scene, a: str, b: str) -> Clearance:
             pieces.append(ClearancePiece(start, end, None, *meeting))
             now = end
     return Clearance(a, b, tuple(pieces), radius)
+
+
+def a_distance(given: Rational) -> QQ:
+    """Return a distance as a rational number.
+
+    Raises:
+        InputError: if it is negative.
+    """
+    distance = rational(given)
+    if distance < 0:
+        raise InputError(f"a distance must be at least 0, got {show(distance)}")
+    return distance
 
 
 def _squared_gap(core_squared: AlgebraicNumber, radius: Fraction) -> AlgebraicNumber:
@@ -256,6 +313,29 @@ def _first_change(
         elif pair.holds_after(time) and time.sign_after(_lead(pair, nearest)) < 0:
             return time
     return until
+
+
+def _parts_within(piece: ClearancePiece, limit: QQ) -> Iterator[ClearancePiece]:
+    """Return the maximal parts of a piece in which its quotient is at most a limit.
+
+    The denominator is a product of squares, so the sign of n - limit d just after a time is that
+    of n / d - limit.
+    """
+    n, d = _poly(piece.numerator), _poly(piece.denominator)
+    f = subtract(scale(n, ZZ(limit.denominator)), scale(d, ZZ(limit.numerator)))
+    if not f:
+        yield piece
+        return
+    times = [piece.start]
+    if piece.start < piece.end:
+        roots = roots_after(f, piece.start, piece.end._high)
+        times += [root.time for root in roots if root.time < piece.end]
+        times.append(piece.end)
+    for time, following in zip_longest(times, times[1:]):
+        if following is not None and time.sign_after(f) < 0:
+            yield piece._replace(start=time, end=following)
+        elif quotient_at(n, d, time).compare_rational(limit) <= 0:
+            yield piece._replace(start=time, end=time)
 
 
 def _candidates(piece: ClearancePiece) -> Iterator[AlgebraicNumber]:

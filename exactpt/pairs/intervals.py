@@ -8,7 +8,7 @@ any two consecutive ones, decide.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import chain, product
@@ -24,6 +24,7 @@ from exactpt.motion.track import Track
 from exactpt.pairs.features import feature_pairs
 from exactpt.pairs.near import pairs_that_come_near
 from exactpt.pairs.overlap import bodies_meet
+from exactpt.pairs.selection import Selection
 from exactpt.pairs.stretches import Stretch, segments_of, stretches, two_bodies
 from exactpt.scene.scene import Scene, a_scene
 
@@ -81,18 +82,29 @@ def _of_two(scene: Scene, a: Body, b: Body) -> list[ContactInterval]:
     ]
 
 
-def contacts(scene: Scene) -> list[ContactInterval]:
-    """The intervals in which any two bodies meet, in the order of their starts, then of names.
+def contacts(
+    scene: Scene,
+    *,
+    between: Iterable[Sequence[str]] | None = None,
+    ignoring: Iterable[Collection[str]] = (),
+) -> list[ContactInterval]:
+    """Return the intervals in which any two bodies meet, in the order of their starts, then names.
 
     Contacts of a deforming body with itself are not included.
 
+    Args:
+        scene: the bodies and the time span.
+        between: pairs of names; contacts of other pairs do not count. All if not given.
+        ignoring: groups of body names; contacts of two bodies of one group do not count.
+
     Raises:
-        InputError: if the scene is none.
+        InputError: if the scene is none, or there is no body of a name.
     """
     a_scene(scene)
+    selection = Selection(scene, between, ignoring)
     found = [
         interval
-        for i, j in pairs_that_come_near(scene, QQ(0))
+        for i, j in selection.of(pairs_that_come_near(scene, QQ(0)))
         for interval in _of_two(scene, scene.bodies[i], scene.bodies[j])
     ]
     found.sort(key=lambda interval: (interval.a, interval.b))

@@ -14,10 +14,10 @@ from typing import TypeAlias, final
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.incidences import touches
 from exactpt.certificates.queue import EventTime
-from exactpt.errors import BudgetExceeded, InputError
+from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import GRACE, ask, within
-from exactpt.kernel.numbers import QQ, shorten
+from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import is_rigid
@@ -28,7 +28,7 @@ from exactpt.pairs.near import pairs_that_come_near
 from exactpt.pairs.pieces import MotionPiece, linear_pieces
 from exactpt.pairs.renewed import new_contact_time
 from exactpt.pairs.search import first_among_pieces
-from exactpt.pairs.selection import groups_of
+from exactpt.pairs.selection import Selection
 from exactpt.pairs.start import initial_touches, touches_at_distance
 from exactpt.scene.scene import Scene, scene_of
 
@@ -73,8 +73,7 @@ class SelectedSearch:
     ) -> None:
         self._scene = scene
         self._after_start = after_start
-        self._between = None if between is None else _numbered(scene, between)
-        self._group = groups_of(scene, ignoring)
+        self._selection = Selection(scene, between, ignoring)
         self._exact_only = exact_only
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
         self._rows: dict[int, list[MotionPiece]] | None = None
@@ -137,13 +136,14 @@ class SelectedSearch:
 
     def _candidates(self) -> list[tuple[int, int]]:
         """The pairs i < j of bodies that may come into a contact that counts."""
-        between, group = self._between, self._group
-        pairs = pairs_that_come_near(self._scene, QQ(0)) if between is None else between
-        return [(i, j) for i, j in pairs if group[i] != group[j]]
+        named = self._selection.named
+        if named is not None:
+            return named
+        return self._selection.of(pairs_that_come_near(self._scene, QQ(0)))
 
     def _self_touching(self) -> list[int]:
         """The bodies that may touch themselves."""
-        if self._between is not None:
+        if self._selection.named is not None:
             return []
         bodies = enumerate(self._scene.bodies)
         return [i for i, body in bodies if not body._radius and not is_rigid(body)]
@@ -188,21 +188,6 @@ class SelectedSearch:
             return None
         numbers = {scene.bodies[i].name: i for i in pair}
         return contact.time, touches_of(contact, numbers)
-
-
-def _numbered(scene: Scene, between: Iterable[Sequence[str]]) -> list[tuple[int, int]]:
-    """Pairs of names as pairs i < j of numbers, each once."""
-    number = {body.name: i for i, body in enumerate(scene.bodies)}
-    pairs: set[tuple[int, int]] = set()
-    for names in between:
-        if isinstance(names, str) or len(names) != 2 or names[0] == names[1]:
-            raise InputError(f"between: not the names of two bodies: {shorten(names)}")
-        for name in names:
-            if name not in number:
-                raise InputError(f"between: there is no body {shorten(name)}")
-        i, j = sorted(number[name] for name in names)
-        pairs.add((i, j))
-    return sorted(pairs)
 
 
 def _move_together(a: Body, b: Body, start: QQ, end: QQ) -> bool:

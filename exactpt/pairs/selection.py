@@ -1,14 +1,73 @@
-"""Groups of bodies that ignore each other."""
+"""The pairs of bodies that count: groups of bodies that ignore each other, and named pairs."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
+from typing import final
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import shorten
 from exactpt.scene.scene import Scene
 
-__all__ = ["groups_of"]
+__all__ = ["Selection", "groups_of"]
+
+
+@final
+class Selection:
+    """The pairs of bodies of a scene that count.
+
+    Args:
+        scene: the bodies.
+        between: pairs of names; other pairs do not count. All if not given.
+        ignoring: groups of body names; pairs within a group do not count.
+
+    Attributes:
+        named: the pairs i < j of body numbers that ``between`` names and that count, each once,
+            sorted; None if it is not given.
+
+    Raises:
+        InputError: if there is no body of a name, or a pair is not one of two bodies.
+    """
+
+    __slots__ = ("_group", "named")
+
+    def __init__(
+        self,
+        scene: Scene,
+        between: Iterable[Sequence[str]] | None = None,
+        ignoring: Iterable[Collection[str]] = (),
+    ) -> None:
+        self._group = groups_of(scene, ignoring)
+        self.named: list[tuple[int, int]] | None = None
+        if between is not None:
+            self.named = self.of(_numbered(scene, between))
+
+    @property
+    def is_all(self) -> bool:
+        """True if every pair of bodies counts."""
+        return self.named is None and self._group == list(range(len(self._group)))
+
+    def of(self, pairs: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
+        """Return those of some pairs i < j that count, in their order."""
+        group, named = self._group, None if self.named is None else set(self.named)
+        return [
+            (i, j) for i, j in pairs if group[i] != group[j] and (named is None or (i, j) in named)
+        ]
+
+
+def _numbered(scene: Scene, between: Iterable[Sequence[str]]) -> list[tuple[int, int]]:
+    """Return pairs of names as pairs i < j of body numbers, each once, sorted."""
+    number = {body.name: i for i, body in enumerate(scene.bodies)}
+    pairs: set[tuple[int, int]] = set()
+    for names in between:
+        if isinstance(names, str) or len(names) != 2 or names[0] == names[1]:
+            raise InputError(f"between: not the names of two bodies: {shorten(names)}")
+        for name in names:
+            if name not in number:
+                raise InputError(f"between: there is no body {shorten(name)}")
+        i, j = sorted(number[name] for name in names)
+        pairs.add((i, j))
+    return sorted(pairs)
 
 
 def groups_of(scene: Scene, ignoring: Iterable[Collection[str]]) -> list[int]:

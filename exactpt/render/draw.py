@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final, Literal
 from exactpt.errors import InputError, TimeRangeError
 from exactpt.files import write_atomically
 from exactpt.kernel.numbers import show
-from exactpt.pairs.clearance import clearance
+from exactpt.pairs.surroundings import clearance
 from exactpt.render.film import film_of
 from exactpt.render.frame import frame_of
 from exactpt.render.marked import film_of_run

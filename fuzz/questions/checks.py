@@ -13,13 +13,14 @@ from exactpt.kernel.algebraic_value import quotient_at
 from exactpt.kernel.numbers import QQ, ZZ, rational
 from exactpt.motion.incidence import Touch
 from exactpt.pairs.approach import Approach, first_within
-from exactpt.pairs.clearance import Clearance, ClearancePiece, clearance
+from exactpt.pairs.clearance import Clearance, ClearancePiece
 from exactpt.pairs.contact import touches_of
 from exactpt.pairs.distance import distance
 from exactpt.pairs.features import Feature
 from exactpt.pairs.incidences import tracks_just_before
 from exactpt.pairs.intervals import contact_intervals
 from exactpt.pairs.reference import touches_at
+from exactpt.pairs.surroundings import clearance
 from exactpt.scene.scene import Scene
 from exactpt.testing.space.queries import SpaceQuery
 from fuzz.questions import by_cgal, reference

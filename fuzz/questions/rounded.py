@@ -15,9 +15,9 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import orientation
 from exactpt.pairs.approach import first_within
-from exactpt.pairs.clearance import clearance
 from exactpt.pairs.distance import distance
 from exactpt.pairs.intervals import contact_intervals
+from exactpt.pairs.surroundings import clearance
 from exactpt.scene.scene import Scene
 from fuzz.questions import reference
 from fuzz.questions.reference import Interval, Tracks

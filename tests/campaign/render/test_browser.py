@@ -14,7 +14,7 @@ from exactpt.kernel.numbers import QQ, ZZ, nearest_float, power_of_two
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.pairs.clearance import clearance
+from exactpt.pairs.surroundings import clearance
 from exactpt.pseudotriangulation.shadow import shadow
 from exactpt.render.film import film_of
 from exactpt.render.fixed import near

@@ -1,0 +1,183 @@
+"""The distance of two bodies, or of one body from all others, as a function of time."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from typing import NamedTuple, final, overload
+
+from exactpt.errors import InputError
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.budget import ask
+from exactpt.kernel.numbers import QQ, Rational, shorten
+from exactpt.pairs.approach import time_within_of_two as time_within
+from exactpt.pairs.clearance import (
+    Clearance,
+    CloseInterval,
+    Minimum,
+    a_distance,
+    clearance_of_two,
+)
+from exactpt.pairs.distance import Distance, distance
+from exactpt.pairs.near import pairs_that_come_near
+from exactpt.scene.scene import Scene, a_scene
+
+__all__ = ["NearestApproach", "Surroundings", "clearance"]
+
+
+class NearestApproach(NamedTuple):
+    """The least distance of a body from all others; ``float`` gives the nearest double.
+
+    Attributes:
+        body: the name of the other body; of several the first in the order of the scene.
+        time: the first time at which that body is at the least distance.
+        squared: the square of the least distance, exactly.
+    """
+
+    body: str
+    time: AlgebraicNumber
+    squared: AlgebraicNumber
+
+    @property
+    def distance(self) -> AlgebraicNumber:
+        """The least distance, exactly."""
+        return Minimum(self.time, self.squared).distance
+
+    def __float__(self) -> float:
+        return float(self.distance)
+
+
+@final
+class Surroundings:
+    """The distance of a body from all others over the time span of a scene.
+
+    The functions of time of the single bodies are computed when they are needed: for
+    `minimum` and `below`, of those alone whose boxes come near enough.
+
+    Args:
+        scene: the bodies and the time span.
+        name: the name of the body.
+
+    Attributes:
+        name: the name of the body.
+        others: the names of all other bodies, in the order of the scene.
+
+    Raises:
+        InputError: if there is no such body, or no other one.
+    """
+
+    def __init__(self, scene: Scene, name: str) -> None:
+        scene.body(name)
+        self._scene = scene
+        self.name = name
+        self.others = tuple(body.name for body in scene.bodies if body.name != name)
+        if not self.others:
+            raise InputError(f"clearance: there is no body but {shorten(name)}")
+        self._found: dict[str, Clearance] = {}
+
+    def __repr__(self) -> str:
+        return f"<Surroundings of {shorten(self.name, 30)}: {len(self.others)} other bodies>"
+
+    def to(self, other: str) -> Clearance:
+        """Return the distance from one other body as a function of time.
+
+        Raises:
+            InputError: if there is no such body, or it is the same one.
+        """
+        if other not in self._found:
+            self._found[other] = clearance_of_two(self._scene, self.name, other)
+        return self._found[other]
+
+    def nearest(self, at: Rational) -> tuple[str, Distance]:
+        """Return the nearest body at a rational time, and the distance from it.
+
+        Of several nearest bodies it is the first in the order of the scene.
+
+        Raises:
+            InputError: if the time is outside of the time span.
+        """
+        found = ((other, distance(self._scene, self.name, other, at)) for other in self.others)
+        return min(found, key=lambda one: one[1])
+
+    def __call__(self, at: Rational) -> float:
+        """Return the double nearest to the distance from the nearest body at a rational time."""
+        return float(self.nearest(at)[1])
+
+    def below(self, distance: Rational) -> tuple[CloseInterval, ...]:
+        """Return the maximal closed intervals in which another body is within a distance.
+
+        Ordered by their starts, then by the order of the bodies in the scene. Each has the nearest
+        features in its pieces.
+
+        Raises:
+            InputError: if the distance is negative.
+        """
+        given = a_distance(distance)
+        found = [i for other in self._near(given) for i in self.to(other).below(distance)]
+        return tuple(sorted(found, key=lambda interval: interval.start))
+
+    @cached_property
+    def minimum(self) -> NearestApproach:
+        """The least distance from any other body in the time span."""
+        scene, first = self._scene, self._scene.body(self.name)
+        bound = _above(float(self.nearest(scene._start)[1]))
+        best: NearestApproach | None = None
+        for other in self._near(bound):
+            ask()
+            body = scene.body(other)
+            if time_within(first, body, scene._start, scene._end, bound**2, "euclidean") is None:
+                continue
+            least = self.to(other).minimum
+            if best is None or least.squared < best.squared:
+                best = NearestApproach(other, *least)
+                bound = min(bound, _above(float(best)))
+        assert best is not None  # noqa: S101 - the body that is nearest at the start is one
+        return best
+
+    def _near(self, reach: QQ) -> list[str]:
+        """Return the names of the other bodies that may come within a distance."""
+        bodies = self._scene.bodies
+        pairs = pairs_that_come_near(self._scene, reach)
+        names = [(bodies[i].name, bodies[j].name) for i, j in pairs]
+        return [b if a == self.name else a for a, b in names if self.name in (a, b)]
+
+
+def _above(distance: float) -> QQ:
+    """Return a rational number above a distance whose nearest double is given."""
+    return QQ(math.nextafter(distance, math.inf))
+
+
+@overload
+def clearance(scene: Scene, a: str, b: str) -> Clearance: ...
+
+
+@overload
+def clearance(scene: Scene, a: str) -> Surroundings: ...
+
+
+def clearance(scene: Scene, a: str, b: str | None = None) -> Clearance | Surroundings:
+    """Return the Euclidean distance of two bodies, or of one from all others, over a time span.
+
+    >>> from exactpt import Body, Scene, Translation
+    >>> ball = Body("ball", [(-9, 3)], Translation([0, 1]))
+    >>> box = Body("box", [(0, 0), (2, 0), (2, 2), (0, 2)])
+    >>> scene = Scene([ball, box, Body("far", [(0, 99)])], time=(0, 20))
+    >>> gap = clearance(scene, "ball", "box")
+    >>> gap.squared(0), gap(10), gap.minimum.time, float(gap.minimum)
+    (Fraction(82, 1), 1.0, AlgebraicNumber('9'), 1.0)
+    >>> around = clearance(scene, "ball")
+    >>> around.minimum.body, around(10), around.nearest(0)[0]
+    ('box', 1.0, 'box')
+    >>> [(i.b, float(i.start), float(i.end)) for i in around.below(1)]
+    [('box', 9.0, 11.0)]
+
+    Args:
+        scene: the bodies and the time span.
+        a: the name of a body.
+        b: the name of another body; if it is not given, all others.
+
+    Raises:
+        InputError: if there is no such body, or both are the same.
+    """
+    a_scene(scene)
+    return Surroundings(scene, a) if b is None else clearance_of_two(scene, a, b)
