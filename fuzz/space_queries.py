@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from exactpt.bench.peers import is_installed
-from exactpt.bench.space import engines, score
+from benchmarks.peers import is_installed
+from benchmarks.space import engines, score
 from exactpt.errors import InputError
 from exactpt.testing.space import (
     SpaceContact,
@@ -79,7 +79,7 @@ def compare_public_queries(folder: Path, count: int | None, say: Callable[[str],
 
 
 def score_engines(folder: Path, say: Callable[[str], None]) -> None:
-    """Print for each engine of `exactpt bench space` its row, one value a line."""
+    """Print for each engine of `python -m benchmarks space` its row, one value a line."""
     queries = []
     for number, query in enumerate(_read(folder)):
         points = [(float(x), float(y), float(z)) for x, y, z in query.points]

@@ -4,7 +4,7 @@
 # intermediate, non-tunneling collision.» (docstring of Box2D.b2TimeOfImpact). «Box2D has been
 # tuned to work well with moving shapes between 0.1 and 10 meters. [...] Static shapes may be up
 # to 50 meters long without trouble.» (Box2D manual, Units).
-# Written by `exactpt bench engines`; pip install box2d.
+# Written by `python -m benchmarks engines`; pip install box2d.
 
 """Box2D 2.3 by pybox2d: the time of impact of two convex polygons that are swept."""
 

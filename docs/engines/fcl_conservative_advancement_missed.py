@@ -2,7 +2,7 @@
 # It promises: «continous collision checking between two objects» (fcl::continuousCollide).
 # «error in first contact time; time of contact in [0, 1]» (ContinuousCollisionRequest::toc_err,
 # ContinuousCollisionResult::time_of_contact).
-# Written by `exactpt bench engines`; pip install python-fcl.
+# Written by `python -m benchmarks engines`; pip install python-fcl.
 
 """The Flexible Collision Library by python-fcl: continuous collision of two prisms in 3D."""
 

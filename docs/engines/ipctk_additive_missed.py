@@ -4,7 +4,7 @@
 # floating-point rounding error. However, it is much faster than Tight Inclusion CCD [...] and
 # very robust due to the gaps and conservative rescaling used.» (source of additive CCD,
 # ipc/ccd/additive_ccd.cpp).
-# Written by `exactpt bench engines`; pip install ipctk.
+# Written by `python -m benchmarks engines`; pip install ipctk.
 
 """The IPC Toolkit: continuous collision detection of each vertex and each edge in 2D."""
 

@@ -4,7 +4,7 @@
 // some intermediate, non-tunneling collisions.» (documentation of TimeOfImpact). «A small
 // length used as a collision and constraint tolerance. Usually it is chosen to be numerically
 // significant, but visually insignificant.» (documentation of Settings.linearSlop).
-// Written by `exactpt bench engines`; npm install planck.
+// Written by `python -m benchmarks engines`; npm install planck.
 
 // Planck: Box2D 2.3 in JavaScript, so in doubles; the time of impact of two swept polygons.
 

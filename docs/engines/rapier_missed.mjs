@@ -3,7 +3,7 @@
 // returns the time at which the two shape collider as well as the contact information during
 // the impact. Returns `null` if the two shapes never collide along their paths.» (documentation
 // of Shape.castShape).
-// Written by `exactpt bench engines`; npm install @dimforge/rapier2d-compat.
+// Written by `python -m benchmarks engines`; npm install @dimforge/rapier2d-compat.
 
 // Rapier: a convex polygon that is cast against another one, in single precision.
 

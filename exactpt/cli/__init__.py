@@ -140,12 +140,14 @@ def _cut(message: str) -> str:
     return f"{message[: LONGEST - 100]}...{message[-90:]}"
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command line and exit with its code."""
+def main(
+    arguments: Sequence[str] | None = None, command: click.Command = cli, name: str = "exactpt"
+) -> None:
+    """Run the command line, or another command, and exit with its code."""
     given = None if arguments is None else list(arguments)
     try:
         with endings(), encodable():
-            code = cli.main(given, prog_name="exactpt", standalone_mode=False)
+            code = command.main(given, prog_name=name, standalone_mode=False)
     except click.exceptions.NoArgsIsHelpError as error:
         error.show()
         code = BAD_INPUT

@@ -1,66 +1,37 @@
-"""bench: the benchmarks, as tables and plots."""
+"""bench: the benchmarks have moved; in a checkout the command still runs them."""
 
 from __future__ import annotations
 
+import sys
+from importlib import import_module
 from pathlib import Path
 
 import click
 
-from exactpt.bench.catalogue import BENCHMARKS
-from exactpt.cli.options import output
-from exactpt.cli.terminal import is_terminal, say, tell
+import exactpt
+from exactpt.cli.terminal import tell
 
 __all__ = ["bench"]
 
-_NAMES = "\n".join(f"      {name:14} {shows}" for name, shows in BENCHMARKS.items())
-
 
 @click.command(
-    help=f"""Run benchmarks, all of them if none is named; tables (CSV) and plots (SVG).
+    add_help_option=False,
+    context_settings={"ignore_unknown_options": True, "allow_interspersed_args": False},
+)
+@click.argument("arguments", nargs=-1, type=click.UNPROCESSED)
+def bench(arguments: tuple[str, ...]) -> int:
+    """Run `python -m benchmarks`, in a checkout alone (until version 0.4).
 
     \b
-{_NAMES}
-
-    Other programs are compared if they are installed: pip install 'exactpt[bench]'; for engines,
-    pip install 'exactpt[engines]', and npm packages in a folder node_modules at or above the
-    current one, or in the one that EXACTPT_NODE_MODULES names.
-
-    \b
-    Examples:
+    Example:
       exactpt bench --quick
-      exactpt bench wrong-answers kernel -o results
-      exactpt bench engines -o docs/engines
     """
-)
-@click.argument("names", nargs=-1, type=click.Choice(list(BENCHMARKS)), metavar="[NAME]...")
-@output("The folder for tables and plots.", default=Path("bench"))
-@click.option("--quick", is_flag=True, help="Small sizes: about a minute in all.")
-@click.option(
-    "--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Seed of the scenes."
-)
-def bench(names: tuple[str, ...], output: Path, quick: bool, seed: int) -> int:
-    """Run benchmarks."""
-    from exactpt.bench.catalogue import run
-    from exactpt.bench.machine import machine
-    from exactpt.bench.output import Output
-    from exactpt.errors import InputError
-
-    def progress(line: str) -> None:
-        if is_terminal():
-            tell(line)
-
-    try:
-        results = Output(output, _say_lines, progress)
-    except OSError as error:
-        raise InputError(f"{output}: {error.strerror}") from None
-    about = [*machine(), f"seed {seed}, {'quick' if quick else 'full'} sizes"]
-    say(*about)
-    results.write("machine.txt", "\n".join(about) + "\n")
-    for name in names or BENCHMARKS:
-        run(name, results, quick=quick, seed=seed)
-    say("", f"{len(results.written)} files are in {output}")
-    return 0
-
-
-def _say_lines(text: str) -> None:
-    say(*text.split("\n"))
+    checkout = Path(exactpt.__file__).parents[1]
+    if not (checkout / "benchmarks" / "catalogue.py").is_file():
+        tell("exactpt bench: moved to the repository (python -m benchmarks)")
+        return 2
+    if str(checkout) not in sys.path:
+        sys.path.insert(0, str(checkout))
+    command: click.Command = import_module("benchmarks.__main__").bench
+    code: int = command.main(list(arguments), "exactpt bench", standalone_mode=False)
+    return code

@@ -123,7 +123,7 @@ def searches_pairs(method: str, tiling: str, groups: Collection[object] = ()) ->
 
     For a single first contact from a cold start the search over pairs is the faster one, also
     for bodies that deform, change their motion, are entangled, drive in a convoy or never touch
-    (`exactpt bench first-contact`); "auto" leaves it only where it has no boxes
+    (`python -m benchmarks first-contact`); "auto" leaves it only where it has no boxes
     (`PairsSearch.is_blind`). Only a tiling can continue after the contact and answer questions
     about the free space.
     """

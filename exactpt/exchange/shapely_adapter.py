@@ -1,6 +1,6 @@
 """Conversion from and to shapely, imported on demand.
 
-It is the only module outside `exactpt.bench` that imports shapely.
+It is the only module that imports shapely.
 
 A coordinate of shapely is a double and is taken at its exact value.
 """

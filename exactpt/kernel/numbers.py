@@ -1,4 +1,4 @@
-"""Integers and rationals: the only module outside `exactpt.bench` that imports gmpy2.
+"""Integers and rationals: the only module that imports gmpy2.
 
 gmpy2 ships no type stubs. For the type checker `ZZ` is ``int`` and `QQ` is
 ``Fraction``, which have the same interface; so a float mixed with an exact

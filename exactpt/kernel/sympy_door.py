@@ -1,6 +1,6 @@
 """Conversion to and from SymPy, imported on first use.
 
-It is the only module outside `exactpt.bench` that imports SymPy.
+It is the only module that imports SymPy.
 """
 
 from __future__ import annotations

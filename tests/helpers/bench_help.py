@@ -2,7 +2,7 @@
 
 import csv
 
-from exactpt.bench.output import Output
+from benchmarks.output import Output
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid, Translation
 from exactpt.scene.scene import Scene

@@ -10,7 +10,7 @@ import pytest
 from bench_help import Results, meeting
 from click.testing import CliRunner
 
-from exactpt.bench import (
+from benchmarks import (
     arithmetic,
     arrays,
     auto,
@@ -30,13 +30,13 @@ from exactpt.bench import (
     within,
     wrong_answers,
 )
-from exactpt.bench.catalogue import BENCHMARKS
-from exactpt.bench.everyday import EVERYDAY
-from exactpt.bench.everyday_later import EVERYDAY_LATER
-from exactpt.bench.methods.method import Method
-from exactpt.bench.number_types import ARITHMETICS
-from exactpt.bench.planted import FAMILIES as PLANTED
-from exactpt.bench.planted import Planted
+from benchmarks.catalogue import BENCHMARKS
+from benchmarks.everyday import EVERYDAY
+from benchmarks.everyday_later import EVERYDAY_LATER
+from benchmarks.methods.method import Method
+from benchmarks.number_types import ARITHMETICS
+from benchmarks.planted import FAMILIES as PLANTED
+from benchmarks.planted import Planted
 from exactpt.cli import cli, main
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -280,7 +280,7 @@ def tiny_benchmark(output, sizes, seed):
 @pytest.fixture
 def one_benchmark(monkeypatch):
     module = SimpleNamespace(run=tiny_benchmark, QUICK="quick", FULL="full")
-    monkeypatch.setattr("exactpt.bench.catalogue.import_module", lambda _: module)
+    monkeypatch.setattr("benchmarks.catalogue.import_module", lambda _: module)
 
 
 def test_the_command_names_machine_versions_and_seed(tmp_path, one_benchmark):

@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 from bench_help import Results, square
 
-from exactpt.bench import engines
-from exactpt.bench.engines import asking, engine
-from exactpt.bench.engines.asking import WRONG, Finding, ask, questions
-from exactpt.bench.engines.domain import as_asked
-from exactpt.bench.engines.engine import (
+from benchmarks import engines
+from benchmarks.engines import asking, engine
+from benchmarks.engines.asking import WRONG, Finding, ask, questions
+from benchmarks.engines.domain import as_asked
+from benchmarks.engines.engine import (
     ADAPTERS,
     Crash,
     Engine,
@@ -218,7 +218,7 @@ def test_the_page_the_table_and_the_reproducers(planted, tmp_path, monkeypatch):
     late = [row for row in rows if int(row["late"])]
     page = (tmp_path / "out" / "README.md").read_text()
     assert f"| planted | {rows[0]['version']} | " in page
-    assert "`exactpt bench engines -o docs/engines --seed 3`" in page
+    assert "`python -m benchmarks engines -o docs/engines --seed 3`" in page
     assert "> It is planted. (its docstring)" in page
     assert f"Wrong: {late[0]['family']}: 1 late" in page
     assert "[late_late.py](late_late.py)" in page

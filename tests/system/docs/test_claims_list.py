@@ -7,6 +7,8 @@ from pathlib import Path
 import click
 from folding import every
 
+from benchmarks.__main__ import bench
+from benchmarks.catalogue import BENCHMARKS
 from exactpt.cli import cli
 from fuzz import __main__ as fuzzer
 
@@ -53,6 +55,8 @@ def command_of(words):
     """The click command that some words call."""
     if words[0] == "exactpt":
         return cli.commands[words[1]]
+    if words[1:3] == ["-m", "benchmarks"]:
+        return bench
     how = {
         "--cases": fuzzer.fuzz,
         "proof-mutants": fuzzer.proof_mutants,
@@ -68,7 +72,10 @@ def command_of(words):
 @every("command", COMMANDS)
 def test_a_command_is_there(command, pytestconfig):
     words = shlex.split(command)
-    if words[0] in {"pytest", "python"} and words[:3] != ["python", "-m", "fuzz"]:
+    if words[0] in {"pytest", "python"} and words[1:3] not in (
+        ["-m", "benchmarks"],
+        ["-m", "fuzz"],
+    ):
         files = [word for word in words if "/" in word]
         assert all((ROOT / file).exists() for file in files)
         for option in {"--exact-only"} & set(words):
@@ -86,6 +93,5 @@ def test_a_command_is_there(command, pytestconfig):
     }
 
     assert {word for word in words if word.startswith("-")} - DISPATCHING <= options
-    if words[:2] == ["exactpt", "bench"]:
-        (names,) = [p.type.choices for p in cli.commands["bench"].params if p.name == "names"]
-        assert words[2] in names
+    if words[1:3] == ["-m", "benchmarks"]:
+        assert words[3] in BENCHMARKS

@@ -40,7 +40,13 @@ def test_the_sdist_is_the_repository(source):
         names = {m.name.partition("/")[2] for m in archive.getmembers() if m.isfile()}
     added = {name for name in names if name.startswith("exactpt.egg-info/")}
     names -= added | {"PKG-INFO", "setup.cfg"}
-    assert names >= {"Makefile", "CHANGELOG.md", "fuzz/__main__.py", "cgal_check/CMakeLists.txt"}
+    assert names >= {
+        "Makefile",
+        "CHANGELOG.md",
+        "benchmarks/__main__.py",
+        "fuzz/__main__.py",
+        "cgal_check/CMakeLists.txt",
+    }
     tracked = checkout.tracked()
     assert tracked is None or names == tracked
 

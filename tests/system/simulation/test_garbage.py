@@ -7,8 +7,8 @@ from random import Random
 
 import pytest
 
-from exactpt.bench.living import WALLS, box
-from exactpt.bench.shapes import crowd
+from benchmarks.living import WALLS, box
+from benchmarks.shapes import crowd
 from exactpt.collision.tilings import TILINGS, start_tiling
 from exactpt.simulation.responses import Bounce
 from exactpt.simulation.simulation import Simulation

@@ -12,9 +12,9 @@ from random import Random
 
 import pytest
 
-from exactpt.bench import first_contact, planted, point_scenes
-from exactpt.bench.everyday import EVERYDAY
-from exactpt.bench.everyday_later import EVERYDAY_LATER
+from benchmarks import first_contact, planted, point_scenes
+from benchmarks.everyday import EVERYDAY
+from benchmarks.everyday_later import EVERYDAY_LATER
 from exactpt.openset import passages
 from exactpt.scene.generate import FAMILIES as BODIES
 from exactpt.scene.generate import POINTS, RINGS, ROUNDED, SPINNING, generate

@@ -5,15 +5,15 @@ import sys
 import pytest
 from bench_help import closing_jaw, meeting, passing, segments_and_points, thrown, turning
 
-from exactpt.bench.methods.closed_form import CLOSED_FORM
-from exactpt.bench.methods.method import UnsuitableScene, error_of
-from exactpt.bench.methods.moving import Moving
-from exactpt.bench.methods.own import EXACT_SEARCH, OWN, fresh
-from exactpt.bench.methods.with_box2d import BOX2D
-from exactpt.bench.methods.with_ipctk import with_additive, with_tight_inclusion
-from exactpt.bench.methods.with_pymunk import with_pymunk
-from exactpt.bench.methods.with_shapely import with_shapely
-from exactpt.bench.shapes import combs, tangle
+from benchmarks.methods.closed_form import CLOSED_FORM
+from benchmarks.methods.method import UnsuitableScene, error_of
+from benchmarks.methods.moving import Moving
+from benchmarks.methods.own import EXACT_SEARCH, OWN, fresh
+from benchmarks.methods.with_box2d import BOX2D
+from benchmarks.methods.with_ipctk import with_additive, with_tight_inclusion
+from benchmarks.methods.with_pymunk import with_pymunk
+from benchmarks.methods.with_shapely import with_shapely
+from benchmarks.shapes import combs, tangle
 from exactpt.kernel.algebraic import AlgebraicNumber
 
 STEPS = 128

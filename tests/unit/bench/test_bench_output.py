@@ -5,10 +5,10 @@ import sys
 import pytest
 from bench_help import Results
 
-from exactpt.bench.machine import machine
-from exactpt.bench.peers import PEERS, is_installed
-from exactpt.bench.plots import draw_lines, draw_shares, series_of
-from exactpt.bench.timing import exponent, memory_of, microseconds, timed
+from benchmarks.machine import machine
+from benchmarks.peers import PEERS, is_installed
+from benchmarks.plots import draw_lines, draw_shares, series_of
+from benchmarks.timing import exponent, memory_of, microseconds, timed
 
 
 def test_a_table_is_written_and_told(tmp_path):

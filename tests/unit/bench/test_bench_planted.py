@@ -5,10 +5,10 @@ from random import Random
 import pytest
 from folding import every
 
-from exactpt.bench.methods.method import Method
-from exactpt.bench.methods.own import OWN
-from exactpt.bench.planted import FAMILIES, Planted
-from exactpt.bench.wrong_answers import Wrong, count_wrong
+from benchmarks.methods.method import Method
+from benchmarks.methods.own import OWN
+from benchmarks.planted import FAMILIES, Planted
+from benchmarks.wrong_answers import Wrong, count_wrong
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs.reference import first_contact_allpairs
@@ -57,6 +57,6 @@ def test_wrong_answers_are_counted():
 
 def test_of_exactpt_any_error_counts(monkeypatch):
     late = Method(*[getattr(OWN[0], a) for a in ("name", "setting")], lambda _: lambda: 1.0 + 1e-15)
-    monkeypatch.setattr("exactpt.bench.wrong_answers.EXACT", (late,))
+    monkeypatch.setattr("benchmarks.wrong_answers.EXACT", (late,))
     scenes = [Planted(planted("exact graze", 1)[0].scene, AlgebraicNumber(1))]
     assert count_wrong(late, scenes) == Wrong(1, off=1)

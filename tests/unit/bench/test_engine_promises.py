@@ -4,8 +4,8 @@ import pytest
 from bench_help import square
 from folding import every
 
-from exactpt.bench.engines.domain import as_asked, from_zero, kind_of, why_not
-from exactpt.bench.engines.promise import WITHIN, Leeway, fault, leeway
+from benchmarks.engines.domain import as_asked, from_zero, kind_of, why_not
+from benchmarks.engines.promise import WITHIN, Leeway, fault, leeway
 from exactpt.testing import FAMILIES, Moving, Question, make_question, truths
 from exactpt.testing.truth import Truth, truth_of
 

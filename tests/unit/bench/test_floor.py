@@ -3,8 +3,8 @@
 from itertools import islice
 from random import Random
 
-from exactpt.bench.floor import CERTIFICATES, floor
-from exactpt.bench.shapes import crowd
+from benchmarks.floor import CERTIFICATES, floor
+from benchmarks.shapes import crowd
 from exactpt.collision.tilings import start_tiling
 
 

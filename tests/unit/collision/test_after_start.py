@@ -6,6 +6,7 @@ from random import Random
 import pytest
 from folding import every
 
+from benchmarks.shapes import clamp, crowd
 from exactpt import (
     Affine,
     Body,
@@ -17,7 +18,6 @@ from exactpt import (
     Translation,
     first_contact,
 )
-from exactpt.bench.shapes import clamp, crowd
 from exactpt.cli import main
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs import near

@@ -4,7 +4,7 @@ from random import Random
 
 import pytest
 
-from exactpt.bench.everyday import EVERYDAY
+from benchmarks.everyday import EVERYDAY
 from exactpt.collision.detector import first_contact
 from exactpt.collision.searches import searches_pairs
 from exactpt.kernel.numbers import QQ, rational

@@ -6,8 +6,8 @@ from random import Random
 
 import pytest
 
+from benchmarks.shapes import crowd
 from exactpt import Approach, Body, InputError, Rigid, Scene, Translation, first_within
-from exactpt.bench.shapes import crowd
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs import near
 from exactpt.pairs import search as pair_search

@@ -5,8 +5,8 @@ from random import Random
 
 import pytest
 
+from benchmarks.shapes import clamp
 from exactpt import Body, BudgetExceeded, Scene, Simulation, Translation, first_contact
-from exactpt.bench.shapes import clamp
 from exactpt.collision.searches import Question, search_for
 from exactpt.errors import ExactPTError
 from exactpt.kernel import budget as kernel_budget

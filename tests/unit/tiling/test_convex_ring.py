@@ -8,7 +8,7 @@ from random import Random
 import pytest
 from folding import every
 
-from exactpt.bench.statics import swept
+from benchmarks.statics import swept
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body

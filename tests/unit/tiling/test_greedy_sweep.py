@@ -4,7 +4,7 @@ from random import Random
 
 import pytest
 
-from exactpt.bench.shapes import crowd
+from benchmarks.shapes import crowd
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.tilings import start_tiling
 from exactpt.kernel.numbers import QQ

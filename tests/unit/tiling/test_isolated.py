@@ -6,8 +6,8 @@ from time import monotonic
 
 import pytest
 
+from benchmarks.shapes import crowd
 from exactpt import Body, BudgetExceeded, Rigid, Simulation, Translation, onward
-from exactpt.bench.shapes import crowd
 from exactpt.certificates.certificate import MOTION, pack
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue, EventTime

@@ -1,0 +1,48 @@
+"""The benchmarks by name; the module of each is imported when it is run."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from benchmarks.output import Output
+
+__all__ = ["BENCHMARKS", "run"]
+
+BENCHMARKS: Final[dict[str, str]] = {
+    "first-contact": "run time against error in the time of the first contact",
+    "small": "small questions, building scenes, plans among obstacles, many pieces of motion",
+    "crowds": "the first contact of crowds built from arrays and from bodies",
+    "auto": "the default method beside all others, on twenty families of everyday scenes",
+    "cliffs": "convoys, long spans, turning bodies, lanes: beside the best method",
+    "within": "first_within beside first_contact, of the same crowds",
+    "wrong-answers": "contacts missed, invented and late, close to degeneracy",
+    "arithmetic": "wrong signs, orders and structures by kind of number",
+    "stability": "the same answer, and its cost, for extreme input",
+    "scaling": "events, certificates, time and memory against the size of a scene",
+    "living": "bodies that bounce: contacts a second, audits, changes of plans",
+    "points": "changes of the tilings of moving points beside the paper's bounds",
+    "statics": "the greedy pseudo-triangulation of one instant against the vertices of a body",
+    "skipping": "what is never computed, beside a run that computes all of it",
+    "arrays": "many small questions at once, beside one by one, ipctk and Box2D",
+    "engines": "wrong answers of other engines to hard questions, with reproducers",
+    "proofs": "size and cost of proofs of first contacts, beside the run alone",
+    "space": "the two elementary queries in space: other programs against the exact times",
+    "kernel": "first roots and their order, beside python-flint, SymPy and mpmath",
+}
+"""Name of each benchmark, and what it shows."""
+
+
+def run(name: str, output: Output, *, quick: bool, seed: int) -> None:
+    """Run one benchmark.
+
+    Args:
+        name: one of `BENCHMARKS`.
+        output: the destination of its tables and plots.
+        quick: whether to use sizes that take seconds, not minutes.
+        seed: seed of everything random.
+    """
+    module = import_module(f"benchmarks.{name.replace('-', '_')}")
+    output.begin(name, BENCHMARKS[name])
+    module.run(output, module.QUICK if quick else module.FULL, seed)

@@ -1,0 +1,43 @@
+"""The methods of exactpt: by a tiling, by pairs, and the exact reference search."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from functools import partial
+from typing import Final
+
+from benchmarks.methods.method import Answer, Method
+from exactpt.collision.detector import first_contact
+from exactpt.pairs.contact import Contact
+from exactpt.pairs.reference import first_contact_allpairs
+from exactpt.scene.format import loads
+from exactpt.scene.scene import Scene
+from exactpt.scene.written import to_json
+
+__all__ = ["EXACT_SEARCH", "OWN", "fresh"]
+
+
+def fresh(scene: Scene) -> Scene:
+    """A copy of the scene as if just loaded, without cached values."""
+    return loads(json.dumps(to_json(scene)))
+
+
+def _prepare(ask: Callable[[Scene], Contact | None], scene: Scene) -> Callable[[], Answer]:
+    given = fresh(scene)
+
+    def time_of_contact() -> Answer:
+        contact = ask(given)
+        return None if contact is None else contact.time
+
+    return time_of_contact
+
+
+OWN: Final = (
+    Method("exactpt", "kinetic", partial(_prepare, partial(first_contact, method="kinetic"))),
+    Method("exactpt", "pairs", partial(_prepare, partial(first_contact, method="pairs"))),
+)
+"""The methods that users call."""
+
+EXACT_SEARCH: Final = Method("all pairs, exact", "", partial(_prepare, first_contact_allpairs))
+"""The exact reference search over all pairs."""

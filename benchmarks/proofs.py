@@ -1,0 +1,112 @@
+"""Proofs of first contacts: their size, and what it costs to write and to check them.
+
+Beside the run alone, which the checker in C++ should not exceed. Processor time throughout; the
+checker in C++ is a process of its own. Both checkers must accept every proof.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from random import Random
+from tempfile import TemporaryDirectory
+from typing import Final, NamedTuple
+
+from benchmarks.methods.own import fresh
+from benchmarks.output import Output, Row
+from benchmarks.point_scenes import random_linear
+from benchmarks.shapes import combs, crowd, deforming, tangle, thin_and_fast
+from benchmarks.timing import timed
+from exactpt.cgal import check_proof, find_program
+from exactpt.collision.detector import first_contact
+from exactpt.errors import AuditError, InputError
+from exactpt.kernel.numbers import QQ
+from exactpt.proof import Proof, prove
+from exactpt.scene.scene import Scene
+
+__all__ = ["FULL", "QUICK", "Sizes", "run"]
+
+
+class Sizes(NamedTuple):
+    """Sizes of the scenes.
+
+    Attributes:
+        bodies: number of bodies of the crowds and lanes, and of points.
+        vertices: number of vertices of each of two combs.
+        deforming: number of bodies that deform.
+    """
+
+    bodies: int
+    vertices: int
+    deforming: int
+
+
+QUICK: Final = Sizes(50, 64, 16)
+FULL: Final = Sizes(1000, 1024, 256)
+
+
+def run(output: Output, sizes: Sizes, seed: int) -> None:
+    """Prove and check a scene of each kind."""
+    rows: list[Row] = []
+    for name, (tiling, make) in _scenes(sizes).items():
+        output.progress(name)
+        rows.append({"scene": name, **_row(make(Random(f"proofs:{name}:{seed}")), tiling)})
+    output.table("proofs", rows)
+
+
+def _scenes(sizes: Sizes) -> dict[str, tuple[str, Callable[[Random], Scene]]]:
+    """By name, tilings and the scenes that they run."""
+    k = sizes.bodies
+    return {
+        "dense crowd": ("lazy", lambda rng: crowd(k, rng, radius=450, end=10)),
+        "sparse crowd": ("lazy", lambda rng: crowd(k, rng, radius=60, end=100)),
+        "sparse, greedy": ("greedy", lambda rng: crowd(k // 10, rng, radius=60, end=100)),
+        "lanes": ("lazy", lambda rng: thin_and_fast(k, rng)),
+        "combs": ("lazy", lambda _: tangle(combs(sizes.vertices))),
+        "deforming": ("lazy", lambda rng: deforming(sizes.deforming, rng)),
+        "points": ("incremental", lambda rng: random_linear(k, rng).until(QQ(1, 4))),
+    }
+
+
+def _row(scene: Scene, tiling: str) -> Row:
+    first_contact(Scene([]), tiling=tiling)  # imports on first use are not timed
+    _, alone = timed(lambda: first_contact(fresh(scene), tiling=tiling))
+    proof, proving = timed(lambda: prove(fresh(scene), tiling=tiling))
+    events = [line for line in proof.text.splitlines() if line.startswith(b"event ")]
+    _, python = timed(proof.check)
+    cpp = _in_cpp(proof)
+    return {
+        "vertices": scene.vertex_count,
+        "events": len(events),
+        "bytes an event": round(sum(map(len, events)) / len(events)) if events else None,
+        "kB": round(len(proof.text) / 1000),
+        "run s": round(alone, 3),
+        "with proof s": round(proving, 3),
+        "C++ s": None if cpp is None else round(cpp, 3),
+        "Python s": round(python, 3),
+        "C++ : run": None if cpp is None else round(cpp / alone, 2),
+        "Python : run": round(python / alone, 1),
+    }
+
+
+def _in_cpp(proof: Proof) -> float | None:
+    """The processor time of the checker in C++; None if it has not been built.
+
+    Raises:
+        AuditError: if it rejects the proof.
+    """
+    try:
+        find_program()
+    except InputError:
+        return None
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "proof"
+        proof.save(path)
+        before = os.times()
+        verdict = check_proof(f"{path}.scene.json", path)
+        after = os.times()
+    if not verdict.accepted:
+        raise AuditError(verdict.line)
+    used = (t.children_user + t.children_system for t in (after, before))
+    return next(used) - next(used)

@@ -1,0 +1,113 @@
+"""The first time within a distance beside the first contact, of the same crowds.
+
+Each row is one question about one crowd; `ratio` is its time divided by that of `first_contact`.
+Every approach is compared with the exact search over all vertices and edges near each other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from random import Random
+from typing import Final, NamedTuple, TypeVar
+
+from benchmarks.output import Output, Row
+from benchmarks.shapes import crowd
+from benchmarks.timing import timed
+from exactpt.collision.detector import first_contact
+from exactpt.errors import AuditError
+from exactpt.kernel.numbers import QQ
+from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
+from exactpt.pairs.approach import Approach, first_within
+from exactpt.pairs.approach_search import ApproachSearch
+from exactpt.scene.scene import Scene
+
+__all__ = ["FULL", "QUICK", "Sizes", "run"]
+
+T = TypeVar("T")
+
+
+class Sizes(NamedTuple):
+    """Numbers of bodies and of runs."""
+
+    bodies: int
+    runs: int
+
+
+QUICK: Final = Sizes(bodies=100, runs=2)
+FULL: Final = Sizes(bodies=1000, runs=5)
+
+DISTANCES: Final = (1, 10, 40)
+
+
+def run(output: Output, sizes: Sizes, seed: int) -> None:
+    """Measure all questions.
+
+    Raises:
+        AuditError: if two ways disagree.
+    """
+    rows: list[Row] = []
+    for name, scene in _crowds(sizes.bodies, seed).items():
+        output.progress(f"within: {name}")
+        contact, unit = _least(partial(first_contact, scene), sizes.runs)
+        time = None if contact is None else float(contact.time)
+        rows.append(_row(name, sizes, "first_contact", unit, 1.0, time))
+        for d in DISTANCES:
+            found, seconds = _least(partial(_within, scene, d), sizes.runs)
+            _audit(scene, d, found)
+            at = None if found is None else float(found.time)
+            rows.append(_row(name, sizes, f"first_within {d}", seconds, seconds / unit, at))
+    output.table("within", rows)
+
+
+def _within(scene: Scene, d: int) -> Approach | None:
+    return first_within(scene, distance=d, norm="euclidean")
+
+
+def _row(
+    name: str, sizes: Sizes, question: str, seconds: float, ratio: float, time: float | None
+) -> Row:
+    return {
+        "crowd": name,
+        "bodies": sizes.bodies,
+        "question": question,
+        "milliseconds": 1000.0 * seconds,
+        "ratio": ratio,
+        "time": time,
+    }
+
+
+def _crowds(bodies: int, seed: int) -> dict[str, Scene]:
+    """Convex bodies in cells of width 1,000: in straight motion, and accelerated."""
+    rng = Random(f"within {seed}")
+    sparse = crowd(bodies, rng, radius=60, end=2)
+    thrown = [
+        Body(
+            body.name,
+            body.vertices,
+            Translation([0, rng.randint(-999, 999)], [0, rng.randint(-999, 999), -500]),
+        )
+        for body in sparse.bodies
+    ]
+    return {
+        "sparse": sparse,
+        "dense": crowd(bodies, rng, radius=400, end=1),
+        "accelerated": Scene(thrown, (0, 2)),
+    }
+
+
+def _least(ask: Callable[[], T], runs: int) -> tuple[T, float]:
+    """The answer, and the least time of some runs."""
+    answer, least = timed(ask)
+    for _ in range(runs - 1):
+        least = min(least, timed(ask)[1])
+    return answer, least
+
+
+def _audit(scene: Scene, d: int, found: Approach | None) -> None:
+    expected = ApproachSearch(scene, lambda _, __: QQ(d * d), [QQ(d) / 2] * len(scene.bodies)).run()
+    if (found is None) != (expected is None) or (
+        found is not None and expected is not None and found.time != expected.time
+    ):
+        raise AuditError(f"two ways disagree about distance {d}: {found}, {expected}")
