@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, nearest_float
+from exactpt.kernel.rounding import FAR
 
 __all__ = [
     "Boxes",
@@ -27,9 +28,6 @@ Indices: TypeAlias = NDArray[np.int64]
 Boxes: TypeAlias = NDArray[np.float64]
 """Shape (n, 4), or (k, n, 4) for k times: low x, high x, low y, high y, each rounded outward,
 without NaN."""
-
-FAR: Final = 2.0**20
-"""Ratio of distance from the origin to extent above which boxes are relative to a point."""
 
 _FEW: Final = 64
 """Maximum number of boxes of which all pairs are compared."""

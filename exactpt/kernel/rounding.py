@@ -37,7 +37,7 @@ from typing import Final, TypeAlias
 
 from exactpt.errors import RoundingError
 
-__all__ = ["INFINITY", "SLACK", "SMALL", "TINY", "UNSURE", "Answer", "U", "check_rounding"]
+__all__ = ["FAR", "INFINITY", "SLACK", "SMALL", "TINY", "UNSURE", "Answer", "U", "check_rounding"]
 
 Answer: TypeAlias = tuple[int, float, float]
 """(sign, low, high): the sign of a function just after now, and an enclosure of its first
@@ -54,6 +54,8 @@ SMALL: Final = 2.0**-300
 """Smallest divisor of an error in any filter."""
 TINY: Final = 2.0**-500
 """Absolute error that covers all underflow."""
+FAR: Final = 2.0**20
+"""Ratio of distance from the origin to extent above which doubles are relative to a point."""
 
 _less_than_half_ulp: float = 2.0**-60  # not Final: a compiler must not compute with these
 _least_normal: float = 2.0**-1022

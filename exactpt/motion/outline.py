@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple, final
 
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.kernel.polynomial import Polynomial
-from exactpt.kernel.rounding import TINY, U
+from exactpt.kernel.rounding import FAR, TINY, U
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion, Pieces, Rigid, SimpleMotion, Translation
 
 __all__ = [
     "Outline",
     "Straight",
+    "far_origin",
     "is_rigid",
     "outline_at",
     "pieces_of",
@@ -115,7 +116,8 @@ class Straight:
         cx, cy, vx, vy: the coefficients of the translation, as doubles.
         c_error, v_error: bounds on the errors of these.
 
-    The exact vertices are made when they are needed, once for all motions of the body.
+    Doubles may be relative to an origin: then c is greater by ``shift``. The exact vertices are
+    made when they are needed, once for all motions of the body.
     """
 
     __slots__ = (
@@ -129,14 +131,16 @@ class Straight:
         motion: Translation,
         edges: list[tuple[int, int]],
         points: list[tuple[QQ, QQ] | None],
+        shift: tuple[QQ, QQ] | None = None,
     ) -> None:
         self.body = body
         self.shape = shape
         self.motion = motion
         self.edges = edges
         self._points = points
-        self.cx, self.vx, c_error, v_error = _linear(motion.x)
-        self.cy, self.vy, c_of_y, v_of_y = _linear(motion.y)
+        by_x, by_y = (None, None) if shift is None else shift
+        self.cx, self.vx, c_error, v_error = _linear(motion.x, by_x)
+        self.cy, self.vy, c_of_y, v_of_y = _linear(motion.y, by_y)
         self.c_error = max(c_error, c_of_y)
         self.v_error = max(v_error, v_of_y)
 
@@ -160,32 +164,85 @@ class Straight:
         )
 
 
-def _linear(f: Polynomial) -> tuple[float, float, float, float]:
-    """The coefficients of a polynomial of degree at most 1, and their errors; perhaps infinite."""
+def _linear(f: Polynomial, shift: QQ | None = None) -> tuple[float, float, float, float]:
+    """The coefficients of a polynomial of degree at most 1, and their errors; perhaps infinite.
+
+    The first coefficient is greater by ``shift``.
+    """
     near = f._doubles
-    if near is not None:
+    if near is not None and shift is None:
         return near[0] if near else 0.0, near[1] if len(near) > 1 else 0.0, 0.0, 0.0
     exact = f._coefficients
-    c = nearest_float(exact[0]) if exact else 0.0
+    c = nearest_float((exact[0] if exact else QQ(0)) + (shift or 0)) if exact or shift else 0.0
     v = nearest_float(exact[1]) if len(exact) > 1 else 0.0
     return c, v, _off(abs(c)), _off(abs(v))
 
 
+def far_origin(bodies: Sequence[Body]) -> tuple[QQ, QQ] | None:
+    """Return a point near bodies that lie far from the origin, where doubles would join them.
+
+    Their doubles should be relative to it (`straight_pieces`): the nearest double of a coordinate
+    is off by U times the coordinate, not by U times the distances between bodies. The point is
+    where the first vertex of the first body is at time 0. It changes no answer of a filter that
+    uses differences of positions alone.
+
+    Returns:
+        None if all numbers are doubles, a body deforms or is out of the range of doubles, or the
+        bodies are not far from the origin compared with their distances.
+    """
+    firsts: list[tuple[float, float]] = []
+    is_exact = True
+    for body in bodies:
+        near, motion = body._shape.near, pieces_of(body.motion)[0][0]
+        if not isinstance(motion, Translation) or not body.vertices:
+            return None
+        is_exact &= near is not None and near.is_exact
+        is_exact &= None not in (motion.x._doubles, motion.y._doubles)
+        x, y = (near.xs[0], near.ys[0]) if near else map(_constant, body.vertices[0])
+        firsts.append((x + _linear(motion.x)[0], y + _linear(motion.y)[0]))
+    if is_exact or not firsts:
+        return None
+    for places in zip(*firsts, strict=True):
+        least, most = min(places), max(places)
+        if max(-least, most) > FAR * (most - least):
+            break
+    else:
+        return None
+    motion, _ = pieces_of(bodies[0].motion)[0]
+    assert isinstance(motion, Translation)  # noqa: S101 - seen above
+    a, b = bodies[0].vertices[0]
+    return a._at(QQ(0)) + motion.x._at(QQ(0)), b._at(QQ(0)) + motion.y._at(QQ(0))
+
+
+def _constant(f: Polynomial) -> float:
+    return nearest_float(f._at(QQ(0)))
+
+
 def straight_pieces(
-    body: Body, shape: Outline | None = None
+    body: Body, shape: Outline | None = None, origin: tuple[QQ, QQ] | None = None
 ) -> list[tuple[Straight, QQ | None]] | None:
     """The straight motions of a body, each with its end; None unless all its motions are.
 
-    Its vertices keep their positions in the rest frame, of which the outline may be given.
+    Its vertices keep their positions in the rest frame, of which the outline may be given. Doubles
+    are relative to an origin, if there is one: those of vertices to the first vertex.
     """
     shape = shape or rest_outline(body)
     if shape is None:
         return None
     edges = body.edges or [(0, 0)]
     points: list[tuple[QQ, QQ] | None] = [None] * body.size
+    shift: tuple[QQ, QQ] | None = None
+    if origin is not None:
+        places = [(x._at(QQ(0)), y._at(QQ(0))) for x, y in body.vertices]
+        points = [*places]
+        (x, y) = places[0]
+        shape = _nearest((px - x, py - y) for px, py in places)
+        if shape is None:
+            return None
+        shift = x - origin[0], y - origin[1]
     pieces: list[tuple[Straight, QQ | None]] = []
     for motion, end in pieces_of(body.motion):
         if not isinstance(motion, Translation) or motion.x.degree > 1 or motion.y.degree > 1:
             return None
-        pieces.append((Straight(body, shape, motion, edges, points), end))
+        pieces.append((Straight(body, shape, motion, edges, points, shift), end))
     return pieces

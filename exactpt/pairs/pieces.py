@@ -12,7 +12,7 @@ from typing import Final, NamedTuple, TypeAlias, final
 
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, enclosing_floats
-from exactpt.motion.outline import Straight, straight_pieces
+from exactpt.motion.outline import Straight, far_origin, straight_pieces
 from exactpt.pairs.filters import window
 from exactpt.pairs.two_pieces import ContactDistance
 from exactpt.scene.scene import Scene
@@ -104,11 +104,12 @@ class FewPieces:
 def linear_pieces(scene: Scene) -> list[MotionPiece] | None:
     """The pieces of all bodies; None unless all of them move straight and are not large."""
     rows: list[MotionPiece] = []
+    origin = far_origin(scene.bodies)
     for i, body in enumerate(scene.bodies):
         ask()
         if body.size > MOST_VERTICES:
             return None
-        pieces = straight_pieces(body)
+        pieces = straight_pieces(body, origin=origin)
         if pieces is None:
             return None
         rows += pieces_during(i, pieces, scene._start, scene._end)

@@ -20,7 +20,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import TINY
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.motion.outline import Straight, straight_pieces
+from exactpt.motion.outline import Straight, far_origin, straight_pieces
 from exactpt.pairs.boxes import ROUNDED_UP, PieceBoxes, candidate_pairs, pairs_at, radius_above
 from exactpt.pairs.pieces import MOST_VERTICES, MotionPiece, pieces_during
 from exactpt.scene.body_arrays import BodyArrays
@@ -74,9 +74,10 @@ def boxed_pieces_of(scene: Scene) -> ScenePieces | None:
     if numbers is not None:
         return ScenePieces(scene, PieceBoxes.of_doubles(numbers, scene._start, scene._end), None)
     rows: list[MotionPiece] = []
+    origin = far_origin(scene.bodies)
     for i, body in enumerate(scene.bodies):
         ask()
-        pieces = _pieces(body)
+        pieces = _pieces(body, origin)
         if pieces is None:
             return None
         rows += pieces_during(i, pieces, scene._start, scene._end)
@@ -138,6 +139,8 @@ def _within(body: Body, low: float, high: float) -> tuple[float, float]:
     return math.nextafter(low - radius, -math.inf), math.nextafter(high + radius, math.inf)
 
 
-def _pieces(body: Body) -> list[tuple[Straight, QQ | None]] | None:
+def _pieces(
+    body: Body, origin: tuple[QQ, QQ] | None = None
+) -> list[tuple[Straight, QQ | None]] | None:
     """Return the linear motions of a body that is not large; None of another one."""
-    return None if body.size > MOST_VERTICES else straight_pieces(body)
+    return None if body.size > MOST_VERTICES else straight_pieces(body, origin=origin)

@@ -10,6 +10,7 @@ from exactpt.collision.detector import first_contact
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, Rigid, Translation
+from exactpt.motion.outline import far_origin
 from exactpt.pairs import boxes as row_boxes
 from exactpt.pairs import incidences
 from exactpt.pairs import search as straight_search
@@ -301,6 +302,7 @@ def test_boxes_of_rows_hold_their_bodies():
     for _ in range(60):
         scene = next(scenes(1, rng.random()))
         rows = linear_pieces(scene)
+        origin = far_origin(scene.bodies) or (0, 0)
         boxes = row_boxes.PieceBoxes(rows)
         low = rng.uniform(0, float(scene.end) / 2)
         high = low + rng.uniform(0, float(scene.end) / 2)
@@ -312,8 +314,8 @@ def test_boxes_of_rows_hold_their_bodies():
                 if row.start <= t <= row.end:
                     drift = [QQ(float(d)) * t for d in boxes.drift]
                     for x, y in scene.bodies[row.body].at(t):
-                        assert left <= QQ(x) - drift[0] <= right
-                        assert down <= QQ(y) - drift[1] <= up
+                        assert left <= QQ(x) - origin[0] - drift[0] <= right
+                        assert down <= QQ(y) - origin[1] - drift[1] <= up
 
 
 def test_a_body_that_turns_is_not_searched_by_rows():
