@@ -231,19 +231,22 @@ def rational(value: Rational) -> QQ:
 def as_doubles(values: Iterable[object]) -> list[float] | None:
     """The values as doubles; None if one of them is not a finite ``float`` or a small ``int``.
 
-    Only the types themselves count, not those derived from them; integers are small if all
+    Of the types derived from these only ``numpy.float64`` counts; integers are small if all
     of their size are doubles.
     """
     result: list[float] = []
     for value in values:
         if type(value) is float:
-            if not -math.inf < value < math.inf:
-                return None
-            result.append(value)
-        elif type(value) is int and -_INTEGERS <= value <= _INTEGERS:
-            result.append(float(value))
+            near = value
+        elif (type(value) is int and -_INTEGERS <= value <= _INTEGERS) or (
+            isinstance(value, float) and type(value).__module__ == "numpy"
+        ):
+            near = float(value)
         else:
             return None
+        if not -math.inf < near < math.inf:
+            return None
+        result.append(near)
     return result
 
 

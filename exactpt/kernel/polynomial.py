@@ -53,9 +53,13 @@ class Polynomial:
 
     def __init__(self, coefficients: Iterable[Rational] = ()) -> None:
         # `_doubles` are the coefficients if all were given as doubles; `_exact` are rational.
-        if isinstance(coefficients, str) or not isinstance(coefficients, Iterable):
+        if isinstance(coefficients, str):
             raise InputError(f"a polynomial has a list of coefficients: {shorten(coefficients)}")
-        given = list(coefficients)
+        try:
+            given = list(coefficients)
+        except TypeError:  # also an array without dimension
+            what = f"a polynomial has a list of coefficients: {shorten(coefficients)}"
+            raise InputError(what) from None
         near = as_doubles(given)
         if near is None:
             self._keep([rational(c) for c in given])

@@ -179,12 +179,28 @@ def _given(vertex: Position) -> tuple[object, object]:
 def listed(what: str, values: object) -> list[Any]:
     """The entries of an iterable that is neither a text nor a mapping.
 
+    Those of an array of numbers are Python's, with equal values.
+
     Raises:
         InputError: if it is not one.
     """
+    if _is_array_of_numbers(values):
+        listed: list[Any] = values.tolist()  # type: ignore[attr-defined]
+        return listed
     if isinstance(values, Iterable) and not isinstance(values, (str, Mapping)):
-        return list(values)
+        try:
+            return list(values)
+        except TypeError:  # an array without dimension
+            pass
     raise InputError(f"{what}: not a list: {shorten(values)}")
+
+
+def _is_array_of_numbers(values: object) -> bool:
+    """Return True for a numpy array of floats or integers, without importing numpy."""
+    if type(values).__module__ != "numpy":
+        return False
+    of_numbers: bool = values.ndim > 0 and values.dtype.kind in "fiu"  # type: ignore[attr-defined]
+    return of_numbers
 
 
 def _pair(point: object) -> tuple[Any, Any]:
