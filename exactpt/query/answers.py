@@ -5,12 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import TypeAlias, final
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias, final
 
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.radicals import nearest_root_sum
 
-__all__ = ["Hit", "Path", "Place", "VertexName"]
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+__all__ = ["PLACES", "Hit", "Located", "Path", "Place", "VertexName"]
+
+PLACES: Final = ("tile", "diagonal", "outside", "body", "edge", "vertex")
+"""The kinds of a `Place`; `Located.kind` has indices of them."""
 
 VertexName: TypeAlias = tuple[str, int]
 """Name of a body and number of one of its vertices, as in the scene."""
@@ -45,6 +52,24 @@ class Place:
     def is_free(self) -> bool:
         """Whether no (closed) body contains the point."""
         return self.body is None
+
+
+class Located(NamedTuple):
+    """The locations of n points, in arrays of shape (n,).
+
+    Attributes:
+        kind: an index of `PLACES`.
+        owner: for "tile", the index of the face in `Snapshot.faces`; for "body", "edge" and
+            "vertex", the number of the body in the order of the scene; otherwise -1.
+        feature: for "edge" and "vertex", its number in the body; otherwise -1.
+    """
+
+    kind: NDArray[np.int8]
+    owner: NDArray[np.int64]
+    feature: NDArray[np.int64]
+
+    def __repr__(self) -> str:
+        return f"<Located: {len(self.kind)} points>"
 
 
 @final

@@ -4,32 +4,35 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from mypy_extensions import i64
+
 from exactpt.geometry.predicates import Point
 from exactpt.indices import HalfEdge, VertexId
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.kernel.numbers import place as in_fractions
-from exactpt.query.answers import Hit, Place
+from exactpt.query.answers import PLACES, Hit, Place
 from exactpt.query.subdivision import OUTSIDE, Subdivision
 from exactpt.query.walk import On, Ray, Spot, next_step
 
-__all__ = ["cast", "find", "place_of"]
+__all__ = ["cast", "codes_of", "find", "place_of"]
 
 
 def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
-    """Point location by a straight walk from the first node.
+    """Point location by a straight walk from a node near the point (jump-and-walk).
 
     Returns:
         The face, edge or node that contains the point; number of edges and nodes passed.
     """
     if not plane.points:
         return Spot(On.FACE, OUTSIDE), 0
-    start = plane.points[0]
+    node = plane.nodes.near(p)
+    start = plane.points[node]
     if p == start:
-        return Spot(On.NODE, 0), 0
-    if plane.out[0] < 0:
+        return Spot(On.NODE, node), 0
+    if plane.out[node] < 0:  # the only one
         return Spot(On.FACE, OUTSIDE), 0
     ray = Ray(plane, start, (p[0] - start[0], p[1] - start[1]))
-    spot, at, crossed = Spot(On.NODE, 0), QQ(0), 0
+    spot, at, crossed = Spot(On.NODE, node), QQ(0), 0
     while True:
         step = next_step(plane, ray, spot, at)
         if step.end is None or step.at > 1:
@@ -57,6 +60,23 @@ def place_of(plane: Subdivision, spot: Spot, crossed: int = 0) -> Place:
     if handle >= 0:
         return Place("tile", tile=handle, crossed=crossed)
     return Place("body", plane.names[-2 - handle], crossed=crossed)
+
+
+def codes_of(plane: Subdivision, spot: Spot) -> tuple[int, int, int]:
+    """Return the location of a spot as the numbers of a row of `Located`."""
+    place = place_of(plane, spot)
+    kind = PLACES.index(place.kind)
+    if place.tile is not None:
+        return kind, place.tile, -1
+    if place.body is None:
+        return kind, -1, -1
+    body = -2 - spot.handle if spot.on is On.FACE else plane.body[_node_of(plane, spot)]
+    feature = place.edge if place.vertex is None else place.vertex
+    return kind, body, -1 if feature is None else feature
+
+
+def _node_of(plane: Subdivision, spot: Spot) -> i64:
+    return plane.map.origin[spot.handle] if spot.on is On.EDGE else spot.handle
 
 
 def cast(

@@ -1,12 +1,15 @@
 """The free space at one time, and queries about it.
 
-A point is located by a straight walk through the tiling, a ray is followed from tile to tile,
-and the shortest path of a homotopy class is found in a sleeve of tiles. Preparation takes
-O(n log n). A query takes O(edges crossed): O(k) for k bodies in a tiling with the minimum number
-of faces, O(log n) across the relative hull of a polygon in the mixed tiling, plus the size of
-the tiles visited.
+A point is located by a straight walk through the tiling from a node near it (jump-and-walk), a
+ray is followed from tile to tile, and the shortest path of a homotopy class is found in a sleeve
+of tiles. Preparation takes O(n log n). A query takes O(edges crossed): O(k) for k bodies in a
+tiling with the minimum number of faces, O(log n) across the relative hull of a polygon in the
+mixed tiling, plus the size of the tiles visited.
 
-Source: the paper, sections 4 and 5 (Lemma 5.4 for the number of edges crossed).
+Sources: the paper, sections 4 and 5 (Lemma 5.4 for the number of edges crossed); E. P. Mücke,
+I. Saias, B. Zhu, Fast randomized point location without preprocessing in two- and
+three-dimensional Delaunay triangulations, Computational Geometry 12 (1999) (jump-and-walk; the
+nodes near a point come from a grid here).
 """
 
 from __future__ import annotations
@@ -16,18 +19,21 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TypeAlias, final
 
+import numpy as np
 from mypy_extensions import i64
+from numpy.typing import ArrayLike
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import InputError
 from exactpt.geometry.predicates import Point
 from exactpt.indices import VertexId
+from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
-from exactpt.query.answers import Hit, Path, Place, VertexName
+from exactpt.query.answers import Hit, Located, Path, Place, VertexName
 from exactpt.query.homotopy import ShortestPaths
-from exactpt.query.locate import cast, find, place_of
+from exactpt.query.locate import cast, codes_of, find, place_of
 from exactpt.query.outer import OuterRectangle, with_outer_triangulation
 from exactpt.query.subdivision import OUTSIDE, Subdivision
 from exactpt.tiling import loading
@@ -91,6 +97,29 @@ class FreeSpace:
         """The location of a point: a tile, a diagonal, a body, an edge, a vertex, or outside."""
         spot, crossed = find(self._plane, _point(point))
         return place_of(self._plane, spot, crossed)
+
+    def locate_many(self, points: ArrayLike) -> Located:
+        """Return the locations of many points: the same as `locate` of each.
+
+        Args:
+            points: finite doubles of shape (n, 2), exactly as they are.
+
+        Raises:
+            InputError: if the shape is another one, or a coordinate is not finite.
+        """
+        plane = self._plane
+        given = np.asarray(points, dtype=np.float64)
+        if given.ndim != 2 or given.shape[1] != 2:
+            raise InputError(f"points: an array of shape (n, 2), got {given.shape}")
+        bad = np.flatnonzero(~np.isfinite(given).all(axis=1))
+        if len(bad):
+            raise InputError(f"points: row {bad[0]} is not finite: {given[bad[0]].tolist()}")
+        kind, (owner, feature) = np.empty(len(given), np.int8), np.full((2, len(given)), -1)
+        for k, (x, y) in enumerate(given.tolist()):
+            ask()
+            spot, _ = find(plane, (rational(x), rational(y)))
+            kind[k], owner[k], feature[k] = codes_of(plane, spot)
+        return Located(kind, owner, feature)
 
     def ray_cast(self, origin: PointLike, direction: PointLike) -> Hit | None:
         """The first point of a ray that belongs to a body; None if there is none.

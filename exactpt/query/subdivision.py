@@ -22,6 +22,7 @@ from exactpt.kernel.numbers import QQ, sign
 from exactpt.motion.body import Body
 from exactpt.planar.halfedge import PlanarMap, twin
 from exactpt.pseudotriangulation.snapshot import Snapshot
+from exactpt.query.nodes import Nodes
 
 __all__ = ["OUTSIDE", "Subdivision", "cross"]
 
@@ -47,6 +48,7 @@ class Subdivision:
     Attributes:
         snapshot: the tiling.
         points: position of each node.
+        nodes: the positions as doubles.
         map: half-edges between nodes; none if the scene is a single point.
         face: face to the left of each half-edge: index of a tile in the snapshot, `OUTSIDE`,
             or ``-2 - i`` for the interior of body i.
@@ -67,6 +69,7 @@ class Subdivision:
     ) -> None:
         self.snapshot = snapshot
         self.points: list[Point] = [(node._x, node._y) for node in snapshot.nodes]
+        self.nodes = Nodes(self.points)
         self.names: list[str] = []
         self.first: list[int] = []
         self.body: list[int] = []

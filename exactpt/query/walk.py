@@ -2,23 +2,27 @@
 
 A point of the ray is in a face, on an edge or at a node, and each of the three cases determines
 how the ray continues. Rays through vertices, along edges and along straight chains are thus no
-exceptions; every decision is the sign of a rational.
+exceptions; every decision is the sign of a rational, which doubles decide within a bound.
 """
 
 from __future__ import annotations
 
+import math
 from enum import Enum
-from typing import NamedTuple, final
+from typing import Final, NamedTuple, final
 
 from mypy_extensions import i64
 
 from exactpt.geometry.predicates import Point
-from exactpt.indices import HalfEdge, VertexId
-from exactpt.kernel.numbers import QQ, sign
+from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId
+from exactpt.kernel.numbers import QQ, nearest_float, sign
+from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.planar.halfedge import twin
 from exactpt.query.subdivision import Subdivision, cross
 
 __all__ = ["On", "Ray", "RayStep", "Spot", "next_step"]
+
+_LARGEST: Final = 2.0**500
 
 
 class On(Enum):
@@ -60,7 +64,7 @@ class RayStep(NamedTuple):
 class Ray:
     """The points origin + s * direction, s >= 0; the direction is not (0, 0)."""
 
-    __slots__ = ("_norm", "_points", "_sides", "direction", "origin")
+    __slots__ = ("_near", "_nodes", "_norm", "_off", "_points", "_sides", "direction", "origin")
 
     def __init__(self, plane: Subdivision, origin: Point, direction: Point) -> None:
         self.origin = origin
@@ -68,14 +72,40 @@ class Ray:
         self._norm = direction[0] * direction[0] + direction[1] * direction[1]
         self._points = plane.points
         self._sides: dict[VertexId, int] = {}
+        self._nodes = nodes = plane.nodes
+        ox, oy = nodes.of(origin)
+        dx, dy = nearest_float(direction[0]), nearest_float(direction[1])
+        self._near = ox, oy, dx, dy
+        size = max(nodes.size, abs(ox), abs(oy))
+        in_range = size < _LARGEST and abs(dx) < _LARGEST and abs(dy) < _LARGEST
+        self._off = 5.0 * U * size * (abs(dx) + abs(dy)) if in_range else math.inf
 
     def side(self, node: VertexId) -> int:
         """1, 0 or -1 if a node is to the left of, on, or to the right of the line of the ray."""
         known = self._sides.get(node)
         if known is None:
-            (x, y), (ox, oy), (dx, dy) = self._points[node], self.origin, self.direction
-            known = self._sides[node] = sign(dx * (y - oy) - dy * (x - ox))
+            known = self._sides[node] = self._filtered_side(node) or self._exact_side(node)
         return known
+
+    def _filtered_side(self, node: VertexId) -> int:
+        """Return the side of a node by doubles; 0 if they do not decide it.
+
+        Let M be the largest size of a coordinate of a node or of the origin, as doubles. Each is
+        off by at most U M (1 + 2U), as a nearest double, and a difference of two, of size at most
+        2 M, by U of it more: by less than 5 U M. The direction is off by U of itself. So a product
+        p of a coordinate of the direction d and such a difference is off by less than
+        5 U M |d| + 4 U |p|, its own rounding included, and the difference of two products by
+        U (|p| + |q|) more. SLACK covers terms of second order, TINY underflow, since all numbers
+        are below 2^500.
+        """
+        ox, oy, dx, dy = self._near
+        p, q = dx * (self._nodes.ys[node] - oy), dy * (self._nodes.xs[node] - ox)
+        bound = (self._off + 5.0 * U * (abs(p) + abs(q))) * SLACK + TINY
+        return 1 if p - q > bound else -1 if p - q < -bound else 0
+
+    def _exact_side(self, node: VertexId) -> int:
+        (x, y), (ox, oy), (dx, dy) = self._points[node], self.origin, self.direction
+        return sign(dx * (y - oy) - dy * (x - ox))
 
     def reaches(self, node: VertexId) -> QQ:
         """The parameter of a node on the line of the ray."""
@@ -104,11 +134,12 @@ def next_step(plane: Subdivision, ray: Ray, spot: Spot, at: QQ) -> RayStep:
         return _through_face(plane, ray, spot.handle, at)
     if spot.on is On.EDGE:
         h = HalfEdge(spot.handle)
-        turn = sign(cross(plane.direction(h), ray.direction))
+        # The ray has a point of the edge, from which its target is where `side` says.
+        turn = -ray.side(plane.map.target(h))
         if turn == 0:
             return _along(plane, ray, h if _ahead(plane, ray, h) else twin(h))
         h = h if turn > 0 else twin(h)
-        return _through_face(plane, ray, plane.face[h], at)
+        return _through_face(plane, ray, plane.face[h], at, h)
     h, along = _sector(plane, ray, VertexId(spot.handle))
     if along:
         return _along(plane, ray, h)
@@ -133,8 +164,7 @@ def _sector(plane: Subdivision, ray: Ray, node: VertexId) -> tuple[HalfEdge, boo
     face on the left of h.
     """
     star = plane.map.star(plane.out[node])
-    direction = ray.direction
-    turns = [sign(cross(plane.direction(h), direction)) for h in star]
+    turns = [-ray.side(plane.map.target(h)) for h in star]  # the ray contains the node
     for h, turn in zip(star, turns, strict=True):
         if turn == 0 and _ahead(plane, ray, h):
             return h, True
@@ -152,8 +182,10 @@ def _is_below_pi(plane: Subdivision, h: HalfEdge, g: HalfEdge) -> bool:
     return cross(plane.direction(h), plane.direction(g)) > 0
 
 
-def _through_face(plane: Subdivision, ray: Ray, face: int, at: QQ) -> RayStep:
-    """The step through a face from a parameter on."""
+def _through_face(
+    plane: Subdivision, ray: Ray, face: int, at: QQ, entry: HalfEdge = NO_HALF_EDGE
+) -> RayStep:
+    """The step through a face from a parameter on, at which it may be on an edge, the entry."""
     m = plane.map
     best: QQ | None = None
     end: Spot | None = None
@@ -166,7 +198,7 @@ def _through_face(plane: Subdivision, ray: Ray, face: int, at: QQ) -> RayStep:
                 when = ray.reaches(u)
                 if when > at and (best is None or when < best):
                     best, end = when, Spot(On.NODE, u)
-            elif s * t < 0:
+            elif s * t < 0 and h != entry:
                 when = ray.crosses(u, v)
                 if when > at and (best is None or when < best):
                     best, end = when, Spot(On.EDGE, h)

@@ -1,0 +1,71 @@
+"""The nodes of a subdivision in doubles, and a node near a point: where a walk starts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import final
+
+from exactpt.geometry.predicates import Point
+from exactpt.kernel.numbers import QQ, nearest_float
+
+__all__ = ["Nodes"]
+
+
+@final
+class Nodes:
+    """The positions of nodes as the nearest doubles, relative to the first node, in a grid.
+
+    No answer depends on the grid: a walk from any node ends in the cell that contains the point.
+
+    Args:
+        points: the positions.
+
+    Attributes:
+        xs, ys: the coordinates, perhaps infinite.
+        size: the largest absolute value of a coordinate.
+    """
+
+    __slots__ = ("_cells", "_columns", "_origin", "_side", "_x", "_y", "size", "xs", "ys")
+
+    def __init__(self, points: Sequence[Point]) -> None:
+        self._origin: Point = points[0] if points else (QQ(0), QQ(0))
+        near = [self.of(point) for point in points]
+        self.xs, self.ys = [x for x, _ in near], [y for _, y in near]
+        self.size = max(map(abs, (*self.xs, *self.ys)), default=0.0)
+        self._x, self._y = min(self.xs, default=0.0), min(self.ys, default=0.0)
+        wide = max(max(self.xs, default=0.0) - self._x, max(self.ys, default=0.0) - self._y)
+        self._columns = max(1, math.isqrt(len(points)))
+        self._side = wide / self._columns
+        self._cells: dict[tuple[int, int], list[int]] = {}
+        if 0.0 < self._side < math.inf:
+            for node, (x, y) in enumerate(zip(self.xs, self.ys, strict=True)):
+                self._cells.setdefault(self._cell(x, y), []).append(node)
+
+    def of(self, point: Point) -> tuple[float, float]:
+        """Return a point as doubles, relative to the first node."""
+        return nearest_float(point[0] - self._origin[0]), nearest_float(point[1] - self._origin[1])
+
+    def near(self, point: Point) -> int:
+        """Return a node that is probably near a point."""
+        x, y = self.of(point)
+        if not self._cells:
+            return 0
+        column, row = self._cell(x, y)
+        for ring in range(3):
+            near = [
+                node
+                for i in range(column - ring, column + ring + 1)
+                for j in range(row - ring, row + ring + 1)
+                for node in self._cells.get((i, j), ())
+            ]
+            if near:
+                return min(near, key=lambda node: math.hypot(self.xs[node] - x, self.ys[node] - y))
+        sample = range(0, len(self.xs), max(1, len(self.xs) // self._columns))
+        return min(sample, key=lambda node: math.hypot(self.xs[node] - x, self.ys[node] - y))
+
+    def _cell(self, x: float, y: float) -> tuple[int, int]:
+        """Return the cell of a point; of one outside, a cell at the border."""
+        last = self._columns - 1
+        column, row = (x - self._x) / self._side, (y - self._y) / self._side
+        return int(min(max(column, 0.0), last)), int(min(max(row, 0.0), last))
