@@ -200,7 +200,7 @@ def far_origin(bodies: Sequence[Body]) -> tuple[QQ, QQ] | None:
         is_exact &= None not in (motion.x._doubles, motion.y._doubles)
         x, y = (near.xs[0], near.ys[0]) if near else map(_constant, body.vertices[0])
         firsts.append((x + _linear(motion.x)[0], y + _linear(motion.y)[0]))
-    if is_exact or not firsts:
+    if is_exact or len(firsts) < 2:
         return None
     for places in zip(*firsts, strict=True):
         least, most = min(places), max(places)
@@ -224,7 +224,8 @@ def straight_pieces(
     """The straight motions of a body, each with its end; None unless all its motions are.
 
     Its vertices keep their positions in the rest frame, of which the outline may be given. Doubles
-    are relative to an origin, if there is one: those of vertices to the first vertex.
+    are relative to an origin, if there is one, those of vertices to the first vertex. Only pieces
+    with the same origin may be compared.
     """
     shape = shape or rest_outline(body)
     if shape is None:

@@ -13,6 +13,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import Frame, frame_for
+from exactpt.motion.outline import far_origin
 from exactpt.motion.swept import SweptBoxes
 from exactpt.pairs.boxes import PieceBoxes
 from exactpt.pairs.pieces import MotionPiece, linear_pieces
@@ -94,10 +95,12 @@ class Obstacles:
 
     Attributes:
         rows: their straight motions; None if one of them moves otherwise.
+        origin: the origin of their doubles (`far_origin`).
     """
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
+        self.origin = far_origin(scene.bodies)
         self.rows: list[MotionPiece] | None = linear_pieces(scene)
         self._row_boxes = None if self.rows is None else PieceBoxes(self.rows)
         self._slab_boxes: SlabBoxes | None = None

@@ -89,7 +89,7 @@ class Planner:
         scene, rows = self._scene, self._obstacles.rows
         Scene([body], (scene.start, scene.end))
         if rows is not None and outline is not None and body.size <= MOST_VERTICES:
-            pieces = straight_pieces(body, outline)
+            pieces = straight_pieces(body, outline, self._obstacles.origin)
             if pieces is not None:
                 number = len(scene.bodies)
                 moving = list(pieces_during(number, pieces, scene._start, scene._end))

@@ -5,7 +5,7 @@ from random import Random
 
 import pytest
 
-from exactpt import Body, Pieces, Scene, Translation, first_contact, first_within
+from exactpt import Body, Pieces, Planner, Scene, Translation, first_contact, first_within
 from exactpt.motion.outline import far_origin
 from exactpt.pairs.search import LinearSearch, scene_pieces_if_linear
 
@@ -49,6 +49,21 @@ def test_filters_decide_as_much_at_an_offset(offset):
         counts.append((search.stats["exact"], search.stats["filtered"]))
     assert counts[0][0] == counts[1][0]
     assert counts[0][1] - 2 <= counts[1][1] <= counts[0][1] + 2
+
+
+@pytest.mark.parametrize("offset", [0, 10**18])
+def test_bug_a_plan_and_its_obstacles_had_different_origins(offset):
+    x = offset + Fraction(1, 3)
+    wall = Body("wall", [(x + 9, -5), (x + 9, 5)])
+    post = Body("post", [(x, 9)], Translation([0, Fraction(1, 7)]))
+    robot = [(x, 0), (x + 1, 0), (x, 1)]
+    plans = [Translation([0, 2]), Translation([0, -2]), Translation([-1, Fraction(2, 3)])]
+    for obstacles in ([wall], [wall, post]):
+        found = Planner(obstacles, time=(0, 20)).first_contacts(robot, plans)
+        for plan, contact in zip(plans, found, strict=True):
+            scene = Scene([*obstacles, Body("robot", robot, plan)], time=(0, 20))
+            expected = first_contact(scene, between=[(o.name, "robot") for o in obstacles])
+            assert (contact and contact.time) == (expected and expected.time)
 
 
 def test_origin_is_for_far_bodies_whose_numbers_are_no_doubles():
