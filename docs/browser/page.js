@@ -7,7 +7,10 @@ const FIELDS = { scene, method, tiling };
 let worker;
 
 function start() {
-  worker = new Worker("worker.js", { type: "module" });
+  // A worker from a blob has the policy of this page; one from an address would have none.
+  const code = `import ${JSON.stringify(new URL("worker.js", location).href)};`;
+  const place = URL.createObjectURL(new Blob([code], { type: "text/javascript" }));
+  worker = new Worker(place, { type: "module" });
   worker.onmessage = ({ data }) => {
     for (const [kind, content] of Object.entries(data)) HEARD[kind](content);
   };

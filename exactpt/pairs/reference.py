@@ -4,9 +4,6 @@ It follows the definition of a contact and uses neither a tiling nor a float fil
 the kernel, the trajectories, `exactpt.geometry.polygon` and the predicates of
 `exactpt.motion.incidence` with the searches that it checks. Where a body has a radius,
 `exactpt.pairs.radius_reference` has the definition; such a body does not touch itself.
-It follows the definition of a contact and uses neither a tiling nor a float filter; it shares
-only the kernel and the trajectories with the tilings. Where a body has a radius,
-`exactpt.pairs.radius_reference` has the definition; such a body does not touch itself.
 """
 
 from __future__ import annotations

@@ -51,7 +51,8 @@ EVERY: Final = 20
     type=click.Choice(list(SCENES)),
     default="mixed",
     show_default=True,
-    help="Tiny scenes of all kinds; gears, mills and orbits; thin bodies that stand on a wall.",
+    help="Tiny scenes of all kinds; two bodies that move alike; two that move straight; gears, "
+    "mills and orbits; thin bodies that stand on a wall.",
 )
 @click.option("--table", "is_table", is_flag=True, help="Print what stays equal, and stop.")
 def transformations(
@@ -64,6 +65,7 @@ def transformations(
     Examples:
       python -m fuzz transformations --scenes 1000
       python -m fuzz transformations --scenes 9000 --counts counts.json --enough 2000
+      python -m fuzz transformations --scenes 30000 --counts counts.json --enough 2000 --draw alike
     """
     if is_table:
         click.echo("\n".join(equalities()))

@@ -54,7 +54,7 @@ class Fault(NamedTuple):
 def scene_of(random: Random) -> Scene:
     """Return a tiny scene, sometimes with a body that moves like another one, beside it."""
     if random.random() < 0.1:
-        return _translating(random)
+        return straight(random)
     scene = random.choice(FAMILIES)(random)
     kind = random.random()
     if kind < 0.3:
@@ -64,6 +64,28 @@ def scene_of(random: Random) -> Scene:
         return scene
     image = TRANSFORMATIONS["joined"](scene, random)
     return scene if image is None else image.new.scene
+
+
+def alike(random: Random) -> Scene:
+    """Return a scene with two bodies that move alike and lie apart, or with both as one body."""
+    while True:
+        scene = _with_twin(random, random.choice(FAMILIES)(random))
+        image = TRANSFORMATIONS["joined"](scene, random)
+        if image is not None:
+            return scene if random.random() < 0.5 else image.new.scene
+
+
+def straight(random: Random) -> Scene:
+    """Return two bodies that move straight."""
+    bodies = []
+    for name, x in (("a", 0), ("b", random.randint(-4, 4))):
+        shape = random.choice([[(0, 0)], [(0, 0), (2, 1)], *TWINS])
+        u, v = random.randint(-2, 2), random.randint(-2, 2)
+        y = random.randint(-4, 4)
+        vertices = [(x + p, y + q) for p, q in shape]
+        closed = random.random() < 0.7
+        bodies.append(Body(name, vertices, Translation([0, u], [0, v]), closed=closed))
+    return Scene(bodies, (0, 4))
 
 
 def spinning(random: Random) -> Scene:
@@ -79,19 +101,6 @@ def standing(random: Random) -> Scene:
     vertices = [(x + p, q) for p, q in shape]
     thin = Body("thin", vertices, Translation([0, u], [0, v]), closed=False)
     return Scene([Body("wall", wall, closed=False), thin], (0, 4))
-
-
-def _translating(random: Random) -> Scene:
-    """Return two bodies that move straight."""
-    bodies = []
-    for name, x in (("a", 0), ("b", random.randint(-4, 4))):
-        shape = random.choice([[(0, 0)], [(0, 0), (2, 1)], *TWINS])
-        u, v = random.randint(-2, 2), random.randint(-2, 2)
-        y = random.randint(-4, 4)
-        vertices = [(x + p, y + q) for p, q in shape]
-        closed = random.random() < 0.7
-        bodies.append(Body(name, vertices, Translation([0, u], [0, v]), closed=closed))
-    return Scene(bodies, (0, 4))
 
 
 def _with_twin(random: Random, scene: Scene) -> Scene:
@@ -130,6 +139,8 @@ Tally = Counter[tuple[str, str]]
 
 SCENES: Final[dict[str, Callable[[Random], Scene]]] = {
     "mixed": scene_of,
+    "alike": alike,
+    "straight": straight,
     "spinning": spinning,
     "standing": standing,
 }

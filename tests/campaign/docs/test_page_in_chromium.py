@@ -1,5 +1,7 @@
 """The page docs/browser in Chromium: Pyodide from a folder beside it, all else as it is shipped."""
 
+import base64
+import hashlib
 import json
 import shutil
 import threading
@@ -16,6 +18,7 @@ from exactpt.cli.browser import answer
 
 ROOT = Path(__file__).parents[3]
 PYODIDE = ROOT / ".pyodide"
+LOCK = "pyodide-lock.json"
 
 pytestmark = [
     pytest.mark.browser,
@@ -23,6 +26,15 @@ pytestmark = [
         not (PYODIDE / "pyodide.mjs").is_file(), reason="no Pyodide: make try-browser"
     ),
 ]
+
+
+CORE = ["pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", LOCK]
+OTHER = dict(zip(CORE, CORE[1:] + CORE[:1], strict=True))
+
+
+def hash_of(path):
+    """The hash of a file as the attribute ``integrity`` has it."""
+    return f"sha384-{base64.b64encode(hashlib.sha384(path.read_bytes()).digest()).decode()}"
 
 
 class Quiet(SimpleHTTPRequestHandler):
@@ -40,7 +52,13 @@ def address(tmp_path_factory):
     shutil.copytree(folder / "browser", folder / "alone")
     (folder / "pyodide").symlink_to(PYODIDE)
     settings = json.loads((PAGE / "settings.json").read_text()) | {"pyodide": "../pyodide/"}
+    settings["integrity"][LOCK] = hash_of(PYODIDE / LOCK)  # which `.ci/fetch_pyodide.py` extends
     (folder / "browser" / "settings.json").write_text(json.dumps(settings))
+    for name in settings["integrity"]:
+        place = folder / f"changed-{name}"
+        shutil.copytree(folder / "browser", place)
+        wrong = settings["integrity"] | {name: settings["integrity"][OTHER[name]]}
+        (place / "settings.json").write_text(json.dumps(settings | {"integrity": wrong}))
     settings["pyodide"] = "../nowhere/"
     (folder / "alone" / "settings.json").write_text(json.dumps(settings))
     server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=folder))
@@ -57,6 +75,29 @@ def test_without_pyodide_it_says_so(browser, address):
     assert field(browser, "error").text.startswith("Pyodide or exactpt cannot be loaded: ")
     assert field(browser, "status").text == ""
     browser.get_log("browser")  # that it was not found
+
+
+@pytest.mark.parametrize("name", CORE)
+def test_a_file_with_another_hash_is_refused(browser, address, name):
+    open_page(browser, address.replace("/browser/", f"/changed-{name}/"))
+    ask(browser, "graze")
+
+    assert field(browser, "error").text.startswith("Pyodide or exactpt cannot be loaded: ")
+    said = "".join(entry["message"] for entry in browser.get_log("browser"))
+    assert "Failed to find a valid digest in the 'integrity' attribute for resource '" in said
+    assert f"/pyodide/{name}'" in said
+
+
+def test_a_script_in_the_page_does_not_run(browser, address):
+    open_page(browser, address)
+    browser.execute_script(
+        "const script = document.createElement('script');"
+        "script.textContent = 'window.ran = true';"
+        "document.body.append(script);"
+    )
+
+    assert browser.execute_script("return window.ran") is None
+    assert "violates the following Content Security Policy" in str(browser.get_log("browser"))
 
 
 @pytest.fixture(scope="module")

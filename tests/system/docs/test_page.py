@@ -1,5 +1,7 @@
 """The page that runs exactpt in the browser, without one: its files, and what its worker calls."""
 
+import base64
+import hashlib
 import json
 import re
 import tomllib
@@ -60,11 +62,40 @@ def test_the_page_has_its_wheel_and_its_scenes(tmp_path):
 
 def test_nothing_is_loaded_from_elsewhere_but_pyodide():
     files = [path for path in PAGE.iterdir() if path.is_file()]
-    addresses = [a for path in files for a in re.findall(r"\w+://[^\s\"'`]+", path.read_text())]
+    addresses = [a for path in files for a in re.findall(r"\w+://[^\s\"'`;]+", path.read_text())]
 
     assert len(files) == 5
-    assert len(addresses) == 1
-    assert re.fullmatch(r"https://cdn\.jsdelivr\.net/pyodide/v[\d.]+/full/", addresses[0])
+    (pyodide,) = [a for a in addresses if a.count("/") > 2]
+    assert re.fullmatch(r"https://cdn\.jsdelivr\.net/pyodide/v[\d.]+/full/", pyodide)
+    assert set(addresses) == {
+        pyodide, "https://cdn.jsdelivr.net", "https://pypi.org", "https://files.pythonhosted.org"
+    }  # fmt: skip
+
+
+def test_the_policy_runs_the_script_of_animations_and_no_other_text():
+    (policy,) = re.findall(
+        r'http-equiv="Content-Security-Policy" content="(.*?)"', (PAGE / "index.html").read_text()
+    )
+    rules = {name: values.split() for name, _, values in
+             (rule.strip().partition(" ") for rule in policy.split(";"))}  # fmt: skip
+    page = json.loads(browser.picture(text_of("graze"), "auto"))["page"]
+    (script,) = re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
+    found = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+
+    assert rules["default-src"] == ["'none'"]
+    assert rules["script-src"] == ["'self'", "blob:", "'wasm-unsafe-eval'", f"'sha256-{found}'"]
+    assert rules["worker-src"] == ["'self'", "blob:"]
+    assert rules["base-uri"] == rules["form-action"] == ["'none'"]
+
+
+def test_each_file_of_the_core_of_pyodide_has_its_hash():
+    hashes = json.loads((PAGE / "settings.json").read_text())["integrity"]
+
+    assert set(hashes) == {
+        "pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip",
+        "pyodide-lock.json",
+    }  # fmt: skip
+    assert all(re.fullmatch(r"sha384-[A-Za-z0-9+/]{64}", value) for value in hashes.values())
 
 
 def test_all_methods_and_tilings_can_be_chosen():
