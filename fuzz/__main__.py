@@ -6,6 +6,7 @@ import math
 import signal
 import sys
 import time as clock
+from itertools import cycle
 from pathlib import Path
 from types import FrameType
 from typing import Final
@@ -20,12 +21,13 @@ from exactpt.scene.generate import FAMILIES as BODIES
 from exactpt.scene.generate import POINTS, RINGS, ROUNDED, SPINNING
 from fuzz import battery, corpus, planted, soak
 from fuzz.campaign import Campaign, run
-from fuzz.cases import Outcome
+from fuzz.cases import QUESTION, Outcome
 from fuzz.hostile import run as hostile_run
 from fuzz.hostile.files import FORMATS
 from fuzz.pair_record import pair_record
 from fuzz.proofs.both import proof_both
 from fuzz.proofs.command import proof_mutants
+from fuzz.questions.checks import QUESTIONS
 from fuzz.questions.command import questions
 from fuzz.record import differences, record
 from fuzz.small_scope.command import small_scope
@@ -36,6 +38,11 @@ from fuzz.witnesses import WITNESSES
 
 FAILED, INTERRUPTED = 1, 130
 FAMILIES = (*BODIES, *POINTS, *ROUNDED, *RINGS)
+ASKED = tuple(QUESTION + name for name in QUESTIONS)
+MIXED = tuple(name for pair in zip(FAMILIES, cycle(ASKED), strict=False) for name in pair)
+"""A scene and a question in turn; every question is among the first thirty cases."""
+KEPT: Final = Path("questions-found")
+"""Folder for questions with a difference."""
 
 
 IMPATIENT: Final = 3.0
@@ -45,8 +52,10 @@ HELP = {"help_option_names": ["-h", "--help"]}
 
 
 @click.command("fuzz", context_settings=HELP)
-@click.argument("families", nargs=-1, type=click.Choice(sorted(FAMILIES)), metavar="[FAMILY]...")
-@click.option("--family", "more", multiple=True, type=click.Choice(sorted(FAMILIES)))
+@click.argument(
+    "families", nargs=-1, type=click.Choice([*sorted(FAMILIES), *ASKED]), metavar="[FAMILY]..."
+)
+@click.option("--family", "more", multiple=True, type=click.Choice([*sorted(FAMILIES), *ASKED]))
 @click.option("--thin", is_flag=True, help="Reduce half of the bodies to chains, segments, points.")
 @click.option("--witness", "witnesses", multiple=True, type=click.Choice(list(WITNESSES)))
 @click.option("--cases", "--count", "count", type=click.IntRange(min=1), help="Number of scenes.")
@@ -71,7 +80,10 @@ def fuzz(
     scheduler: str | None,
     shrink: float,
 ) -> None:
-    """Look for scenes on which the witnesses disagree, by default 200 of all families.
+    """Look for scenes on which the witnesses disagree, and questions with wrong answers.
+
+    By default 200 cases, a scene of each family and a question in turn. A named family or witness
+    leaves the questions out; a question is named as a family, questions/distance.
 
     \b
     Examples:
@@ -90,9 +102,11 @@ def fuzz(
         seconds = 60 * minutes
     if count is None and seconds is None:
         count = 200
-    chosen = (*families, *more) or FAMILIES
+    chosen = (*families, *more) or (FAMILIES if thin or witnesses else MIXED)
+    if thin:
+        chosen = tuple(name if name in ASKED else name + SUFFIX for name in chosen)
     campaign = Campaign(
-        families=[name + SUFFIX for name in chosen] if thin else chosen,
+        families=chosen,
         witnesses=witnesses or tuple(WITNESSES),
         seed=seed,
         start=start,
@@ -118,10 +132,12 @@ def fuzz(
 
 def _report(outcome: Outcome) -> None:
     for failure in outcome.failures:
-        path = corpus.save(failure, outcome.case)
         case = outcome.case
         click.echo(f"case {case.number}, {case.family} {case.seed}: {failure.why}")
-        click.echo(f"  shrunk: {path}")
+        if case.question is None:
+            click.echo(f"  shrunk: {corpus.save(failure, case)}")
+        else:
+            click.echo(f"  saved: {corpus.save(failure, case, KEPT)}")
 
 
 def _require_cgal() -> None:
@@ -254,10 +270,14 @@ def run_soak(minutes: float, seed: int, tiling: str) -> None:
     soaked = soak.Soak(seed, tiling)
     try:
         soaked.run(60 * minutes, lambda _: None)
+        ended = True
     except KeyboardInterrupt:
-        click.echo("interrupted", err=True)
+        ended = False
     grown = soak.verdict(soaked)
     click.echo("\n".join([*soak.table(soaked), *(f"GROWN: {line}" for line in grown)]))
+    if not ended:
+        click.echo(f"interrupted; a soak begins anew: --seed {seed}", err=True)
+        sys.exit(INTERRUPTED)
     sys.exit(FAILED if grown else 0)
 
 

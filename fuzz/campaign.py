@@ -28,7 +28,7 @@ class Campaign:
     """The parameters of a campaign.
 
     Attributes:
-        families: names of families, taken in turn.
+        families: names of families and questions (`QUESTION`), taken in turn.
         witnesses: names of the witnesses that check every case.
         seed: the seed of the first scene of each family.
         start: number of the first case, to continue another campaign.
@@ -75,7 +75,7 @@ class Summary:
         witnesses = list(dict.fromkeys(w for o in self.outcomes.values() for w in o.seconds))
         head = ("family", "cases", "a second", "failures", *witnesses)
         lines = [
-            "{:20}{:>8}{:>10}{:>10}".format(*head[:4]) + "".join(map("{:>11}".format, head[4:]))
+            "{:22}{:>8}{:>10}{:>10}".format(*head[:4]) + "".join(map("{:>11}".format, head[4:]))
         ]
         for name in [*rows, "all"]:
             chosen = [o for o in self.outcomes.values() if name in (o.case.family, "all")]
@@ -85,7 +85,7 @@ class Summary:
             total = sum(times.values())
             rate = len(chosen) / total if total else 0.0
             failures = sum(len(o.failures) for o in chosen)
-            line = f"{name:20}{len(chosen):>8}{rate:>10.1f}{failures:>10}"
+            line = f"{name:22}{len(chosen):>8}{rate:>10.1f}{failures:>10}"
             lines.append(line + "".join(f"{times[w]:>9.1f} s" for w in witnesses))
         return lines
 

@@ -8,7 +8,7 @@ import time as clock
 import traceback
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from exactpt.errors import InputError
 from exactpt.scene.format import loads
@@ -17,10 +17,12 @@ from exactpt.scene.written import to_json
 from exactpt.testing.shrinking import shrink_data
 from exactpt.workers import work
 from fuzz.limits import HANGS, TimeIsUp, TooSlow, limit, patience_of
+from fuzz.questions.checks import checked
 from fuzz.subscene import scene_of
 from fuzz.witnesses import WITNESSES, Difference
 
 __all__ = [
+    "QUESTION",
     "Case",
     "Failure",
     "Outcome",
@@ -33,12 +35,28 @@ __all__ = [
 ]
 
 
+QUESTION: Final = "questions/"
+"""What the family of a case begins with if it is no scene, but one of `fuzz.questions`."""
+
+
+PATIENCE: Final = 60.0
+"""Seconds after which a question counts as hanging."""
+
+SEVERAL, LONG = 8, ("runs", "spin")
+"""Number of questions in a case, and those that are long enough one by one."""
+
+
 class Case(NamedTuple):
-    """A scene to be checked: the ``number``-th of its campaign."""
+    """A scene or a question to be checked: the ``number``-th of its campaign."""
 
     number: int
     family: str
     seed: int
+
+    @property
+    def question(self) -> str | None:
+        """The name of the question; None if the case is a scene."""
+        return self.family.removeprefix(QUESTION) if self.family.startswith(QUESTION) else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,6 +127,8 @@ def run_case(
         shrink_seconds: time limit for shrinking a failure.
         ends: the time (of ``time.time``) at which the campaign is over; None if it has no end.
     """
+    if case.question is not None:
+        return _run_question(case, case.question, tell, ends)
     try:
         scene = scene_of(case.family, case.seed)
     except InputError as error:
@@ -132,6 +152,33 @@ def run_case(
             tell(Step(name, shrink_seconds + patience, text, failure))
             failures.append(shrunk(failure, case.seed, shrink_seconds, patience, ends))
     return Outcome(case, seconds, tuple(failures))
+
+
+def _run_question(
+    case: Case, question: str, tell: Callable[[Step], None], ends: float | None
+) -> Outcome:
+    """Have some questions answered and compared with their definitions; nothing is shrunk."""
+    failures: list[Failure] = []
+    began = clock.perf_counter()
+    several = 1 if question in LONG else SEVERAL
+    for number in range(several * case.number, several * (case.number + 1)):
+        tell(Step(question, PATIENCE, "null"))
+        try:
+            with limit(PATIENCE, ends):
+                found = checked(question, case.seed, number)
+            if found.fault is None:
+                continue
+            signature, why, data = "difference", found.fault, found.to_json()
+        except TimeIsUp:
+            return Outcome(case, {}, tuple(failures), complete=False)
+        except TooSlow:
+            signature, why, data = HANGS, f"{HANGS}: no answer within {PATIENCE:.0f} s", None
+        except Exception as error:  # any exception is a finding
+            (signature, why), data = _signed(error), None
+        again = f"--question {question} --seed {case.seed} --start {number} --cases 1"
+        why += f"\n  again: python -m fuzz questions {again}"
+        failures.append(Failure(question, signature, why, json.dumps(data)))
+    return Outcome(case, {"questions": clock.perf_counter() - began}, tuple(failures))
 
 
 def stopped(case: Case, step: Step | None, what: str) -> Outcome:
@@ -174,10 +221,15 @@ def failure_of(
     except Difference as found:
         return _failure(name, found.kind, str(found), scene)
     except Exception as error:  # any exception is a finding
-        where = traceback.extract_tb(error.__traceback__)[-1]
-        signature = f"{type(error).__name__} in {where.name}"
-        return _failure(name, signature, f"{signature}: {error}", scene)
+        return _failure(name, *_signed(error), scene)
     return None
+
+
+def _signed(error: Exception) -> tuple[str, str]:
+    """The signature of an exception, and its description."""
+    where = traceback.extract_tb(error.__traceback__)[-1]
+    signature = f"{type(error).__name__} in {where.name}"
+    return signature, f"{signature}: {error}"
 
 
 def _failure(name: str, signature: str, why: str, scene: Scene) -> Failure:

@@ -138,6 +138,16 @@ class Soak:
                 report(sample)
                 last_events, last_contacts, used = self.events, self.did["contact"], now
 
+    def act(self, count: int) -> None:
+        """Do some actions at random.
+
+        Raises:
+            AuditError: if anything is not as it should be.
+        """
+        chosen = self._actions()
+        for action in self.rng.choices(*chosen, k=count):
+            action()
+
     def _actions(self) -> tuple[list[Callable[[], None]], list[int]]:
         weights: dict[Callable[[], None], int] = {
             self.go_on: 40, self.plan: 10, self.come: 6, self.go: 6, self.copy: 4,

@@ -8,6 +8,7 @@ from random import Random
 from typing import Final, NamedTuple
 
 from exactpt.collision.detector import first_contact
+from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.algebraic_value import quotient_at
 from exactpt.kernel.numbers import QQ, ZZ, rational
@@ -22,7 +23,9 @@ from exactpt.pairs.intervals import contact_intervals
 from exactpt.pairs.reference import touches_at
 from exactpt.pairs.surroundings import clearance
 from exactpt.scene.scene import Scene
+from exactpt.scene.written import to_json
 from exactpt.testing.space.queries import SpaceQuery
+from fuzz import filter_attacks
 from fuzz.questions import by_cgal, reference
 from fuzz.questions.chosen import wrong_choice
 from fuzz.questions.norms import Norm, first_within_norm
@@ -32,8 +35,15 @@ from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
 from fuzz.questions.space import small_query, wrong_in_space
 from fuzz.questions.spinning import case_of, spinning_scene
 from fuzz.questions.tiny import touching_scene
+from fuzz.small_scope.look import looks
+from fuzz.small_scope.scope import planned, sizes
+from fuzz.soak import Soak
 
 OTHERS: Final[tuple[Norm, ...]] = ("max", "x", "y")
+LIVING: Final = ("greedy", "lazy", "mixed")
+ACTIONS: Final = 40
+HOSTILE: Final = 50
+DEGREES: Final = (1, 2, 2, 2, 3, 4, 5, 6)
 
 __all__ = ["QUESTIONS", "Checked", "checked"]
 
@@ -42,16 +52,20 @@ class Checked(NamedTuple):
     """A case that has been checked.
 
     Attributes:
-        scene: its scene.
+        scene: its scene, the query in space, or the case of a filter.
         kind: what happens in it, for the table of a run.
         fault: what is not as defined; None if all is.
         signs: number of signs, roots and orders that CGAL has decided.
     """
 
-    scene: Scene | SpaceQuery
+    scene: Scene | SpaceQuery | filter_attacks.Case
     kind: str
     fault: str | None
     signs: int = 0
+
+    def to_json(self) -> object:
+        """Return the scene, query or case as a JSON object."""
+        return to_json(self.scene) if isinstance(self.scene, Scene) else self.scene.to_json()
 
 
 def checked(question: str, seed: int, number: int) -> Checked:
@@ -263,6 +277,42 @@ def _space(random: Random) -> Checked:
     return Checked(query, *wrong_in_space(query))
 
 
+def _runs(random: Random) -> Checked:
+    """A living run in which plans, bodies, copies and saves come and go, see `fuzz.soak`."""
+    soak = Soak(random.getrandbits(32), random.choice(LIVING))
+    kind = f"{soak.tiling}, {ACTIONS} actions"
+    try:
+        soak.act(ACTIONS)
+    except AuditError as error:
+        return Checked(soak.simulation.scene, kind, f"{soak.tiling}, seed {soak.seed}: {error}")
+    return Checked(soak.simulation.scene, kind, None)
+
+
+def _filters(random: Random) -> Checked:
+    """Float filters near the limits of their bounds, and polynomials at the ends of these."""
+    sure, at = 0, filter_attacks.hostile(random, 2)
+    for _ in range(HOSTILE):
+        said = filter_attacks.answer(at)
+        sure += said[0] != 0
+        for case in (at, *filter_attacks.variants(random, at, said)):
+            if fault := filter_attacks.judge(case, said):
+                return Checked(case, "wrong", f"degree {len(case.c) - 1}, {said}: {fault}")
+        make = random.choice([filter_attacks.hostile, filter_attacks.extreme])
+        at = make(random, random.choice(DEGREES))
+    return Checked(at, f"{10 * round(10 * sure / HOSTILE)} % decided", None)
+
+
+def _scope(random: Random) -> Checked:
+    """A scene of the small scope by all methods, see `fuzz.small_scope`."""
+    number = random.randrange(sum(sizes().values()))
+    one = planned(number)
+    (seen,) = looks([one])
+    faults = [answer for answer in seen.answers if answer.fault is not None]
+    said = "; ".join(f"{answer.method}: {answer.fault}" for answer in faults)
+    kind = "no contact" if seen.contact is None else seen.contact.kind
+    return Checked(one.scene, kind, f"scene {number}: {said}" if faults else None)
+
+
 QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "distance": _distance,
     "approach": _approach,
@@ -274,5 +324,8 @@ QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "spin": _spin,
     "cgal": _cgal,
     "space": _space,
+    "runs": _runs,
+    "filters": _filters,
+    "small-scope": _scope,
 }
 """A function from random choices to a case, by question."""

@@ -13,7 +13,6 @@ import click
 
 from exactpt.cgal import find_program
 from exactpt.errors import InputError
-from exactpt.testing.space.queries import SpaceQuery
 from fuzz.questions.checks import QUESTIONS, checked
 
 __all__ = ["questions"]
@@ -72,10 +71,7 @@ def _run(question: str, cases: int, seed: int, start: int, keep: Path) -> int:
                 differences += 1
                 keep.mkdir(parents=True, exist_ok=True)
                 path = keep / f"{question}-{seed}-{number}.json"
-                if isinstance(case.scene, SpaceQuery):
-                    path.write_text(json.dumps(case.scene.to_json()), encoding="utf-8")
-                else:
-                    case.scene.save(path)
+                path.write_text(json.dumps(case.to_json()), encoding="utf-8")
                 click.echo(f"{question}, case {number}: {case.fault}\n  {path}")
             if done % EVERY == 0:
                 click.echo(f"{question}: {done} cases, {differences} differences", err=True)

@@ -77,7 +77,7 @@ def _ask(scenes: Sequence[Scene]) -> Contacts:
     """The first contacts of the two bodies of each scene."""
     bodies = [body for scene in scenes for body in scene.bodies]
     motions = [_coefficients(body) for body in bodies]
-    width = max((len(f) for motion in motions for f in motion), default=1)
+    width = max(1, *(len(f) for motion in motions for f in motion))
     return first_contacts(
         [[_double(f._at(QQ(0))) for f in vertex] for body in bodies for vertex in body.vertices],
         [0, *accumulate(body.size for body in bodies)],

@@ -18,10 +18,13 @@ from exactpt.scene.scene import Scene
 from exactpt.workers.processes import results_of
 from exactpt.workers.work import Work
 from fuzz import corpus
+from fuzz.__main__ import FAMILIES as FUZZED
+from fuzz.__main__ import MIXED
 from fuzz.campaign import Campaign, Summary, cases, run
 from fuzz.cases import Case, Failure, Step, failure_of, left_by, run_case, stopped
 from fuzz.limits import TooSlow, limit
 from fuzz.planted import PLANTED, hunt, table
+from fuzz.questions.checks import QUESTIONS, Checked, checked
 from fuzz.witnesses import WITNESSES
 
 pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
@@ -292,6 +295,40 @@ def test_a_planted_bug_is_found(bug):
 @pytest.mark.parametrize("bug", PLANTED)
 def test_every_planted_bug_is_found(bug):
     assert hunt(bug).failure is not None
+
+
+def test_by_default_scenes_and_questions_take_turns():
+    assert MIXED[::2] == FUZZED
+    assert {name.removeprefix("questions/") for name in MIXED[1:30:2]} == set(QUESTIONS)
+
+
+def test_a_question_with_a_wrong_answer_is_a_failure(monkeypatch):
+    def wrong(random):
+        return Checked(Scene([], (0, 1)), "never", "wrong" if random.random() < 0.5 else None)
+
+    monkeypatch.setitem(QUESTIONS, "distance", wrong)
+    outcome = run_case(Case(4, "questions/distance", 7), witnesses=["reference"])
+
+    numbers = [n for n in range(32, 40) if checked("distance", 7, n).fault]
+    again = "wrong\n  again: python -m fuzz questions --question distance --seed 7 --start"
+    assert 0 < len(numbers) < 8
+    assert [f.why for f in outcome.failures] == [f"{again} {n} --cases 1" for n in numbers]
+    assert list(outcome.seconds) == ["questions"]
+
+
+def test_a_question_that_raises_is_a_failure(monkeypatch):
+    monkeypatch.setitem(QUESTIONS, "spin", lambda _: 1 / 0)
+    outcome = run_case(Case(0, "questions/spin", 0), witnesses=[])
+
+    assert [failure.signature for failure in outcome.failures] == ["ZeroDivisionError in <lambda>"]
+
+
+def test_a_mistake_in_a_filter_is_found_by_questions(monkeypatch):
+    """The rounding of a discriminant without its bound, as a stranger planted it."""
+    monkeypatch.setattr("exactpt.kernel.filters.U4", 2.0**-60)
+    outcomes = [run_case(Case(number, "questions/filters", 0), witnesses=[]) for number in range(4)]
+
+    assert any(outcome.failures for outcome in outcomes)
 
 
 def fuzz(*arguments, **options):

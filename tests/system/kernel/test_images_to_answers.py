@@ -8,7 +8,6 @@ import random
 from collections import Counter
 
 import pytest
-from attacks import asked, judge
 from random_motions import MOTIONS, NUMBERS, SETTINGS, lanes, random_scene
 
 from exactpt.certificates import coefficients
@@ -21,6 +20,7 @@ from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import frame_for
 from exactpt.motion.incidence import difference, orientation
 from exactpt.motion.track import track
+from fuzz.filter_attacks import asked, judge
 
 STYLES = ["free", "collinear", "near", "lanes"]
 

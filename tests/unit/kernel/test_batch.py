@@ -5,9 +5,9 @@ import random
 
 import numpy as np
 import pytest
-from attacks import answer, extreme, generic, hostile
 
 from exactpt.kernel import vectorized
+from fuzz.filter_attacks import answer, extreme, generic, hostile
 
 
 def answers(cases):

@@ -5,11 +5,11 @@ import random
 from collections import Counter
 
 import pytest
-from attacks import asked, judge, times
 
 from exactpt.certificates import coefficients
 from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of_two, rational
 from exactpt.motion.image import Image
+from fuzz.filter_attacks import asked, judge, times
 
 STYLES = ["free", "collinear", "together", "falling", "sparse", "near"]
 

@@ -7,7 +7,6 @@ from collections import Counter
 from fractions import Fraction
 
 import pytest
-from attacks import Case, answer, extreme, generic, hostile, judge, variants
 from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
@@ -16,6 +15,7 @@ from strategies import as_rational, small
 
 from exactpt.kernel import filters, windows
 from exactpt.kernel.numbers import QQ, rational
+from fuzz.filter_attacks import Case, answer, extreme, generic, hostile, judge, variants
 
 DEGREES = [1, 2, 2, 2, 3, 4, 5, 6, 7, 8, 8]
 NOTHING = (math.inf, math.inf)

@@ -6,7 +6,6 @@ import random
 from fractions import Fraction
 
 import pytest
-from attacks import Case, answer, hostile, judge
 from folding import every
 from hypothesis import given
 from hypothesis import strategies as st
@@ -15,6 +14,7 @@ from strategies import small
 
 from exactpt.kernel import sextics
 from exactpt.kernel.numbers import QQ, rational
+from fuzz.filter_attacks import Case, answer, hostile, judge
 
 U = Fraction(1, 2**53)
 

@@ -8,22 +8,30 @@ true polynomial; the judge asks the exact kernel, which is itself tested against
 from __future__ import annotations
 
 import math
-import random
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-
-from strategies import as_primitive
+from math import lcm
+from random import Random
+from typing import Final, TypeAlias
 
 from exactpt.kernel import filters
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.integer_polynomial import sign_at
-from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float, power_of_two, rational
+from exactpt.kernel.integer_polynomial import IntPoly, primitive, sign_at, trimmed
+from exactpt.kernel.numbers import (
+    QQ,
+    ZZ,
+    enclosing_floats,
+    nearest_float,
+    power_of_two,
+    rational,
+)
 from exactpt.kernel.roots import roots_after
 from exactpt.kernel.sturm import cauchy_bound, count_roots, sturm_sequence
 
 __all__ = [
     "Case",
     "answer",
+    "as_primitive",
     "asked",
     "certificate",
     "extreme",
@@ -33,6 +41,9 @@ __all__ = [
     "times",
     "variants",
 ]
+
+Made: TypeAlias = tuple[list[QQ], list[QQ]]
+"""A polynomial, and its roots or times of interest."""
 
 SMALLEST, LARGEST = 2.0**-460, 2.0**460
 ULP = 2.0**-52
@@ -57,15 +68,33 @@ class Case:
             return AlgebraicNumber.root(self.now.polynomial, self.now.low, self.now.high)
         return AlgebraicNumber(self.now)
 
+    def to_json(self) -> dict[str, object]:
+        """Return the case as a JSON object; rationals and numbers as text."""
+        return {
+            "true": list(map(str, self.true)),
+            "c": self.c,
+            "e": self.e,
+            "now": str(self.now),
+            "enclosure": [self.now_low, self.now_high],
+            "horizon": self.horizon,
+            "at_root": self.at_root,
+        }
+
+
+def as_primitive(coefficients: Sequence[QQ]) -> IntPoly:
+    """Return the kernel's primitive positive multiple of a polynomial over the rationals."""
+    denominator = ZZ(lcm(*(int(c.denominator) for c in coefficients)))
+    return primitive(trimmed(ZZ(c * denominator) for c in coefficients))
+
 
 def answer(case: Case) -> filters.Answer:
     """What the filter of the case's degree says."""
-    tail = case.now_low, case.now_high, case.horizon, case.at_root
-    if len(case.c) == 2:
-        return filters.linear(*case.c, *case.e, *tail)
-    if len(case.c) == 3:
-        return filters.quadratic(*case.c, *case.e, *tail)
-    return filters.polynomial(list(case.c), list(case.e), *tail)
+    c, e, times = case.c, case.e, (case.now_low, case.now_high, case.horizon)
+    if len(c) == 2:
+        return filters.linear(c[0], c[1], e[0], e[1], *times, case.at_root)
+    if len(c) == 3:
+        return filters.quadratic(c[0], c[1], c[2], e[0], e[1], e[2], *times, case.at_root)
+    return filters.polynomial(list(c), list(e), *times, case.at_root)
 
 
 def judge(case: Case, said: filters.Answer) -> str:
@@ -99,7 +128,7 @@ def judge(case: Case, said: filters.Answer) -> str:
 # Hostile cases
 
 
-def hostile(rng: random.Random, degree: int) -> Case:
+def hostile(rng: Random, degree: int) -> Case:
     """A case of the degree: structure, scales, roundings, now and horizon chosen to hurt."""
     make = rng.choice(_MAKERS)
     true, roots = make(rng, degree)
@@ -108,7 +137,9 @@ def hostile(rng: random.Random, degree: int) -> Case:
     return asked(rng, true, roots, c, e)
 
 
-def asked(rng: random.Random, true, roots, c, e) -> Case:
+def asked(
+    rng: Random, true: Sequence[QQ], roots: Sequence[QQ], c: tuple[float, ...], e: tuple[float, ...]
+) -> Case:
     """The question about a polynomial: now and a horizon, next to its roots or anywhere."""
     now = _now(rng, true, roots)
     number = AlgebraicNumber(now) if not isinstance(now, AlgebraicNumber) else now
@@ -126,7 +157,7 @@ def asked(rng: random.Random, true, roots, c, e) -> Case:
     return Case(tuple(true), c, e, now, now_low, now_high, horizon, at_root)
 
 
-def variants(rng: random.Random, case: Case, said: filters.Answer) -> Iterator[Case]:
+def variants(rng: Random, case: Case, said: filters.Answer) -> Iterator[Case]:
     """The same question for other polynomials in the box: corners that push roots the most.
 
     At a point x the polynomial is pushed up by the corner with the signs of x^i. Where
@@ -153,16 +184,16 @@ def variants(rng: random.Random, case: Case, said: filters.Answer) -> Iterator[C
             yield replace(case, true=tuple(true))
 
 
-def _dyadic(rng, bits=20):
+def _dyadic(rng: Random, bits: int = 20) -> QQ:
     return QQ(rng.randint(-(2**bits), 2**bits), 2 ** rng.randint(0, bits))
 
 
-def _small_integers(rng, degree):
+def _small_integers(rng: Random, degree: int) -> Made:
     f = [QQ(rng.randint(-4, 4)) for _ in range(degree + 1)]
     return f, [QQ(rng.randint(-4, 4))]
 
 
-def _with_roots(rng, degree):
+def _with_roots(rng: Random, degree: int) -> Made:
     """Roots in a cluster 2^-k wide, complex pairs near the real line, others anywhere."""
     centre = rng.choice([QQ(0), QQ(1), QQ(rng.randint(-9, 9), rng.randint(1, 9)), _dyadic(rng)])
     width = power_of_two(-rng.choice([2, 10, 24, 25, 26, 27, 28, 48, 50, 52, 53, 54, 60, 100]))
@@ -181,7 +212,7 @@ def _with_roots(rng, degree):
     return f, roots
 
 
-def _flat(rng, degree):
+def _flat(rng: Random, degree: int) -> Made:
     """Leading or constant coefficients that nearly or quite vanish."""
     f, roots = _with_roots(rng, degree)
     for i in rng.sample(range(degree + 1), rng.randint(1, 2)):
@@ -189,7 +220,7 @@ def _flat(rng, degree):
     return f, roots
 
 
-def _nearly_double(rng, degree):
+def _nearly_double(rng: Random, degree: int) -> Made:
     """A quadratic factor whose discriminant is a few units in the last place off zero."""
     c1 = rational(rng.uniform(-2, 2)) or QQ(1)
     c2 = rational(rng.uniform(0.01, 2) * rng.choice([1, -1]))
@@ -206,7 +237,7 @@ def _nearly_double(rng, degree):
     return f, roots
 
 
-def _wide(rng, degree):
+def _wide(rng: Random, degree: int) -> Made:
     """Doubles of any size."""
     f = [
         rational(rng.uniform(-1, 1) * 2.0 ** rng.randint(-98, 98)) * (rng.random() < 0.8)
@@ -215,7 +246,7 @@ def _wide(rng, degree):
     return f, [_dyadic(rng)]
 
 
-def _certificate(rng, degree):
+def _certificate(rng: Random, degree: int) -> Made:
     """The orientation of three points on polynomial paths, nearly or quite collinear."""
     d = max(1, degree // 2)
     f = certificate(rng, d, grid=rng.choice([2, 4, 1000, 2**26]), collinear=rng.random() < 0.5)
@@ -223,26 +254,36 @@ def _certificate(rng, degree):
     return f, [QQ(rng.randint(0, 5))]
 
 
-_MAKERS = [_small_integers, _with_roots, _with_roots, _flat, _nearly_double, _wide, _certificate]
+_MAKERS: Final[list[Callable[[Random, int], Made]]] = [
+    _small_integers,
+    _with_roots,
+    _with_roots,
+    _flat,
+    _nearly_double,
+    _wide,
+    _certificate,
+]
 
 
-def certificate(rng: random.Random, d: int, *, grid: int, collinear: bool = False) -> list[QQ]:
+def certificate(rng: Random, d: int, *, grid: int, collinear: bool = False) -> list[QQ]:
     """(b - a) x (c - a) for three points whose coordinates have degree d on a grid."""
 
-    def path():
+    def path() -> list[QQ]:
         return [QQ(rng.randint(-grid, grid), rng.choice([1, 1, 3])) for _ in range(d + 1)]
 
     a, b, c = ((path(), path()) for _ in range(3))
     if collinear:  # c = a + k (b - a), and a grain
         k = QQ(rng.randint(-3, 3), 2)
-        c = tuple([p + k * (q - p) for p, q in zip(a[i], b[i], strict=True)] for i in (0, 1))
-        c[0][0] += rng.choice([QQ(0), power_of_two(-40), power_of_two(-52)])
+        x, y = ([p + k * (q - p) for p, q in zip(a[i], b[i], strict=True)] for i in (0, 1))
+        c = x, y
+        x[0] += rng.choice([QQ(0), power_of_two(-40), power_of_two(-52)])
     u = [[q - p for p, q in zip(a[i], b[i], strict=True)] for i in (0, 1)]
     v = [[q - p for p, q in zip(a[i], c[i], strict=True)] for i in (0, 1)]
     return [p - q for p, q in zip(times(u[0], v[1]), times(u[1], v[0]), strict=True)]
 
 
-def times(f, g):
+def times(f: Sequence[QQ], g: Sequence[QQ]) -> list[QQ]:
+    """Return the product of two polynomials."""
     product = [QQ(0)] * (len(f) + len(g) - 1)
     for i, a in enumerate(f):
         for j, b in enumerate(g):
@@ -250,7 +291,7 @@ def times(f, g):
     return product
 
 
-def _rescaled(rng, f, roots):
+def _rescaled(rng: Random, f: list[QQ], roots: list[QQ]) -> Made:
     """f(t) to 2^a f(2^b t), coefficients staying within 2^±460."""
     a = rng.choice([0, 0, rng.randint(-98, 98)])
     b = rng.choice([0, 0, rng.randint(-30, 30)])
@@ -260,7 +301,7 @@ def _rescaled(rng, f, roots):
     return g, [r * power_of_two(-b) for r in roots]
 
 
-def _image(rng, true):
+def _image(rng: Random, true: Sequence[QQ]) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Doubles near the coefficients, and bounds on their errors: exact, tight, loose, blind."""
     style = rng.choice(["nearest", "nearest", "off", "loose"])
     blind = rng.randrange(len(true)) if rng.random() < 0.2 else None
@@ -284,7 +325,7 @@ def _image(rng, true):
     return tuple(c), tuple(e)
 
 
-def _now(rng, true, roots):
+def _now(rng: Random, true: Sequence[QQ], roots: Sequence[QQ]) -> QQ | AlgebraicNumber:
     """A root, a neighbour of one, an algebraic root of the polynomial or another; or any time."""
     kind = rng.random()
     if kind < 0.25:
@@ -304,13 +345,15 @@ def _now(rng, true, roots):
     if kind < 0.85:
         centre = abs(rng.choice(roots)) + 1
         surd = as_primitive([-centre * centre * QQ(rng.randint(90, 110), 100), QQ(0), QQ(1)])
-        found = list(roots_after(surd, AlgebraicNumber(0), 2 * centre))
-        if found:
-            return found[0].time
+        later = next(roots_after(surd, AlgebraicNumber(0), 2 * centre), None)
+        if later is not None:
+            return later.time
     return rng.choice([QQ(0), _dyadic(rng), rng.choice(roots) - abs(_dyadic(rng, 8))])
 
 
-def _horizon(rng, number, now_low, now_high, roots):
+def _horizon(
+    rng: Random, number: AlgebraicNumber, now_low: float, now_high: float, roots: Sequence[QQ]
+) -> float:
     """At least now: just after it, near a root, or far away."""
     x = rng.choice(
         [
@@ -330,12 +373,12 @@ def _horizon(rng, number, now_low, now_high, roots):
 # Extreme cases: any doubles at all
 
 
-def extreme(rng: random.Random, degree: int) -> Case:
+def extreme(rng: Random, degree: int) -> Case:
     """Coefficients, bounds and times of any size, subnormal to nearly infinite."""
     spread = rng.choice([4, 60, 300, 1073])
     centres = [rng.randint(-1073, 1022) for _ in range(3)]
 
-    def double(centre):
+    def double(centre: int) -> float:
         exponent = max(-1074, min(1023, centre + rng.randint(-spread, spread)))
         return math.ldexp(
             rng.choice([1.0, -1.0]) * rng.uniform(1, 2), exponent - (exponent == 1023)
@@ -368,14 +411,18 @@ def extreme(rng: random.Random, degree: int) -> Case:
 # Generic cases: what a simulation asks
 
 
-def generic(rng: random.Random, d: int) -> Case:
+def generic(rng: Random, d: int) -> Case:
     """A certificate of three random points on paths of degree d, now another's root."""
     f = certificate(rng, d, grid=10**6)
     other = as_primitive(certificate(rng, d, grid=10**6))
     start = AlgebraicNumber(QQ(rng.randint(0, 10**6), 10**6))
     found = next(roots_after(other, start, QQ(10)), None)
-    now = found.time if found else QQ(rng.randint(0, 10**6), 10**6)
-    low, high = now.enclosure() if found else enclosing_floats(now)
+    if found:
+        low, high = found.time.enclosure()
+        now: QQ | AlgebraicNumber = found.time
+    else:
+        now = plain = QQ(rng.randint(0, 10**6), 10**6)
+        low, high = enclosing_floats(plain)
     c = [nearest_float(q) for q in f]
     size = max(map(abs, c))
     e = [8 * ULP * size for _ in c]
