@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from itertools import combinations, pairwise
+from pathlib import Path
 from random import Random
+from tempfile import TemporaryDirectory
 from typing import Final, NamedTuple
 
 from exactpt.collision.detector import first_contact
@@ -24,6 +26,7 @@ from exactpt.pairs.reference import touches_at
 from exactpt.pairs.surroundings import clearance
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
+from exactpt.simulation.simulation import Simulation
 from exactpt.testing.space.queries import SpaceQuery
 from fuzz import filter_attacks
 from fuzz.questions import by_cgal, reference
@@ -42,6 +45,7 @@ from fuzz.soak import Soak
 OTHERS: Final[tuple[Norm, ...]] = ("max", "x", "y")
 LIVING: Final = ("greedy", "lazy", "mixed")
 ACTIONS: Final = 40
+MEETINGS: Final = 6
 HOSTILE: Final = 50
 DEGREES: Final = (1, 2, 2, 2, 3, 4, 5, 6)
 
@@ -277,10 +281,25 @@ def _space(random: Random) -> Checked:
     return Checked(query, *wrong_in_space(query))
 
 
+def _comes_back(scene: Scene, tiling: str) -> bool:
+    """Whether a run that has met a contact, and goes on unchanged, is restored as it was saved."""
+    simulation = Simulation(scene, tiling=tiling)
+    for _ in simulation.run(on_contact=lambda *_: None):
+        pass
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "run.json"
+        simulation.save(path)
+        return Simulation.restore(path).to_json() == simulation.to_json()
+
+
 def _runs(random: Random) -> Checked:
     """A living run in which plans, bodies, copies and saves come and go, see `fuzz.soak`."""
     soak = Soak(random.getrandbits(32), random.choice(LIVING))
     kind = f"{soak.tiling}, {ACTIONS} actions"
+    for scene in [meeting_scene(random) for _ in range(MEETINGS)]:
+        if not _comes_back(scene, soak.tiling):
+            fault = f"{soak.tiling}: restored at a contact it has another state"
+            return Checked(scene, kind, fault)
     try:
         soak.act(ACTIONS)
     except AuditError as error:
