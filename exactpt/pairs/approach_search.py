@@ -20,7 +20,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
 from exactpt.kernel.rounding import U
-from exactpt.motion.swept_edges import SweptEdges
+from exactpt.motion.swept_edges import Near, SweptEdges
 from exactpt.motion.track import Track
 from exactpt.pairs.features import Feature, FeaturePair
 from exactpt.pairs.start import Apart, Limit, near_at_start, within_at_start
@@ -30,8 +30,6 @@ __all__ = ["ApproachSearch", "Nearest"]
 
 Indices: TypeAlias = NDArray[np.int64]
 
-SLABS: Final = 32
-"""Number of initial slabs in the time span."""
 FEW: Final = 4
 """Number of pairs of a vertex and an edge that exact arithmetic takes over."""
 DEPTH: Final = 12
@@ -91,28 +89,10 @@ class ApproachSearch:
 
     def run_after_start(self) -> Nearest | None:
         """The first approach, if no two bodies are within their distance at the start."""
-        now, end = self._scene._start, self._scene._end
-        # Shorter slabs are no help to vertices without boxes.
-        step = (end - now) / (SLABS if np.isfinite(self._boxes(now, end)).all() else 1)
-        many, least = 2 * len(self._swept.ids) + 64, (end - now) / 2**20
-        while now < end:
-            ask()
-            until = self._swept.until(end)
-            later = min(now + step, until)
-            near = self._near(now, later)
-            while len(near[0]) > many and step > least:
-                shorter = min(now + step / 4, until)
-                fewer = self._near(now, shorter)
-                if 2 * len(fewer[0]) > len(near[0]):
-                    break  # these pairs stay near each other: a shorter slab is no help
-                step, later, near = step / 4, shorter, fewer
+        for now, later, near in self._swept.slabs(self._near):
             found = self._search(now, later, self._left(now, later, near), DEPTH)
             if found is not None:
                 return found
-            if 4 * len(near[0]) < len(self._swept.ids):
-                step *= 2
-            now = later
-            self._swept.enter_pieces(now)
         return None
 
     def _boxes(self, now: QQ, later: QQ) -> Boxes:
@@ -137,7 +117,7 @@ class ApproachSearch:
         wide[:, 1::2] = np.nextafter(boxes[:, 1::2] + by[:, None], np.inf)
         return wide
 
-    def _near(self, now: QQ, later: QQ) -> tuple[Indices, Indices]:
+    def _near(self, now: QQ, later: QQ) -> Near:
         """The numbers of vertices and of edges of other bodies that may be near in a slab."""
         boxes = self._boxes(now, later)
         of_edges = self._swept.around(boxes)
@@ -151,7 +131,7 @@ class ApproachSearch:
         return np.concatenate(vs), np.concatenate(es)
 
     def _search(
-        self, now: QQ, later: QQ, near: tuple[Indices, Indices], depth: int, lasting: int = 0
+        self, now: QQ, later: QQ, near: Near, depth: int, lasting: int = 0
     ) -> Nearest | None:
         """The first approach in (now, later] of vertices to edges, given by their numbers.
 
@@ -173,7 +153,7 @@ class ApproachSearch:
                 return found
         return None
 
-    def _left(self, now: QQ, later: QQ, near: tuple[Indices, Indices]) -> tuple[Indices, Indices]:
+    def _left(self, now: QQ, later: QQ, near: Near) -> Near:
         """Those pairs that may be near in [now, later]."""
         may = self._may_be_near(self._boxes(now, later), *near)
         return near[0][may], near[1][may]

@@ -32,8 +32,8 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask, searching
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.doubles import Indices
-from exactpt.kernel.numbers import QQ, fraction, power_of_two
-from exactpt.motion.swept_edges import SweptEdges
+from exactpt.kernel.numbers import QQ, fraction
+from exactpt.motion.swept_edges import Near, SweptEdges
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.radius import first_with_radii
 from exactpt.pairs.selection import groups_of
@@ -42,17 +42,8 @@ from exactpt.scene.scene import Scene
 
 __all__ = ["PairsSearch"]
 
-SLABS: Final = 32
-"""Number of initial slabs in the time span, if the speeds of the bodies are not known."""
-
 FEW: Final = 64
 """Number of pairs that are compared exactly before a tiling would have been built."""
-
-PATIENCE: Final = 8
-"""Number of slabs after which one as long as the last that was too long is tried again."""
-
-SMALLEST_SLAB: Final = 1 << 40
-"""The shortest slab is the time span divided by this."""
 
 
 @final
@@ -176,71 +167,18 @@ class PairsSearch:
         return swept
 
     def _run(self) -> Contact | None:
-        """Search slab by slab: longer ones while there are few candidates.
-
-        After a slab that was too long, the following ones are shorter than it for a while.
-        """
-        now, end = self._scene._start, self._scene._end
-        step, limit = self._first_step(), end - now
-        since = 0  # number of slabs since one was too long
-        while now < end:
-            self._passed = now
+        """Search slab by slab."""
+        self._passed = self._scene._start
+        for now, later, near in self._swept.slabs(self._near):
             if self._deadline is not None and clock.monotonic() > self._deadline:
                 raise BudgetExceeded("the time is used up", fraction(now))
-            tried = step
-            step, later, near = self._slab(now, step, self._swept.until(end))
             contact = self._search(now, later, near)
             if contact is not None:
                 return contact
-            since += 1
-            if step < tried:
-                limit, since = tried / 2, 0
-            elif since > PATIENCE:
-                limit = end - now
-            if later == now + step and 4 * len(near[0]) < self._many():
-                step = min(2 * step, limit)
-            now = later
-            self._swept.enter_pieces(now)
+            self._passed = later
         return None
 
-    def _slab(self, now: QQ, step: QQ, until: QQ) -> tuple[QQ, QQ, tuple[Indices, Indices]]:
-        """A slab from now on: its length, its end, not after ``until``, and the candidates in it.
-
-        With many candidates it is shortened, by 4 or by 16, as long as these get fewer by the
-        square root of that at least; else they stay near each other, and shorter slabs are no
-        help.
-        """
-        later = min(now + step, until)
-        near = self._near(now, later)
-        least = (self._scene._end - self._scene._start) / SMALLEST_SLAB
-        tried = step
-        while len(near[0]) > self._many() and tried > least and 8 * tried >= step:
-            tried /= 4
-            fewer = self._near(now, min(now + tried, until))
-            if len(fewer[0]) ** 2 * step <= len(near[0]) ** 2 * tried:
-                step, later, near = tried, min(now + tried, until), fewer
-        return step, later, near
-
-    def _many(self) -> int:
-        """Number of candidates above which a slab is shortened."""
-        return 2 * len(self._swept.ids) + 64
-
-    def _first_step(self) -> QQ:
-        """Length of the first slab: the average vertex moves an eighth as far as others are.
-
-        It depends on how fast bodies pass each other, not on how long they are watched. Slabs
-        with few candidates grow longer.
-        """
-        start, span = self._scene._start, self._scene._end - self._scene._start
-        frame = self._swept.vertices.frame
-        stride = self._swept.boxes.stride(frame.time(start)[0])
-        if math.isnan(stride):
-            return span / SLABS
-        if math.isinf(stride):
-            return span
-        return min(span, power_of_two(math.frexp(stride / 8.0)[1] + frame.time_scale))
-
-    def _near(self, now: QQ, later: QQ) -> tuple[Indices, Indices]:
+    def _near(self, now: QQ, later: QQ) -> Near:
         """Candidate pairs in a slab: numbers of vertices and of edges whose swept boxes meet."""
         boxes = self._swept.during(now, later)
         vs, es = [], []
@@ -273,7 +211,7 @@ class PairsSearch:
     def _ignores(self, i: int, j: int) -> bool:
         return bool(self._group[i] == self._group[j] and (i != j or self._ignores_self[i]))
 
-    def _search(self, now: QQ, later: QQ, near: tuple[Indices, Indices]) -> Contact | None:
+    def _search(self, now: QQ, later: QQ, near: Near) -> Contact | None:
         """The first contact in (now, later]."""
         vertices, ids, ends = self._swept.vertices, self._swept.ids, self._swept.ends
         certifier = Certifier(vertices, now, later, exact_only=self._exact_only)

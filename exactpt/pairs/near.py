@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from itertools import combinations, pairwise
+from itertools import combinations
 from typing import Final
 
 import numpy as np
 
 from exactpt.geometry.boxes import Boxes, overlapping_pairs
-from exactpt.kernel.numbers import QQ, ceil, enclosing_floats, power_of_two
+from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
 from exactpt.motion.frame import Frame
-from exactpt.motion.swept import SweptBoxes
-from exactpt.motion.vertices import Vertices
+from exactpt.motion.swept_edges import SweptEdges
 from exactpt.pairs.boxes import candidate_pieces
 from exactpt.pairs.pieces import linear_pieces
 from exactpt.scene.scene import Scene
@@ -37,39 +36,19 @@ def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
         near = candidate_pieces(rows, scene._start, scene._end, enclosing_floats(reach / 2)[1])
         bodies = (sorted((rows[k].body, rows[l].body)) for _, k, l in near)
         return sorted({(i, j) for i, j in bodies})
-    vertices = Vertices.of(scene.bodies, scene._start, scene._end, plain=True)
-    cuts = {t for body in scene.bodies for t in body._breakpoints}
-    inner = sorted(t for t in cuts if scene._start < t < scene._end)
+    swept = SweptEdges(scene.bodies, scene._start, scene._end)
+    halves = [reach / 2 + body._radius for body in scene.bodies]
+    width = (scene._end - scene._start) / SLABS
     found: set[tuple[int, int]] = set()
-    for begin, end in pairwise((scene._start, *inner, scene._end)):
-        for i, moving in enumerate(vertices.bodies):
-            if moving.until == begin:
-                vertices.enter_piece(i, begin)
-        halves = [reach / 2 + body._radius for body in scene.bodies]
-        slabs = max(1, int(ceil(SLABS * (end - begin) / (scene._end - scene._start))))
-        found |= _near_during(vertices, halves, begin, end, slabs)
-    return sorted(found)
-
-
-def _near_during(
-    vertices: Vertices, halves: list[QQ], begin: QQ, end: QQ, slabs: int
-) -> set[tuple[int, int]]:
-    """The pairs whose boxes meet in one of the slabs between two changes of motion."""
-    images = [vertices.all[v].image for moving in vertices.bodies for v in moving.ring]
-    sizes = [len(moving.ring) for moving in vertices.bodies]
-    firsts = np.cumsum([0, *sizes[:-1]])
-    swept = SweptBoxes(images, vertices.enclosures.errors)
-    found: set[tuple[int, int]] = set()
-    width = (end - begin) / slabs
-    for k in range(slabs):
-        low = vertices.frame.time(begin + k * width)[0]
-        high = vertices.frame.time(begin + (k + 1) * width)[1]
-        boxes = swept.during(low, high)
-        boxes[:, ::2] = np.repeat(np.minimum.reduceat(boxes[:, ::2], firsts), sizes, axis=0)
-        boxes[:, 1::2] = np.repeat(np.maximum.reduceat(boxes[:, 1::2], firsts), sizes, axis=0)
-        for first, second in overlapping_pairs(_widened(boxes[firsts], halves, vertices.frame)):
+    now = scene._start
+    while now < scene._end:
+        later = min(now + width, swept.until())
+        boxes = swept.of_bodies(swept.during(now, later))
+        for first, second in overlapping_pairs(_widened(boxes, halves, swept.vertices.frame)):
             found.update(zip(first.tolist(), second.tolist(), strict=True))
-    return found
+        now = later
+        swept.enter_pieces(now)
+    return sorted(found)
 
 
 @np.errstate(all="ignore")
