@@ -18,6 +18,7 @@ __all__ = [
     "Indices",
     "boxes_of_points",
     "crossing_pairs",
+    "grown",
     "overlapping_pairs",
     "widen_unknown",
 ]
@@ -59,10 +60,24 @@ def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
             near = [nearest_float(p[axis] - origin) for points in groups for p in points]
         rows[:, 2 * axis] = np.minimum.reduceat(near, firsts)
         rows[:, 2 * axis + 1] = np.maximum.reduceat(near, firsts)
-    with np.errstate(all="ignore"):  # after the largest double comes infinity, rightly
-        rows[:, ::2] = np.nextafter(rows[:, ::2], -np.inf)
-        rows[:, 1::2] = np.nextafter(rows[:, 1::2], np.inf)
-    return rows
+    return grown(rows, 0.0)
+
+
+@np.errstate(all="ignore")  # after the largest double comes infinity, rightly
+def grown(boxes: Boxes, by: Floats | float) -> Boxes:
+    """Return boxes whose sides are moved outward by numbers, and to the next double.
+
+    A sum far from 0 may lose the number, and a bound made of differences of the boxes would not
+    allow for that.
+
+    Args:
+        boxes: the boxes.
+        by: of at least 0: one number, or for each box one, shape (n, 1), or two, shape (n, 2).
+    """
+    wide = np.empty_like(boxes)
+    wide[:, ::2] = np.nextafter(boxes[:, ::2] - by, -np.inf)
+    wide[:, 1::2] = np.nextafter(boxes[:, 1::2] + by, np.inf)
+    return wide
 
 
 def widen_unknown(boxes: Boxes) -> None:

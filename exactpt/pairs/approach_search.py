@@ -15,7 +15,7 @@ from typing import Final, NamedTuple, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.geometry.boxes import Boxes
+from exactpt.geometry.boxes import Boxes, grown
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
@@ -109,22 +109,14 @@ class ApproachSearch:
                 sides[:] = -np.inf, np.inf
         return boxes
 
-    @staticmethod
-    @np.errstate(all="ignore")
-    def _widened(boxes: Boxes, by: NDArray[np.float64]) -> Boxes:
-        wide = np.empty_like(boxes)
-        wide[:, ::2] = np.nextafter(boxes[:, ::2] - by[:, None], -np.inf)
-        wide[:, 1::2] = np.nextafter(boxes[:, 1::2] + by[:, None], np.inf)
-        return wide
-
     def _near(self, now: QQ, later: QQ) -> Near:
         """The numbers of vertices and of edges of other bodies that may be near in a slab."""
         boxes = self._boxes(now, later)
         of_edges = self._swept.around(boxes)
         vs, es = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
         body, first = self._swept.body, self._swept.ends[:, 0]
-        grown = self._widened(boxes, self._grown), self._widened(of_edges, self._grown[first])
-        for v, e in self._swept.meeting(*grown):
+        by = self._grown[:, None]
+        for v, e in self._swept.meeting(grown(boxes, by), grown(of_edges, by[first])):
             apart = self._apart(body[v], body[first[e]])
             vs.append(v[apart])
             es.append(e[apart])

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Final, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.geometry.boxes import Boxes, overlapping_pairs, widen_unknown
+from exactpt.geometry.boxes import Boxes, grown, overlapping_pairs, widen_unknown
 from exactpt.kernel.budget import ask
 from exactpt.kernel.doubles import middles
-from exactpt.kernel.numbers import QQ, enclosing_floats, nearest_float
+from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.motion.body import Body
 
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from exactpt.pairs.pieces import MotionPiece
 
 __all__ = [
-    "ROUNDED_UP",
     "PieceBoxes",
     "candidate_pairs",
     "candidate_pieces",
@@ -36,8 +35,6 @@ Indices: TypeAlias = NDArray[np.int64]
 U4: Final = 4.0 * U
 K: Final = 16.0 * U
 """Relative bound on the rounding of sums of up to eight terms."""
-ROUNDED_UP: Final = 1.0 + 4.0 * U
-"""Factor by which a rounded number becomes one that is not less."""
 PIECES: Final = 4
 """Maximum number of pieces of motion of a body, on average, in the first slab."""
 SHORTEST: Final = 2.0**-40
@@ -71,15 +68,9 @@ class PieceBoxes:
         self.body: Indices = np.array([row.body for row in rows], dtype=np.int64)
         straights = [row.straight for row in rows]
         shapes = [straight.shape for straight in straights]
-        self._low = np.array([(shape.low_x, shape.low_y) for shape in shapes]).reshape(-1, 2)
-        self._high = np.array([(shape.high_x, shape.high_y) for shape in shapes]).reshape(-1, 2)
-        # A sum far from 0 may lose the radius, and a bound made of differences of the boxes would
-        # not allow for that: so each side is moved to the next double.
-        reach = [margin + radius_above(straight.body) for straight in straights]
-        by = np.nextafter(np.array(reach), np.inf)[:, None]
-        grown = np.array(reach)[:, None] > 0.0
-        self._low = np.where(grown, np.nextafter(self._low - by, -np.inf), self._low)
-        self._high = np.where(grown, np.nextafter(self._high + by, np.inf), self._high)
+        sides = [(shape.low_x, shape.high_x, shape.low_y, shape.high_y) for shape in shapes]
+        reach = np.array([margin + radius_above(straight.body) for straight in straights])
+        self._put(np.array(sides).reshape(-1, 4), np.nextafter(reach, np.inf) * (reach > 0.0))
         self._c = np.array([(s.cx, s.cy) for s in straights]).reshape(-1, 2)
         self._v = np.array([(s.vx, s.vy) for s in straights]).reshape(-1, 2)
         errors = [(s.c_error + s.shape.error, s.v_error) for s in straights]
@@ -93,19 +84,25 @@ class PieceBoxes:
         """Boxes of one piece for each body, all during one span, known without error.
 
         Args:
-            numbers: shape (n, 8): the box (low x, low y, high x, high y), c and v.
+            numbers: shape (n, 9): the box, c, v, and at least the radius.
             start: the start of the span.
             end: its end.
         """
         self = cls.__new__(cls)
         n = len(numbers)
         self.body = np.arange(n)
-        self._low, self._high, self._c, self._v = np.hsplit(numbers, 4)
+        self._put(numbers[:, :4], numbers[:, 8])
+        self._c, self._v = numbers[:, 4:6], numbers[:, 6:8]
         self._c_error = self._v_error = np.zeros(n)
         self._start = np.full(n, enclosing_floats(start)[0])
         self._end = np.full(n, enclosing_floats(end)[1])
         self.drift = middles(self._v)
         return self
+
+    def _put(self, boxes: Boxes, reach: Floats) -> None:
+        """Keep the boxes of the shapes, grown."""
+        boxes = grown(boxes, reach[:, None]) if reach.any() else boxes
+        self._low, self._high = boxes[:, ::2], boxes[:, 1::2]
 
     def __len__(self) -> int:
         return len(self.body)
@@ -182,7 +179,7 @@ class PieceBoxes:
 
 def radius_above(body: Body) -> float:
     """Return a double that is at least the radius of a body; 0 only if that is 0."""
-    return nearest_float(body._radius) * ROUNDED_UP + TINY if body._radius else 0.0
+    return enclosing_floats(body._radius)[1] if body._radius else 0.0
 
 
 def pairs_at(boxes: PieceBoxes, time: QQ) -> list[tuple[int, int]]:

@@ -7,9 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from exactpt.geometry.boxes import Boxes, overlapping_pairs
+from exactpt.geometry.boxes import grown, overlapping_pairs
 from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
-from exactpt.motion.frame import Frame
 from exactpt.motion.swept_edges import SweptEdges
 from exactpt.pairs.boxes import candidate_pieces
 from exactpt.pairs.pieces import linear_pieces
@@ -37,30 +36,17 @@ def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
         bodies = (sorted((rows[k].body, rows[l].body)) for _, k, l in near)
         return sorted({(i, j) for i, j in bodies})
     swept = SweptEdges(scene.bodies, scene._start, scene._end)
+    units = [power_of_two(-scale) for scale in swept.vertices.frame.scale]
     halves = [reach / 2 + body._radius for body in scene.bodies]
+    by = np.array([[enclosing_floats(r * unit)[1] for unit in units] for r in halves])
     width = (scene._end - scene._start) / SLABS
     found: set[tuple[int, int]] = set()
     now = scene._start
     while now < scene._end:
         later = min(now + width, swept.until())
         boxes = swept.of_bodies(swept.during(now, later))
-        for first, second in overlapping_pairs(_widened(boxes, halves, swept.vertices.frame)):
+        for first, second in overlapping_pairs(grown(boxes, by) if by.any() else boxes):
             found.update(zip(first.tolist(), second.tolist(), strict=True))
         now = later
         swept.enter_pieces(now)
     return sorted(found)
-
-
-@np.errstate(all="ignore")
-def _widened(boxes: Boxes, halves: list[QQ], frame: Frame) -> Boxes:
-    """The boxes of bodies, normalised, widened by lengths; the rounding is outward."""
-    if not any(halves):
-        return boxes
-    wide = boxes.copy()
-    for axis in (0, 1):
-        unit = power_of_two(-frame.scale[axis])
-        by = np.array([enclosing_floats(r * unit)[1] for r in halves])
-        low, high = 2 * axis, 2 * axis + 1
-        wide[:, low] = np.nextafter(boxes[:, low] - by, -np.inf)
-        wide[:, high] = np.nextafter(boxes[:, high] + by, np.inf)
-    return wide

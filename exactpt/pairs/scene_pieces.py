@@ -7,7 +7,6 @@ body is grown.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from typing import TypeAlias, final
 
@@ -17,11 +16,10 @@ from numpy.typing import NDArray
 from exactpt.kernel.budget import ask
 from exactpt.kernel.doubles import native
 from exactpt.kernel.numbers import QQ
-from exactpt.kernel.rounding import TINY
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.outline import Straight, far_origin, straight_pieces
-from exactpt.pairs.boxes import ROUNDED_UP, PieceBoxes, candidate_pairs, pairs_at, radius_above
+from exactpt.pairs.boxes import PieceBoxes, candidate_pairs, pairs_at, radius_above
 from exactpt.pairs.pieces import MOST_VERTICES, MotionPiece, pieces_during
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene
@@ -91,19 +89,18 @@ def boxed(scene: Scene, rows: list[MotionPiece]) -> ScenePieces:
 
 @np.errstate(all="ignore")
 def _of_arrays(bodies: BodyArrays) -> Floats | None:
-    """The grown box, c and v of each body; None unless all move straight and none is large."""
+    """The box, c, v and radius of each body; None unless all move straight and none is large."""
     bends = bodies.coefficients[:, :, 2:].any()
     if bends or np.diff(bodies.offsets).max(initial=0) > MOST_VERTICES:
         return None
     first = native(bodies.offsets[:-1])
-    low, high = (f.reduceat(bodies.vertices, first) for f in (np.minimum, np.maximum))
-    radii = np.where(bodies.radii, bodies.radii * ROUNDED_UP + TINY, 0.0)[:, None]
-    # As in `_within`.
-    low = np.where(radii, np.nextafter(low - radii, -np.inf), low)
-    high = np.where(radii, np.nextafter(high + radii, np.inf), high)
-    straight = np.zeros((len(bodies), 2, 2))
-    straight[:, :, : bodies.coefficients.shape[2]] = bodies.coefficients[:, :, :2]
-    return np.hstack((low, high, straight[:, :, 0], straight[:, :, 1]))
+    numbers = np.zeros((len(bodies), 9))
+    numbers[:, 0:4:2] = np.minimum.reduceat(bodies.vertices, first)
+    numbers[:, 1:4:2] = np.maximum.reduceat(bodies.vertices, first)
+    for k in range(min(2, bodies.coefficients.shape[2])):
+        numbers[:, 4 + 2 * k : 6 + 2 * k] = bodies.coefficients[:, :, k]
+    numbers[:, 8] = bodies.radii
+    return numbers
 
 
 def _of_bodies(bodies: Sequence[Body]) -> Floats | None:
@@ -115,28 +112,20 @@ def _of_bodies(bodies: Sequence[Body]) -> Floats | None:
         if known is None:
             return None
         numbers.append(known)
-    return np.array(numbers).reshape(-1, 8)
+    return np.array(numbers).reshape(-1, 9)
 
 
 def _doubles_of(body: Body) -> tuple[float, ...] | None:
-    """The grown box, c and v of a body in straight motion; None unless doubles are exact."""
+    """The numbers of a body in straight motion; None unless doubles are exact."""
     doubles = body._shape.doubles
     if doubles is None or type(body.motion) is not Translation or body.size > MOST_VERTICES:
         return None
     x, y = body.motion.x._doubles, body.motion.y._doubles
     if x is None or y is None or len(x) > 2 or len(y) > 2:
         return None
-    (low_x, high_x), (low_y, high_y) = (_within(body, min(f), max(f)) for f in doubles)
+    (low_x, high_x), (low_y, high_y) = ((min(f), max(f)) for f in doubles)
     (cx, vx, *_), (cy, vy, *_) = (*x, 0.0, 0.0), (*y, 0.0, 0.0)
-    return (low_x, low_y, high_x, high_y, cx, cy, vx, vy)
-
-
-def _within(body: Body, low: float, high: float) -> tuple[float, float]:
-    """Return an interval that contains all within the radius of a body around one."""
-    if not body._radius:
-        return low, high
-    radius = radius_above(body)  # as `PieceBoxes`
-    return math.nextafter(low - radius, -math.inf), math.nextafter(high + radius, math.inf)
+    return (low_x, high_x, low_y, high_y, cx, cy, vx, vy, radius_above(body))
 
 
 def _pieces(
