@@ -310,6 +310,7 @@ def test_power_of_two(exponent):
     assert exact(power_of_two(exponent)) == Fraction(2) ** exponent
 
 
+@pytest.mark.long
 @given(text=st.text(), limit=st.integers(25, 80))
 def test_a_shortened_text_is_one_line_within_the_limit(text, limit):
     shown = shorten(text, limit)

@@ -57,6 +57,7 @@ def test_the_checker_in_cpp(program, tmp_path):
             assert done.stdout == line_of(document), name
 
 
+@pytest.mark.long
 def test_what_is_no_scene_to_exactpt_is_none_to_a_checker(tmp_path):
     refused = 0
     for name, document in DOCUMENTS.items():

@@ -44,6 +44,9 @@ ARGUMENTS = {
     "hull": (),
     "is_free": ((50, 50), (51, 51)),
     "locate": ((50, 50),),
+    "below": ("1/3",),
+    "nearest": ("1/3",),
+    "to": ("mill",),
     "neighbours": ("box",),
     "path": ((-50, -50), (50, 50)),
     "shortest_path": ((-50, -50), (50, 50)),
@@ -72,6 +75,7 @@ ELSEWHERE = {
     "from_arrays", "launched",  # class methods
     "history",  # below
     "draw",  # writes a file
+    "locate_many",  # arrays of numpy
     "roots",  # of any polynomial but 0: algebraic numbers
     "as_integer_ratio",  # of irrational numbers refused, see `tests/unit/kernel/test_numbers.py`
     "load", "save", "restore", "root", "surd", "going_on", "copy", "from_json",  # as these
@@ -200,6 +204,7 @@ def test_bug_numbers_of_a_contact_are_pythons_own(method):
         assert no_leaks(first=exactpt.first_within(scene, distance="1/3", norm=norm)) > 1
     assert no_leaks(there=exactpt.distance(scene, "box", "mill", at=1)) > 1
     assert no_leaks(gap=exactpt.clearance(scene, "box", "mill")) > 5
+    assert no_leaks(around=exactpt.clearance(scene, "box")) > 5
     assert no_leaks(meeting=exactpt.contacts(scene)) > 5
     assert exactpt.contact_intervals(scene, "box", "mill")
     assert no_leaks(planner=exactpt.Planner([Body("wall", [(1, -1), (1, 1)])], (0, 9))) > 5
@@ -237,6 +242,7 @@ def test_bug_an_interval_with_ends_of_a_callers_integers_stays_exact():
     assert root.low**3 < 2 < root.high**3
 
 
+@pytest.mark.long
 def test_numbers_of_a_history_are_pythons_own():
     simulation = Simulation(scene_of_every_kind(), record=True)
     for _ in simulation.run("2/5", on_contact=exactpt.Bounce()):
@@ -254,7 +260,7 @@ def test_every_public_name_is_walked_through():
         "Simulation", "Spin", "Translation", "BudgetExceeded", "first_contact", "first_within",
         "onward",
         "Clearance", "ContactInterval", "Distance", "EnclosedContact", "first_contact_enclosed",
-        "clearance", "contact_intervals", "contacts",
+        "clearance", "contact_intervals", "contacts", "Surroundings",
         "distance", "Approach", "Velocity", "in_local_time", "spline",
     }  # fmt: skip
     without_numbers = {
