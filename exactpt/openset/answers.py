@@ -12,7 +12,7 @@ from exactpt.arrays.queries import point_segment_contacts
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.openset.passages import Passage, polynomial
-from exactpt.testing.truth import Truth, root_between
+from exactpt.testing.truth import Truth, first_pair, root_between
 
 __all__ = ["answers", "coordinates"]
 
@@ -37,13 +37,8 @@ def coordinates(p: Passage) -> list[float]:
 
 
 def _answer(found: Contacts, k: int, passage: Passage) -> Truth:
-    kind, edge, end = KINDS[found.kind[k]], int(found.edge[k]), int(found.other_vertex[k])
-    other = {"edge": edge} if edge >= 0 else {"vertex": end}
-    pair: dict[str, object] = {
-        "kind": "vertex-edge" if edge >= 0 else "vertex-vertex",
-        "a": {"body": "a", "vertex": 0},
-        "b": {"body": "b", **other},
-    }
+    kind, pair = KINDS[found.kind[k]], first_pair(found, k)
+    edge, end = int(found.edge[k]), int(found.other_vertex[k])
     if kind == "initial":
         return Truth(AlgebraicNumber(0), kind, pair)
     return Truth(_on_edge(found, k, passage) if edge >= 0 else _at_end(passage, end), kind, pair)

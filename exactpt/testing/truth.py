@@ -17,7 +17,7 @@ from exactpt.kernel.polynomial import Polynomial
 from exactpt.pairs.contact import Contact
 from exactpt.testing.questions import Asked, Moving, Question
 
-__all__ = ["Truth", "root_between", "truth_of", "truths"]
+__all__ = ["Truth", "first_pair", "root_between", "truth_of", "truths"]
 
 
 class Truth(NamedTuple):
@@ -96,12 +96,13 @@ def _answer(question: Question, contacts: Contacts, k: int) -> Truth:
     """The truth of a question that arrays have answered, with the exact time."""
     kind = KINDS[contacts.kind[k]]
     if kind == "initial":
-        return Truth(AlgebraicNumber(question.time[0]), kind, _pair(contacts, k))
+        return Truth(AlgebraicNumber(question.time[0]), kind, first_pair(contacts, k))
     time = _time(question, contacts, k)
-    return truth_of(question) if time is None else Truth(time, kind, _pair(contacts, k))
+    return truth_of(question) if time is None else Truth(time, kind, first_pair(contacts, k))
 
 
-def _pair(contacts: Contacts, k: int) -> dict[str, object] | None:
+def first_pair(contacts: Contacts, k: int) -> dict[str, object] | None:
+    """Return the first incidence of a pair in the form of a truth; None if bodies overlap."""
     body, edge = int(contacts.body[k]), int(contacts.edge[k])
     if body < 0:
         return None
