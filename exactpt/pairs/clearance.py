@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, cmp_to_key
 from itertools import zip_longest
-from typing import NamedTuple, final
+from typing import Final, NamedTuple, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -38,9 +38,10 @@ from exactpt.kernel.roots import roots_after
 from exactpt.kernel.square_root import nearest_root_less
 from exactpt.motion.body import Body
 from exactpt.pairs.distance import squared_gap
-from exactpt.pairs.features import Feature, FeaturePair, feature_pairs
+from exactpt.pairs.features import Feature, FeaturePair
 from exactpt.pairs.intervals import intervals
-from exactpt.pairs.stretches import stretches, two_bodies
+from exactpt.pairs.near_features import NearFeatures
+from exactpt.pairs.stretches import Stretch, stretches, two_bodies
 from exactpt.scene.scene import Scene
 
 __all__ = [
@@ -51,6 +52,11 @@ __all__ = [
     "a_distance",
     "clearance_of_two",
 ]
+
+ENOUGH: Final = 8
+"""Number of pairs of features that are compared exactly without further ado."""
+IN_VAIN: Final = 5
+"""Number of halvings in a row, each leaving more than three quarters, after which they end."""
 
 _in_order = cmp_to_key(AlgebraicNumber.compare)
 
@@ -256,19 +262,55 @@ def _squared_gap(core_squared: AlgebraicNumber, radius: Fraction) -> AlgebraicNu
 
 def _apart(a: Body, b: Body, begin: AlgebraicNumber, end: AlgebraicNumber) -> list[ClearancePiece]:
     """The pieces of the distance between two times; between them the bodies do not meet."""
-    pieces = []
+    pieces: list[ClearancePiece] = []
     now = begin
     for stretch in stretches(a, b, begin._low, end._high):
-        until = AlgebraicNumber(stretch.end)
-        until = min(until, end)
-        pairs = list(feature_pairs(a, b, stretch.first, stretch.second))
-        while now < until:
-            ask()
-            nearest = _nearest_after(pairs, now)
-            stop = _first_change(nearest, pairs, now, until)
-            pieces.append(_piece(now, stop, nearest))
-            now = stop
+        until = min(AlgebraicNumber(stretch.end), end)
+        if now < until:
+            pieces += _in_stretch(NearFeatures(a, b, stretch), stretch, now, until)
+            now = until
     return pieces
+
+
+def _in_stretch(
+    near: NearFeatures, stretch: Stretch, now: AlgebraicNumber, until: AlgebraicNumber
+) -> Iterator[ClearancePiece]:
+    """Return the pieces from a time in a stretch until a later one."""
+    nearest: FeaturePair | None = None
+    for low, high, pairs in _windows(near, stretch.begin, stretch.end):
+        if now.compare_rational(high) >= 0:
+            continue
+        nearest = nearest or _nearest_after(pairs, now)
+        after = max(now, AlgebraicNumber(low))
+        while True:
+            ask()
+            stop = _first_change(nearest, pairs, after, until, min(high, until._high))
+            if stop is None:
+                break
+            yield _piece(now, stop, nearest)
+            now = after = stop
+            nearest = _nearest_after(pairs, now)  # also at the end of a window, which is closed
+        if until.compare_rational(high) <= 0:
+            break
+    assert nearest is not None  # noqa: S101 - a window contains now
+    yield _piece(now, until, nearest)
+
+
+def _windows(near: NearFeatures, begin: QQ, end: QQ) -> Iterator[tuple[QQ, QQ, list[FeaturePair]]]:
+    """Return closed intervals from begin to end, with the pairs that may be nearest in each.
+
+    An interval is halved until few pairs are left, or halving it does not leave out many.
+    """
+    waiting = [(begin, end, near.all, 0)]
+    while waiting:
+        low, high, numbers, in_vain = waiting.pop()
+        kept = near.nearest(numbers, low, high)
+        in_vain = in_vain + 1 if 4 * len(kept) > 3 * len(numbers) else 0
+        if len(kept) <= ENOUGH or in_vain > IN_VAIN:
+            yield low, high, near.pairs(kept)
+        else:
+            middle = (low + high) / 2
+            waiting += [(middle, high, kept, in_vain), (low, middle, kept, in_vain)]
 
 
 def _piece(start: AlgebraicNumber, end: AlgebraicNumber, pair: FeaturePair) -> ClearancePiece:
@@ -293,17 +335,20 @@ def _lead(g: FeaturePair, f: FeaturePair) -> IntPoly:
 
 
 def _first_change(
-    nearest: FeaturePair, pairs: list[FeaturePair], now: AlgebraicNumber, until: AlgebraicNumber
-) -> AlgebraicNumber:
-    """The first time after now at which another pair is nearest just after it; else until."""
-    until_above = until._high
+    nearest: FeaturePair,
+    pairs: list[FeaturePair],
+    now: AlgebraicNumber,
+    until: AlgebraicNumber,
+    above: QQ,
+) -> AlgebraicNumber | None:
+    """The first time in (now, above], and before until, at which another pair becomes nearest."""
     times: list[tuple[AlgebraicNumber, FeaturePair | None]] = []
     for f in filter(None, nearest.limits):
-        times += [(root.time, None) for root in roots_after(f, now, until_above)]
+        times += [(root.time, None) for root in roots_after(f, now, above)]
     for other in pairs:
         lead = _lead(other, nearest) if other is not nearest else ()
         if lead:
-            times += [(root.time, other) for root in roots_after(lead, now, until_above)]
+            times += [(root.time, other) for root in roots_after(lead, now, above)]
     for time, pair in sorted(times, key=lambda found: _in_order(found[0])):
         if time >= until:
             break
@@ -312,7 +357,7 @@ def _first_change(
                 return time
         elif pair.holds_after(time) and time.sign_after(_lead(pair, nearest)) < 0:
             return time
-    return until
+    return None
 
 
 def _parts_within(piece: ClearancePiece, limit: QQ) -> Iterator[ClearancePiece]:

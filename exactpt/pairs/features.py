@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
-from itertools import product
 from typing import NamedTuple, final
 
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -24,7 +23,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference, orientation
 from exactpt.motion.track import Track
 
-__all__ = ["Feature", "FeaturePair", "excess", "feature_pairs"]
+__all__ = ["Feature", "FeaturePair", "excess", "feature_pair", "feature_pairs"]
 
 
 class Feature(NamedTuple):
@@ -136,12 +135,24 @@ def feature_pairs(
     a: Body, b: Body, p: tuple[Track, ...], q: tuple[Track, ...]
 ) -> Iterator[FeaturePair]:
     """All pairs of a vertex of one body and a vertex or an edge of the other."""
-    for (i, u), (j, v) in product(enumerate(p), enumerate(q)):
-        yield FeaturePair((_vertex(i), _vertex(j)), v, (u,))
-    for (e, (k, l)), (j, v) in product(enumerate(a.edges), enumerate(q)):
-        yield FeaturePair((_edge(e), _vertex(j)), v, (p[k], p[l]))
-    for (i, u), (e, (k, l)) in product(enumerate(p), enumerate(b.edges)):
-        yield FeaturePair((_vertex(i), _edge(e)), u, (q[k], q[l]))
+    count = len(p) * len(q) + len(a.edges) * len(q) + len(p) * len(b.edges)
+    return (feature_pair(a, b, p, q, k) for k in range(count))
+
+
+def feature_pair(
+    a: Body, b: Body, p: tuple[Track, ...], q: tuple[Track, ...], number: int
+) -> FeaturePair:
+    """The pair of this number: pairs of vertices, then edges of the first body, of the second."""
+    i, j = divmod(number, len(q))
+    if i < len(p):
+        return FeaturePair((_vertex(i), _vertex(j)), q[j], (p[i],))
+    e = i - len(p)
+    if e < len(a.edges):
+        k, l = a.edges[e]
+        return FeaturePair((_edge(e), _vertex(j)), q[j], (p[k], p[l]))
+    i, e = divmod(number - (len(p) + len(a.edges)) * len(q), len(b.edges))
+    k, l = b.edges[e]
+    return FeaturePair((_vertex(i), _edge(e)), p[i], (q[k], q[l]))
 
 
 def _vertex(number: int) -> Feature:
