@@ -333,9 +333,8 @@ def test_a_mistake_in_a_filter_is_found_by_questions(monkeypatch):
 
 def test_a_run_restored_without_its_last_contact_is_found(monkeypatch):
     monkeypatch.setattr("exactpt.simulation.saved_run._met_from_json", lambda *_: None)
-    outcomes = (run_case(Case(n, "questions/runs", 0), witnesses=[]) for n in range(4))
 
-    assert any(outcome.failures for outcome in outcomes)
+    assert run_case(Case(0, "questions/restored", 0), witnesses=[]).failures
 
 
 def fuzz(*arguments, **options):
