@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from exactpt.motion.body import Body
     from exactpt.motion.local_time import Velocity, in_local_time, spline
     from exactpt.motion.motions import Affine, Pieces, Rigid, Translation
+    from exactpt.motion.pose_path import PosePath
     from exactpt.motion.spin import Spin
     from exactpt.pairs.approach import Approach, first_within
     from exactpt.pairs.clearance import Clearance
@@ -78,6 +79,7 @@ __all__ = [
     "Place",
     "Planner",
     "Polynomial",
+    "PosePath",
     "Proof",
     "Rigid",
     "Scene",
@@ -143,6 +145,7 @@ _ROOMS: Final = {
         "Rigid",
         "Translation",
     ),
+    "exactpt.motion.pose_path": ("PosePath",),
     "exactpt.motion.spin": ("Spin",),
     "exactpt.proof.written": (
         "Proof",

@@ -163,11 +163,20 @@ class Poly(tuple[Any, ...]):
             total = total * t + c
         return total
 
-    def bound(self, a: Fraction, b: Fraction) -> Fraction:
-        """A bound of the absolute values in [a, b]: of the Bernstein coefficients."""
+    def along(self, a: Fraction, b: Fraction) -> "Poly":
+        """The polynomial of s that is the value at the time a + (b - a) s."""
         f = Poly()
         for c in reversed(self):
             f = f * Poly([a, b - a]) + Poly([c])
+        return f
+
+    def derivative(self) -> "Poly":
+        """The derivative."""
+        return Poly([i * c for i, c in enumerate(self)][1:])
+
+    def bound(self, a: Fraction, b: Fraction) -> Fraction:
+        """A bound of the absolute values in [a, b]: of the Bernstein coefficients."""
+        f = self.along(a, b)
         n, found = len(f) - 1, Fraction(0)
         for j in range(n + 1):
             found = max(
@@ -674,9 +683,11 @@ class Body:
     def read_motion(self, data: Json) -> None:
         """Read the motions, which follow one upon the other at the times ``ends``."""
         of_shape = 1 if self.frames else degree(*(f for pair in self.shape for f in pair))
-        rows, spin = [{"motion": data}], None
+        rows, spin, path = [{"motion": data}], None, None
         if isinstance(data, dict) and "pieces" in data:
-            given = keys(data, ["pieces"], ["spin"])
+            given = keys(data, ["pieces"], ["spin", "path"])
+            need("spin" not in given or "path" not in given, "both a spin and a path:", data)
+            path = given.get("path")
             rows = [keys(p, ["motion"], ["until"]) for p in entries(given["pieces"])]
             if "spin" in given:
                 rate = keys(given["spin"], ["omega", "error"])
@@ -691,6 +702,8 @@ class Body:
             jumps = f != g and any(moved(f, p) != moved(g, p) for p in self.outline(t))
             need(not jumps, f"{self.name!a} jumps at t = {t}")
         need(spin is None or turns_by(self.ends, self.motions, *spin), "not such a spin:", data)
+        on_path = path is None or follows(self.ends, self.motions, path)
+        need(on_path, "not such a path:", data)
 
     def coordinates(self, t: Fraction) -> list[tuple[Poly, Poly]]:
         """The coordinates of vertices just after a time, before the motion."""
@@ -808,8 +821,7 @@ def turns_in(
     slope = Poly([2 * i * c for i, c in enumerate(h)][1:]) - c_(omega) * (c_(Fraction(1)) + h * h)
     between = slope.bound(a, b) * (b - a) / (2 * SAMPLES)
     times = [a + (b - a) * i / SAMPLES for i in range(SAMPLES + 1)]
-    bits = max(8, 5 - error.numerator.bit_length() + error.denominator.bit_length())
-    bits += floor(abs(omega) * max(abs(a), abs(b))).bit_length()
+    bits = bits_for(error, omega * max(abs(a), abs(b)))
     if bits > MOST_ANGLE_BITS or between > error or any(abs(h.value(t)) > 1 for t in times):
         return False
     low, high = angle_of(turned, bits + 8)
@@ -821,6 +833,77 @@ def turns_in(
     k = floor(differences[0][0] / full[0] + Fraction(1, 2))
     least, most = sorted((k * full[0], k * full[1]))
     return all(max(q - least, most - p) + between <= error for p, q in differences)
+
+
+def bits_for(error: Fraction, angle: Fraction) -> int:
+    """Return the bits after the binary point of a small part of an error, next to an angle."""
+    bits = max(8, 5 - error.numerator.bit_length() + error.denominator.bit_length())
+    return bits + floor(abs(angle)).bit_length()
+
+
+# ---- A path: pieces that turn by an angle theta, but for an error. With h and theta polynomials
+# of the part s of a piece, the error e of the angle has the derivative w N, where w = 1 / (1 + h^2)
+# and N = 2 h' - theta' (1 + h^2). With E the primitive of N from 0 on, by parts, |e(s)| <= |e(0)| +
+# max |E| (1 + 2 max |h| max |h'|), since |w'| <= 2 |h h'|.
+
+
+def follows(ends: Sequence[Fraction], motions: Sequence[Motion], data: Json) -> bool:
+    """Return True if this shows that motions follow a path within its errors."""
+    path = keys(data, ["error", "place_error", "times", "poses"])
+    error, off = number(path["error"]), number(path["place_error"])
+    times = [number(t) for t in entries(path["times"])]
+    rows = [keys(row, ["x", "y", "angle"]) for row in entries(path["poses"])]
+    poses = [[polynomial(row[key]) for key in ("x", "y", "angle")] for row in rows]
+    turns = [motion.rigid for motion in motions if motion.rigid]
+    if error <= 0 or off < 0 or not poses or len(times) != len(poses) + 1:
+        return False
+    if len(turns) < len(motions) or any(s >= t for s, t in pairwise(times)):
+        return False
+    for (s, t), (before, after) in zip(pairwise(times), pairwise(poses), strict=False):
+        if [f.value(t - s) for f in before] != [f.value(Fraction(0)) for f in after]:
+            return False
+    if len(ends) < 2 or (ends[0], ends[-1]) != (times[0], times[-1]):
+        return False
+    spans = [(ends[0], ends[0]), *pairwise(ends), (ends[-1], ends[-1])]
+    for turn, (a, b) in zip(turns, spans, strict=True):
+        k = min(bisect_right(times, a), len(poses)) - 1
+        pose = [f.along(a - times[k], b - times[k]) for f in poses[k]]
+        if b > times[k + 1] or not is_near(turn, a, b, pose, error, off):
+            return False
+    return True
+
+
+def is_near(
+    turn: tuple[Poly, Point, Json],
+    a: Fraction,
+    b: Fraction,
+    pose: Sequence[Poly],
+    error: Fraction,
+    off: Fraction,
+) -> bool:
+    """Return True if one piece, from a to b, is shown to be near a pose of the part s of it."""
+    (h, (c, s), (p, q, x, y)), (there_x, there_y, theta) = turn, pose
+    zero, one = Fraction(0), Fraction(1)
+    if p or q or (a == b and degree(h, x, y) > 0):
+        return False
+    dx, dy = x.along(a, b) - there_x, y.along(a, b) - there_y
+    bits = bits_for(error, theta.value(zero))
+    if bits > MOST_ANGLE_BITS or dx.bound(zero, one) ** 2 + dy.bound(zero, one) ** 2 > off**2:
+        return False
+    h = h.along(a, b)
+    slope = h.derivative()
+    rate = slope + slope - theta.derivative() * (c_(one) + h * h)
+    change = Poly([zero, *(f / (i + 1) for i, f in enumerate(rate))])
+    most = max(change.bound(Fraction(i, SAMPLES), Fraction(i + 1, SAMPLES)) for i in range(SAMPLES))
+    u = h.value(zero)
+    cosine, sine = (1 - u * u) / (1 + u * u), 2 * u / (1 + u * u)
+    low, high = angle_of((c * cosine - s * sine, c * sine + s * cosine), bits + 8)
+    full = [2 * bound for bound in pi_bounds(bits + 8)]
+    angle = theta.value(zero)
+    k = floor((low - angle) / full[0] + Fraction(1, 2))
+    left, right = sorted((k * full[0], k * full[1]))
+    at_start = max(abs(low - angle - right), abs(high - angle - left))
+    return at_start + most * (1 + 2 * h.bound(zero, one) * slope.bound(zero, one)) <= error
 
 
 def angle_of(direction: Point, bits: int) -> Bounds:

@@ -172,10 +172,32 @@ struct Pieces {
   }
 };
 
+std::vector<Turn> turns_of(const Pieces<Motion>& pieces) {
+  std::vector<Turn> turns;
+  for (const Motion& motion : pieces.all)
+    if (motion.turn) turns.push_back(*motion.turn);
+  return turns;
+}
+
+std::vector<Pose> poses(const Json& path) {
+  const std::vector<Json>& times = list(member(path, "times"));
+  const std::vector<Json>& rows = list(member(path, "poses"));
+  if (times.size() != rows.size() + 1) throw NoProof("the scene has a path with a pose for no time");
+  std::vector<Pose> result;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    allow_keys(rows[i], {"x", "y", "angle"});
+    result.push_back({exact_number(&times[i]), exact_number(&times[i + 1]),
+                      polynomial(member(rows[i], "x")), polynomial(member(rows[i], "y")),
+                      polynomial(member(rows[i], "angle"))});
+  }
+  return result;
+}
+
 Pieces<Motion> motions(const Json* json, std::size_t shape) {
   if (!json || json->kind != Json::Kind::object || !json->find("pieces"))
     return {{}, {simple_motion(json, shape)}};
-  allow_keys(*json, {"pieces", "spin"});
+  allow_keys(*json, {"pieces", "spin", "path"});
+  if (json->find("spin") && json->find("path")) throw NoProof("the scene has a spin with a path");
   Pieces<Motion> pieces;
   const std::vector<Json>& rows = list(json->find("pieces"));
   if (rows.empty()) throw NoProof("the scene has a motion of no pieces");
@@ -190,13 +212,19 @@ Pieces<Motion> motions(const Json* json, std::size_t shape) {
   }
   if (const Json* spin = json->find("spin")) {
     allow_keys(*spin, {"omega", "error"});
-    std::vector<Turn> turns;
-    for (const Motion& motion : pieces.all)
-      if (motion.turn) turns.push_back(*motion.turn);
+    const std::vector<Turn> turns = turns_of(pieces);
     const Rational omega = exact_number(member(*spin, "omega"));
     const Rational error = exact_number(member(*spin, "error"));
     if (turns.size() < pieces.all.size() || !is_spin(pieces.until, turns, omega, error))
       throw NoProof("the scene has a spin whose pieces do not turn so");
+  }
+  if (const Json* path = json->find("path")) {
+    allow_keys(*path, {"error", "place_error", "times", "poses"});
+    const std::vector<Turn> turns = turns_of(pieces);
+    const Rational error = exact_number(member(*path, "error"));
+    const Rational off = exact_number(member(*path, "place_error"));
+    if (turns.size() < pieces.all.size() || !is_path(pieces.until, turns, poses(*path), error, off))
+      throw NoProof("the scene has a path that its pieces do not follow");
   }
   return pieces;
 }

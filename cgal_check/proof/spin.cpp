@@ -70,8 +70,8 @@ Bounds angle(Rational c, Rational s, long bits) {
   return {2 * b.first + quarters * whole.first / 2, 2 * b.second + quarters * whole.second / 2};
 }
 
-// A bound of |f| between two times: the largest of its Bernstein coefficients.
-Rational bound(const Rationals& f, const Rational& a, const Rational& b) {
+// The polynomial of s that is f at the time a + (b - a) s.
+Rationals along(const Rationals& f, const Rational& a, const Rational& b) {
   Rationals line{a, b - a}, g;
   trim(line);
   for (std::size_t i = f.size(); i-- > 0;) {
@@ -79,6 +79,18 @@ Rational bound(const Rationals& f, const Rational& a, const Rational& b) {
     trim(term);
     g = g * line + term;
   }
+  return g;
+}
+
+Rationals derivative(const Rationals& f) {
+  Rationals slope;
+  for (std::size_t i = 1; i < f.size(); ++i) slope.push_back(static_cast<long>(i) * f[i]);
+  return slope;
+}
+
+// A bound of |f| between two times: the largest of its Bernstein coefficients.
+Rational bound(const Rationals& f, const Rational& a, const Rational& b) {
+  const Rationals g = along(f, a, b);
   Rational most = 0;
   for (std::size_t j = 0; j < g.size(); ++j) {
     Rational sum = 0;
@@ -99,16 +111,20 @@ long bit_length(const Integer& n) {
   return n == 0 ? 0 : static_cast<long>(mpz_sizeinbase(n.get_mpz_t(), 2));
 }
 
+// Bits after the binary point of a small part of an error, next to an angle.
+long bits_for(const Rational& error, const Rational& angle) {
+  const long small = 5 - bit_length(error.get_num()) + bit_length(error.get_den());
+  return std::max(8L, small) + bit_length(floor(abs(angle)));
+}
+
 bool is_spin(const Turn& turn, const Rational& a, const Rational& b, const Rational& omega,
              const Rational& error) {
   const Rationals& h = turn.half_turn;
-  Rationals slope, rate{omega};
+  Rationals rate{omega};
   trim(rate);
-  for (std::size_t i = 1; i < h.size(); ++i) slope.push_back(2 * static_cast<long>(i) * h[i]);
-  const Rational between = bound(slope - rate * (Rationals{1} + h * h), a, b) * (b - a) / (2 * samples);
+  const Rational between = bound(derivative(h) + derivative(h) - rate * (Rationals{1} + h * h), a, b) * (b - a) / (2 * samples);
   const Rational furthest = abs(omega) * std::max(Rational(abs(a)), Rational(abs(b)));
-  const long small = 5 - bit_length(error.get_num()) + bit_length(error.get_den());
-  long bits = std::max(8L, small) + bit_length(floor(furthest));
+  long bits = bits_for(error, furthest);
   if (bits > most_bits || between > error) return false;
   bits += 8;
   const Bounds turned = angle(turn.orientation.first, turn.orientation.second, bits);
@@ -129,7 +145,65 @@ bool is_spin(const Turn& turn, const Rational& a, const Rational& b, const Ratio
   });
 }
 
+// Whether one turn, from a to b, is near a pose.
+bool is_near(const Turn& turn, const Rational& a, const Rational& b, const Pose& pose,
+             const Rational& error, const Rational& place_error) {
+  if (turn.pivot.first != 0 || turn.pivot.second != 0) return false;
+  if (a == b && std::max({turn.half_turn.size(), turn.x.size(), turn.y.size()}) > 1) return false;
+  const auto there = [&](const Rationals& f) {
+    return along(f, Rational(a - pose.begin), Rational(b - pose.begin));
+  };
+  const Rational dx = bound(along(turn.x, a, b) - there(pose.x), 0, 1);
+  const Rational dy = bound(along(turn.y, a, b) - there(pose.y), 0, 1);
+  const Rationals h = along(turn.half_turn, a, b), theta = there(pose.angle);
+  const Rational at = value(theta, Rational(0)), u = value(h, Rational(0));
+  const long bits = bits_for(error, at) + 8;
+  if (bits > most_bits + 8 || dx * dx + dy * dy > place_error * place_error) return false;
+  const Rationals slope = derivative(h);
+  const Rationals rate = slope + slope - derivative(theta) * (Rationals{1} + h * h);
+  Rationals change{0};
+  for (std::size_t i = 0; i < rate.size(); ++i)
+    change.push_back(rate[i] / static_cast<long>(i + 1));
+  trim(change);
+  Rational most = 0;
+  for (int i = 0; i < samples; ++i)
+    most = std::max(most, bound(change, Rational(i) / samples, Rational(i + 1) / samples));
+  const Rational unit = 1 + u * u, cosine = (1 - u * u) / unit, sine = 2 * u / unit;
+  const auto& [c, s] = turn.orientation;
+  const Bounds turned = angle(c * cosine - s * sine, c * sine + s * cosine, bits), half = pi(bits);
+  const Integer k = floor((turned.first - at) / (2 * half.first) + Rational(1, 2));
+  Rational left = 2 * half.first * k, right = 2 * half.second * k;
+  if (left > right) std::swap(left, right);
+  const Rational at_start = std::max(Rational(abs(turned.first - at - right)),
+                                     Rational(abs(turned.second - at - left)));
+  return at_start + most * (1 + 2 * bound(h, 0, 1) * bound(slope, 0, 1)) <= error;
+}
+
+// Whether pieces of a path, one upon the other, make no jump.
+bool is_continuous(const Pose& before, const Pose& after) {
+  const Rational t = before.end - before.begin, zero = 0;
+  return value(before.x, t) == value(after.x, zero) && value(before.y, t) == value(after.y, zero) &&
+         value(before.angle, t) == value(after.angle, zero);
+}
+
 }  // namespace
+
+bool is_path(const std::vector<Rational>& until, const std::vector<Turn>& turns,
+             const std::vector<Pose>& path, const Rational& error, const Rational& place_error) {
+  if (error <= 0 || place_error < 0 || path.empty() || until.size() < 2) return false;
+  if (until.front() != path.front().begin || until.back() != path.back().end) return false;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (path[i].begin >= path[i].end || (i > 0 && !is_continuous(path[i - 1], path[i])))
+      return false;
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    const Rational& a = until[i == 0 ? 0 : i - 1];
+    const Rational& b = until[std::min(i, until.size() - 1)];
+    while (k + 1 < path.size() && a >= path[k].end) ++k;
+    if (b > path[k].end || !is_near(turns[i], a, b, path[k], error, place_error)) return false;
+  }
+  return true;
+}
 
 bool is_spin(const std::vector<Rational>& until, const std::vector<Turn>& turns,
              const Rational& omega, const Rational& error) {

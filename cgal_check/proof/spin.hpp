@@ -20,4 +20,18 @@ struct Turn {
 bool is_spin(const std::vector<Rational>& until, const std::vector<Turn>& turns,
              const Rational& omega, const Rational& error);
 
+// A piece of a path: x, y and an angle in radians, of the time since it begins.
+struct Pose {
+  Rational begin, end;
+  Poly<Rational> x, y, angle;
+};
+
+// True if turns about the origin follow a path, at rest before and after it, with at most an
+// error of the angle and one of the translation. With h and the angle polynomials of the part s of
+// a piece, the error e of the angle has the derivative w N, w = 1 / (1 + h^2) and N = 2 h' - angle' (1
+// + h^2). With E the primitive of N from 0 on, by parts, |e(s)| <= |e(0)| + max |E| (1 + 2 max
+// |h| max |h'|), since |w'| <= 2 |h h'|.
+bool is_path(const std::vector<Rational>& until, const std::vector<Turn>& turns,
+             const std::vector<Pose>& path, const Rational& error, const Rational& place_error);
+
 }  // namespace proof

@@ -1,6 +1,6 @@
-"""Bounds of the time of the first contact, where bodies turn at a constant rate.
+"""Bounds of the time of the first contact, where bodies turn at a constant rate or on paths.
 
-The pieces of a `Spin` keep each point of body i within e_i of its true place
+The pieces of a `Spin` or a `PosePath` keep each point of body i within e_i of its true place
 (`exactpt.motion.displacement`); for other motions e_i = 0.
 
 **Lower bound.** Where two true bodies meet, the given ones are within e_i + e_j of each other: with
@@ -26,8 +26,9 @@ Then the upper bound is that of a later one, or there is none.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Final, final
 
 from exactpt.collision.detector import first_contact
@@ -40,8 +41,10 @@ from exactpt.motion.body import Body
 from exactpt.motion.displacement import displacement
 from exactpt.motion.motions import Rigid, Translation
 from exactpt.motion.outline import is_rigid
+from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
 from exactpt.pairs.contact import Contact
+from exactpt.pairs.selection import Selection
 from exactpt.pairs.start import initial_touches
 from exactpt.pairs.sure import surely_meet, surely_passed
 from exactpt.scene.scene import Scene, a_scene, scene_of
@@ -57,7 +60,7 @@ FINEST: Final = 60
 @final
 @dataclass(frozen=True, slots=True)
 class EnclosedContact:
-    """Bounds of the time of the first contact of bodies that turn at a constant rate.
+    """Bounds of the time of the first contact of bodies whose turns have an error.
 
     Attributes:
         low: no two bodies meet before this time.
@@ -85,12 +88,18 @@ class EnclosedContact:
         }
 
 
-def first_contact_enclosed(scene: Scene) -> EnclosedContact | None:
-    """Bounds of the time of the first contact, each `Spin` turning at exactly its constant rate.
+def first_contact_enclosed(
+    scene: Scene,
+    *,
+    between: Iterable[Sequence[str]] | None = None,
+    ignoring: Iterable[Collection[str]] = (),
+) -> EnclosedContact | None:
+    """Bounds of the time of the first contact, each `Spin` or `PosePath` at its true angle.
 
-    The answer of `first_contact` is about the rational pieces of a `Spin`. This one is about
-    the angle omega t itself: the first contact in the closed time span is in [low, high]; or there
-    is one from low on, or none, since bodies may just miss each other (``high`` is None).
+    The answer of `first_contact` is about the rational pieces of a motion. This one is about
+    the angle omega t, or the path of poses, itself: the first contact in the closed time span is in
+    [low, high]; or there is one from low on, or none, since bodies may just miss each other
+    (``high`` is None).
 
     >>> from exactpt import Body, Scene, Spin
     >>> blade = Body("blade", [(0, 0), (2, 0)], Spin(1, time=(0, 2), error="1/1000"))
@@ -102,24 +111,35 @@ def first_contact_enclosed(scene: Scene) -> EnclosedContact | None:
     True
 
     Args:
-        scene: the bodies, their motions and the time span. Without a `Spin` both bounds are the
-            exact time.
+        scene: the bodies, their motions and the time span. Without a `Spin` or a `PosePath`
+            both bounds are the exact time.
+        between: pairs of names; contacts of other pairs do not count, nor do those of a body
+            with itself. All if not given.
+        ignoring: groups of body names. Contacts between two bodies of one group are ignored.
 
     Returns:
         The bounds; None if there is no contact for sure.
 
     Raises:
-        InputError: if the scene is none.
+        InputError: if the scene is none, or there is no body of a name.
     """
     a_scene(scene)
     with carrying(lambda: scene):
-        return _Search(scene).run()
+        groups = ignoring if isinstance(ignoring, str) else list(ignoring)
+        pairs = None if between is None else list(between)
+        selection = Selection(scene, pairs, groups)
+        return _Search(scene, selection, () if isinstance(groups, str) else groups).run()
 
 
 @final
 class _Search:
-    def __init__(self, scene: Scene) -> None:
+    def __init__(
+        self, scene: Scene, selection: Selection, ignoring: Sequence[Collection[str]]
+    ) -> None:
         self._scene = scene
+        self._selection = selection
+        self._ignoring = [set(group) for group in ignoring]
+        self._number = {body.name: i for i, body in enumerate(scene.bodies)}
         self._start, self._end = scene._start, scene._end
         self._errors = [displacement(body, self._start, self._end) for body in scene.bodies]
         self._contact = scene._start  # a rational just after the first contact of the given bodies
@@ -130,7 +150,7 @@ class _Search:
         known = exact[0].time if exact else None
         bodies = zip(self._scene.bodies, self._errors, strict=True)
         wide = [body.with_radius(body._radius + e) if e else body for body, e in bodies]
-        touch = first_contact(scene_of(wide, self._start, self._end))
+        touch = self._first(wide)
         if touch is None or (known is not None and known < touch.time):
             return None if known is None else EnclosedContact(known, known, self._pairs(*exact))
         if touch.time == self._start and (pairs := self._at_start(touch)):
@@ -139,9 +159,27 @@ class _Search:
         high = known if sure is None else AlgebraicNumber(sure)
         return EnclosedContact(touch.time, high, self._pairs(touch))
 
+    def _first(self, bodies: Sequence[Body]) -> Contact | None:
+        """Return the first contact that counts of bodies with these names."""
+        scene = scene_of(bodies, self._start, self._end)
+        if self._selection.named is None:
+            there = {body.name for body in bodies}
+            return first_contact(scene, ignoring=[group & there for group in self._ignoring])
+        named = [(bodies[i].name, bodies[j].name) for i, j in self._among(bodies)]
+        return first_contact(scene, between=named)
+
+    def _among(self, bodies: Sequence[Body]) -> list[tuple[int, int]]:
+        """Return the pairs that count, as indices i < j, of bodies in the order of the scene."""
+        numbers = [self._number[body.name] for body in bodies]
+        here = {number: i for i, number in enumerate(numbers)}
+        named = self._selection.named
+        if named is None:
+            return [(here[i], here[j]) for i, j in self._selection.of(combinations(numbers, 2))]
+        return [(here[i], here[j]) for i, j in named if i in here and j in here]
+
     def _pairs(self, *contacts: Contact) -> tuple[tuple[str, str], ...]:
         """The names of the pairs that meet, in the order of the scene."""
-        order = {body.name: i for i, body in enumerate(self._scene.bodies)}
+        order = self._number
         met = {(pair.body, pair.other) for contact in contacts for pair in contact.pairs}
         met.update(pair for contact in contacts for pair in contact.overlaps)
         return tuple(sorted({(a, b) if order[a] <= order[b] else (b, a) for a, b in met}))
@@ -151,7 +189,8 @@ class _Search:
         found = zip(self._scene.bodies, self._errors, strict=True)
         known = [b for body, e in found if (b := _unturned(body, self._start) if e else body)]
         names = {body.name for body in known}
-        meeting = initial_touches(scene_of(known, self._start, self._end))[1]
+        near = None if self._selection.is_all else self._among(known)
+        meeting = initial_touches(scene_of(known, self._start, self._end), near)[1]
         met = {(known[i].name, known[j].name) for i, j in meeting}
         pairs = self._pairs(touch) if met else ()
         return tuple(pair for pair in pairs if pair in met or not names.issuperset(pair))
@@ -163,7 +202,7 @@ class _Search:
         parts += [[body] for body, e in bodies if e and not body._radius and not is_rigid(body)]
         first: list[Contact] = []
         for part in parts:
-            contact = first_contact(scene_of(part, self._start, self._end))
+            contact = self._first(part)
             if contact is None or (first and contact.time > first[0].time):
                 continue
             first = [*first, contact] if first and contact.time == first[0].time else [contact]
@@ -171,7 +210,7 @@ class _Search:
 
     def _sure(self, low: AlgebraicNumber, known: AlgebraicNumber | None) -> QQ | None:
         """A time at which two bodies are sure to meet, before a known one."""
-        contact = first_contact(self._scene)
+        contact = self._first(self._scene.bodies)
         if contact is None:
             return None
         contact.time.refine_to((self._end - self._start) * power_of_two(-FINEST))
@@ -229,13 +268,16 @@ class _Search:
         return any(
             surely_meet(bodies[i], bodies[j], t, self._errors[i] + self._errors[j])
             for first, second in overlapping_pairs(boxes)
-            for i, j in zip(first.tolist(), second.tolist(), strict=True)
+            for i, j in self._selection.of(zip(first.tolist(), second.tolist(), strict=True))
         )
 
 
 def _unturned(body: Body, t: QQ) -> Body | None:
-    """Return a body at the true place of a `Spin` at t; None if its true angle is not 0 then."""
+    """Return a body at its true place at t; None if its true angle is not 0 then, or not known."""
     spin = body.motion
+    if isinstance(spin, PosePath):
+        x, y, angle = spin._pose(t)
+        return None if angle else body.with_motion(Translation([x], [y]))
     if not isinstance(spin, Spin) or spin._omega * min(max(t, spin._until[0]), spin._until[-1]):
         return None
     turn = next(turn for turn in spin.motions if isinstance(turn, Rigid))

@@ -1,10 +1,11 @@
-"""How far a body that turns at a constant rate may be from where its rational pieces put it.
+"""How far a body that turns by a true angle may be from where its rational pieces put it.
 
 Let a be the angle by which the pieces of a `Spin` turn, and a' = omega t the true one (before the
 span and after it, that at its start and at its end). About the pivot, a point at a distance r from
 it is turned by a or by a' to points 2 r sin(|a - a'| / 2) <= r |a - a'| apart; the translation
 that follows is the same. The distance from the pivot is convex, so on an edge it is largest at a
-vertex.
+vertex. The pieces of a `PosePath` turn about the origin likewise; their translation has an error of
+its own, and the two errors add up.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from exactpt.kernel.numbers import QQ, ceil, exponent, isqrt, power_of_two
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid
+from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
 from exactpt.motion.turned_angle import bound_on
 
@@ -30,15 +32,18 @@ def displacement(body: Body, start: QQ, end: QQ) -> QQ:
     """A bound on how far a point of a body is from its true place, at any time of a span.
 
     At most 1 + 2^-20 times the largest distance from the pivot (of vertices that deform along
-    polynomials: times that of their Bernstein coefficients) times the error of the angle; 0 if the
-    motion is no `Spin`.
+    polynomials: times that of their Bernstein coefficients) times the error of the angle, and the
+    place error of a path; 0 if the motion is neither a `Spin` nor a `PosePath`.
     """
     motion = body.motion
-    if not isinstance(motion, Spin):
+    if not isinstance(motion, (Spin, PosePath)):
         return QQ(0)
     pivot = next(turn._pivot for turn in motion.motions if isinstance(turn, Rigid))
     squared = max(_squared_arms(body, pivot, start, end))
-    return _rounded_up(_root_above(squared) * motion._error) if squared else squared
+    off = motion._place_error if isinstance(motion, PosePath) else QQ(0)
+    if squared:
+        off += _root_above(squared) * motion._error
+    return _rounded_up(off) if off else off
 
 
 def _squared_arms(body: Body, pivot: Point, start: QQ, end: QQ) -> Iterator[QQ]:

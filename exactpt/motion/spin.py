@@ -32,7 +32,7 @@ from exactpt.kernel.polynomial import ZERO, Polynomial
 from exactpt.motion.motions import Coefficients, Pieces, Rigid, SimpleMotion
 from exactpt.motion.turned_angle import bits_for, is_within
 
-__all__ = ["Spin"]
+__all__ = ["Spin", "rounded", "tangent_near", "vector_near"]
 
 _MOST: Final = 100_000
 _SHORTEST: Final = 1 / 41
@@ -201,42 +201,47 @@ class _Turns:
 
     def between(self, start: QQ, end: QQ, step: QQ) -> list[tuple[QQ | None, Polynomial, Vector]]:
         """Until when, half turn and orientation of each piece."""
-        a, u = start, self._vector(start)
+        a, u = start, vector_near(self.omega * start, self.error)
         turns: list[tuple[QQ | None, Polynomial, Vector]] = [(start, ZERO, u)]
         while a < end:
             ask()
             b = min(a + step, end)
-            v = self._vector(b)
+            v = vector_near(self.omega * b, self.error)
             turns.append((b, self._half_turn(a, b, u, v), u))
             a, u = b, v
         return [*turns, (None, ZERO, u)]
-
-    def _vector(self, t: QQ) -> Vector:
-        """A rational unit vector near the angle omega t, with few digits."""
-        angle = self.omega * t
-        bits = bits_for(self.error, QQ(0))
-        quarter = pi_bounds(bits_for(self.error, angle) + 8)[0] / 2
-        quarters = floor(angle / quarter + QQ(1, 2))
-        half = (angle - quarters * quarter) / 2
-        m = rational(math.tan(nearest_float(half)))
-        for _ in range(max(1, bits // 32).bit_length() + 1):  # Newton's method
-            m = _rounded(m - (atan_bounds(m, bits + 8)[0] - half) * (1 + m * m), bits + 8)
-        m = _rounded(m, bits)
-        c, s = (1 - m * m) / (1 + m * m), 2 * m / (1 + m * m)
-        for _ in range(quarters % 4):
-            c, s = -s, c
-        return c, s
 
     def _half_turn(self, a: QQ, b: QQ, u: Vector, v: Vector) -> Polynomial:
         """The half turn that is 0 at a, and leads from u to v at b."""
         whole = (u[0] * v[1] - u[1] * v[0]) / (1 + u[0] * v[0] + u[1] * v[1])
         half = self.omega * (b - a) / 2
         bits = bits_for(self.error, QQ(0))
-        series = [_rounded(c * half**k, bits) for k, c in enumerate(self.tangent)]
+        series = [rounded(c * half**k, bits) for k, c in enumerate(self.tangent)]
         series.append(whole - sum(series, QQ(0)))
         return Polynomial(series)(Polynomial([-a / (b - a), 1 / (b - a)]))
 
 
-def _rounded(value: QQ, bits: int) -> QQ:
+def vector_near(angle: QQ, error: QQ) -> Vector:
+    """Return a rational unit vector near an angle in radians, with few digits; no proof."""
+    bits = bits_for(error, QQ(0))
+    quarter = pi_bounds(bits_for(error, angle) + 8)[0] / 2
+    quarters = floor(angle / quarter + QQ(1, 2))
+    m = tangent_near((angle - quarters * quarter) / 2, bits)
+    c, s = (1 - m * m) / (1 + m * m), 2 * m / (1 + m * m)
+    for _ in range(quarters % 4):
+        c, s = -s, c
+    return c, s
+
+
+def tangent_near(angle: QQ, bits: int) -> QQ:
+    """Return a rational number near the tangent of an angle of less than pi / 4; no proof."""
+    m = rational(math.tan(nearest_float(angle)))
+    for _ in range(max(1, bits // 32).bit_length() + 1):  # Newton's method
+        m = rounded(m - (atan_bounds(m, bits + 8)[0] - angle) * (1 + m * m), bits + 8)
+    return rounded(m, bits)
+
+
+def rounded(value: QQ, bits: int) -> QQ:
+    """Return the multiple of 2^-bits that is nearest to a number."""
     unit = power_of_two(bits)
     return floor(value * unit + QQ(1, 2)) / unit

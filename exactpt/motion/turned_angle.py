@@ -23,7 +23,7 @@ from exactpt.kernel.numbers import QQ, exponent, floor, show
 from exactpt.kernel.polynomial import ONE, Polynomial
 from exactpt.motion.motions import Pieces, Rigid
 
-__all__ = ["bits_for", "bound_on", "is_within"]
+__all__ = ["angle_of", "bits_for", "bound_on", "is_within"]
 
 _SAMPLES: Final = 8
 _MOST_BITS: Final = 512
@@ -59,7 +59,7 @@ def _is_piece_within(turn: Rigid, a: QQ, b: QQ, omega: QQ, error: QQ) -> bool:
     if between > error or any(abs(h._at(t)) > 1 for t in times):
         return False
     bits = bits_for(error, omega * max(abs(a), abs(b))) + 8
-    turned = _angle(turn._orientation, bits)
+    turned = angle_of(turn._orientation, bits)
     full = tuple(2 * bound for bound in pi_bounds(bits))
     errors = []
     for t in times:
@@ -70,8 +70,8 @@ def _is_piece_within(turn: Rigid, a: QQ, b: QQ, omega: QQ, error: QQ) -> bool:
     return all(max(high - turns[0], turns[1] - low) + between <= error for low, high in errors)
 
 
-def _angle(vector: tuple[QQ, QQ], bits: int) -> Bounds:
-    """Bounds of an angle of a unit vector."""
+def angle_of(vector: tuple[QQ, QQ], bits: int) -> Bounds:
+    """Return bounds of an angle of a unit vector."""
     (c, s), quarters = vector, 0
     while c <= 0 or abs(s) > c:
         c, s, quarters = s, -c, quarters + 1

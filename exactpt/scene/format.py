@@ -22,6 +22,7 @@ from exactpt.motion.motions import (
     SimpleMotion,
     Translation,
 )
+from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
 from exactpt.scene.json_values import (
     VERSION,
@@ -180,7 +181,9 @@ def _keyframes(data: Json, where: str) -> list[tuple[QQ, list[tuple[QQ, QQ]]]]:
 
 def _motion(data: Json, where: str) -> Motion:
     if isinstance(data, dict) and "pieces" in data:
-        an_object(data, where, required=["pieces"], optional={"spin"})
+        an_object(data, where, required=["pieces"], optional={"spin", "path"})
+        if "spin" in data and "path" in data:
+            raise InputError(f'{where}: "spin" and "path" exclude each other')
         pieces: list[tuple[QQ | None, SimpleMotion]] = []
         rows = a_list(data["pieces"], f'{where}: "pieces"')
         for i, row in enumerate(rows):
@@ -191,7 +194,10 @@ def _motion(data: Json, where: str) -> Motion:
                 raise InputError(f'{at}: "until" belongs to every piece but the last')
             pieces.append((until, _simple_motion(piece["motion"], f'{at}: "motion"')))
         spin = _rate_and_error(data["spin"], f'{where}: "spin"') if "spin" in data else None
+        path = _path(data["path"], f'{where}: "path"') if "path" in data else None
         try:
+            if path:
+                return PosePath.of_pieces(pieces, *path)
             return Spin.of_pieces(pieces, *spin) if spin else Pieces(pieces)
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
@@ -202,6 +208,19 @@ def _rate_and_error(data: Json, where: str) -> tuple[QQ, QQ]:
     spin = an_object(data, where, required=["omega", "error"])
     omega, error = (exact_number(spin[key], f'{where}: "{key}"') for key in ("omega", "error"))
     return omega, error
+
+
+def _path(data: Json, where: str) -> tuple[list[QQ], list[list[Polynomial]], QQ, QQ]:
+    """Return the times, the poses and the two errors of a path."""
+    path = an_object(data, where, required=["error", "place_error", "times", "poses"])
+    times = [exact_number(t, f'{where}: "times"') for t in a_list(path["times"], where)]
+    poses = []
+    for i, row in enumerate(a_list(path["poses"], where)):
+        at = f'{where}: "poses"[{i}]'
+        pose = an_object(row, at, required=["x", "y", "angle"])
+        poses.append([_coordinate(pose, key, at) for key in ("x", "y", "angle")])
+    error, off = (exact_number(path[k], f'{where}: "{k}"') for k in ("error", "place_error"))
+    return times, poses, error, off
 
 
 def _simple_motion(data: Json, where: str) -> SimpleMotion:

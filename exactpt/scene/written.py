@@ -21,6 +21,7 @@ from exactpt.motion.motions import (
     Rigid,
     Translation,
 )
+from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
 from exactpt.scene.json_values import MOST_DIGITS, VERSION, is_too_long
 
@@ -105,6 +106,8 @@ def _motion_to_json(motion: Motion) -> dict[str, object]:
         }
         if isinstance(motion, Spin):
             pieces["spin"] = {"omega": _text(motion._omega), "error": _text(motion._error)}
+        if isinstance(motion, PosePath):
+            pieces["path"] = _path_to_json(motion)
         return pieces
     if isinstance(motion, Rigid):
         rigid = {
@@ -123,6 +126,18 @@ def _motion_to_json(motion: Motion) -> dict[str, object]:
     if isinstance(motion, Translation):
         return {"x": _coefficients(motion.x), "y": _coefficients(motion.y)}
     raise InputError(f"a motion of this kind has no place in a scene file: {motion!r}")
+
+
+def _path_to_json(path: PosePath) -> dict[str, object]:
+    return {
+        "error": _text(path._error),
+        "place_error": _text(path._place_error),
+        "times": [_text(t) for t in path._times],
+        "poses": [
+            {"x": _coefficients(x), "y": _coefficients(y), "angle": _coefficients(angle)}
+            for x, y, angle in path._poses
+        ],
+    }
 
 
 def save(scene: Scene, path: Path) -> None:

@@ -1,0 +1,311 @@
+"""Paths of poses, against mpmath at 60 digits."""
+
+import json
+import pickle
+from fractions import Fraction
+from itertools import pairwise
+from random import Random
+from types import SimpleNamespace
+
+import mpmath
+import pytest
+
+from exactpt import (
+    Body,
+    InputError,
+    Pieces,
+    PosePath,
+    Rigid,
+    Scene,
+    first_contact_enclosed,
+    proof_check,
+)
+from exactpt.kernel.numbers import QQ
+from exactpt.kernel.polynomial import Polynomial
+from exactpt.motion.path_error import angle_error, place_error_squared
+
+
+def real(q):
+    return mpmath.mpf(int(q.numerator)) / int(q.denominator)
+
+
+def turned(motion, t):
+    """The angle of a rigid motion at a time."""
+    c, s = motion.orientation
+    return mpmath.atan2(real(s), real(c)) + 2 * mpmath.atan(real(motion.half_turn(t)))
+
+
+def away(angle, true):
+    """The distance of two angles, but for full turns."""
+    rest = (angle - true) / (2 * mpmath.pi)
+    return abs(rest - mpmath.nint(rest)) * 2 * mpmath.pi
+
+
+def random_path(rng, degree, pieces=3):
+    """Times and poses that follow one upon the other."""
+    times = [QQ(rng.randint(-20, 20), 7)]
+    start, poses = [QQ(rng.randint(-50, 50), 3) for _ in range(3)], []
+    for _ in range(pieces):
+        rest = [[QQ(rng.randint(-20, 20), 10) for _ in range(degree)] for _ in range(3)]
+        poses.append([Polynomial([c, *row]) for c, row in zip(start, rest, strict=True)])
+        duration = QQ(rng.randint(1, 9), 6)
+        times.append(times[-1] + duration)
+        start = [f._at(duration) for f in poses[-1]]
+    return times, poses
+
+
+def check(path, rng, count):
+    times = [*path.times, path.times[0] - 1, path.times[-1] + 1]
+    times += rng.sample(path.until, min(count, len(path.until)))
+    for a, b in rng.choices(list(pairwise(path.until)), k=count):
+        times.append(a + (b - a) * Fraction(rng.randint(0, 1000), 1000))
+    with mpmath.workdps(60):
+        for t in times:
+            x, y, angle = path.pose(t)
+            motion = next((m for end, m in path.pieces if end is None or t <= end), None)
+            assert away(turned(motion, t), real(angle)) <= real(path.error)
+            off = (motion.x(t) - x) ** 2 + (motion.y(t) - y) ** 2
+            assert off <= path.place_error**2
+
+
+@pytest.mark.parametrize("error", ["1/10", "1e-3", "1e-6", "1e-8"])
+@pytest.mark.parametrize("degree", [0, 1, 2, 3])
+def test_the_pose_is_within_the_errors(degree, error):
+    rng = Random(f"{degree} {error}")
+    check(PosePath(*random_path(rng, degree, 1), error=error), rng, 8)
+
+
+@pytest.mark.slow
+def test_the_pose_is_within_the_errors_of_many_paths():
+    rng = Random(5)
+    for _ in range(60):
+        degree, digits = rng.randint(0, 5), rng.choice([1, 3, 6, 9])
+        place = 0 if degree <= 3 and rng.random() < 0.5 else "1e-6"
+        times, poses = random_path(rng, degree)
+        check(PosePath(times, poses, error=f"1e-{digits}", place_error=place), rng, 40)
+
+
+def test_errors_smaller_than_those_of_doubles():
+    path = PosePath([0, "1/100"], [(0, 0, [1, 1])], error="1e-16")
+    check(path, Random(1), 10)
+
+
+def test_the_bound_of_the_angle_covers_what_is_sampled_for_any_half_turn():
+    """Against arc tangents: whatever the half turn, the largest error is within the bound."""
+    rng = Random(3)
+    near = 0
+    with mpmath.workdps(60):
+        for _ in range(15):
+            h = Polynomial([QQ(rng.randint(-9, 9), 30) for _ in range(rng.randint(1, 4))])
+            angle = 2 * h + Polynomial([QQ(rng.randint(-9, 9), 1000) for _ in range(3)])
+            a = QQ(rng.randint(-5, 5), 7)
+            b = a + QQ(rng.randint(1, 9), 9)
+            turn = Rigid(h, orientation=("3/5", "4/5"))
+            start = real(angle(a) - angle(0)) - turned(turn, a)
+            angle += Polynomial([QQ(round(float(-start) * 10**6), 10**6)])
+            bound = real(angle_error(turn, a, b, angle, QQ(1, 10**6)))
+            times = [a + (b - a) * QQ(i, 10) for i in range(11)]
+            # the continuous error: no full turn is lost in less than pi
+            worst = max(away(turned(turn, t), real(angle._at(t))) for t in times)
+            assert worst <= bound
+            near += worst > bound / 3
+    assert near > 3  # the bound is no idle one
+
+
+def test_the_bound_of_the_place():
+    turn = Rigid(0, x=[0, 1], y=[1])
+    assert place_error_squared(turn, QQ(0), QQ(2), Polynomial([0]), Polynomial([4])) == 4 + 9
+
+
+def test_neighbours_agree_exactly():
+    path = PosePath(*random_path(Random(2), 3), error="1e-4")
+    Body("b", [(0, 0), (3, 1), (1, 5)], path)  # refuses jumps
+    for t, (before, after) in zip(path._until, pairwise(path.motions), strict=True):
+        for position in [(1, 0), (0, 1)]:
+            place = Polynomial([position[0]]), Polynomial([position[1]])
+            assert before.track(place).at(t) == after.track(place).at(t)
+
+
+@pytest.mark.parametrize(
+    "times, poses, options, message",
+    [
+        (
+            [0, 1, 2],
+            [(0, 0, 0)],
+            {},
+            "one pose fewer than times, and at least one: 3 times, 1 poses",
+        ),
+        ([2, 2], [(0, 0, 0)], {}, "times increase: 2, then 2"),
+        ([0, 1], [(0, 0)], {}, "piece 0: a pose is x, y and an angle"),
+        ([0, 1], [(0, 0, 0)], {"error": 0}, "an error is positive: 0"),
+        ([0, 1], [(0, 0, 0)], {"place_error": -1}, "a place_error is not negative: -1"),
+        (
+            [0, 1, 2],
+            [(0, 0, [0, 1]), (0, 0, "9/8")],
+            {},
+            "piece 1: the angle jumps at t = 1 by 1/8",
+        ),
+        ([0, 1], [([0, 0, 0, 0, 1], 0, 0)], {}, "piece 0: x has degree 4: give a place_error"),
+        ([0, 1], [(0, 0, [0, 1])], {"error": "1e-300"}, "too small for angles"),
+        ([0, 10**9], [(0, 0, [0, 1])], {}, "more than 100000 pieces"),
+    ],
+)
+def test_a_path_that_is_none_is_refused(times, poses, options, message):
+    with pytest.raises(InputError, match=message):
+        PosePath(times, poses, **options)
+
+
+def test_high_degrees_are_fitted_within_the_place_error():
+    poses = [([0, 1, 0, -1, 2, 1], [0, 0, 3, 0, 0, -2], [0, 1])]
+    path = PosePath([0, 1], poses, error="1e-3", place_error="1e-4")
+    assert max(m.x.degree for m in path.motions) == 3
+    check(path, Random(1), 20)
+
+
+def test_a_spline_of_scipy_with_pieces_of_no_duration():
+    c = [[[1.0, 2.0, 0.1]] * 3, [[0.1, 0.2, 0.3]] * 3]
+    curve = SimpleNamespace(c=_Rows(c), x=[0.0, 0.0, 0.5, 2.0])
+    path = PosePath.of_curve(curve, error="1e-3")
+    assert path.times == (0, Fraction(1, 2), 2)
+    with pytest.raises(InputError, match="three columns x, y, angle"):
+        PosePath.of_curve(SimpleNamespace(c=_Rows([[[1.0, 2.0]]]), x=[0, 1]))
+
+
+class _Rows:
+    """An array of three axes, as far as paths use one."""
+
+    def __init__(self, rows):
+        self.rows, self.shape = rows, (len(rows), len(rows[0]), len(rows[0][0]))
+
+    def __getitem__(self, key):
+        powers, piece, *column = key
+        if isinstance(powers, slice):
+            return [row[piece][column[0]] for row in self.rows[powers]]
+        return self.rows[powers][piece]
+
+
+def test_samples_and_trapezoidal_profiles():
+    samples = [(0, 0, 0), (4, 2, 1), (4, 0, 0)]
+    line = PosePath.through([0, 2, 5], samples, error="1/10")
+    assert line.pose(1) == (2, 1, Fraction(1, 2))
+    ramps = PosePath.through([0, 2, 5], samples, ramp="1/4", error="1/10")
+    assert [ramps.pose(t) for t in (0, 2, 5)] == samples
+    assert ramps.pose("1/2")[0] == Fraction(2, 3)  # half of the speed 8/3 for half a unit of time
+    steep = PosePath.through([0, 2], samples[:2], ramp="1/2", error="1/10")
+    assert steep.pose(1)[0] == 2
+    assert len(steep.times) == 3
+    with pytest.raises(InputError, match="a ramp is between 0 and 1/2: 1"):
+        PosePath.through([0, 2], samples[:2], ramp=1)
+    with pytest.raises(InputError, match="x, y and the angle for each time"):
+        PosePath.through([0, 2], samples)
+
+
+@pytest.mark.long
+def test_pickles_and_tampered_pieces():
+    path = PosePath([0, 1, 2], [(0, [1, 1], [0, 1]), ([0, 1], 2, 1)], error="1e-4")
+    assert pickle.loads(pickle.dumps(path)) == path
+    assert hash(pickle.loads(pickle.dumps(path))) == hash(path)
+    (pieces,), _ = Pieces._given(path)
+    given = path.times, path._poses, path.error
+    assert PosePath.of_pieces(pieces, *given) == path
+    for i, (end, motion) in enumerate(pieces):
+        for change in [
+            {"half_turn": motion.half_turn + Polynomial([0, QQ(1, 1000)])},
+            {"half_turn": motion.half_turn + QQ(1, 1000)},
+            {"x": motion.x + QQ(1, 10**9)},
+            {"y": motion.y + Polynomial([0, QQ(1, 10**9)])},
+            {"pivot": (0, 1)},
+        ]:
+            half = change.pop("half_turn", motion.half_turn)
+            kept = {"x": motion.x, "y": motion.y, "orientation": motion.orientation} | change
+            wrong = [*pieces[:i], (end, Rigid(half, **kept)), *pieces[i + 1 :]]
+            with pytest.raises(InputError, match=rf"do not follow the path .* \(piece {i}\)"):
+                PosePath.of_pieces(wrong, *given)
+    with pytest.raises(InputError, match="do not follow"):
+        PosePath.of_pieces(pieces[1:], *given)
+    with pytest.raises(InputError, match="do not follow"):
+        PosePath.of_pieces(pieces, path.times, path._poses, path.error / 1000)
+
+
+def blade(**options):
+    path = PosePath([0, 2], [(0, 0, [0, 1])], error="1/1000", **options)
+    return Body("blade", [(0, 0), (2, 0)], path)
+
+
+POST = Body("post", [(-1, 1), (1, 1), (1, 2), (-1, 2)])
+
+
+def test_the_first_contact_of_the_true_path_is_enclosed():
+    bounds = first_contact_enclosed(Scene([blade(), POST], time=(0, 2)))
+    assert float(bounds.low) < 0.7853981633974483 < float(bounds.high)
+    assert float(bounds.high) - float(bounds.low) < 0.01
+    assert bounds.pairs == (("blade", "post"),)
+
+
+def test_a_place_error_widens_the_bounds():
+    exact, fitted = (
+        first_contact_enclosed(Scene([blade(place_error=e), POST], time=(0, 2)))
+        for e in (0, "1/50")
+    )
+    assert fitted.low < exact.low < exact.high < fitted.high
+
+
+def test_between_and_ignoring_of_enclosed_contacts():
+    near = Body("near", [("1/2", "1/10"), (1, "1/10"), (1, "1/5")])
+    scene = Scene([near, blade(), POST], time=(0, 2))
+    assert first_contact_enclosed(scene).pairs == (("near", "blade"),)
+    for options in ({"between": [("post", "blade")]}, {"ignoring": [["near", "blade"]]}):
+        bounds = first_contact_enclosed(scene, **options)
+        assert bounds.pairs == (("blade", "post"),)
+        assert float(bounds.low) < 0.7853981633974483 < float(bounds.high)
+    assert first_contact_enclosed(scene, ignoring=[["near", "blade", "post"]]) is None
+    assert first_contact_enclosed(scene, between=[("near", "post")]) is None
+    with pytest.raises(InputError, match="no body"):
+        first_contact_enclosed(scene, between=[("near", "none")])
+
+
+def test_bodies_that_touch_at_the_start_are_ignored_there_too():
+    hub = Body("hub", [(0, 0), (0, -1), (-1, -1)])
+    scene = Scene([hub, blade(), POST], time=(0, 2))
+    assert first_contact_enclosed(scene).low == 0
+    bounds = first_contact_enclosed(scene, ignoring=[["hub", "blade"]])
+    assert bounds.pairs == (("blade", "post"),)
+
+
+def in_a_file():
+    path = PosePath([0, 1, 2], [(0, [1, 1], [0, 1]), ([0, 1], 2, 1)], error="1e-2")
+    return Scene([Body("b", [(0, 0), (2, 0)], path)], time=(0, 2))
+
+
+def test_a_path_goes_to_a_file_and_back():
+    scene = in_a_file()
+    data = json.loads(json.dumps(scene.to_json()))
+    assert Scene.from_json(data).bodies[0].motion == scene.bodies[0].motion
+    proof_check.Scene(json.dumps(data))
+
+
+TAMPERED = {
+    "error": "1/100000",
+    "place_error": "-1",
+    "times": ["0", "1", "3"],
+    "poses": [{"x": ["0"], "y": ["1", "1"], "angle": ["0", "1"]}] * 2,
+}
+
+
+@pytest.mark.parametrize("key", TAMPERED)
+def test_a_path_that_its_pieces_do_not_follow_is_refused(key):
+    data = in_a_file().to_json()
+    data["bodies"][0]["motion"]["path"][key] = TAMPERED[key]
+    with pytest.raises(InputError, match="motion"):
+        Scene.from_json(data)
+    with pytest.raises(proof_check.NoProofError, match="not such a path"):
+        proof_check.Scene(json.dumps(data))
+
+
+def test_a_path_excludes_a_spin():
+    data = in_a_file().to_json()
+    data["bodies"][0]["motion"]["spin"] = {"omega": "1", "error": "1"}
+    with pytest.raises(InputError, match="exclude"):
+        Scene.from_json(data)
+    with pytest.raises(proof_check.NoProofError, match="both a spin and a path"):
+        proof_check.Scene(json.dumps(data))
