@@ -9,11 +9,11 @@ from typing import NamedTuple, TypeVar
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, enclosing_floats
+from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Straight
 
 __all__ = [
     "Candidate",
-    "Incidence",
     "Meeting",
     "Span",
     "algebraic",
@@ -22,6 +22,7 @@ __all__ = [
     "earliest",
     "first_incidence",
     "span_of",
+    "touch_of",
 ]
 
 
@@ -46,27 +47,19 @@ def span_of(start: QQ, end: QQ) -> Span:
     return Span(start, end, *enclosing_floats(start), enclosing_floats(end)[1])
 
 
-class Incidence(NamedTuple):
-    """A vertex of one body on an edge or a vertex of the other.
+class Meeting(NamedTuple):
+    """The first contact of some bodies: its time and all incidences at that time.
 
-    Attributes:
-        of_first: whether the vertex is one of the first body.
-        vertex: the vertex.
-        edge: the edge it lies on, or -1.
-        other_vertex: the vertex it coincides with, or -1.
+    Of two bodies by themselves, the first has the number 0, the second 1.
     """
 
-    of_first: bool
-    vertex: int
-    edge: int
-    other_vertex: int
-
-
-class Meeting(NamedTuple):
-    """The first contact of two bodies: its time and all incidences at that time."""
-
     time: QQ | AlgebraicNumber
-    incidences: list[Incidence]
+    touches: list[Touch]
+
+    @property
+    def number(self) -> AlgebraicNumber:
+        """The time."""
+        return algebraic(self.time)
 
 
 class Candidate(NamedTuple):
@@ -88,12 +81,18 @@ class Candidate(NamedTuple):
     end: int = -1
 
 
+def touch_of(candidate: Candidate, edge: int, end: int) -> Touch:
+    """The incidence of the vertex of a candidate with an edge or a vertex."""
+    one, other = (0, 1) if candidate.of_first else (1, 0)
+    return Touch(one, candidate.vertex, other, edge, end)
+
+
 Time = TypeVar("Time", QQ, AlgebraicNumber)
 
 
 def earliest(
     candidates: Iterable[Candidate],
-    first: Callable[[Candidate, Time | None], tuple[Time, Incidence | None] | None],
+    first: Callable[[Candidate, Time | None], tuple[Time, Touch | None] | None],
 ) -> Meeting | None:
     """Return the earliest time at which a candidate begins, with all incidences at that time.
 
@@ -104,7 +103,7 @@ def earliest(
             It may return None for any time later than the best one so far, its argument.
     """
     best: Time | None = None
-    found: list[Incidence] = []
+    found: list[Touch] = []
     high = math.inf
     for candidate in candidates:
         if candidate.low > high:
@@ -149,13 +148,13 @@ def first_incidence(
     path = ax - bx, ay - by, avx - bvx, avy - bvy
     back = -path[0], -path[1], -path[2], -path[3]
 
-    def first(candidate: Candidate, _: QQ | None) -> tuple[QQ, Incidence] | None:
+    def first(candidate: Candidate, _: QQ | None) -> tuple[QQ, Touch] | None:
         of_first, vertex, edge = candidate[2:5]
         met = _meeting(a, b, path, vertex, edge) if of_first else _meeting(b, a, back, vertex, edge)
         if met is None or not span.start < met[0] <= span.end:
             return None
         time, end = met
-        return time, Incidence(of_first, vertex, edge if end < 0 else -1, end)
+        return time, touch_of(candidate, edge if end < 0 else -1, end)
 
     return earliest(candidates, first)
 

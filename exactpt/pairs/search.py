@@ -11,7 +11,7 @@ import time as clock
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations
-from typing import TYPE_CHECKING, Final, NamedTuple, final
+from typing import TYPE_CHECKING, Final, final
 
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -21,7 +21,7 @@ from exactpt.kernel.numbers import QQ, fraction
 from exactpt.motion.incidence import Touch
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.pieces import Distance, FewPieces, MotionPiece, contact_distance, linear_pieces
-from exactpt.pairs.rational import Meeting, Span, algebraic, compare, double_above, span_of
+from exactpt.pairs.rational import Meeting, Span, compare, double_above, span_of
 from exactpt.pairs.selection import groups_of
 from exactpt.pairs.start import initial_touches
 from exactpt.pairs.two_pieces import first_meeting
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from exactpt.pairs.scene_pieces import ScenePieces
 
 __all__ = [
-    "FirstContact",
     "LinearSearch",
     "first_among_candidates",
     "first_among_pieces",
@@ -40,18 +39,6 @@ __all__ = [
 
 FEW: Final = 10
 """Maximum number of pieces of which all pairs are compared without numpy."""
-
-
-class FirstContact(NamedTuple):
-    """The first contact of some bodies: its time and all incidences at that time."""
-
-    time: QQ | AlgebraicNumber
-    touches: list[Touch]
-
-    @property
-    def number(self) -> AlgebraicNumber:
-        """The time."""
-        return algebraic(self.time)
 
 
 @final
@@ -159,7 +146,7 @@ def first_among_pieces(
     end: QQ,
     distance: Distance = contact_distance,
     margin: float = 0.0,
-) -> FirstContact | None:
+) -> Meeting | None:
     """The first contact in (start, end] of bodies that are disjoint at the start.
 
     Args:
@@ -184,7 +171,7 @@ def first_among_pieces(
 
 def first_among_candidates(
     pairs: Iterable[tuple[float, MotionPiece, MotionPiece]], distance: Distance = contact_distance
-) -> FirstContact | None:
+) -> Meeting | None:
     """The first contact of pairs of pieces of two bodies that are disjoint when both begin.
 
     Args:
@@ -212,7 +199,7 @@ class _Search:
         self._distance = distance
         self._deadline = deadline
         self._spans: dict[tuple[QQ, QQ], Span] = {}
-        self.best: FirstContact | None = None
+        self.best: Meeting | None = None
         self.high: float = math.inf
         self._enter = -math.inf
         self.counters = Counters()
@@ -223,7 +210,7 @@ class _Search:
         best = math.inf if self.best is None else self.best.number.enclosure()[0]
         return min(self._enter, best)
 
-    def run(self, pairs: Iterable[tuple[float, MotionPiece, MotionPiece]]) -> FirstContact | None:
+    def run(self, pairs: Iterable[tuple[float, MotionPiece, MotionPiece]]) -> Meeting | None:
         """Compare pairs of pieces in the order of the times before which they do not touch."""
         for enter, a, b in pairs:
             ask()
@@ -252,7 +239,7 @@ class _Search:
         touches = list(_touches(met, a.body, b.body))
         order = -1 if self.best is None else compare(met.time, self.best.time)
         if self.best is None or order < 0:
-            self.best, self.high = FirstContact(met.time, touches), double_above(met.time)
+            self.best, self.high = Meeting(met.time, touches), double_above(met.time)
         elif order == 0:
             self.best.touches.extend(touches)
 
@@ -260,8 +247,8 @@ class _Search:
 def _touches(met: Meeting, first: int, second: int) -> Iterator[Touch]:
     """The incidences of two bodies; one of two vertices once, the lower body first."""
     found: set[Touch] = set()
-    for of_first, vertex, edge, end in met.incidences:
-        body, other = (first, second) if of_first else (second, first)
+    for one, vertex, _, edge, end in met.touches:
+        body, other = (second, first) if one else (first, second)
         if end >= 0 and other < body:
             found.add(Touch(other, end, body, -1, vertex))
         else:

@@ -8,16 +8,17 @@ from typing import NamedTuple
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, nearest_float
+from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Straight
 from exactpt.pairs.features import Feature, FeaturePair
 from exactpt.pairs.filters import candidates_of
 from exactpt.pairs.rational import (
     Candidate,
-    Incidence,
     Meeting,
     Span,
     earliest,
     first_incidence,
+    touch_of,
 )
 
 __all__ = ["ContactDistance", "first_meeting"]
@@ -82,7 +83,7 @@ def _first_at_distance(
 
     def first(
         candidate: Candidate, best: AlgebraicNumber | None
-    ) -> tuple[AlgebraicNumber, Incidence | None] | None:
+    ) -> tuple[AlgebraicNumber, Touch | None] | None:
         _, _, of_first, vertex, edge, end = candidate
         one, other, edges = (p, q, b.edges) if of_first else (q, p, a.edges)
         ends = (end,) if edge < 0 else edges[edge]
@@ -92,6 +93,6 @@ def _first_at_distance(
         time = pair.first_time(squared, begin, until)
         if time is None:
             return None
-        return time, Incidence(of_first, vertex, edge, end) if pair.is_inside(time) else None
+        return time, touch_of(candidate, edge, end) if pair.is_inside(time) else None
 
     return earliest(candidates, first)

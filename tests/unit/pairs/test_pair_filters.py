@@ -67,7 +67,7 @@ def test_filter_with_radius_loses_no_first_contact_of_the_definition(seed):
         if meeting is not None:
             found += 1
             assert meeting.time.compare(expected) == 0
-            assert meeting.incidences
+            assert meeting.touches
             low, high = window(*pieces, 0.0, 12.0, distance.nearest)
             enclosed = expected.enclosure()
             assert low <= enclosed[1]
