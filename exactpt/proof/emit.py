@@ -13,6 +13,7 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.body import refuse_rounded
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.start import initial_touches
+from exactpt.proof.degrees import refuse_degrees
 from exactpt.proof.lines import Lines, header
 from exactpt.proof.nodes import Nodes
 from exactpt.proof.watch import Watch
@@ -61,6 +62,7 @@ class ProofRun:
     ) -> None:
         self._scene = scene
         refuse_rounded(scene.bodies)
+        refuse_degrees(scene.bodies)
         check_tiling(tiling)
         self.tiling: str = tiling_for_contact(scene, tiling)
         self._options = exact_only, max_events

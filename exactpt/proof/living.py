@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Final, final
 from exactpt.errors import InputError
 from exactpt.files import write_atomically, writing
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt.proof.degrees import refuse_degrees
 from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.proof.lines import Lines, header
 from exactpt.proof.nodes import Nodes, rigid_until
@@ -69,6 +70,7 @@ class ProofFolder:
     def begin(self, scene: Scene, kinetic: Tiling) -> None:
         """See `Recorder.begin`."""
         if self._part is None and kinetic.now.compare_rational(scene._end) < 0:
+            refuse_degrees(scene.bodies)
             self._part = _Part(scene.going_on(scene.bodies, kinetic.now._low), kinetic)
 
     def advanced(self) -> None:

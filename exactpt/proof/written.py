@@ -83,7 +83,7 @@ def prove(
 
     Raises:
         InputError: if the scene is none, there is no such tiling, or it does not support these
-            bodies.
+            bodies, or a coordinate has a degree above 64, which no checker takes.
     """
     a_scene(scene)
     file = scene_bytes(scene) if scene_file is None else scene_file

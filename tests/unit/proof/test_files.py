@@ -126,6 +126,36 @@ def test_what_no_tiling_takes_is_refused(scene, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+def test_degrees_that_no_checker_takes_are_refused(tmp_path):
+    high = [0] * 64 + [1]
+    matrix = [[high, 0], [0, 1]]
+    point, line = [(0, 0)], [([0, 1], 0)]
+    right = [
+        (point, exactpt.Translation(high)),
+        (point, exactpt.Rigid([0] * 32 + [1])),
+        (point, exactpt.Affine(matrix)),
+        (line, exactpt.Rigid([0] * 31 + [1], x=[0, 0, 1])),
+    ]
+    wrong = [
+        (point, exactpt.Translation([0, *high])),
+        (point, exactpt.Rigid([0] * 33 + [1])),
+        (line, exactpt.Affine(matrix)),
+        (line, exactpt.Rigid([0] * 32 + [1])),
+    ]
+    for vertices, motion in right:
+        scene = exactpt.Scene([exactpt.Body("a", vertices, motion)], time=(0, 1))
+        assert exactpt.prove(scene).check().whole
+    for vertices, motion in wrong:
+        scene = exactpt.Scene([exactpt.Body("a", vertices, motion)], time=(0, 1))
+        with pytest.raises(InputError, match=r"a' has coordinates of degree 6[5-9]: proofs"):
+            exactpt.first_contact(scene, proof=tmp_path / "p")
+        with pytest.raises(InputError, match="proofs are checked up to degree 64"):
+            list(exactpt.Simulation(scene, proof=tmp_path / "folder").run())
+        with pytest.raises(proof_check.NoProofError, match="degree above 64"):
+            proof_check.Scene(json.dumps(exactpt.scene.written.to_json(scene)))
+    assert [path.name for path in tmp_path.iterdir()] == ["folder"]
+
+
 def test_out_of_budget_nothing_is_left(scene, tmp_path):
     search = ProvedSearch(scene, tmp_path / "p", scene_file=b"{}", max_events=1)
     with pytest.raises(exactpt.BudgetExceeded) as spent:
