@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from exactpt.errors import InputError
+from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.geometry.polygon import contains, first_touch, signed_area2
 from exactpt.geometry.predicates import Point
 from exactpt.geometry.simple import is_surely_simple
@@ -66,9 +67,22 @@ def _not_simple(
 
 def _check_nesting(body: Body, points: Sequence[Point], start: QQ) -> None:
     """Check that disjoint rings are outlines and holes of disjoint parts."""
+    rings = [ring for rings in body.parts for ring in rings]
+    parts = [k for k, rings in enumerate(body.parts) for _ in rings]
+    outlines = [k for k, part in enumerate(parts) if k == 0 or parts[k - 1] != part]
+    # A ring is inside of another one only if their boxes, rounded outward, intersect.
+    near: list[list[int]] = [[] for _ in rings]
+    for first, second in overlapping_pairs(
+        boxes_of_points([points[ring.start : ring.stop] for ring in rings])
+    ):
+        for i, j in zip(first.tolist(), second.tolist(), strict=True):
+            near[i].append(j)
+            near[j].append(i)
 
-    def is_in(inner: range, outer: range) -> bool:
-        return contains(points[outer.start : outer.stop], points[inner.start])
+    def around(i: int) -> set[int]:
+        """Return the rings that contain the first vertex of a ring."""
+        first = points[rings[i].start]
+        return {j for j in near[i] if contains(points[rings[j].start : rings[j].stop], first)}
 
     def fault(ring: range, what: str) -> InputError:
         at = show(*points[ring.start])
@@ -77,12 +91,15 @@ def _check_nesting(body: Body, points: Sequence[Point], start: QQ) -> None:
             f"vertex {ring.start} at {at}"
         )
 
-    for k, (outline, *holes) in enumerate(body.parts):
-        for hole in holes:
-            if not is_in(hole, outline):
-                raise fault(hole, "a hole is outside of its outline")
-            if any(is_in(hole, other) for other in holes if other is not hole):
-                raise fault(hole, "a hole is inside of another one")
-        for other, *others in body.parts[:k] + body.parts[k + 1 :]:
-            if is_in(outline, other) and not any(is_in(outline, hole) for hole in others):
-                raise fault(outline, "a part is inside of another one")
+    for outline in outlines:
+        k = parts[outline]
+        for i in range(outline + 1, outline + len(body.parts[k])):
+            outer = around(i)
+            if outline not in outer:
+                raise fault(rings[i], "a hole is outside of its outline")
+            if any(parts[j] == k and j != outline for j in outer):
+                raise fault(rings[i], "a hole is inside of another one")
+        outer = around(outline)
+        for other in sorted(outer.intersection(outlines)):
+            if not any(parts[j] == parts[other] and j != other for j in outer):
+                raise fault(rings[outline], "a part is inside of another one")

@@ -137,3 +137,21 @@ def test_what_is_wrong_in_a_file_is_named(body, told):
     with pytest.raises(InputError) as raised:
         loads(f'{{"exactpt": 1, "time": [0, 1], "bodies": [{{"name": "b", {body}}}]}}')
     assert told in str(raised.value)
+
+
+def test_one_hole_inside_of_another_among_many():
+    """Only rings whose boxes intersect are compared."""
+    holes = [
+        [(3 * i, 3 * j), (3 * i + 2, 3 * j), (3 * i, 3 * j + 2)]
+        for i in range(10)
+        for j in range(10)
+    ]
+    outline = [(-1, -1), (99, -1), (99, 99), (-1, 99)]
+    Scene([Body("plate", outline, holes=holes)])
+
+    holes.append([(12.25, 12.25), (12.5, 12.25), (12.25, 12.5)])
+    with pytest.raises(InputError, match="inside of another one: vertex 304"):
+        Scene([Body("plate", outline, holes=holes)])
+    holes[-1] = [(200, 200), (201, 200), (200, 201)]
+    with pytest.raises(InputError, match="outside of its outline: vertex 304"):
+        Scene([Body("plate", outline, holes=holes)])

@@ -3,10 +3,11 @@
 import math
 from random import Random
 
+import numpy as np
 import pytest
 
-from exactpt.geometry.polygon import first_self_touch, signed_area2
-from exactpt.geometry.simple import is_surely_simple
+from exactpt.geometry.polygon import first_self_touch, segments_meet, signed_area2
+from exactpt.geometry.simple import _surely_apart, is_surely_simple
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.kernel.rounding import U
 
@@ -96,3 +97,21 @@ def test_regular_polygons_and_stars_are_accepted_and_what_winds_twice_is_not():
 def test_out_of_range_nothing_is_accepted(size):
     xs, ys = [-size, size, 0.0], [-size, -size, size]
     assert not is_surely_simple(xs, ys, closed=True)
+
+
+@pytest.mark.parametrize("error", [0.0, 2.0**-50])
+def test_edges_that_are_surely_apart_do_not_meet(error):
+    """On a grid where many touch, and nearly: each coordinate out of place by the error."""
+    random = Random(f"apart {error}")
+    rows = np.array(
+        [
+            [random.randint(0, 4) + random.choice((0.0, 2.0**-48)) for _ in range(8)]
+            for _ in range(400)
+        ]
+    )
+    apart = _surely_apart(rows[:, :4], rows[:, 4:], error)
+    for row, surely in zip(rows.tolist(), apart.tolist(), strict=True):
+        moved = [QQ(v) + random.choice((-1, 0, 1)) * QQ(error) for v in row]
+        a, b, c, d = zip(moved[::2], moved[1::2], strict=True)
+        assert not (surely and segments_meet(a, b, c, d))
+    assert 50 < apart.sum() < 350
