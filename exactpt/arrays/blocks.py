@@ -55,6 +55,7 @@ class Block(NamedTuple):
     def answer(self) -> None:
         """Record the first contacts."""
         near = self._near()
+        near = near[~self.contacts.refused[near + self.first]]
         o, i, j = self.outlines, self.i[near], self.j[near]
         overlaps, unclear = at_start(o, i, j, self.motions.take(near))
         over = near[overlaps]

@@ -4,25 +4,40 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Final, TypeAlias, final
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.errors import InputError
 from exactpt.geometry.ragged import Flags
 from exactpt.kernel.doubles import Floats
+from exactpt.kernel.numbers import shorten
 from exactpt.pairs.features_sweep import PairsSearch
 
 if TYPE_CHECKING:
     from exactpt.pairs.contact import Contact
     from exactpt.scene.scene import Scene
 
-__all__ = ["KINDS", "Contacts"]
+__all__ = ["KINDS", "Contacts", "Errors", "masks"]
 
 KINDS: Final = ("none", "initial", "self", "vertex-edge", "vertex-vertex")
 """The kinds of contacts, as in `Contact.kind`; "none" where there is none."""
 
 Numbers: TypeAlias = NDArray[np.int32]
+Errors: TypeAlias = Literal["raise", "mask"]
+"""What refused geometry of one pair does: raise an error, or leave that pair without an answer."""
+
+
+def masks(errors: Errors) -> bool:
+    """Return whether refused pairs are masked, or else an error is raised.
+
+    Raises:
+        InputError: if ``errors`` is neither "raise" nor "mask".
+    """
+    if errors not in {"raise", "mask"}:
+        raise InputError(f'errors: "raise" or "mask" is needed, not {shorten(errors)}')
+    return errors == "mask"
 
 
 @final
@@ -40,14 +55,18 @@ class Contacts:
             touches none, or the other kind.
         exact: whether exact arithmetic has decided the answer; else a filter in doubles has,
             whose bounds are proved.
+        refused: with ``errors="mask"``, whether there is no answer, since the pair's geometry is
+            refused: then `low` and `high` are NaN, and `found` is false (see `reasons`).
     """
 
     __slots__ = (
-        "_scene", "body", "edge", "exact", "found", "high", "kind", "low", "other_vertex", "vertex",
+        "_reasons", "_scene", "body", "edge", "exact", "found", "high", "kind", "low",
+        "other_vertex", "refused", "vertex",
     )  # fmt: skip
 
     def __init__(self, count: int, scene: Callable[[int], Scene]) -> None:
         self._scene = scene
+        self._reasons: dict[int, str] = {}
         self.low: Floats = np.full(count, np.inf)
         self.high: Floats = np.full(count, np.inf)
         self.kind: NDArray[np.int8] = np.zeros(count, dtype=np.int8)
@@ -57,6 +76,7 @@ class Contacts:
         self.other_vertex: Numbers = np.full(count, -1, dtype=np.int32)
         self.exact: Flags = np.zeros(count, dtype=np.bool_)
         self.found: Flags = np.zeros(count, dtype=np.bool_)
+        self.refused: Flags = np.zeros(count, dtype=np.bool_)
 
     def __len__(self) -> int:
         return len(self.low)
@@ -71,9 +91,22 @@ class Contacts:
 
         Raises:
             IndexError: if there is no such pair.
+            InputError: if the pair is refused.
         """
         k = range(len(self))[operator.index(i)]
+        if self.refused[k]:
+            raise InputError(self._reasons[k])
         return PairsSearch(self.scene(k)).run_to_contact() if self.found[k] else None
+
+    def refuse(self, i: int, reason: str) -> None:
+        """Mark a pair that has no answer yet as refused, for a reason of one line."""
+        self.refused[i] = True
+        self.low[i] = self.high[i] = np.nan
+        self._reasons[i] = reason
+
+    def reasons(self) -> list[tuple[int, str]]:
+        """Return the number of each refused pair in order, with one line that says why."""
+        return sorted(self._reasons.items())
 
     def scene(self, i: int) -> Scene:
         """The scene of the two bodies of a pair.

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from exactpt.arrays.blocks import Block
-from exactpt.arrays.contacts import Contacts
+from exactpt.arrays.contacts import Contacts, Errors, masks
 from exactpt.arrays.exact import exact
 from exactpt.arrays.motions import relative_motions
 from exactpt.arrays.outlines import outlines_of
@@ -37,6 +37,7 @@ def first_contacts(
     closed: ArrayLike = True,
     radii: ArrayLike = 0.0,
     time: ArrayLike = (0.0, 1.0),
+    errors: Errors = "raise",
 ) -> Contacts:
     """The first contacts of pairs of bodies, of each pair for itself.
 
@@ -62,13 +63,16 @@ def first_contacts(
             motion has degree 1 or 2, or boxes are apart.
         closed: for each body or for all, False for an open chain.
         radii: for each body or for all, its radius. If one is not 0, each pair is searched by
-            itself: a few thousand a second.
+            itself: some hundreds a second.
         time: the start and the end of the closed time span, or of shape (m, 2) one for each pair.
+        errors: "mask" leaves pairs with a body that is not simple without an answer
+            (`Contacts.refused`, `Contacts.reasons`); "raise" raises an error for the first one.
 
     Raises:
         InputError: if the shapes do not match, a value is not a finite double, a span is empty,
-            or a body of a pair is not simple.
+            or, unless errors are masked, a body of a pair is not simple.
     """
+    masked = masks(errors)
     bodies = BodyArrays(
         vertices,
         offsets,
@@ -81,8 +85,14 @@ def first_contacts(
     spans = read_spans(time, len(ij))
     used = np.zeros(len(bodies), dtype=np.bool_)
     used[ij.ravel()] = True
+    wrong: dict[int, str] = {}
     for k in bodies.doubtful(np.flatnonzero(used)):
-        check_simple(bodies.make(k), QQ(0))
+        try:
+            check_simple(bodies.make(k), QQ(0))
+        except InputError as error:
+            if not masked:
+                raise
+            wrong[k] = str(error)
 
     def scene(k: int) -> Scene:
         i, j = ij[k].tolist()
@@ -90,9 +100,12 @@ def first_contacts(
         return scene_of((bodies.make(i), bodies.make(j)), start, end)
 
     contacts = Contacts(len(ij), scene)
+    if wrong:
+        for m in np.flatnonzero(np.isin(ij, list(wrong)).any(axis=1)).tolist():
+            contacts.refuse(m, next(wrong[k] for k in ij[m].tolist() if k in wrong))
     if bodies.radii.any():
-        for k in range(len(ij)):
-            search(contacts, k)
+        for m in np.flatnonzero(~contacts.refused).tolist():
+            search(contacts, m)
         return contacts
     outlines = outlines_of(bodies)
     for first in range(0, len(ij), BLOCK):

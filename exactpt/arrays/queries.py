@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from exactpt.arrays.answers import record, record_edges
-from exactpt.arrays.contacts import Contacts
+from exactpt.arrays.contacts import Contacts, Errors, masks
 from exactpt.arrays.exact import Path, earliest, exact, first_zero, incidence, is_zero_at
 from exactpt.arrays.meetings import INFINITY, Span, first_meetings
 from exactpt.arrays.relative import Relative, orientations
@@ -39,6 +39,7 @@ def point_segment_contacts(
     *,
     velocities: Sequence[ArrayLike | None] = (None, None, None),
     time: ArrayLike = (0.0, 1.0),
+    errors: Errors = "raise",
 ) -> Contacts:
     """The first contacts of moving points with moving segments, of each pair for itself.
 
@@ -58,11 +59,14 @@ def point_segment_contacts(
         velocities: those of the points, the firsts and the lasts, each of shape (m, 2), or None
             for vertices at rest.
         time: the start and the end of the closed time span, or of shape (m, 2) one for each.
+        errors: "mask" leaves queries whose segment is a point at the start without an answer
+            (`Contacts.refused`, `Contacts.reasons`); "raise" raises an error for the first one.
 
     Raises:
         InputError: if the shapes do not match, a value is not a finite double, a span is empty,
-            or a segment is a point at the start.
+            or, unless errors are masked, a segment is a point at the start.
     """
+    masked = masks(errors)
     given = _read(points, firsts, lasts, velocities)
     m = given.shape[1]
     spans = read_spans(time, m)
@@ -72,7 +76,12 @@ def point_segment_contacts(
         hits, low, high, unsure = _filtered(given[:, first:last], spans.part(first, last))
         record_edges(contacts, hits + first, low, high)
         for i in (np.flatnonzero(unsure) + first).tolist():
-            _decide(contacts, i, given[:, i], spans)
+            try:
+                _decide(contacts, i, given[:, i], spans)
+            except InputError as error:
+                if not masked:
+                    raise
+                contacts.refuse(i, str(error))
     return contacts
 
 

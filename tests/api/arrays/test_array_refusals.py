@@ -92,3 +92,54 @@ def test_integers_and_single_precision_are_taken_exactly():
 
     assert pairs_of(vertices=single).scene(0) == pairs_of(vertices=unsigned).scene(0)
     assert pairs_of(vertices=[*CORNERS[:3], (2**60, 1)]).scene(0).bodies[1].at(0) == [(2**60, 1)]
+
+
+BOW = [(0, 0), (2, 2), (2, 0), (0, 2)]
+
+
+@pytest.mark.parametrize("radii", [0.0, 0.25])
+def test_pairs_with_bodies_that_are_not_simple_are_masked(radii):
+    vertices = np.array([(0, 0), (1, 0), (0, 1), *BOW, (4, 0), (5, 0), (5, 1)], dtype=float)
+    options = {"velocities": [(1, 0), (0, 0), (0, 0)], "radii": radii, "time": (0, 10)}
+    pairs = [(0, 1), (0, 2), (2, 1), (2, 0)]
+
+    masked = pairs_of(vertices, (0, 3, 7, 10), pairs, errors="mask", **options)
+    good = pairs_of(vertices, (0, 3, 7, 10), [(0, 2), (2, 0)], **options)
+
+    assert masked.refused.tolist() == [True, False, True, False]
+    assert [i for i, _ in masked.reasons()] == [0, 2]
+    assert all(line.startswith("body '1': not a simple polygon") for _, line in masked.reasons())
+    assert np.isnan(masked.low[[0, 2]]).all()
+    assert np.isnan(masked.high[[0, 2]]).all()
+    assert masked.found.tolist() == [False, True, False, True]
+    for name in ("body", "vertex", "edge", "other_vertex"):
+        assert getattr(masked, name)[[0, 2]].tolist() == [-1, -1]
+    for name in ("low", "high", "kind", "body", "vertex", "edge", "other_vertex", "exact"):
+        assert getattr(masked, name)[[1, 3]].tolist() == getattr(good, name).tolist()
+    assert not good.refused.any()
+    assert good.reasons() == []
+    with pytest.raises(InputError, match="body '1': not a simple polygon"):
+        masked.contact(0)
+
+
+def test_queries_with_a_segment_that_is_a_point_are_masked():
+    masked = point_segment_contacts(
+        [(0, 1), (0, 1), (0, 1)], [(2, 0), (2, 0), (3, 0)], [(2, 0), (2, 4), (3, 0)],
+        velocities=([(1, 0)] * 3, None, [(0, 0), (0, 0), (0, 1)]), time=(0, 10), errors="mask",
+    )  # fmt: skip
+
+    assert masked.refused.tolist() == [True, False, True]
+    assert masked.found.tolist() == [False, True, False]
+    assert np.isnan(masked.low[[0, 2]]).all()
+    assert masked.low[1] <= 2.0 <= masked.high[1]
+    assert masked.reasons() == [
+        (i, f"query {i}: the segment is a point at the start, t = 0") for i in (0, 2)
+    ]
+
+
+def test_errors_are_raised_or_masked():
+    line = 'errors: "raise" or "mask" is needed, not '
+    with pytest.raises(InputError, match=line):
+        pairs_of(errors="ignore")
+    with pytest.raises(InputError, match=line):
+        point_segment_contacts([(0, 0)], [(1, 1)], [(2, 2)], errors="ignore")
