@@ -132,12 +132,14 @@ def array_answers(seed: int) -> object:
         places, velocities = np.round(places), np.round(velocities)
         ring = np.round(8 * ring) / 8
     coefficients = np.stack((np.zeros((60, 2)), velocities, 0.125 * np.round(velocities)), axis=2)
-    moving = {"coefficients": coefficients} if seed % 3 == 2 else {"velocities": velocities}
+    is_curved = seed % 3 == 2
     radii = 0.25 if seed >= ARRAYS // 2 else 0.0
     pairs = rng.permuted(np.arange(60)).reshape(-1, 2)
     found = first_contacts(
-        ring + places, offsets, pairs, closed=sizes != 2, radii=radii, time=(0.0, 6.0), **moving
-    )
+        ring + places, offsets, pairs, closed=sizes != 2, radii=radii, time=(0.0, 6.0),
+        velocities=None if is_curved else velocities,
+        coefficients=coefficients if is_curved else None,
+    )  # fmt: skip
     columns = (found.found, found.kind, found.body, found.vertex, found.edge, found.other_vertex)
     return [
         [column.tolist() for column in columns],
