@@ -19,7 +19,7 @@ $(1)/python -m pip install --quiet --disable-pip-version-check $(2)
 endef
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures docs package wheels publish lock check-cgal clean
+.PHONY: help demo test test-slow test-rotating test-lowest test-exact small-scope test-browser browser try-browser test-pyodide compiled plain test-compiled coverage lint quick pictures docs package wheels publish lock check-cgal test-sanitized clean
 
 help: ## what can be made
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -123,6 +123,13 @@ cgal_check/build/cgal_check: $(wildcard cgal_check/*.cpp cgal_check/*.hpp cgal_c
 	@.ci/apt-install $(PACKAGES)
 	cmake -S cgal_check -B cgal_check/build -DCMAKE_BUILD_TYPE=Release
 	cmake --build cgal_check/build --parallel $(JOBS)
+
+test-sanitized: $(VENV)/developing ## cgal_check with AddressSanitizer and UBSan: all documents of proofs, 10,000 damaged ones
+	@.ci/apt-install $(PACKAGES)
+	cmake -S cgal_check -B cgal_check/build/sanitized -DCMAKE_BUILD_TYPE=Release -DSANITIZE=ON
+	cmake --build cgal_check/build/sanitized --parallel $(JOBS)
+	EXACTPT_CGAL_CHECK='$(CURDIR)/cgal_check/build/sanitized/cgal_check' $(BIN)/python -m pytest -m cgal tests/unit/proof/test_conformance.py
+	EXACTPT_CGAL_CHECK='$(CURDIR)/cgal_check/build/sanitized/cgal_check' $(BIN)/python -m fuzz proof-both --cases 10000
 
 $(BIN)/python:
 	@.ci/apt-install --if-no-venv python3-venv
