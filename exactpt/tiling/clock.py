@@ -116,11 +116,16 @@ class Clock:
         """Rational times after now and before the next failure, nearer and nearer to now.
 
         At the end of the time span they are beyond it: trajectories continue there.
+
+        Raises:
+            AuditError: if the next failure is not after now, so that there is no such time.
         """
         now, following, later = self.certifier.exact_now, self.next_number(), self.certifier.end
         if now.compare_rational(later) >= 0:
             later = rational_between(now, AlgebraicNumber(later + 1))
         elif following is not None and following.compare_rational(later) < 0:
+            if following.compare(now) <= 0:
+                raise AuditError("the next failure in the queue is not after the current event")
             later = rational_between(now, following)
         for k in range(MAX_TIMES):
             width = (later - now._low) * power_of_two(-(1 << k))

@@ -316,6 +316,20 @@ def test_wrong_coefficients_are_noticed(monkeypatch, outcomes, fault):
     assert outcomes[DONE] > 0
 
 
+@pytest.mark.parametrize("fault", [1e-4, 1e-2])
+def test_small_errors_of_all_coefficients_are_noticed(fault):
+    """Planted: x0 of every vertex is off, of coordinates up to 5,000; failures lie before now."""
+    scene = crowded(12, k=12)
+    kinetic = start_tiling(scene, "lazy", scene._start)
+    for _ in range(10):
+        kinetic.advance(scene._end)
+    ring = [v for body in kinetic.vertices.bodies for v in body.ring]
+    for k, v in enumerate(ring):
+        kinetic.vertices.places[WIDTH * v] += fault * (-1) ** k
+    with within(monotonic() + 60, None), pytest.raises(AuditError):
+        _audit_often(kinetic, scene._end)
+
+
 def _audit_often(kinetic, end):
     times = [end * k / 2000 for k in range(1, 2000)]
     for time in times:
