@@ -14,7 +14,6 @@ import numpy as np
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, isqrt
-from exactpt.kernel.square_root import exact_square_root
 from exactpt.motion.body import Body
 from exactpt.pairs.approach_search import ApproachSearch, Nearest
 from exactpt.pairs.near import pairs_that_come_near
@@ -135,6 +134,7 @@ def first_within(
         first, second = two_bodies(scene, a, b)
         return time_within(first, second, scene._start, scene._end, d, norm)
     found: Nearest | None = None
+    of_cores(d, max((body._radius for body in scene.bodies), default=QQ(0)), norm)  # or refuses it
     if len(scene.bodies) > 1:
         found = _first(scene, d, norm) if selection.is_all else _selected(scene, selection, d, norm)
     if found is None:
@@ -229,8 +229,7 @@ def _euclidean(scene: Scene, squared: QQ) -> Nearest | None:
         return ContactDistance.of(limit(a.body, b.body), root) if root else None
 
     reach = [most / 2 + r for r in radii]
-    lacks_root = scene.is_rounded and exact_square_root(squared) is None
-    rows = None if lacks_root else linear_pieces(scene)
+    rows = linear_pieces(scene)
     if rows is None:
         return ApproachSearch(scene, limit, reach).run()
     near = near_at_start(scene, reach, np.not_equal)

@@ -167,3 +167,11 @@ def test_a_pair_with_a_selection_is_refused():
             first_within(scene, "ball", "box", 1, norm="euclidean", **selection)
     with pytest.raises(InputError, match="there is no body 'nobody'"):
         contacts(scene, between=[("ball", "nobody")])
+
+
+def test_bug_whether_a_squared_distance_of_rounded_bodies_was_refused_depended_on_boxes():
+    far = [Body(f"b{i}", [(50 * i, 0)], radius=1 if i == 5 else 0) for i in range(6)]
+    with pytest.raises(InputError, match="it must be the square of a rational"):
+        first_within(Scene(far, time=(0, 1)), distance_squared=2, norm="euclidean")
+    with pytest.raises(InputError, match='norm "max" is for bodies without radius'):
+        first_within(Scene(far, time=(0, 1)), distance=2, norm="max")
