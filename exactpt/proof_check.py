@@ -683,15 +683,11 @@ class Body:
     def read_motion(self, data: Json) -> None:
         """Read the motions, which follow one upon the other at the times ``ends``."""
         of_shape = 1 if self.frames else degree(*(f for pair in self.shape for f in pair))
-        rows, spin, path = [{"motion": data}], None, None
+        rows, given = [{"motion": data}], dict[str, Json]()
         if isinstance(data, dict) and "pieces" in data:
             given = keys(data, ["pieces"], ["spin", "path"])
-            need("spin" not in given or "path" not in given, "both a spin and a path:", data)
-            path = given.get("path")
+            need(len(given) < 3, "both a spin and a path:", data)
             rows = [keys(p, ["motion"], ["until"]) for p in entries(given["pieces"])]
-            if "spin" in given:
-                rate = keys(given["spin"], ["omega", "error"])
-                spin = number(rate["omega"]), number(rate["error"])
         whole = rows and "until" not in rows[-1] and all("until" in p for p in rows[:-1])
         need(whole, '"until" belongs to all pieces but the last:', data)
         self.ends = [number(p["until"]) for p in rows[:-1]]
@@ -701,9 +697,9 @@ class Body:
             f, g = before.at(t), after.at(t)
             jumps = f != g and any(moved(f, p) != moved(g, p) for p in self.outline(t))
             need(not jumps, f"{self.name!a} jumps at t = {t}")
-        need(spin is None or turns_by(self.ends, self.motions, *spin), "not such a spin:", data)
-        on_path = path is None or follows(self.ends, self.motions, path)
-        need(on_path, "not such a path:", data)
+        for name, shows in (("spin", turns_by), ("path", follows)):
+            right = name not in given or shows(self.ends, self.motions, given[name])
+            need(right, f"not such a {name}:", data)
 
     def coordinates(self, t: Fraction) -> list[tuple[Poly, Poly]]:
         """The coordinates of vertices just after a time, before the motion."""
@@ -801,10 +797,9 @@ SAMPLES, MOST_ANGLE_BITS = 8, 512
 Bounds = tuple[Fraction, Fraction]
 
 
-def turns_by(
-    ends: Sequence[Fraction], motions: Sequence[Motion], omega: Fraction, error: Fraction
-) -> bool:
+def turns_by(ends: Sequence[Fraction], motions: Sequence[Motion], data: Json) -> bool:
     """Return True if this shows that motions turn by omega t, from the first end to the last."""
+    omega, error = map(number, keys(data, ["error", "omega"]).values())
     turns = [motion.rigid for motion in motions if motion.rigid]
     if error <= 0 or len(turns) < max(len(motions), 3):
         return False
@@ -825,14 +820,20 @@ def turns_in(
     if bits > MOST_ANGLE_BITS or between > error or any(abs(h.value(t)) > 1 for t in times):
         return False
     low, high = angle_of(turned, bits + 8)
-    full = [2 * bound for bound in pi_bounds(bits + 8)]
-    differences = []
-    for t in times:
-        half = arctan(h.value(t), bits + 8)
-        differences.append((low + 2 * half[0] - omega * t, high + 2 * half[1] - omega * t))
-    k = floor(differences[0][0] / full[0] + Fraction(1, 2))
-    least, most = sorted((k * full[0], k * full[1]))
-    return all(max(q - least, most - p) + between <= error for p, q in differences)
+    halves = [arctan(h.value(t), bits + 8) for t in times]
+    gaps = [
+        (low + 2 * p - omega * t, high + 2 * q - omega * t)
+        for t, (p, q) in zip(times, halves, strict=True)
+    ]
+    return largest_gap(gaps, bits + 8) + between <= error
+
+
+def largest_gap(gaps: Sequence[Bounds], bits: int) -> Fraction:
+    """Return a bound of differences of angles, but for the full turns that are next to one."""
+    low, high = pi_bounds(bits)
+    k = 2 * floor(gaps[0][0] / (2 * low) + Fraction(1, 2))
+    least, most = sorted((k * low, k * high))
+    return max(max(q - least, most - p) for p, q in gaps)
 
 
 def bits_for(error: Fraction, angle: Fraction) -> int:
@@ -850,60 +851,55 @@ def bits_for(error: Fraction, angle: Fraction) -> int:
 def follows(ends: Sequence[Fraction], motions: Sequence[Motion], data: Json) -> bool:
     """Return True if this shows that motions follow a path within its errors."""
     path = keys(data, ["error", "place_error", "times", "poses"])
-    error, off = number(path["error"]), number(path["place_error"])
+    errors = number(path["error"]), number(path["place_error"])
     times = [number(t) for t in entries(path["times"])]
     rows = [keys(row, ["x", "y", "angle"]) for row in entries(path["poses"])]
     poses = [[polynomial(row[key]) for key in ("x", "y", "angle")] for row in rows]
     turns = [motion.rigid for motion in motions if motion.rigid]
-    if error <= 0 or off < 0 or not poses or len(times) != len(poses) + 1:
-        return False
-    if len(turns) < len(motions) or any(s >= t for s, t in pairwise(times)):
+    if not (
+        errors[0] > 0
+        and errors[1] >= 0
+        and len(times) == len(poses) + 1 > 1
+        and all(s < t for s, t in pairwise(times))
+        and len(turns) == len(motions) > 2
+        and (ends[0], ends[-1]) == (times[0], times[-1])
+    ):
         return False
     for (s, t), (before, after) in zip(pairwise(times), pairwise(poses), strict=False):
         if [f.value(t - s) for f in before] != [f.value(Fraction(0)) for f in after]:
             return False
-    if len(ends) < 2 or (ends[0], ends[-1]) != (times[0], times[-1]):
-        return False
-    spans = [(ends[0], ends[0]), *pairwise(ends), (ends[-1], ends[-1])]
-    for turn, (a, b) in zip(turns, spans, strict=True):
-        k = min(bisect_right(times, a), len(poses)) - 1
-        pose = [f.along(a - times[k], b - times[k]) for f in poses[k]]
-        if b > times[k + 1] or not is_near(turn, a, b, pose, error, off):
+    for turn, span in zip(turns, pairwise([ends[0], *ends, ends[-1]]), strict=True):
+        k = min(bisect_right(times, span[0]), len(poses)) - 1
+        pose = [f.along(*(t - times[k] for t in span)) for f in poses[k]]
+        if span[1] > times[k + 1] or not is_near(turn, span, pose, *errors):
             return False
     return True
 
 
 def is_near(
     turn: tuple[Poly, Point, Json],
-    a: Fraction,
-    b: Fraction,
+    span: Bounds,
     pose: Sequence[Poly],
     error: Fraction,
     off: Fraction,
 ) -> bool:
-    """Return True if one piece, from a to b, is shown to be near a pose of the part s of it."""
-    (h, (c, s), (p, q, x, y)), (there_x, there_y, theta) = turn, pose
-    zero, one = Fraction(0), Fraction(1)
-    if p or q or (a == b and degree(h, x, y) > 0):
+    """Return True if one piece is shown to be near a pose of the part s of its span."""
+    (h, (c, s), (p, q, x, y)), all_of_it = turn, (Fraction(0), Fraction(1))
+    if p or q or (span[0] == span[1] and degree(h, x, y) > 0):
         return False
-    dx, dy = x.along(a, b) - there_x, y.along(a, b) - there_y
-    bits = bits_for(error, theta.value(zero))
-    if bits > MOST_ANGLE_BITS or dx.bound(zero, one) ** 2 + dy.bound(zero, one) ** 2 > off**2:
+    dx, dy, h = x.along(*span) - pose[0], y.along(*span) - pose[1], h.along(*span)
+    u, angle = h.value(Fraction(0)), pose[2].value(Fraction(0))
+    bits = bits_for(error, angle)
+    if bits > MOST_ANGLE_BITS or dx.bound(*all_of_it) ** 2 + dy.bound(*all_of_it) ** 2 > off**2:
         return False
-    h = h.along(a, b)
-    slope = h.derivative()
-    rate = slope + slope - theta.derivative() * (c_(one) + h * h)
-    change = Poly([zero, *(f / (i + 1) for i, f in enumerate(rate))])
-    most = max(change.bound(Fraction(i, SAMPLES), Fraction(i + 1, SAMPLES)) for i in range(SAMPLES))
-    u = h.value(zero)
+    slope, parts = h.derivative(), [Fraction(i, SAMPLES) for i in range(SAMPLES + 1)]
+    rate = slope + slope - pose[2].derivative() * (c_(Fraction(1)) + h * h)
+    change = Poly([0, *(f / (i + 1) for i, f in enumerate(rate))])
     cosine, sine = (1 - u * u) / (1 + u * u), 2 * u / (1 + u * u)
     low, high = angle_of((c * cosine - s * sine, c * sine + s * cosine), bits + 8)
-    full = [2 * bound for bound in pi_bounds(bits + 8)]
-    angle = theta.value(zero)
-    k = floor((low - angle) / full[0] + Fraction(1, 2))
-    left, right = sorted((k * full[0], k * full[1]))
-    at_start = max(abs(low - angle - right), abs(high - angle - left))
-    return at_start + most * (1 + 2 * h.bound(zero, one) * slope.bound(zero, one)) <= error
+    at_start = largest_gap([(low - angle, high - angle)], bits + 8)
+    factor = 1 + 2 * h.bound(*all_of_it) * slope.bound(*all_of_it)
+    return at_start + max(change.bound(*part) for part in pairwise(parts)) * factor <= error
 
 
 def angle_of(direction: Point, bits: int) -> Bounds:
