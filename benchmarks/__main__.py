@@ -8,7 +8,7 @@ import click
 
 from benchmarks.catalogue import BENCHMARKS, run
 from benchmarks.machine import machine
-from benchmarks.output import Output
+from benchmarks.output import Output, exceeds
 from exactpt.cli import main
 from exactpt.cli.options import output
 from exactpt.cli.terminal import is_terminal, say, tell
@@ -42,7 +42,19 @@ _NAMES = "\n".join(f"      {name:14} {shows}" for name, shows in BENCHMARKS.item
 @click.option(
     "--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Seed of the scenes."
 )
-def bench(names: tuple[str, ...], output: Path, quick: bool, seed: int) -> int:  # noqa: FBT001
+@click.option(
+    "--fail-above",
+    type=float,
+    metavar="EXPONENT",
+    help="Of exponents: exit code 1 if that of a family is larger.",
+)
+def bench(
+    names: tuple[str, ...],
+    output: Path,
+    quick: bool,  # noqa: FBT001
+    seed: int,
+    fail_above: float | None,
+) -> int:
     """Run benchmarks."""
 
     def progress(line: str) -> None:
@@ -56,10 +68,15 @@ def bench(names: tuple[str, ...], output: Path, quick: bool, seed: int) -> int: 
     about = [*machine(), f"seed {seed}, {'quick' if quick else 'full'} sizes"]
     say(*about)
     results.write("machine.txt", "\n".join(about) + "\n")
+    above: list[str] = []
     for name in names or BENCHMARKS:
-        run(name, results, quick=quick, seed=seed)
+        rows = run(name, results, quick=quick, seed=seed)
+        if name == "exponents" and fail_above is not None:
+            above = exceeds(rows or [], fail_above)
     say("", f"{len(results.written)} files are in {output}")
-    return 0
+    if above:
+        tell(f"exponents above {fail_above:g}: {', '.join(above)}")
+    return 1 if above else 0
 
 
 def _say_lines(text: str) -> None:

@@ -6,7 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
-    from benchmarks.output import Output
+    from benchmarks.output import Output, Row
 
 __all__ = ["BENCHMARKS", "run"]
 
@@ -16,6 +16,7 @@ BENCHMARKS: Final[dict[str, str]] = {
     "crowds": "the first contact of crowds built from arrays and from bodies",
     "auto": "the default method beside all others, on twenty families of everyday scenes",
     "cliffs": "convoys, long spans, turning bodies, lanes: beside the best method",
+    "exponents": "how run time grows, on thirty families of questions at three sizes",
     "within": "first_within beside first_contact, of the same crowds",
     "wrong-answers": "contacts missed, invented and late, close to degeneracy",
     "arithmetic": "wrong signs, orders and structures by kind of number",
@@ -34,8 +35,8 @@ BENCHMARKS: Final[dict[str, str]] = {
 """Name of each benchmark, and what it shows."""
 
 
-def run(name: str, output: Output, *, quick: bool, seed: int) -> None:
-    """Run one benchmark.
+def run(name: str, output: Output, *, quick: bool, seed: int) -> list[Row] | None:
+    """Run one benchmark; the rows of its table where it returns them.
 
     Args:
         name: one of `BENCHMARKS`.
@@ -45,4 +46,5 @@ def run(name: str, output: Output, *, quick: bool, seed: int) -> None:
     """
     module = import_module(f"benchmarks.{name.replace('-', '_')}")
     output.begin(name, BENCHMARKS[name])
-    module.run(output, module.QUICK if quick else module.FULL, seed)
+    rows: list[Row] | None = module.run(output, module.QUICK if quick else module.FULL, seed)
+    return rows

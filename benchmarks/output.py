@@ -12,7 +12,7 @@ from benchmarks.peers import is_installed
 from benchmarks.plots import Series, draw_lines, draw_shares
 from exactpt.files import write_atomically
 
-__all__ = ["Cell", "Output", "Row"]
+__all__ = ["Cell", "Output", "Row", "exceeds"]
 
 Cell: TypeAlias = "str | int | float | None"
 Row: TypeAlias = Mapping[str, Cell]
@@ -95,6 +95,12 @@ class Output:
         path = self._folder / name
         write_atomically(path, content)
         self.written.append(path)
+
+
+def exceeds(rows: Sequence[Row], limit: float) -> list[str]:
+    """Return the families of a table of exponents whose exponent is above a limit."""
+    found = ((str(row["family"]), row["exponent"]) for row in rows)
+    return [name for name, p in found if isinstance(p, float) and p > limit]
 
 
 def _aligned(columns: Sequence[str], rows: Sequence[Row]) -> list[str]:

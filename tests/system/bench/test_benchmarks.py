@@ -16,6 +16,7 @@ from benchmarks import (
     auto,
     cliffs,
     crowds,
+    exponents,
     first_contact,
     kernel,
     living,
@@ -463,3 +464,22 @@ def test_bug_scaling_of_a_tiling_without_a_known_bound():
     run = scaling.Measured(*[1] * len(scaling.Measured._fields))
 
     assert scaling._fit("convex crowd", "a new tiling", (10, 20), [run, run])["bound"] == ""
+
+
+def test_exponents_of_every_family(results):
+    rows = exponents.run(results.output, exponents.Sizes(0.05, 2), 0)
+    assert [row["family"] for row in rows] == list(exponents.FAMILIES)
+    assert len(rows) >= 30
+    assert all(row["seconds"] for row in rows)
+
+
+def test_exponents_above_a_limit_are_an_exit_code(monkeypatch, tmp_path, capsys):
+    rows = [{"family": "slow", "exponent": 2.5}, {"family": "fast", "exponent": 1.0}]
+    module = SimpleNamespace(run=lambda *_: rows, QUICK="quick", FULL="full")
+    monkeypatch.setattr("benchmarks.catalogue.import_module", lambda _: module)
+    for limit, code in (("1.3", 1), ("3", 0)):
+        command = ["bench", "exponents", "-o", str(tmp_path), "--fail-above", limit]
+        with pytest.raises(SystemExit) as end:
+            main(command)
+        assert end.value.code == code
+    assert capsys.readouterr().err == "exponents above 1.3: slow\n"
