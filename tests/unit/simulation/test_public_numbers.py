@@ -18,6 +18,7 @@ from exactpt import (
     Body,
     Pieces,
     Polynomial,
+    PosePath,
     Rigid,
     Scene,
     Simulation,
@@ -30,8 +31,13 @@ from exactpt.pseudotriangulation.snapshot import Snapshot
 
 PLAIN = {int, float, bool, str, bytes, type(None), Fraction, range}
 
+THREE = [(0, Rigid(0)), (1, Rigid(0)), (None, Rigid(0))]
+
 ARGUMENTS = {
-    "Spin.of_pieces": ([(0, Rigid(0)), (1, Rigid(0)), (None, Rigid(0))], 0, 1),
+    "PosePath.of_pieces": (THREE, [0, 1], [(0, 0, 0)], 1),
+    "Spin.of_pieces": (THREE, 0, 1),
+    "through": ([0, "1/3"], [(0, 0, 0), (1, 1, "1/9")]),
+    "pose": ("1/3",),
     "at": ("1/3",),
     "body": ("box",),
     "canonical_interval": (),
@@ -73,6 +79,7 @@ ELSEWHERE = {
     "add", "remove", "set_motion", "set_motions", "run", "run_to_contact", "step",  # below
     "from_shapely", "to_shapely", "from_sympy", "to_sympy",  # numbers of other libraries
     "from_arrays", "launched",  # class methods
+    "of_curve",  # of a spline of SciPy
     "history",  # below
     "draw",  # writes a file
     "locate_many",  # arrays of numpy
@@ -150,6 +157,7 @@ def test_bug_numbers_of_scenes_and_motions_are_pythons_own():
 
     assert no_leaks(scene=scene) > 100
     assert no_leaks(spin=Spin("1/9", (-20, 0), time=(0, 2), error="1/9")) > 3
+    assert no_leaks(path=PosePath([0, "1/3", 2], [(0, 1, ["1/9", 1]), (0, 1, "4/9")])) > 3
     assert type(scene.start) is type(scene.body("mill").motion.pivot[0]) is Fraction
     assert json.dumps(Polynomial([1, 2, "1/3"]).degree) == "2"
 
@@ -260,7 +268,7 @@ def test_every_public_name_is_walked_through():
         "Simulation", "Spin", "Translation", "BudgetExceeded", "first_contact", "first_within",
         "onward",
         "Clearance", "ContactInterval", "Distance", "EnclosedContact", "first_contact_enclosed",
-        "clearance", "contact_intervals", "contacts", "Surroundings",
+        "clearance", "contact_intervals", "contacts", "Surroundings", "PosePath",
         "distance", "Approach", "Velocity", "in_local_time", "spline",
     }  # fmt: skip
     without_numbers = {
