@@ -128,7 +128,7 @@ def _lines(lines: list[str], random: Random) -> list[str]:
         claim = random.choice(CLAIMS.split("|")).format(random.randrange(9), random.randrange(9))
         last = random.choice(("none", random.choice(AT_START).format(claim)))
         return [*(lines[:3] if random.random() < 0.7 else lines[:-1]), last]
-    elif kind == 4 and words[0] in ("event", "contact"):
+    elif kind == 4 and words[:1] in (["event"], ["contact"]):
         words = _another_name(words, random)
     elif kind == 5:
         start, end = lines[2].split()[1:3] if lines[2].count(" ") == 2 else ("0", "1")

@@ -1,6 +1,7 @@
 """Damaged proofs and scenes get one exit code, and one statement, from both checkers."""
 
 from itertools import islice
+from random import Random
 
 import pytest
 from click.testing import CliRunner
@@ -38,3 +39,9 @@ def test_another_statement_is_a_disagreement(program, monkeypatch, tmp_path):
 def test_damages_are_of_every_class():
     codes = [both.verdicts(*pair)[0][0] for pair in islice(both.damaged(3), 40)]
     assert {0, 1, 2} <= set(codes)
+
+
+def test_bug_a_line_that_a_damage_had_emptied_ended_the_campaign():
+    random = Random(0)
+    for _ in range(400):  # every damage of a line without words
+        assert both._lines(["exactpt-proof 1", "scene", "span 0 1", "", ""], random)
