@@ -178,7 +178,7 @@ def pull_tight(
     while i < len(ends):
         l, r = ends[i]
         if apex == right or side(apex, right, r) >= 0:
-            if apex in (right, left) or _opens(apex, left, r):
+            if apex in (right, left) or _opens(apex, left, r) or _stops_short(apex, left, r):
                 right, right_at = r, i
             else:  # the right end has crossed the left side of the funnel: a bend
                 path.append((left, nodes[left_at][0]))
@@ -186,7 +186,7 @@ def pull_tight(
                 i, right_at = left_at + 1, left_at
                 continue
         if apex == left or side(apex, left, l) <= 0:
-            if apex in (left, right) or _opens(apex, l, right):
+            if apex in (left, right) or _opens(apex, l, right) or _stops_short(apex, right, l):
                 left, left_at = l, i
             else:
                 path.append((right, nodes[right_at][1]))
@@ -205,6 +205,14 @@ def _opens(apex: Point, left: Point, right: Point) -> bool:
     """
     turn = side(apex, left, right)
     return turn < 0 or (turn == 0 and between(left, right, apex))
+
+
+def _stops_short(apex: Point, end: Point, near: Point) -> bool:
+    """Return True if a point is on a side of the funnel, before its end.
+
+    The funnel has no width there, but a path to that point does not bend at the end.
+    """
+    return near != end and side(apex, end, near) == 0 and between(apex, end, near)
 
 
 def bends(path: Sequence[tuple[Point, VertexId]]) -> list[VertexId]:

@@ -1,7 +1,8 @@
 """Shortest paths against the whole visibility graph, in 500-bit arithmetic."""
 
 import math
-from itertools import islice
+from fractions import Fraction
+from itertools import islice, permutations
 from random import Random
 
 import brute
@@ -12,10 +13,12 @@ from visibility_graph import VisibilityGraph, length_of
 from exactpt.collision.tilings import start_tiling
 from exactpt.errors import InputError, UnreachableError
 from exactpt.motion.body import Body
+from exactpt.pairs.start import initial_touches
 from exactpt.query.space import FreeSpace
 from exactpt.scene.generate import FAMILIES, RINGS
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
+from fuzz.transformations.run import scene_of
 
 
 def space_of(*bodies, tiling="auto"):
@@ -148,3 +151,59 @@ def test_what_a_shortest_path_refuses():
 def test_a_simulation_finds_it_too():
     simulation = Simulation(Scene([Body("a", [(0, 0), (4, 0), (0, 4)])], (0, 1)))
     assert simulation.shortest_path((-1, 1), (2, -1)).bends == (("a", 0),)
+
+
+def test_bug_a_walk_between_two_points_of_one_diagonal_went_to_its_end():
+    """Start and goal are on the diagonal that is crossed: the funnel has no width."""
+    parts = [[(3, 3), (5, 3), (3, 5)], [(5, 5), (4, 5), (5, 4)], [(-4, -5), (-3, -5), (-4, -4)]]
+    bodies = [
+        Body("parts", parts=[{"vertices": part} for part in parts]),
+        Body("a", [(3, -3), (5, -3), (5, -1), (4, -2)]),
+        Body("b", [(4, 0), (5, 1)]),
+    ]
+    for order in permutations(bodies):
+        for tiling in ("lazy", "greedy", "mixed"):
+            space = Simulation(Scene(order, time=(0, 2)), tiling=tiling).space()
+            for turn in (1, -1):
+                walk = [(3, 1), (0, 3), ("5/2", "1/2")][::turn]
+                assert space.shorten(walk).points == tuple(
+                    (Fraction(x), Fraction(y)) for x, y in walk[::2]
+                )
+
+
+def on_a_line(random, points):
+    """A point on the line through two vertices: often on a diagonal."""
+    a, b = random.choice(points), random.choice(points)
+    u = Fraction(random.randint(-3, 7), 4)
+    return tuple(p + u * (q - p) for p, q in zip(a, b, strict=True))
+
+
+@pytest.mark.slow
+def test_shortened_walks_are_as_long_in_every_tiling():
+    """2,000 tiny scenes, in two orders of the bodies; walks back and forth over diagonals."""
+    walks = 0
+    for seed in range(2000):
+        random = Random(f"walks {seed}")
+        scene = scene_of(random)
+        orders = scene, Scene(scene.bodies[::-1], (scene.start, scene.end))
+        if scene.is_rounded or initial_touches(scene)[1]:
+            continue
+        spaces = [
+            Simulation(one, tiling=tiling).space()
+            for one in orders
+            for tiling in ("lazy", "greedy", "mixed")
+        ]
+        points = [p for body in scene.bodies for p in body.at(scene.start)]
+        for _ in range(6):
+            walk = [on_a_line(random, points) for _ in range(random.randint(2, 4))]
+            found = [shortened(space, walk) for space in spaces]
+            walks += found[0] is not None
+            assert len(set(found)) == 1, (seed, walk, found)
+    assert walks > 400  # the others meet bodies
+
+
+def shortened(space, walk):
+    try:
+        return round(space.shorten(walk).length, 9)
+    except InputError:
+        return None
