@@ -26,7 +26,7 @@ from exactpt.pairs.two_pieces import ContactDistance
 from exactpt.pairs.within import Norm, asked_distance, of_cores, time_within
 from exactpt.scene.scene import Scene, a_scene, scene_of
 
-__all__ = ["Approach", "first_within", "time_within_of_two"]
+__all__ = ["Approach", "first_within", "root_above", "time_within_of_two"]
 
 BITS: Final = 64
 """Bits of an upper bound of a distance, at least."""
@@ -156,7 +156,7 @@ def _selected(scene: Scene, selection: Selection, d: QQ, norm: Norm) -> Nearest 
     """Return the first approach of the pairs that count."""
     if norm in ("x", "y"):  # a gap on one axis bounds no box
         return _by_pairs(scene, selection.of(combinations(range(len(scene.bodies)), 2)), d, norm)
-    reach = _root_above(d) if norm == "euclidean" else d
+    reach = root_above(d) if norm == "euclidean" else d
     return _by_pairs(scene, selection.of(pairs_that_come_near(scene, reach)), d, norm)
 
 
@@ -218,7 +218,7 @@ def time_within_of_two(
 
 
 def _euclidean(scene: Scene, squared: QQ) -> Nearest | None:
-    most = _root_above(squared)
+    most = root_above(squared)
     radii = [body._radius for body in scene.bodies]
 
     def limit(i: int, j: int) -> QQ:
@@ -244,7 +244,7 @@ def _euclidean(scene: Scene, squared: QQ) -> Nearest | None:
     return Nearest(found.number, tuple(sorted(pairs)))
 
 
-def _root_above(squared: QQ) -> QQ:
+def root_above(squared: QQ) -> QQ:
     """A number a little above the square root of another one; 0 for 0."""
     n, d = squared.numerator, squared.denominator
     shift = max(0, BITS - (n * d).bit_length() // 2)

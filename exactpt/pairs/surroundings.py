@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from functools import cached_property
 from typing import NamedTuple, final, overload
 
@@ -10,6 +9,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, Rational, shorten
+from exactpt.pairs.approach import root_above
 from exactpt.pairs.approach import time_within_of_two as time_within
 from exactpt.pairs.clearance import (
     Clearance,
@@ -120,7 +120,8 @@ class Surroundings:
     def minimum(self) -> NearestApproach:
         """The least distance from any other body in the time span."""
         scene, first = self._scene, self._scene.body(self.name)
-        bound = _above(float(self.nearest(scene._start)[1]))
+        _, at_start = self.nearest(scene._start)
+        bound = max(root_above(QQ(at_start.core_squared)) - QQ(at_start.radius), QQ(0))
         best: NearestApproach | None = None
         for other in self._near(bound):
             ask()
@@ -130,7 +131,7 @@ class Surroundings:
             least = self.to(other).minimum
             if best is None or least.squared < best.squared:
                 best = NearestApproach(other, *least)
-                bound = min(bound, _above(float(best)))
+                bound = min(bound, root_above(best.squared._high))
         assert best is not None  # noqa: S101 - the body that is nearest at the start is one
         return best
 
@@ -140,11 +141,6 @@ class Surroundings:
         pairs = pairs_that_come_near(self._scene, reach)
         names = [(bodies[i].name, bodies[j].name) for i, j in pairs]
         return [b if a == self.name else a for a, b in names if self.name in (a, b)]
-
-
-def _above(distance: float) -> QQ:
-    """Return a rational number above a distance whose nearest double is given."""
-    return QQ(math.nextafter(distance, math.inf))
 
 
 @overload

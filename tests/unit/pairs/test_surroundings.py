@@ -175,3 +175,10 @@ def test_bug_whether_a_squared_distance_of_rounded_bodies_was_refused_depended_o
         first_within(Scene(far, time=(0, 1)), distance_squared=2, norm="euclidean")
     with pytest.raises(InputError, match='norm "max" is for bodies without radius'):
         first_within(Scene(far, time=(0, 1)), distance=2, norm="max")
+
+
+def test_bug_a_distance_beyond_the_range_of_doubles_had_no_minimum():
+    far = 10**400
+    points = [Body(f"p{i}", [(i * far, 0)], Translation([0, i])) for i in range(1, 7)]
+    around = clearance(Scene([Body("a", [(0, 0)]), *points], time=(0, 1)), "a")
+    assert (around.minimum.body, around.minimum.squared) == ("p1", far**2)
