@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias, final
 from mypy_extensions import mypyc_attr
 
 from exactpt.certificates.queue import EventTime
+from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber, linear_root
 from exactpt.kernel.integer_polynomial import IntPoly, sign_at, square_free
 from exactpt.motion.incidence import difference, orientation
@@ -55,6 +56,9 @@ def exact_time(time: EventTime, vertices: tuple[Numbered, ...], frame: Frame) ->
             it, so the function is not zero for ever.
         vertices: three for their orientation, two for their x-order.
         frame: the normalisation of the enclosure.
+
+    Raises:
+        AuditError: if the enclosure holds no single root of the function.
     """
     number = _crossing(*vertices) if len(vertices) == 2 else None
     if number is None:
@@ -78,9 +82,16 @@ def _crossing(a: Numbered, b: Numbered) -> AlgebraicNumber | None:
 
 
 def _isolated(f: IntPoly, time: EventTime, frame: Frame) -> AlgebraicNumber:
-    """The root of a polynomial in the enclosure of a time."""
+    """The root of a polynomial in the enclosure of a time.
+
+    Raises:
+        AuditError: if it does not change its sign there. Refinement would not end.
+    """
     low, high = frame.exact_time(time.low), frame.exact_time(time.high)
     p = square_free(f)
-    if sign_at(p, low) == 0:
+    below = sign_at(p, low)
+    if below == 0:
         return AlgebraicNumber(low)
+    if sign_at(p, high) == below:
+        raise AuditError(f"no failure between t = {float(low)!r} and {float(high)!r}")
     return AlgebraicNumber._root(p, low, high)

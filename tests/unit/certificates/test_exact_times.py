@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from exactpt import Body, Rigid, Translation
 from exactpt.certificates.moment import exact_time
 from exactpt.certificates.queue import EventTime
+from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.frame import Frame, frame_for
 
@@ -56,3 +57,18 @@ def test_straight_vertices_need_no_trajectories():
     assert number.low == number.high == QQ(15, 8)
     assert not p._made
     assert not q._made
+
+
+@pytest.mark.parametrize("enclosure", [(0.5, 1.0), (-5.0, -4.0), (-2.0, 2.0)])
+def test_enclosures_without_a_single_root_are_refused(enclosure):
+    """The roots are -+sqrt(3/2); refinement of a forged time, as by ``float(now)``, had no end."""
+    x = Body("x", [(0, 0)], Translation([], [-3, 0, 2]))
+    others = Body("o", [(1, 0), (2, 0)], closed=False)
+    piece, other = x._piece_after(QQ(0)), others._piece_after(QQ(0))
+    vertices = ((piece, 0), (other, 0), (other, 1))
+
+    with pytest.raises(AuditError, match="no failure between"):
+        exact_time(EventTime(*enclosure, 0, 1, 2), vertices, FRAME)
+
+    number = exact_time(EventTime(1.0, 2.0, 0, 1, 2), vertices, FRAME)
+    assert number.polynomial == (-3, 0, 2)
