@@ -33,6 +33,7 @@ OUTSIDE: Final = {
     "Makefile": "sources/Makefile.txt",
     "pyproject.toml": "sources/pyproject.toml.txt",
     ".ci/locked.txt": "sources/locked.txt",
+    "CITATION.cff": "sources/CITATION.cff.txt",
 }
 """Other files of the root that these pages link to."""
 ALONE: Final = "modules"
@@ -57,6 +58,7 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
         add(f"examples/{path.name}.txt", path.read_text(encoding="utf-8"))
     add("reference/index.md", "# Public names\n\n" + "\n".join(_public()))
     add("reference/rooms.md", _rooms_page())
+    add("reference/commands.md", "\n".join(_commands()))
     for room in (ALONE, *_rooms()):
         add(f"reference/{room}.md", "\n".join(_modules(room)))
     for name, page in _animations():
@@ -71,7 +73,7 @@ def on_page_markdown(markdown: str, page: Page, **_: object) -> str:
     name = page.file.src_uri
     if name in PAGES.values() or name.startswith("reference/"):
         return markdown
-    text = _moved(markdown, below="../")
+    text = _moved(markdown, below="../" * (name.count("/") + 1))
     if name == "gallery.md":
         text = re.sub(r"(!\[[^\]]*\]\(gallery/(\w+)\.svg\))", _played, text)
     return text
@@ -95,11 +97,13 @@ def _moved(text: str, *, below: str) -> str:
     def led(match: re.Match[str]) -> str:
         before, target = match.groups()
         name = target.removeprefix(below) if target.startswith(below) else target
+        up = below.removeprefix("../")
         if target.startswith("docs/"):
             return before + target.removeprefix("docs/")
-        if name.startswith("examples/") and name.endswith(".py"):
-            return f"{before}{name}.txt"
-        return before + ({**PAGES, **OUTSIDE}.get(name, target))
+        if target.startswith(below) and name.startswith("examples/") and name.endswith(".py"):
+            return f"{before}{up}{name}.txt"
+        page = {**PAGES, **OUTSIDE}.get(name) if target.startswith(below) else None
+        return before + (target if page is None else up + page)
 
     return LINK.sub(led, text)
 
@@ -133,6 +137,18 @@ def _public() -> Iterator[str]:
         first = (thing.__doc__ or "").strip().partition("\n")[0]
         link = f"[`{name}`]({name}.md)" if module is None else f"[`{name}`][{module}.{name}]"
         yield f"- {link}: {first}"
+
+
+def _commands() -> Iterator[str]:
+    """The help text of every command, and where exit codes and limits are documented."""
+    import click
+
+    from exactpt.cli import cli
+
+    yield "# Command line\n\nThe help text of each command. [Exit codes](../format.md#exit-codes)."
+    for name, command in sorted(cli.commands.items()):
+        context = click.Context(command, info_name=f"exactpt {name}", terminal_width=90)
+        yield f"\n## `exactpt {name}`\n\n```text\n{command.get_help(context)}\n```"
 
 
 def _rooms() -> list[str]:

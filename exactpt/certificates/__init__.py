@@ -1,7 +1,7 @@
 """Certificates of moving vertices: signs just after now and times of failure. No mesh.
 
-Public names, for kinetic data structures of one's own (docs/tutorial.md): `CertificateQueue`, and
-the polynomials of moving points, `orientation`, `x_order` and `squared_distance`.
+Public names, for your own kinetic data structures (docs/howto/kinetic.md): `CertificateQueue`,
+and the polynomials of moving points, `orientation`, `x_order` and `squared_distance`.
 """
 
 from exactpt.certificates.kinetic import CertificateQueue

@@ -24,7 +24,7 @@ from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED, SPINNING, g
 
 ROOT = Path(__file__).parents[3]
 FORMAT = (ROOT / "docs" / "format.md").read_text(encoding="utf-8")
-WISHES = (ROOT / "docs" / "wishes.md").read_text(encoding="utf-8")
+FEATURES = (ROOT / "docs" / "features.md").read_text(encoding="utf-8")
 SPEED = (ROOT / "docs" / "speed.md").read_text(encoding="utf-8")
 
 
@@ -53,7 +53,7 @@ def test_the_kinds_of_events_on_the_format_page_are_those_that_happen():
 
 
 def test_the_number_of_families():
-    (stated,) = re.findall(r"generated scenes of (\d+) families", WISHES)
+    (stated,) = re.findall(r"generated scenes of (\d+) families", FEATURES)
 
     assert int(stated) == sum(map(len, [FAMILIES, POINTS, RINGS, ROUNDED, SPINNING]))
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import exactpt
+from exactpt.cli import cli
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("site")]
 
@@ -51,6 +52,12 @@ def test_every_room_has_a_page(site):
     rooms = {path.parent.name for path in (ROOT / "exactpt").glob("*/__init__.py")}
 
     assert {path.stem for path in (site / "reference").glob("*.html")} >= rooms
+
+
+def test_every_command_has_its_help_on_the_page_of_commands(site):
+    text = page(site, "reference/commands.html")
+
+    assert [name for name in cli.commands if f"exactpt {name} [OPTIONS]" not in text] == []
 
 
 def test_every_page_is_in_the_search_and_in_the_list_for_programs(site):

@@ -1,4 +1,4 @@
-"""The queue of certificates, and the kinetic structures that the tutorial builds on it."""
+"""The queue of certificates, and the kinetic structures that docs/howto/kinetic.md builds on it."""
 
 import doctest
 from functools import cmp_to_key
@@ -13,7 +13,7 @@ from exactpt import InputError
 from exactpt.certificates import CertificateQueue, orientation, squared_distance, x_order
 from exactpt.kernel import AlgebraicNumber, Polynomial
 
-TUTORIAL = Path(__file__).parents[3] / "docs" / "tutorial.md"
+PAGE = Path(__file__).parents[3] / "docs" / "howto" / "kinetic.md"
 t = Polynomial([0, 1])
 small = st.integers(-3, 3)
 polynomials = st.lists(small, min_size=1, max_size=3).map(Polynomial)
@@ -22,12 +22,12 @@ clouds = st.lists(st.tuples(polynomials, polynomials), min_size=3, max_size=6)
 
 @pytest.fixture(scope="module")
 def built():
-    """The classes of the tutorial."""
+    """The classes of the page."""
     names = (
         CertificateQueue, orientation, x_order, squared_distance, cmp_to_key, pairwise
     )  # fmt: skip
     scope = {value.__name__: value for value in names}
-    for example in doctest.DocTestParser().get_examples(TUTORIAL.read_text()):
+    for example in doctest.DocTestParser().get_examples(PAGE.read_text(encoding="utf-8")):
         if example.source.startswith(("class ClosestPair", "class ConvexHull")):
             exec(example.source, scope)
     return scope
