@@ -11,7 +11,6 @@ import numpy as np
 
 from benchmarks.methods.method import Answer, Method, UnsuitableScene
 from exactpt.arrays import first_contacts
-from exactpt.arrays.exact import earliest
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
@@ -49,7 +48,7 @@ def _prepare(scene: Scene) -> Callable[[], Answer]:
             return None
         first = np.flatnonzero(contacts.low <= contacts.high.min()).tolist()
         found = [contacts.contact(i) for i in first]
-        return earliest(None if contact is None else contact.time for contact in found)
+        return min((contact.time for contact in found if contact is not None), default=None)
 
     return ask
 

@@ -44,6 +44,7 @@ from exactpt.motion.outline import is_rigid
 from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
 from exactpt.pairs.contact import Contact
+from exactpt.pairs.rational import Earliest
 from exactpt.pairs.selection import Selection
 from exactpt.pairs.start import initial_touches
 from exactpt.pairs.sure import surely_meet, surely_passed
@@ -200,13 +201,12 @@ class _Search:
         bodies = list(zip(self._scene.bodies, self._errors, strict=True))
         parts = [[body for body, e in bodies if not e]]
         parts += [[body] for body, e in bodies if e and not body._radius and not is_rigid(body)]
-        first: list[Contact] = []
+        first: Earliest[Contact] = Earliest()
         for part in parts:
             contact = self._first(part)
-            if contact is None or (first and contact.time > first[0].time):
-                continue
-            first = [*first, contact] if first and contact.time == first[0].time else [contact]
-        return first
+            if contact is not None:
+                first.add(contact.time, [contact])
+        return first.found
 
     def _sure(self, low: AlgebraicNumber, known: AlgebraicNumber | None) -> QQ | None:
         """A time at which two bodies are sure to meet, before a known one."""

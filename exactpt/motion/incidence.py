@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -9,7 +10,15 @@ from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, subtract, 
 from exactpt.kernel.packed import unpack, width_for
 from exactpt.motion.track import Track
 
-__all__ = ["Touch", "coincide", "difference", "lies_on", "orientation"]
+__all__ = [
+    "Touch",
+    "coincide",
+    "difference",
+    "lies_on",
+    "orientation",
+    "renumbered",
+    "vertex_touch",
+]
 
 
 class Touch(NamedTuple):
@@ -27,6 +36,22 @@ class Touch(NamedTuple):
     other: int
     edge: int
     other_vertex: int
+
+
+def vertex_touch(body: int, vertex: int, other: int, other_vertex: int) -> Touch:
+    """The incidence of two vertices, that of the lower body first."""
+    if other < body:
+        return Touch(other, other_vertex, body, -1, vertex)
+    return Touch(body, vertex, other, -1, other_vertex)
+
+
+def renumbered(touches: Iterable[Touch], first: int, second: int) -> set[Touch]:
+    """Incidences of the bodies 0 and 1, of two vertices once, with other numbers of the bodies."""
+    two = first, second
+    return {
+        Touch(two[i], v, two[j], edge, -1) if edge >= 0 else vertex_touch(two[i], v, two[j], w)
+        for i, v, j, edge, w in touches
+    }
 
 
 def difference(p: IntPoly, pw: IntPoly, q: IntPoly, qw: IntPoly) -> IntPoly:

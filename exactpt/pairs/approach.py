@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import combinations, islice, pairwise, takewhile
-from typing import Final, Literal, final, overload
+from typing import Final, Literal, TypeAlias, final, overload
 
 import numpy as np
 
@@ -15,9 +15,10 @@ from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, enclosing_floats, isqrt
 from exactpt.motion.body import Body
-from exactpt.pairs.approach_search import ApproachSearch, Nearest
+from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.near import pairs_that_come_near
 from exactpt.pairs.pieces import MotionPiece, linear_pieces
+from exactpt.pairs.rational import Earliest
 from exactpt.pairs.search import first_among_pieces
 from exactpt.pairs.selection import Selection
 from exactpt.pairs.start import near_at_start, within_at_start
@@ -27,6 +28,9 @@ from exactpt.pairs.within import Norm, asked_distance, of_cores, time_within
 from exactpt.scene.scene import Scene, a_scene, scene_of
 
 __all__ = ["Approach", "first_within", "root_above", "time_within_of_two"]
+
+Near: TypeAlias = "tuple[AlgebraicNumber, Collection[tuple[int, int]]]"
+"""The time of an approach, and the indices i < j of the bodies that are within the distance."""
 
 BITS: Final = 64
 """Bits of an upper bound of a distance, at least."""
@@ -133,17 +137,17 @@ def first_within(
             raise InputError("between and ignoring select among all pairs: name no two bodies then")
         first, second = two_bodies(scene, a, b)
         return time_within(first, second, scene._start, scene._end, d, norm)
-    found: Nearest | None = None
+    found: Near | None = None
     of_cores(d, max((body._radius for body in scene.bodies), default=QQ(0)), norm)  # or refuses it
     if len(scene.bodies) > 1:
         found = _first(scene, d, norm) if selection.is_all else _selected(scene, selection, d, norm)
     if found is None:
         return None
-    names = [(scene.bodies[i].name, scene.bodies[j].name) for i, j in found.pairs]
-    return Approach(found.time, tuple(sorted(names)))
+    names = {(scene.bodies[i].name, scene.bodies[j].name) for i, j in found[1]}
+    return Approach(found[0], tuple(sorted(names)))
 
 
-def _first(scene: Scene, d: QQ, norm: Norm) -> Nearest | None:
+def _first(scene: Scene, d: QQ, norm: Norm) -> Near | None:
     """The first approach of any two bodies, of which there are two."""
     if norm == "euclidean":
         return _euclidean(scene, d)
@@ -152,7 +156,7 @@ def _first(scene: Scene, d: QQ, norm: Norm) -> Nearest | None:
     return _on_axis(scene, d, norm)
 
 
-def _selected(scene: Scene, selection: Selection, d: QQ, norm: Norm) -> Nearest | None:
+def _selected(scene: Scene, selection: Selection, d: QQ, norm: Norm) -> Near | None:
     """Return the first approach of the pairs that count."""
     if norm in ("x", "y"):  # a gap on one axis bounds no box
         return _by_pairs(scene, selection.of(combinations(range(len(scene.bodies)), 2)), d, norm)
@@ -160,7 +164,7 @@ def _selected(scene: Scene, selection: Selection, d: QQ, norm: Norm) -> Nearest 
     return _by_pairs(scene, selection.of(pairs_that_come_near(scene, reach)), d, norm)
 
 
-def _on_axis(scene: Scene, d: QQ, norm: Literal["x", "y"]) -> Nearest | None:
+def _on_axis(scene: Scene, d: QQ, norm: Literal["x", "y"]) -> Near | None:
     """The first approach along an axis.
 
     If all gaps between projections are more than d at the start, the order of the projections
@@ -178,12 +182,12 @@ def _on_axis(scene: Scene, d: QQ, norm: Literal["x", "y"]) -> Nearest | None:
         beside = takewhile(partial(_starts_by, high + d), islice(spans, k + 1, None))
         near += [(min(i, j), max(i, j)) for _, _, j in beside]
     if near:
-        return Nearest(AlgebraicNumber(scene._start), tuple(sorted(near)))
+        return AlgebraicNumber(scene._start), near
     order = [i for _, _, i in spans]
     found = _by_pairs(scene, pairwise(order), d, norm)
     if found is None or d:
         return found
-    met = sorted({i for pair in found.pairs for i in pair})
+    met = sorted({i for pair in found[1] for i in pair})
     return _by_pairs(scene, combinations(met, 2), d, norm)
 
 
@@ -193,18 +197,15 @@ def _starts_by(limit: QQ, span: tuple[QQ, QQ, int]) -> bool:
 
 def _by_pairs(
     scene: Scene, candidates: Iterable[tuple[int, int]], d: QQ, norm: Norm
-) -> Nearest | None:
+) -> Near | None:
     """The first approach of some pairs: each is searched up to the best time so far."""
-    best: AlgebraicNumber | None = None
-    pairs: list[tuple[int, int]] = []
+    best: Earliest[tuple[int, int]] = Earliest()
     for i, j in map(sorted, candidates):
-        until = scene._end if best is None else min(best._high, scene._end)
-        time = time_within_of_two(scene.bodies[i], scene.bodies[j], scene._start, until, d, norm)
-        order = -1 if best is None else 1 if time is None else time.compare(best)
-        if time is None or order > 0:
-            continue
-        best, pairs = (time, [(i, j)]) if order < 0 else (best, [*pairs, (i, j)])
-    return None if best is None else Nearest(best, tuple(pairs))
+        two, until = (scene.bodies[i], scene.bodies[j]), best.until(scene._end)
+        time = time_within_of_two(*two, scene._start, until, d, norm)
+        if time is not None:
+            best.add(time, [(i, j)])
+    return None if best.number is None else (best.number, best.found)
 
 
 def time_within_of_two(
@@ -214,10 +215,10 @@ def time_within_of_two(
     if norm != "euclidean" or start == end:
         return time_within(a, b, start, end, d, norm)
     found = _euclidean(scene_of((a, b), start, end), d)  # filtered by doubles
-    return None if found is None else found.time
+    return None if found is None else found[0]
 
 
-def _euclidean(scene: Scene, squared: QQ) -> Nearest | None:
+def _euclidean(scene: Scene, squared: QQ) -> Near | None:
     most = root_above(squared)
     radii = [body._radius for body in scene.bodies]
 
@@ -229,19 +230,19 @@ def _euclidean(scene: Scene, squared: QQ) -> Nearest | None:
         return ContactDistance.of(limit(a.body, b.body), root) if root else None
 
     reach = [most / 2 + r for r in radii]
+    near = near_at_start(scene, reach, np.not_equal)
+    at_start = [ij for ij, _ in within_at_start(scene, limit, near)]
+    if at_start:
+        return AlgebraicNumber(scene._start), at_start
     rows = linear_pieces(scene)
     if rows is None:
-        return ApproachSearch(scene, limit, reach).run()
-    near = near_at_start(scene, reach, np.not_equal)
-    at_start = tuple(ij for ij, _ in within_at_start(scene, limit, near))
-    if at_start:
-        return Nearest(AlgebraicNumber(scene._start), at_start)
-    margin = enclosing_floats(most / 2)[1]
-    found = first_among_pieces(rows, scene._start, scene._end, distance, margin)
+        found = ApproachSearch(scene, limit, reach).run()
+    else:
+        margin = enclosing_floats(most / 2)[1]
+        found = first_among_pieces(rows, scene._start, scene._end, distance, margin)
     if found is None:
         return None
-    pairs = {(min(t.body, t.other), max(t.body, t.other)) for t in found.touches}
-    return Nearest(found.number, tuple(sorted(pairs)))
+    return found.number, [(min(t.body, t.other), max(t.body, t.other)) for t in found.touches]
 
 
 def root_above(squared: QQ) -> QQ:

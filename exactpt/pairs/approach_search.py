@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Final, NamedTuple, TypeAlias, final
+from typing import Final, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,13 +20,15 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two
 from exactpt.kernel.rounding import U
+from exactpt.motion.incidence import Touch, vertex_touch
 from exactpt.motion.swept_edges import Near, SweptEdges
 from exactpt.motion.track import Track
-from exactpt.pairs.features import Feature, FeaturePair
-from exactpt.pairs.start import Apart, Limit, near_at_start, within_at_start
+from exactpt.pairs.features import FeaturePair
+from exactpt.pairs.rational import Earliest, Meeting
+from exactpt.pairs.start import Apart, Limit
 from exactpt.scene.scene import Scene
 
-__all__ = ["ApproachSearch", "Nearest"]
+__all__ = ["ApproachSearch"]
 
 Indices: TypeAlias = NDArray[np.int64]
 
@@ -38,18 +40,6 @@ LARGEST_UNIT: Final = 900
 """Largest binary exponent of a unit: boxes in smaller ones, below 2^110, stay doubles in it."""
 LASTING: Final = 2
 """Number of bisections, one after the other, that exclude too little to go on."""
-
-
-class Nearest(NamedTuple):
-    """The first time at which bodies are within their distance.
-
-    Attributes:
-        time: the exact time.
-        pairs: the indices of the bodies, i < j.
-    """
-
-    time: AlgebraicNumber
-    pairs: tuple[tuple[int, int], ...]
 
 
 @final
@@ -79,15 +69,7 @@ class ApproachSearch:
         with np.errstate(all="ignore"):
             self._grown = np.array(near)[self._swept.body] * (1.0 + 4.0 * U)
 
-    def run(self) -> Nearest | None:
-        """The first approach in the closed time span; None if there is none."""
-        near = near_at_start(self._scene, self._reach, self._apart)
-        pairs = tuple(ij for ij, _ in within_at_start(self._scene, self._squared, near))
-        if pairs:
-            return Nearest(AlgebraicNumber(self._scene._start), pairs)
-        return self.run_after_start()
-
-    def run_after_start(self) -> Nearest | None:
+    def run(self) -> Meeting | None:
         """The first approach, if no two bodies are within their distance at the start."""
         for now, later, near in self._swept.slabs(self._near):
             found = self._search(now, later, self._left(now, later, near), DEPTH)
@@ -124,7 +106,7 @@ class ApproachSearch:
 
     def _search(
         self, now: QQ, later: QQ, near: Near, depth: int, lasting: int = 0
-    ) -> Nearest | None:
+    ) -> Meeting | None:
         """The first approach in (now, later] of vertices to edges, given by their numbers.
 
         Pairs that hover at about their distance are near in both halves of every interval: exact
@@ -177,47 +159,38 @@ class ApproachSearch:
         may: NDArray[np.bool_] = ~(bound > 64.0 * U * size)  # NaN: it may
         return may
 
-    def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> Nearest | None:
+    def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> Meeting | None:
         """The first approach, exactly."""
         begin = AlgebraicNumber(now)
-        found: list[tuple[AlgebraicNumber, tuple[int, int]]] = []
-        best: AlgebraicNumber | None = None
-        for (i, j), pair in self._feature_pairs(v, e):
+        best: Earliest[Touch] = Earliest()
+        for pair in self._feature_pairs(v, e):
             ask()
-            limit = later if best is None else min(later, best._high)
-            time = pair.first_time(self._squared(i, j), begin, limit)
+            squared = self._squared(pair.touch.body, pair.touch.other)
+            time = pair.first_time(squared, begin, best.until(later))
             if time is not None:
-                found.append((time, (i, j)))
-                best = time if best is None else min(best, time)
-        if best is None:
-            return None
-        return Nearest(best, tuple(sorted({ij for t, ij in found if t.compare(best) == 0})))
+                best.add(time, [pair.touch] if pair.is_inside(time) else [])
+        return None if best.time is None else Meeting(best.time, best.found)
 
-    def _feature_pairs(
-        self, v: Indices, e: Indices
-    ) -> Iterator[tuple[tuple[int, int], FeaturePair]]:
+    def _feature_pairs(self, v: Indices, e: Indices) -> Iterator[FeaturePair]:
         """The pairs of features to which a vertex and an edge belong, each once."""
-        seen: set[tuple[int, ...]] = set()
+        seen: set[Touch] = set()
         for one, edge in zip(v.tolist(), e.tolist(), strict=True):
             a, b = self._swept.ends[edge].tolist()
-            bodies = int(self._swept.body[one]), int(self._swept.body[a])
-            for ends in ((a,), (b,), (a, b)) if a != b else ((a,),):
-                key = (one, *ends) if len(ends) > 1 else tuple(sorted((one, *ends)))
-                if key in seen:
-                    continue
-                seen.add(key)
-                other = self._vertex(ends[0])[1] if len(ends) == 1 else None
-                feature = Feature(other, None if len(ends) == 1 else self._swept.edge_index[edge])
-                track, index = self._vertex(one)
-                features = (Feature(index, None), feature)
-                tracks = tuple(self._vertex(k)[0] for k in ends)
-                in_order = bodies[0] < bodies[1]
-                yield (
-                    bodies if in_order else bodies[::-1],
-                    FeaturePair(features if in_order else features[::-1], track, tracks),
-                )
+            track, body, vertex = self._vertex(one)
+            ends = [self._vertex(k) for k in ((a, b) if a != b else (a,))]
+            other, number = ends[0][1], self._swept.edge_index[edge]
+            pairs = [
+                (vertex_touch(body, vertex, other, end[2]), ends[k : k + 1])
+                for k, end in enumerate(ends)
+            ]
+            if a != b:
+                pairs.append((Touch(body, vertex, other, number, -1), ends))
+            for touch, of in pairs:
+                if touch not in seen:
+                    seen.add(touch)
+                    yield FeaturePair(touch, track, tuple(end[0] for end in of))
 
-    def _vertex(self, k: int) -> tuple[Track, int]:
-        """The trajectory of a vertex and its number in its body."""
+    def _vertex(self, k: int) -> tuple[Track, int, int]:
+        """The trajectory of a vertex, its body and its number in that."""
         vertex = self._swept.vertices.all[self._swept.ids[k]]
-        return vertex.track, vertex.index
+        return vertex.track, int(self._swept.body[k]), vertex.index

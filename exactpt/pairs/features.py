@@ -11,7 +11,7 @@ w > 0, and the determinant d = |a b v| of the rows (x, y, w):
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import NamedTuple, final
 
@@ -20,7 +20,7 @@ from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale, sub
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import difference, orientation
+from exactpt.motion.incidence import Touch, difference, orientation, vertex_touch
 from exactpt.motion.track import Track
 
 __all__ = ["Feature", "FeaturePair", "excess", "feature_pair", "feature_pairs"]
@@ -43,7 +43,7 @@ class FeaturePair:
     """A vertex of a body, and a vertex or an edge of another one.
 
     Args:
-        features: of the first body and of the second one.
+        touch: the vertex, and the other vertex or the edge.
         v: the trajectory of the vertex.
         ends: those of the ends of the edge; of the other vertex alone.
 
@@ -51,13 +51,19 @@ class FeaturePair:
         is_of_edge: whether the other feature is an edge.
     """
 
-    def __init__(
-        self, features: tuple[Feature, Feature], v: Track, ends: tuple[Track, ...]
-    ) -> None:
-        self.features = features
+    def __init__(self, touch: Touch, v: Track, ends: tuple[Track, ...]) -> None:
+        self.touch = touch
         self.v = v
         self.ends = ends
         self.is_of_edge = len(ends) == 2
+
+    @property
+    def features(self) -> tuple[Feature, Feature]:
+        """The features of the lower body and of the other one."""
+        body, vertex, other, edge, other_vertex = self.touch
+        one = Feature(vertex, None)
+        two = Feature(other_vertex, None) if edge < 0 else Feature(None, edge)
+        return (one, two) if body < other else (two, one)
 
     @cached_property
     def squared(self) -> tuple[IntPoly, IntPoly]:
@@ -73,7 +79,13 @@ class FeaturePair:
         return _dot(a, b, self.v), _dot(b, a, self.v)
 
     def at_distance(self, squared: QQ) -> IntPoly:
-        """A polynomial that is positive where the squared distance is larger, 0 where equal."""
+        """A polynomial that is positive where the squared distance is larger, 0 where equal.
+
+        Of a vertex and an edge at distance 0, it has the sign of the side of the vertex instead.
+        """
+        if self.is_of_edge and not squared:
+            a, b = self.ends
+            return orientation(a, b, self.v)
         return _excess(self.squared, squared)
 
     def holds(self, t: AlgebraicNumber) -> bool:
@@ -86,13 +98,31 @@ class FeaturePair:
         """Return the first time in (begin, until] at which the squared distance has a value.
 
         The foot of the perpendicular is on the edge at that time. None if there is no such time,
-        or the distance of the line has this value for all t.
+        or the distance of the line has this value for all t; if that is 0, the vertex enters the
+        edge at one of its ends.
         """
         f = self.at_distance(squared)
+        if self.is_of_edge and not f and not squared:
+            ends = [FeaturePair(self.touch, self.v, (end,)) for end in self.ends]
+            times = [pair.first_time(squared, begin, until) for pair in ends]
+            return min((time for time in times if time is not None), default=None)
         for root in roots_after(f, begin, until) if f else ():
             if self.holds(root.time):
                 return root.time
         return None
+
+    def touch_at(self, t: AlgebraicNumber, ends: Sequence[int]) -> Touch:
+        """The incidence while the foot is on the edge: with one of its ends, if the foot is there.
+
+        Args:
+            t: the time.
+            ends: the numbers of the ends.
+        """
+        body, vertex, other, *_ = self.touch
+        for end, f in zip(ends, self.limits, strict=False):
+            if t.sign_of(f) == 0:
+                return vertex_touch(body, vertex, other, end)
+        return self.touch
 
     def is_inside(self, t: AlgebraicNumber) -> bool:
         """Whether the foot of the perpendicular is no end of the edge; true of two vertices."""
@@ -145,22 +175,14 @@ def feature_pair(
     """The pair of this number: pairs of vertices, then edges of the first body, of the second."""
     i, j = divmod(number, len(q))
     if i < len(p):
-        return FeaturePair((_vertex(i), _vertex(j)), q[j], (p[i],))
+        return FeaturePair(Touch(0, i, 1, -1, j), p[i], (q[j],))
     e = i - len(p)
     if e < len(a.edges):
         k, l = a.edges[e]
-        return FeaturePair((_edge(e), _vertex(j)), q[j], (p[k], p[l]))
+        return FeaturePair(Touch(1, j, 0, e, -1), q[j], (p[k], p[l]))
     i, e = divmod(number - (len(p) + len(a.edges)) * len(q), len(b.edges))
     k, l = b.edges[e]
-    return FeaturePair((_vertex(i), _edge(e)), p[i], (q[k], q[l]))
-
-
-def _vertex(number: int) -> Feature:
-    return Feature(number, None)
-
-
-def _edge(number: int) -> Feature:
-    return Feature(None, number)
+    return FeaturePair(Touch(0, i, 1, e, -1), p[i], (q[k], q[l]))
 
 
 def _norm(a: Track, b: Track) -> IntPoly:

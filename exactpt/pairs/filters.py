@@ -27,6 +27,7 @@ import math
 from typing import Final, NamedTuple
 
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
+from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Outline, Straight
 from exactpt.pairs.rational import Candidate, Span
 from exactpt.pairs.vertex_filter import Path, vertex_candidates
@@ -68,9 +69,9 @@ def candidates_of(
     back = Path(-path.cx, -path.cy, -path.wx, -path.wy, path.c_error, path.w_error)
     candidates: list[Candidate] = []
     limits = _Limits(low, high, span.after)
-    high = _collect(a, b, path, limits, candidates, distance, of_first=True)
+    high = _collect(a, b, path, limits, candidates, distance, 0)
     limits = _Limits(low, high, span.after)
-    high = _collect(b, a, back, limits, candidates, distance, of_first=False)
+    high = _collect(b, a, back, limits, candidates, distance, 1)
     candidates = [candidate for candidate in candidates if candidate.low <= high]
     if distance:
         candidates += vertex_candidates(a, b, path, low, high, distance)
@@ -136,8 +137,7 @@ def _collect(
     limits: _Limits,
     candidates: list[Candidate],
     distance: float,
-    *,
-    of_first: bool,
+    one: int,
 ) -> float:
     """Add the pairs of a vertex of a and an edge of b that may touch between the limits.
 
@@ -194,7 +194,8 @@ def _collect(
             gap = abs(c1) - e1
             if not gap > SMALL:
                 if not abs(c0) - h > (e0 + (abs(c1) + e1) * times) * SLACK + TINY:
-                    candidates.append(Candidate(low, math.inf, of_first, vertex, number))
+                    touch = Touch(one, vertex, 1 - one, number, -1)
+                    candidates.append(Candidate(low, math.inf, touch))
                 continue
             time = -(c0 + h if c1 > 0.0 else c0 - h) / c1
             size = abs(time)
@@ -215,7 +216,7 @@ def _collect(
                 first, last = low, math.inf
             elif bound < along < length - bound and first > after:
                 high = min(high, last)
-            candidates.append(Candidate(first, last, of_first, vertex, number))
+            candidates.append(Candidate(first, last, Touch(one, vertex, 1 - one, number, -1)))
     return high
 
 

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 
 from exactpt.geometry.boxes import Indices
 from exactpt.kernel.numbers import QQ
+from exactpt.motion.incidence import Touch
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.contact import Contact, contact_of, touches_of
-from exactpt.pairs.start import touches_at_distance
+from exactpt.pairs.rational import Earliest
 from exactpt.scene.scene import Scene
 
 __all__ = ["first_with_radii"]
@@ -40,13 +41,11 @@ def first_with_radii(scene: Scene, group: Indices, plain: Contact | None) -> Con
         return watched
 
     end = scene._end if plain is None else min(scene._end, plain.time._high)
-    found = ApproachSearch(scene.until(end), squared, radii, apart).run_after_start()
-    order = 0 if plain is None or found is None else found.time.compare(plain.time)
-    touches = []
-    if plain is not None and (found is None or order >= 0):
+    found = ApproachSearch(scene.until(end), squared, radii, apart).run()
+    best: Earliest[Touch] = Earliest()
+    if found is not None:
+        best.add(*found)
+    if plain is not None:
         numbers = {body.name: i for i, body in enumerate(scene.bodies)}
-        touches += touches_of(plain, numbers)
-    if found is None or order > 0:
-        return None if plain is None else contact_of(scene, plain.time, touches)
-    touches += touches_at_distance(scene, found.pairs, found.time)
-    return contact_of(scene, found.time, touches)
+        best.add(plain.time, touches_of(plain, numbers))
+    return None if best.number is None else contact_of(scene, best.number, best.found)

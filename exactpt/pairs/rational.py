@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from typing import NamedTuple, TypeVar
+from typing import Generic, NamedTuple, TypeVar
 
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
@@ -14,6 +14,7 @@ from exactpt.motion.outline import Straight
 
 __all__ = [
     "Candidate",
+    "Earliest",
     "Meeting",
     "Span",
     "algebraic",
@@ -22,7 +23,6 @@ __all__ = [
     "earliest",
     "first_incidence",
     "span_of",
-    "touch_of",
 ]
 
 
@@ -67,57 +67,74 @@ class Candidate(NamedTuple):
 
     Attributes:
         low, high: bounds of the time; perhaps infinite.
-        of_first: whether the vertex is one of the first body.
-        vertex: the vertex.
-        edge: the edge of the other body, or -1.
-        end: the vertex of the other body instead of an edge, or -1.
+        touch: the incidence, of the bodies 0 and 1.
     """
 
     low: float
     high: float
-    of_first: bool
-    vertex: int
-    edge: int
-    end: int = -1
+    touch: Touch
 
 
-def touch_of(candidate: Candidate, edge: int, end: int) -> Touch:
-    """The incidence of the vertex of a candidate with an edge or a vertex."""
-    one, other = (0, 1) if candidate.of_first else (1, 0)
-    return Touch(one, candidate.vertex, other, edge, end)
+T = TypeVar("T")
 
 
-Time = TypeVar("Time", QQ, AlgebraicNumber)
+class Earliest(Generic[T]):
+    """The earliest of some times so far, and all that begins at that time.
+
+    Attributes:
+        time: the earliest time; None before there is one.
+        high: a double at least that time.
+        found: what begins then.
+    """
+
+    def __init__(self) -> None:
+        self.time: QQ | AlgebraicNumber | None = None
+        self.high: float = math.inf
+        self.found: list[T] = []
+
+    def add(self, time: QQ | AlgebraicNumber, begins: Iterable[T]) -> None:
+        """Add a time, and what begins at it."""
+        order = -1 if self.time is None else compare(time, self.time)
+        if order < 0:
+            self.time, self.found, self.high = time, [], double_above(time)
+        if order <= 0:
+            self.found.extend(begins)
+
+    def until(self, end: QQ) -> QQ:
+        """A time, at most the given one, after which none can be the earliest."""
+        if isinstance(self.time, AlgebraicNumber):
+            return min(end, self.time._high)
+        return end if self.time is None else min(end, self.time)
+
+    @property
+    def number(self) -> AlgebraicNumber | None:
+        """The earliest time."""
+        return None if self.time is None else algebraic(self.time)
 
 
 def earliest(
     candidates: Iterable[Candidate],
-    first: Callable[[Candidate, Time | None], tuple[Time, Touch | None] | None],
+    first: Callable[[Touch, QQ], tuple[QQ | AlgebraicNumber, Touch] | None],
+    end: QQ,
 ) -> Meeting | None:
     """Return the earliest time at which a candidate begins, with all incidences at that time.
 
     Args:
         candidates: in the order of ``low``; those after a double above the best time are not
             decided.
-        first: returns the exact time of a candidate, and the incidence if it is to be reported.
-            It may return None for any time later than the best one so far, its argument.
+        first: returns the exact time of a candidate, and the incidence then. It may return None
+            for any time later than its second argument.
+        end: the last time.
     """
-    best: Time | None = None
-    found: list[Touch] = []
-    high = math.inf
+    best: Earliest[Touch] = Earliest()
     for candidate in candidates:
-        if candidate.low > high:
+        if candidate.low > best.high:
             break
         ask()
-        begins = first(candidate, best)
-        if begins is None:
-            continue
-        time, incidence = begins
-        if best is None or time < best:
-            best, found, high = time, [], double_above(time)
-        if time == best and incidence is not None:
-            found.append(incidence)
-    return None if best is None else Meeting(best, found)
+        begins = first(candidate.touch, best.until(end))
+        if begins is not None:
+            best.add(begins[0], begins[1:])
+    return None if best.time is None else Meeting(best.time, best.found)
 
 
 def algebraic(time: QQ | AlgebraicNumber) -> AlgebraicNumber:
@@ -148,15 +165,15 @@ def first_incidence(
     path = ax - bx, ay - by, avx - bvx, avy - bvy
     back = -path[0], -path[1], -path[2], -path[3]
 
-    def first(candidate: Candidate, _: QQ | None) -> tuple[QQ, Touch] | None:
-        of_first, vertex, edge = candidate[2:5]
-        met = _meeting(a, b, path, vertex, edge) if of_first else _meeting(b, a, back, vertex, edge)
-        if met is None or not span.start < met[0] <= span.end:
+    def first(touch: Touch, until: QQ) -> tuple[QQ, Touch] | None:
+        one, vertex, _, edge, _ = touch
+        met = _meeting(b, a, back, vertex, edge) if one else _meeting(a, b, path, vertex, edge)
+        if met is None or not span.start < met[0] <= until:
             return None
         time, end = met
-        return time, touch_of(candidate, edge if end < 0 else -1, end)
+        return time, touch if end < 0 else touch._replace(edge=-1, other_vertex=end)
 
-    return earliest(candidates, first)
+    return earliest(candidates, first, span.end)
 
 
 def _meeting(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from fractions import Fraction
 from itertools import combinations
 from typing import TYPE_CHECKING, Final, final
@@ -18,10 +18,10 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask, searching
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, fraction
-from exactpt.motion.incidence import Touch
+from exactpt.motion.incidence import Touch, renumbered
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.pieces import Distance, FewPieces, MotionPiece, contact_distance, linear_pieces
-from exactpt.pairs.rational import Meeting, Span, compare, double_above, span_of
+from exactpt.pairs.rational import Earliest, Meeting, Span, span_of
 from exactpt.pairs.selection import groups_of
 from exactpt.pairs.start import initial_touches
 from exactpt.pairs.two_pieces import first_meeting
@@ -190,7 +190,6 @@ class _Search:
 
     Attributes:
         best: the contact.
-        high: a double at least its time.
         low: no two pieces touch before it.
         counters: of the pairs compared, those decided by the filter, and those decided exactly.
     """
@@ -199,16 +198,15 @@ class _Search:
         self._distance = distance
         self._deadline = deadline
         self._spans: dict[tuple[QQ, QQ], Span] = {}
-        self.best: Meeting | None = None
-        self.high: float = math.inf
+        self.best: Earliest[Touch] = Earliest()
         self._enter = -math.inf
         self.counters = Counters()
 
     @property
     def low(self) -> float:
         """A double such that no two pieces touch before it."""
-        best = math.inf if self.best is None else self.best.number.enclosure()[0]
-        return min(self._enter, best)
+        best = self.best.number
+        return min(self._enter, math.inf if best is None else best.enclosure()[0])
 
     def run(self, pairs: Iterable[tuple[float, MotionPiece, MotionPiece]]) -> Meeting | None:
         """Compare pairs of pieces in the order of the times before which they do not touch."""
@@ -216,11 +214,12 @@ class _Search:
             ask()
             if self._deadline is not None and clock.monotonic() > self._deadline:
                 raise BudgetExceeded("the time is used up", None)
-            if enter > self.high:
+            if enter > self.best.high:
                 break
             self._enter = enter
             self.compare(a, b)
-        return self.best
+        best = self.best.time
+        return None if best is None else Meeting(best, self.best.found)
 
     def compare(self, a: MotionPiece, b: MotionPiece) -> None:
         """Compare two pieces."""
@@ -231,26 +230,7 @@ class _Search:
         span = self._spans.get((start, end))
         if span is None:
             span = self._spans[start, end] = span_of(start, end)
-        met = first_meeting(
-            a.straight, b.straight, span, self.high, self._distance(a, b), self.counters
-        )
-        if met is None:
-            return
-        touches = list(_touches(met, a.body, b.body))
-        order = -1 if self.best is None else compare(met.time, self.best.time)
-        if self.best is None or order < 0:
-            self.best, self.high = Meeting(met.time, touches), double_above(met.time)
-        elif order == 0:
-            self.best.touches.extend(touches)
-
-
-def _touches(met: Meeting, first: int, second: int) -> Iterator[Touch]:
-    """The incidences of two bodies; one of two vertices once, the lower body first."""
-    found: set[Touch] = set()
-    for one, vertex, _, edge, end in met.touches:
-        body, other = (second, first) if one else (first, second)
-        if end >= 0 and other < body:
-            found.add(Touch(other, end, body, -1, vertex))
-        else:
-            found.add(Touch(body, vertex, other, edge, end))
-    return iter(found)
+        distance = self._distance(a, b)
+        met = first_meeting(a.straight, b.straight, span, self.best.high, distance, self.counters)
+        if met is not None:
+            self.best.add(met.time, renumbered(met.touches, a.body, b.body))

@@ -11,21 +11,18 @@ import time as clock
 from collections.abc import Collection, Iterable, Sequence
 from typing import TypeAlias, final
 
-from exactpt.certificates.certifier import Certifier
-from exactpt.certificates.incidences import touches
-from exactpt.certificates.queue import EventTime
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import GRACE, ask, within
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import Touch
+from exactpt.motion.incidence import Touch, renumbered
 from exactpt.motion.outline import is_rigid
-from exactpt.motion.vertices import Vertices
 from exactpt.pairs.contact import Contact, contact_of, touches_of
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.near import pairs_that_come_near
 from exactpt.pairs.pieces import MotionPiece, linear_pieces
+from exactpt.pairs.rational import Earliest
 from exactpt.pairs.renewed import new_contact_time
 from exactpt.pairs.search import first_among_pieces
 from exactpt.pairs.selection import Selection
@@ -114,25 +111,19 @@ class SelectedSearch:
             return contact_of(scene, start, touches, overlaps)
         self._read_rows()
         touching = set(overlaps)
-        best: AlgebraicNumber | None = None
-        found: list[tuple[tuple[int, ...], Iterable[Touch]]] = []
+        best: Earliest[tuple[tuple[int, ...], Iterable[Touch]]] = Earliest()
         alone = [(i,) for i in self._self_touching()]
         for pair in (*sorted(touching), *(p for p in pairs if p not in touching), *alone):
             ask()
             self.pairs += 1
-            until = scene._end if best is None else min(best._high, scene._end)
+            until = best.until(scene._end)
             meeting = self._renewed(*pair) if pair in touching else self._first(pair, until)
-            if meeting is None:
-                continue
-            order = -1 if best is None else meeting[0].compare(best)
-            if order < 0:
-                best, found = meeting[0], []
-            if order <= 0:
-                found.append((pair, meeting[1]))
-        if best is None:
+            if meeting is not None:
+                best.add(meeting[0], [(pair, meeting[1])])
+        if best.number is None:
             return None
-        at_start = [(pair[0], pair[-1]) for pair, _ in found] if best == start else []
-        return contact_of(scene, best, [t for _, some in found for t in some], at_start)
+        at_start = [(pair[0], pair[-1]) for pair, _ in best.found] if best.number == start else []
+        return contact_of(scene, best.number, [t for _, some in best.found for t in some], at_start)
 
     def _candidates(self) -> list[tuple[int, int]]:
         """The pairs i < j of bodies that may come into a contact that counts."""
@@ -168,8 +159,11 @@ class SelectedSearch:
         if time is None:
             return None
         part = scene_of((a, b), scene._start, scene._end)
-        touches = _touches_at(part, time, exact_only=self._exact_only)
-        return time, [t._replace(body=(i, j)[t.body], other=(i, j)[t.other]) for t in touches]
+        at_start = time.compare_rational(part._start) == 0
+        touches = (
+            initial_touches(part)[0] if at_start else touches_at_distance(part, [(0, 1)], time)
+        )
+        return time, renumbered(touches, i, j)
 
     def _first(self, pair: tuple[int, ...], until: QQ) -> Meeting | None:
         """The first contact of bodies that are disjoint at the start; of one, with itself."""
@@ -197,17 +191,3 @@ def _move_together(a: Body, b: Body, start: QQ, end: QQ) -> bool:
     tracks = (*a._piece_after(start).tracks, *b._piece_after(start).tracks)
     motion = tracks[0].motion
     return motion is not None and all(track.motion == motion for track in tracks)
-
-
-def _touches_at(part: Scene, time: AlgebraicNumber, *, exact_only: bool) -> list[Touch]:
-    """Return the incidences of two bodies with each other at a time of their scene."""
-    if time.compare_rational(part._start) == 0:
-        return initial_touches(part)[0]
-    if part.is_rounded:
-        return list(touches_at_distance(part, [(0, 1)], time))
-    ends = {t for body in part.bodies for t in body._breakpoints if time.compare_rational(t) > 0}
-    since = max({part._start, *ends})
-    vertices = Vertices.of(part.bodies, since, part._end, plain=True)
-    certifier = Certifier(vertices, since, part._end, exact_only=exact_only)
-    certifier.move_to(EventTime(*vertices.frame.enclosure(time), -1, -1, -1, time), [])
-    return [t for t in touches(certifier, vertices, vertices.ids()) if t.body != t.other]

@@ -15,7 +15,7 @@ from exactpt.geometry.predicates import Point, between, side
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.incidence import Touch
+from exactpt.motion.incidence import Touch, renumbered
 from exactpt.motion.inside import one_is_inside
 from exactpt.pairs.distance import squared_distance
 from exactpt.pairs.features import feature_pairs
@@ -162,13 +162,7 @@ def touches_at_distance(
         p, q = (tracks_just_before(body, time, scene._start) for body in two)
         for pair in feature_pairs(*two, p, q):
             if time.sign_of(pair.at_distance(squared)) == 0 and pair.is_inside(time):
-                first, second = pair.features
-                if first.vertex is None:
-                    yield Touch(j, second.vertex or 0, i, first.edge or 0, -1)
-                elif second.vertex is None:
-                    yield Touch(i, first.vertex, j, second.edge or 0, -1)
-                else:
-                    yield Touch(i, first.vertex, j, -1, second.vertex)
+                yield from renumbered([pair.touch], i, j)
 
 
 def _chunks(

@@ -44,9 +44,10 @@ from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
+from exactpt.motion.incidence import Touch
 from exactpt.motion.inside import covers
 from exactpt.pairs.distance import squared_distance
-from exactpt.pairs.features import Feature, FeaturePair, excess
+from exactpt.pairs.features import FeaturePair, excess
 from exactpt.pairs.stretches import segments_of, stretches
 
 __all__ = ["surely_meet", "surely_passed"]
@@ -101,7 +102,7 @@ def surely_passed(point: Body, other: Body, edge: int, begin: QQ, end: QQ, error
     for stretch in stretches(point, other, begin, end):
         track, over = stretch.first[0], (stretch.second[ends[0]], stretch.second[ends[1]])
         positive = [excess(track, (end_of_edge,), margin * margin) for end_of_edge in over]
-        positive += FeaturePair((Feature(0, None), Feature(None, edge)), track, over).limits
+        positive += FeaturePair(Touch(0, 0, 1, edge, -1), track, over).limits
         if not all(_is_positive(f, stretch.begin, stretch.end) for f in positive):
             return False
     return True

@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, nearest_float
+from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Straight
-from exactpt.pairs.features import Feature, FeaturePair
+from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.filters import candidates_of
-from exactpt.pairs.rational import (
-    Candidate,
-    Meeting,
-    Span,
-    earliest,
-    first_incidence,
-    touch_of,
-)
+from exactpt.pairs.rational import Candidate, Meeting, Span, earliest, first_incidence
+from exactpt.pairs.stretches import segments_of
 
-__all__ = ["ContactDistance", "first_meeting"]
+__all__ = ["ContactDistance", "first_at_distance", "first_meeting"]
 
 
 class ContactDistance(NamedTuple):
@@ -68,31 +64,34 @@ def first_meeting(
         return None
     if distance is None:
         return first_incidence(a, b, span, candidates)
-    return _first_at_distance(a, b, span, candidates, distance.squared)
+    return first_at_distance((a.body, b.body), *span[:2], candidates, distance.squared)
 
 
-def _first_at_distance(
-    a: Straight, b: Straight, span: Span, candidates: list[Candidate], squared: QQ
+def first_at_distance(
+    bodies: tuple[Body, Body],
+    start: QQ,
+    end: QQ,
+    candidates: Iterable[Candidate],
+    squared: QQ,
 ) -> Meeting | None:
-    """Return the first time in (start, end] at which features are at a distance, exactly.
+    """Return the first time in (start, end] at which candidates are at a distance, exactly.
 
-    Incidences with a foot at an end of an edge are those of that vertex.
+    Args:
+        bodies: two bodies, farther apart than the distance at the start.
+        start: the start; from there on each body is in one piece of its motion.
+        end: the end.
+        candidates: in the order of their earliest times. Of vertices and edges alone, if the
+            distance is 0.
+        squared: the square of the distance.
     """
-    p, q = a.body._piece_after(span.start), b.body._piece_after(span.start)
-    begin = AlgebraicNumber(span.start)
+    pieces = [body._piece_after(start) for body in bodies]
+    begin = AlgebraicNumber(start)
 
-    def first(
-        candidate: Candidate, best: AlgebraicNumber | None
-    ) -> tuple[AlgebraicNumber, Touch | None] | None:
-        _, _, of_first, vertex, edge, end = candidate
-        one, other, edges = (p, q, b.edges) if of_first else (q, p, a.edges)
-        ends = (end,) if edge < 0 else edges[edge]
-        features = Feature(vertex, None), Feature(None, edge)
-        pair = FeaturePair(features, one.track(vertex), tuple(other.track(k) for k in ends))
-        until = span.end if best is None else min(span.end, best._high)
+    def first(touch: Touch, until: QQ) -> tuple[AlgebraicNumber, Touch] | None:
+        i, vertex, j, edge, other = touch
+        ends = (other,) if edge < 0 else segments_of(bodies[j])[edge]
+        pair = FeaturePair(touch, pieces[i].track(vertex), tuple(map(pieces[j].track, ends)))
         time = pair.first_time(squared, begin, until)
-        if time is None:
-            return None
-        return time, touch_of(candidate, edge, end) if pair.is_inside(time) else None
+        return None if time is None else (time, pair.touch_at(time, ends))
 
-    return earliest(candidates, first)
+    return earliest(candidates, first, end)

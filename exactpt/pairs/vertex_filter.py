@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from typing import Final, NamedTuple
 
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
+from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Straight
 from exactpt.pairs.rational import Candidate
 
@@ -69,7 +70,7 @@ def vertex_candidates(
             c_bound = K * (z2 + 2.0 * squared) + 2.0 * d * (size + d) + TINY
             root = _smaller_root(a2, p + q, z2 - squared, a_error, b_error, c_bound, times)
             if root is not None and root.low <= high and root.high >= low:
-                yield Candidate(root.low, root.high, of_first=True, vertex=i, edge=-1, end=j)
+                yield Candidate(root.low, root.high, Touch(0, i, 1, -1, j))
 
 
 def _smaller_root(

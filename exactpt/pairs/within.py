@@ -33,6 +33,7 @@ from exactpt.motion.incidence import difference, lies_on, orientation
 from exactpt.motion.track import Track
 from exactpt.pairs.distance import squared_distance
 from exactpt.pairs.features import feature_pairs
+from exactpt.pairs.rational import Earliest
 from exactpt.pairs.stretches import Stretch, meet, segments_of, stretches
 
 __all__ = ["NORMS", "Norm", "asked_distance", "of_cores", "time_within"]
@@ -119,16 +120,14 @@ def _earliest(
     candidates: Iterator[Candidate], begin: AlgebraicNumber, end: QQ
 ) -> AlgebraicNumber | None:
     """The earliest root in (begin, end] that satisfies the predicate of its candidate."""
-    best: AlgebraicNumber | None = None
+    best: Earliest[None] = Earliest()
     for f, counts in candidates:
-        limit = end if best is None else best._high
         # If f vanishes identically, another candidate yields the time.
-        for root in roots_after(f, begin, limit) if f else ():
+        for root in roots_after(f, begin, best.until(end)) if f else ():
             if counts(root.time):
-                if best is None or root.time.compare(best) < 0:
-                    best = root.time
+                best.add(root.time, ())
                 break
-    return best
+    return best.number
 
 
 def _on_axis(

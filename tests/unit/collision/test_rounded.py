@@ -306,9 +306,9 @@ def test_a_crowd_far_away(shift):
 
 def test_a_crowd_needs_few_exact_decisions(monkeypatch):
     decided = []
-    exactly = two_pieces._first_at_distance
+    exactly = two_pieces.first_at_distance
     monkeypatch.setattr(
-        two_pieces, "_first_at_distance", lambda *given: decided.append(1) or exactly(*given)
+        two_pieces, "first_at_distance", lambda *given: decided.append(1) or exactly(*given)
     )
     rng = Random(3)
     bodies = [
