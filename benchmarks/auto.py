@@ -13,10 +13,10 @@ from benchmarks.methods.own import fresh
 from benchmarks.output import Output, Row
 from benchmarks.timing import in_turn
 from exactpt.collision.detector import first_contact
-from exactpt.collision.tilings import tilings_for
 from exactpt.errors import AuditError
 from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
+from exactpt.tiling.start import tilings_for
 
 __all__ = ["FULL", "QUICK", "Sizes", "beside", "run"]
 

@@ -22,7 +22,6 @@ from benchmarks.methods.own import fresh
 from benchmarks.output import Output, Row
 from benchmarks.timing import timed
 from exactpt.certificates import perturbation
-from exactpt.collision.tilings import tiling_for_contact
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.isolated_root import IsolatedRoot
@@ -31,6 +30,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
+from exactpt.tiling.start import tiling_for_contact
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
 

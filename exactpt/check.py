@@ -16,7 +16,6 @@ from typing import final
 
 from exactpt.cgal import BodyShape, CgalCheck, IsolatedRoot, ProofVerdict, check_proof
 from exactpt.collision.comparison import contrast, in_words
-from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
@@ -27,6 +26,7 @@ from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.pseudotriangulation.snapshot import snapshot
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
+from exactpt.tiling.start import plan_tiling
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Report", "check_run", "check_scene"]

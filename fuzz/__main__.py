@@ -14,11 +14,11 @@ from typing import Final
 import click
 
 from exactpt.cgal import find_program
-from exactpt.collision.tilings import TILINGS
 from exactpt.errors import InputError
 from exactpt.files import write_atomically
 from exactpt.scene.generate import FAMILIES as BODIES
 from exactpt.scene.generate import POINTS, RINGS, ROUNDED, SPINNING
+from exactpt.tiling.start import TILINGS
 from fuzz import battery, corpus, planted, soak
 from fuzz.campaign import Campaign, run
 from fuzz.cases import QUESTION, Outcome

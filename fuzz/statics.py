@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.collision.tilings import start_tiling
 from exactpt.errors import AuditError
 from exactpt.indices import Ends
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
@@ -14,6 +13,7 @@ from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
+from exactpt.tiling.start import start_tiling
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Audited", "audit_at", "audit_now", "run_and_audit"]

@@ -6,7 +6,6 @@ import time as clock
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final, final
 
-from exactpt.collision.tilings import proved_until, start_tiling, tiling_for_contact
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import searching
@@ -17,6 +16,7 @@ from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.report import report
+from exactpt.tiling.start import proved_until, start_tiling, tiling_for_contact
 
 if TYPE_CHECKING:
     from exactpt.tiling.tiling import Tiling

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import TYPE_CHECKING, final
 
-from exactpt.collision.tilings import check_tiling, proved_until, start_tiling, tiling_for_contact
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.body import refuse_rounded
@@ -19,6 +18,7 @@ from exactpt.proof.nodes import Nodes
 from exactpt.proof.watch import Watch
 from exactpt.scene.written import to_json
 from exactpt.tiling.events import ContactFound
+from exactpt.tiling.start import check_tiling, proved_until, start_tiling, tiling_for_contact
 
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene

@@ -36,7 +36,7 @@ from exactpt.query.homotopy import ShortestPaths
 from exactpt.query.locate import cast, codes_of, find, place_of
 from exactpt.query.outer import OuterRectangle, with_outer_triangulation
 from exactpt.query.subdivision import OUTSIDE, Subdivision
-from exactpt.tiling import loading
+from exactpt.tiling.start import relative_hulls
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["FreeSpace", "PointLike"]
@@ -250,7 +250,7 @@ class FreeSpace:
     def _built_hulls(self) -> Callable[[int], list[VertexId]]:
         if self._vertices.changes != self._changes:
             raise InputError("the bodies have other motions now: make the space anew")
-        return loading.relative_hulls(PredicatesAt(self._vertices, self._at, after=False))
+        return relative_hulls(PredicatesAt(self._vertices, self._at, after=False))
 
     def neighbours(self, body: str) -> list[str]:
         """The bodies connected to a body by a diagonal, in the order of the scene.

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple, final
 
-from exactpt.collision.tilings import plan_tiling
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counts
@@ -17,6 +16,7 @@ from exactpt.scene.scene import Scene
 from exactpt.simulation.event import Event
 from exactpt.simulation.plans import planned
 from exactpt.simulation.telling import Teller
+from exactpt.tiling.start import plan_tiling
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Choice", "LivingScene"]

@@ -9,7 +9,6 @@ from fractions import Fraction
 from typing import TypeAlias, final
 
 from exactpt.collision.tiling_search import MANY
-from exactpt.collision.tilings import plan_tiling, proved_until
 from exactpt.errors import AuditError, BudgetExceeded, InputError, carry, carrying
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
@@ -24,6 +23,7 @@ from exactpt.simulation.living import Choice, LivingScene
 from exactpt.simulation.met import Met, met
 from exactpt.simulation.recording import Recorder
 from exactpt.tiling.events import ContactFound, TilingEvent
+from exactpt.tiling.start import plan_tiling, proved_until
 
 __all__ = ["Response", "Run", "begin"]
 

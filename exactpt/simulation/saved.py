@@ -26,8 +26,9 @@ from exactpt.motion.frame import Frame
 from exactpt.motion.vertices import Vertices
 from exactpt.pairs.contact import Contact, Pair
 from exactpt.simulation.event import Event
-from exactpt.tiling import catalogue, loading
+from exactpt.tiling import catalogue
 from exactpt.tiling.events import Stats
+from exactpt.tiling.start import make
 from exactpt.tiling.tiling import Tiling
 
 __all__ = [
@@ -124,7 +125,7 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], last: QQ, *, exact_only
     for name in _STATS:
         setattr(stats, name, data["stats"][name])
     entry = catalogue.find(data["kind"], convex=data["convex"])
-    kinetic = loading.make(entry, vertices, certifier, stats)
+    kinetic = make(entry, vertices, certifier, stats)
     kinetic.resume(data)
     most = _SLOTS * (len(vertices.all) + 1)
     for slot, time in data["queue"]:

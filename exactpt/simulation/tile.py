@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from exactpt.collision.tilings import plan_tiling, tiling_for_contact
 from exactpt.errors import TimeRangeError
 from exactpt.kernel.numbers import QQ, show
 from exactpt.pseudotriangulation.snapshot import Snapshot, snapshot
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.catalogue import AUTO
+from exactpt.tiling.start import plan_tiling, tiling_for_contact
 
 __all__ = ["tile_at"]
 

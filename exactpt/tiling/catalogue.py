@@ -111,7 +111,7 @@ def choose(
             is_meant = entry.has_fewest_events or not fewest_events
             fits = entry.bodies is not Bodies.POINTS or points
         else:
-            is_meant, fits = entry.name == name, True  # `loading.plan` refuses the others
+            is_meant, fits = entry.name == name, True  # `plan_tiling` refuses the others
         if is_meant and fits and (entry.bodies is not Bodies.CONVEX or convex()):
             return entry
     raise InputError(f"no tiling {name!r}; there are: {', '.join(known())}")

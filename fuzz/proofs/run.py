@@ -14,7 +14,6 @@ from pathlib import Path
 from random import Random
 from typing import Final, NamedTuple
 
-from exactpt.collision.tilings import tilings_for
 from exactpt.errors import InputError
 from exactpt.files import write_atomically
 from exactpt.pairs.reference import first_contact_allpairs
@@ -23,6 +22,7 @@ from exactpt.proof.emit import scene_bytes
 from exactpt.scene.format import loads
 from exactpt.scene.generate import FAMILIES, POINTS, RINGS, generate
 from exactpt.scene.scene import Scene
+from exactpt.tiling.start import tilings_for
 from fuzz.proofs.checking import checker, is_geometric
 from fuzz.proofs.texts import TEXTS
 from fuzz.proofs.wrong import wheel, wrong_splice

@@ -4,13 +4,13 @@ from fractions import Fraction
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.certifier import Certifier
-from exactpt.collision.tilings import plan_tiling
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.pairs.start import initial_touches
 from exactpt.tiling.events import ContactFound, Stats
 from exactpt.tiling.incremental.incremental import IncrementalTiling
 from exactpt.tiling.incremental.static import sweep_at
 from exactpt.tiling.incremental.structure import LOWER, UPPER
+from exactpt.tiling.start import plan_tiling
 
 
 def started(scene, *, exact_only=False, **options):

@@ -3,11 +3,11 @@
 import pytest
 
 from exactpt.collision.detector import first_contact
-from exactpt.collision.tilings import TILINGS
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.scene import Scene
+from exactpt.tiling.start import TILINGS
 from fuzz.variants import VARIANTS
 
 FALL = Translation([], [0, -1])

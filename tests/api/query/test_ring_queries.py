@@ -3,7 +3,7 @@
 import pytest
 
 from exactpt import Body, FreeSpace, InputError, Scene, Simulation, Translation, UnreachableError
-from exactpt.collision.tilings import TILINGS, start_tiling
+from exactpt.tiling.start import TILINGS, start_tiling
 
 FRAME = [(0, 0), (12, 0), (12, 12), (0, 12)]
 HOLE = [(1, 1), (11, 1), (11, 11), (1, 11)]

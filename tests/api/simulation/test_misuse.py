@@ -20,10 +20,10 @@ from exactpt import (
     first_contact,
     onward,
 )
-from exactpt.collision.tilings import start_tiling
 from exactpt.kernel.numbers import QQ
 from exactpt.query.space import FreeSpace
 from exactpt.scene.generate import generate
+from exactpt.tiling.start import start_tiling
 
 POINT = Body("p", [(0, 0)])
 

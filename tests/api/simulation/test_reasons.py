@@ -4,13 +4,13 @@ from random import Random
 
 import pytest
 
-from exactpt.collision.tilings import TILINGS
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
+from exactpt.tiling.start import TILINGS
 
 
 @pytest.fixture

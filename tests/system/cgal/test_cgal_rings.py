@@ -5,9 +5,9 @@ import pytest
 from exactpt import Simulation
 from exactpt.cgal import BodyShape, CgalCheck
 from exactpt.check import check_scene
-from exactpt.collision.tilings import TILINGS
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.generate import RINGS, generate
+from exactpt.tiling.start import TILINGS
 
 pytestmark = pytest.mark.cgal
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from exactpt.collision.tilings import TILINGS
 from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED
+from exactpt.tiling.start import TILINGS
 from fuzz.cases import failure_of
 from fuzz.statics import run_and_audit
 from fuzz.subscene import scene_of

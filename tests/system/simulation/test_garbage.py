@@ -9,9 +9,9 @@ import pytest
 
 from benchmarks.living import WALLS, box
 from benchmarks.shapes import crowd
-from exactpt.collision.tilings import TILINGS, start_tiling
 from exactpt.simulation.responses import Bounce
 from exactpt.simulation.simulation import Simulation
+from exactpt.tiling.start import TILINGS, start_tiling
 
 FEW = 8
 """Number of objects that may be left in cycles, whatever the size of a scene."""

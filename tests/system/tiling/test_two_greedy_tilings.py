@@ -3,14 +3,14 @@
 import pytest
 
 from exactpt.certificates.certifier import Certifier
-from exactpt.collision.tilings import plan_tiling
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.motion.vertices import Vertices
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.generate import CONVEX, FAMILIES, generate
 from exactpt.scene.scene import Scene
-from exactpt.tiling import catalogue, loading
+from exactpt.tiling import catalogue
 from exactpt.tiling.events import ContactFound, Stats
+from exactpt.tiling.start import make, plan_tiling
 from fuzz.corpus import files
 from fuzz.statics import audit_at
 
@@ -19,7 +19,7 @@ def in_greedy_order(scene, *, convex):
     """The kinetic tiling of a scene, by the vertical decomposition if ``convex``."""
     vertices = Vertices.of(scene.bodies, scene.start, scene._end)
     certifier = Certifier(vertices, scene._start, scene._end, exact_only=False)
-    tiling = loading.make(catalogue.find("greedy", convex=convex), vertices, certifier, Stats())
+    tiling = make(catalogue.find("greedy", convex=convex), vertices, certifier, Stats())
     tiling.begin(scene._start)
     return tiling
 

@@ -5,7 +5,7 @@ from random import Random
 
 from benchmarks.floor import CERTIFICATES, floor
 from benchmarks.shapes import crowd
-from exactpt.collision.tilings import start_tiling
+from exactpt.tiling.start import start_tiling
 
 
 def test_a_tiling_goes_on_unchanged():

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from exactpt import InputError, Simulation
-from exactpt.collision.tilings import start_tiling
 from exactpt.pairs.start import initial_touches
 from exactpt.query.answers import PLACES
 from exactpt.query.nodes import Nodes
@@ -15,6 +14,7 @@ from exactpt.query.space import FreeSpace
 from exactpt.query.walk import Ray
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
+from exactpt.tiling.start import start_tiling
 
 
 def space_of(scene):

@@ -7,7 +7,6 @@ from random import Random
 import brute
 import pytest
 
-from exactpt.collision.tilings import start_tiling
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -18,6 +17,7 @@ from exactpt.scene.generate import FAMILIES, RINGS, generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.events import ContactFound
+from exactpt.tiling.start import start_tiling
 
 
 def spaces(family, seeds, tiling="auto"):

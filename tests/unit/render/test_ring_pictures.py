@@ -5,13 +5,13 @@ import re
 import pytest
 
 from exactpt import Body, Scene, Translation
-from exactpt.collision.tilings import TILINGS
 from exactpt.kernel.numbers import QQ
 from exactpt.render.data import data_of
 from exactpt.render.film import film_of
 from exactpt.render.frame import frame_of
 from exactpt.render.still import still
 from exactpt.render.svg import svg_of
+from exactpt.tiling.start import TILINGS
 
 HOLE = [(1, 1), (9, 1), (9, 9), (1, 9)]
 SCENE = Scene(

@@ -10,7 +10,6 @@ from random import Random
 import pytest
 
 from exactpt.collision.detector import first_contact
-from exactpt.collision.tilings import TILINGS, start_tiling
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -22,6 +21,7 @@ from exactpt.simulation.event import Event
 from exactpt.simulation.plans import onward
 from exactpt.simulation.responses import Bounce
 from exactpt.simulation.simulation import Simulation
+from exactpt.tiling.start import TILINGS, start_tiling
 
 CROWDS = ["convex", "ballistic", "stars", "letters", "blobs", "polygons_in_step"]
 

@@ -3,10 +3,10 @@
 import pytest
 
 from exactpt import Body, InputError, Scene, Simulation, Translation, first_contact
-from exactpt.collision.tilings import TILINGS
 from exactpt.kernel.algebraic import rational_between
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, OUTER, SOLID
 from exactpt.scene.generate import RINGS, generate
+from exactpt.tiling.start import TILINGS
 from fuzz.statics import audit_at, run_and_audit
 
 FRAME = [(0, 0), (12, 0), (12, 12), (0, 12)]

@@ -4,7 +4,6 @@ import json
 
 import pytest
 
-from exactpt.collision.tilings import TILINGS
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -14,6 +13,7 @@ from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.simulation.tile import tile_at
+from exactpt.tiling.start import TILINGS
 
 
 def meeting(gap=4):

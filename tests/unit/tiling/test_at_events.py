@@ -5,7 +5,6 @@ from itertools import pairwise
 import pytest
 
 from exactpt.cgal import BodyShape
-from exactpt.collision.tilings import TILINGS
 from exactpt.geometry.polygon import signed_area2
 from exactpt.geometry.predicates import side
 from exactpt.kernel.numbers import QQ
@@ -15,6 +14,7 @@ from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.simulation.tile import tile_at
+from exactpt.tiling.start import TILINGS
 
 FAMILIES = (
     "small_grid",

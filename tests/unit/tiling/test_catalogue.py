@@ -11,7 +11,6 @@ from ranked import RANKED
 import exactpt
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.detector import first_contact
-from exactpt.collision.tilings import TILINGS, start_tiling, tilings_for
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.pairs.reference import first_contact_allpairs
@@ -19,6 +18,7 @@ from exactpt.scene.generate import generate
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling import catalogue
 from exactpt.tiling.events import ContactFound
+from exactpt.tiling.start import TILINGS, start_tiling, tilings_for
 
 PLAIN = catalogue.Entry("plain", catalogue.Bodies.ANY, "plain_shadowed:ShadowRules")
 

@@ -3,11 +3,11 @@
 import pytest
 from folding import every
 
-from exactpt.collision.tilings import start_tiling, tilings_for
 from exactpt.indices import NO_VERTEX
 from exactpt.scene.generate import FAMILIES, POINTS, generate
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.incremental.mesh import mesh_of
+from exactpt.tiling.start import start_tiling, tilings_for
 
 
 def links(mesh):

@@ -9,7 +9,6 @@ import pytest
 
 from exactpt.certificates.certificate import ANGLE, pack
 from exactpt.certificates.perturbation import orientation
-from exactpt.collision.tilings import TILINGS, start_tiling
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.roots import common_roots, roots_after
 from exactpt.motion.body import Body
@@ -20,6 +19,7 @@ from exactpt.pseudotriangulation.mesh import SOLID
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.scene.scene import Scene
 from exactpt.tiling.events import ContactFound
+from exactpt.tiling.start import TILINGS, start_tiling
 from fuzz import corpus
 
 GRAZING = Scene(

@@ -6,7 +6,6 @@ import pytest
 
 from benchmarks.shapes import crowd
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.collision.tilings import start_tiling
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
@@ -16,6 +15,7 @@ from exactpt.pseudotriangulation.flip import flip_until_greedy
 from exactpt.tiling.events import ContactFound
 from exactpt.tiling.greedy.sweep import greedy_diagonals
 from exactpt.tiling.greedy.vertical import VerticalDecomposition
+from exactpt.tiling.start import start_tiling
 
 SHAPES = (
     [(0, 0), (2, 0), (0, 1)],

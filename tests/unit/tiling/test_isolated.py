@@ -11,7 +11,6 @@ from exactpt import Body, BudgetExceeded, Rigid, Simulation, Translation, onward
 from exactpt.certificates.certificate import MOTION, pack
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue, EventTime
-from exactpt.collision.tilings import start_tiling
 from exactpt.errors import AuditError
 from exactpt.kernel.budget import within
 from exactpt.kernel.rounding import UNSURE
@@ -26,6 +25,7 @@ from exactpt.tiling.greedy.greedy import VerticalRules
 from exactpt.tiling.greedy.shadowed import ShadowRules
 from exactpt.tiling.isolated import DONE, LEFT, OPEN, IsolatedEvents
 from exactpt.tiling.lazy import LazyRules
+from exactpt.tiling.start import start_tiling
 from fuzz.statics import audit_at, run_and_audit
 
 pytestmark = pytest.mark.plain

@@ -4,8 +4,8 @@ from collections import Counter
 
 import pytest
 
-from exactpt.collision.tilings import TILINGS
 from exactpt.scene.generate import FAMILIES, generate
+from exactpt.tiling.start import TILINGS
 from fuzz.statics import run_and_audit
 
 # At least 500 scenes, generic and degenerate (the slow run); some of each (the quick one).

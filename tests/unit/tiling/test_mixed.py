@@ -7,7 +7,6 @@ import pytest
 from random_motions import lanes
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.collision.tilings import start_tiling
 from exactpt.geometry.predicates import side
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -26,6 +25,7 @@ from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.mixed.geodesics import Geodesics
 from exactpt.tiling.mixed.labels import Forest
 from exactpt.tiling.mixed.static import mixed_mesh
+from exactpt.tiling.start import start_tiling
 
 COUNTS = [2, pytest.param(60, marks=pytest.mark.slow)]
 

@@ -8,7 +8,6 @@ from folding import every
 from test_mixed import free, shuffled
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.collision.tilings import start_tiling
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
@@ -24,6 +23,7 @@ from exactpt.tiling.mixed.geodesics import Geodesics
 from exactpt.tiling.mixed.loops import loop_along
 from exactpt.tiling.mixed.static import mixed_mesh
 from exactpt.tiling.mixed.tree import ROOT, TOP
+from exactpt.tiling.start import start_tiling
 
 COUNTS = [6, pytest.param(100, marks=pytest.mark.slow)]
 

@@ -10,7 +10,6 @@ from point_audits import points_at, run_and_audit, started, structure_of, tangen
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.detector import first_contact
-from exactpt.collision.tilings import plan_tiling, start_tiling
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -26,6 +25,7 @@ from exactpt.tiling.incremental.paths import SearchableTree
 from exactpt.tiling.incremental.static import sweep_at
 from exactpt.tiling.incremental.structure import UPPER
 from exactpt.tiling.incremental.tree_repairs import TreeRepairs
+from exactpt.tiling.start import plan_tiling, start_tiling
 
 GENERIC = ("linear_points", "ballistic_points", "piecewise_points")
 

@@ -3,7 +3,6 @@
 import pytest
 
 from exactpt.certificates.one_sided import OneSided
-from exactpt.collision.tilings import TILINGS
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -16,6 +15,7 @@ from exactpt.tiling.greedy.greedy import VerticalRules
 from exactpt.tiling.greedy.shadowed import ShadowRules
 from exactpt.tiling.lazy import LazyRules
 from exactpt.tiling.repairs import RebuildNeeded, Repairs
+from exactpt.tiling.start import TILINGS
 from fuzz.statics import run_and_audit
 
 pytestmark = pytest.mark.plain

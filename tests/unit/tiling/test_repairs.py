@@ -5,7 +5,6 @@ from collections import Counter
 import pytest
 
 from exactpt.certificates.perturbation import comes_first
-from exactpt.collision.tilings import start_tiling
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
@@ -14,6 +13,7 @@ from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.repairs import Repairs
+from exactpt.tiling.start import start_tiling
 from fuzz.statics import run_and_audit
 
 pytestmark = pytest.mark.plain

@@ -2,10 +2,10 @@
 
 import pytest
 
-from exactpt.collision.tilings import start_tiling
 from exactpt.motion.body import Body
 from exactpt.scene.scene import Scene
 from exactpt.tiling.simultaneous import Batch
+from exactpt.tiling.start import start_tiling
 
 
 @pytest.fixture

@@ -1,0 +1,191 @@
+"""The choice of a tiling for a scene, and its start; its rules are imported on first use."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certifier import Certifier
+from exactpt.certificates.convex_bodies import all_stay_convex
+from exactpt.errors import AuditError, InputError
+from exactpt.indices import VertexId
+from exactpt.kernel.collection import collector_at_rest
+from exactpt.kernel.counters import Counters
+from exactpt.kernel.numbers import QQ, fraction
+from exactpt.motion.body import Body, refuse_rounded
+from exactpt.motion.vertices import Vertices
+from exactpt.pseudotriangulation.mesh import Mesh
+from exactpt.scene.scene import Scene
+from exactpt.tiling import catalogue
+from exactpt.tiling.catalogue import Bodies, Entry
+from exactpt.tiling.engine import Engine
+from exactpt.tiling.events import Stats
+from exactpt.tiling.tiling import Tiling
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = [
+    "TILINGS",
+    "TilingPlan",
+    "check_tiling",
+    "make",
+    "plan_tiling",
+    "proved_until",
+    "relative_hulls",
+    "start_tiling",
+    "tiling_for_contact",
+    "tilings_for",
+]
+
+TILINGS: Final = tuple(catalogue.names(points=False))
+"""Names of the tilings that accept bodies of any shape."""
+
+
+class TilingPlan(NamedTuple):
+    """A chosen tiling that has not been built yet.
+
+    Attributes:
+        entry: its entry in the catalogue.
+        vertices: the moving vertices.
+        end: end of the time span.
+    """
+
+    entry: Entry
+    vertices: Vertices
+    end: QQ
+
+    @property
+    def name(self) -> str:
+        """Its name in the catalogue."""
+        return self.entry.name
+
+    def start(self, time: QQ, *, exact_only: bool = False) -> Tiling:
+        """The kinetic tiling just after a time at which the bodies are disjoint."""
+        certifier = Certifier(self.vertices, time, self.end, exact_only=exact_only)
+        tiling = make(self.entry, self.vertices, certifier, Stats())
+        with collector_at_rest():
+            tiling.begin(time)
+        return tiling
+
+    def mesh_at(self, time: QQ) -> Mesh:
+        """The static tiling at a time."""
+        return _mesh_at(self.entry, PredicatesAt(self.vertices, time, after=False))
+
+
+def check_tiling(name: str) -> None:
+    """Check that a tiling of this name, or "auto", exists.
+
+    Raises:
+        InputError: if not.
+    """
+    catalogue.choose(name, points=True, convex=lambda: True)
+
+
+def tilings_for(scene: Scene) -> list[str]:
+    """The names of the tilings that are for the bodies of a scene."""
+    return catalogue.names(points=_are_points(scene.bodies))
+
+
+def tiling_for_contact(scene: Scene, name: str) -> str:
+    """The given name; instead of "auto", the tiling with the fewest events."""
+    if name != catalogue.AUTO:
+        return name
+    points = _are_points(scene.bodies)
+    return catalogue.choose(name, points=points, convex=lambda: False, fewest_events=True).name
+
+
+def start_tiling(scene: Scene, name: str, start: QQ, *, exact_only: bool = False) -> Tiling:
+    """The kinetic tiling of a scene just after a time at which its bodies are disjoint."""
+    with collector_at_rest():  # in one piece: at its end all that is new is visited once
+        return plan_tiling(scene, name, start).start(start, exact_only=exact_only)
+
+
+def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
+    """The tiling of a given name; "auto" chooses by the shapes.
+
+    "auto" is "incremental" if all bodies are points, "greedy" if all bodies stay convex until
+    the end, and "mixed" otherwise.
+
+    Raises:
+        InputError: if there is no such tiling, it is for points and a body is not one, or a body
+            is rounded.
+    """
+    bodies, end = scene.bodies, scene._end
+    refuse_rounded(bodies)
+    made: list[Vertices] = []
+
+    def vertices() -> Vertices:
+        if not made:
+            made.append(Vertices.of(bodies, start, end))
+        return made[0]
+
+    with collector_at_rest():
+        entry = catalogue.choose(
+            name,
+            points=_are_points(bodies),
+            convex=lambda: all_stay_convex(PredicatesAt(vertices(), start)),
+        )
+        if entry.bodies is Bodies.POINTS:
+            return TilingPlan(entry, _vertices_of_points(entry, bodies, start, end), end)
+        vertices().counters = Counters()  # decisions made for the choice are not part of the run
+        return TilingPlan(entry, vertices(), end)
+
+
+def proved_until(kinetic: Tiling | None, start: QQ) -> Fraction:
+    """Return a rational time until which a run has passed no contact, also during an event.
+
+    Args:
+        kinetic: the tiling; None before there is one.
+        start: the start of the run, at which there is no contact.
+    """
+    if kinetic is None or kinetic.passed is None:
+        return fraction(start)
+    return fraction(max(start, kinetic.vertices.frame.exact_time(kinetic.passed.low)))
+
+
+def _are_points(bodies: Sequence[Body]) -> bool:
+    return all(body.size == 1 for body in bodies)
+
+
+def _vertices_of_points(entry: Entry, bodies: Sequence[Body], start: QQ, end: QQ) -> Vertices:
+    """The moving vertices of points, one each, for a tiling of points alone."""
+    for body in bodies:
+        if body.size > 1:
+            raise InputError(
+                f"body {body.name!r}: has {body.size} vertices: "
+                f"the {entry.name} tiling is for points"
+            )
+    return Vertices.of(bodies, start, end, plain=True)
+
+
+def make(entry: Entry, vertices: Vertices, certifier: Certifier, stats: Stats) -> Tiling:
+    """The tiling, still without a mesh; `Tiling.begin` or `Tiling.resume` must follow."""
+    loaded = _load(entry)
+    if entry.bodies is Bodies.POINTS:
+        tiling: Tiling = loaded(entry, vertices, certifier, stats)
+        return tiling
+    return Engine(entry, loaded, vertices, certifier, stats)
+
+
+def relative_hulls(instant: PredicatesAt) -> Callable[[int], list[VertexId]]:
+    """The shortest loop around each body, as vertex ids, by a tiling that contains them."""
+    entry = catalogue.with_relative_hulls()
+    hulls = _mesh_at(entry, instant).relative_hulls()
+    if hulls is None:
+        raise AuditError(f"the {entry.name} tiling knows no relative hulls")
+    return hulls
+
+
+def _mesh_at(entry: Entry, instant: PredicatesAt) -> Mesh:
+    """The tiling of an instant."""
+    mesh: Mesh = _load(entry).build(instant)
+    return mesh
+
+
+def _load(entry: Entry) -> Any:  # noqa: ANN401 - a class of rules, or of a tiling of points
+    module, name = entry.place.split(":")
+    return getattr(import_module(module), name)
