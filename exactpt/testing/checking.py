@@ -108,7 +108,7 @@ class Report(Generic[Q]):
 
     Attributes:
         table: the verdicts, by family.
-        counterexamples: at most one for each way to be wrong.
+        counterexamples: the smallest one found for each family and each way to be wrong in it.
     """
 
     table: Table
@@ -138,8 +138,9 @@ class Report(Generic[Q]):
     def _test(self, example: Counterexample[Q]) -> str:
         data = {**example.question.to_json(), "id": example.question.name}
         written = pprint.pformat(data, indent=1, width=92, sort_dicts=False)
+        family = _family(example.question)
         return (
-            f"\n\ndef test_{example.verdict}():\n"
+            f"\n\ndef test_{family}_{example.verdict}():\n"
             f'    """{_one_line(str(example))}"""\n'
             f"    question = {type(example.question).__name__}.from_json(\n"
             f"{_indented(written, 8)}\n    )\n"
@@ -157,8 +158,9 @@ def check(
     seed: int = 0,
     families: Sequence[str] | None = None,
     tolerance: Rational = TOLERANCE,
+    accept: Callable[[Question], bool] | None = None,
 ) -> Report[Question]:
-    """Ask a function for times of impact, and compare its answers with the truth.
+    """Compare a function's times of impact with the exact ones.
 
     >>> from exactpt.testing import check
     >>> report = check(lambda question: None, cases=4, families=["edge_to_edge"])
@@ -174,12 +176,15 @@ def check(
         families: names of `FAMILIES`; all if not given.
         tolerance: the largest error of a time that is none. It forgives no contact that is
             missed or invented, however near.
+        accept: the domain of ``toi``: True for the questions that it is made for, such as
+            ``lambda question: question.convex and question.time[0] == 0``. It gets no other one,
+            also while a counterexample is shrunken; a family without such questions is left out.
 
     Raises:
-        InputError: if ``toi`` is no function, there is no such family, or the tolerance or the
-            number of questions is negative.
+        InputError: if ``toi`` is no function, there is no such family, the tolerance or the
+            number of questions is negative, or ``accept`` refuses all questions.
     """
-    return check_subject(_PLANE, toi, cases, seed, families, tolerance)
+    return check_subject(_PLANE, toi, cases, seed, families, tolerance, accept)
 
 
 def check_subject(
@@ -189,32 +194,72 @@ def check_subject(
     seed: int,
     families: Sequence[str] | None,
     tolerance: Rational,
+    accept: Callable[[Q], bool] | None = None,
 ) -> Report[Q]:
     """Compare the answers of a function with the truth about questions of one subject.
 
     The arguments are those of `check`.
     """
-    if not callable(toi):
-        raise InputError(f"toi: not a function: {shorten(toi)}")
+    for what, given in (("toi", toi), ("accept", accept or callable)):
+        if not callable(given):
+            raise InputError(f"{what}: not a function: {shorten(given)}")
     number: object = cases
     if not isinstance(number, int) or number < 0:
         raise InputError(f"cases: not a number of questions: {shorten(number)}")
     table, exact = Table(), bound(tolerance)
-    worst: dict[str, Q] = {}  # the smallest question of each verdict
+    smallest: dict[tuple[str, str], Q] = {}  # of each family and verdict
     names = list(subject.families if families is None else families)
     if not names:
         raise InputError("families: none is named")
-    asked = [subject.make(names[i % len(names)], seed, i // len(names)) for i in range(cases)]
+    asked = list(_accepted(subject, cases, seed, names, accept))
     for question, truth in _with_truths(subject, asked):
         found, _ = _judged(toi, question, truth, exact)
-        table.count(str(question.name).partition(":")[0], found)
-        if found not in worst or question.size < worst[found].size:
-            worst[found] = question
+        key = _family(question), found
+        table.count(*key)
+        if key not in smallest or question.size < smallest[key].size:
+            smallest[key] = question
     examples = tuple(
-        _shrunken(subject, toi, v, worst[v], exact) for v in VERDICTS[1:] if v in worst
+        _shrunken(subject, toi, v, smallest[family, v], exact, accept)
+        for family in table.rows
+        for v in VERDICTS[1:]
+        if (family, v) in smallest
     )
     module, function = (getattr(toi, key, "") for key in ("__module__", "__qualname__"))
     return Report(table, examples, module, function, float(exact), subject)
+
+
+def _accepted(
+    subject: Subject[Q],
+    cases: int,
+    seed: int,
+    names: Sequence[str],
+    accept: Callable[[Q], bool] | None,
+) -> Iterator[Q]:
+    """Yield questions of the families in turn, of each family the first ones that are accepted.
+
+    A family has no more questions if `CHUNK` of them, one after the other, are refused.
+
+    Raises:
+        InputError: if all questions are refused.
+    """
+    left, numbers, given = list(names), dict.fromkeys(names, 0), 0
+    while left and given < cases:
+        for name in left[: cases - given]:
+            for _ in range(CHUNK):
+                question = subject.make(name, seed, numbers[name])
+                numbers[name] += 1
+                if accept is None or accept(question):
+                    given += 1
+                    yield question
+                    break
+            else:
+                left.remove(name)
+    if cases and not given:
+        raise InputError("accept: it refuses all questions")
+
+
+def _family(question: Checked) -> str:
+    return str(question.name).partition(":")[0]
 
 
 def _with_truths(subject: Subject[Q], asked: Sequence[Q]) -> Iterator[tuple[Q, Truth]]:
@@ -235,12 +280,21 @@ def _judged(
 
 
 def _shrunken(
-    subject: Subject[Q], toi: Callable[[Q], object], found: str, question: Q, tolerance: QQ
+    subject: Subject[Q],
+    toi: Callable[[Q], object],
+    found: str,
+    question: Q,
+    tolerance: QQ,
+    accept: Callable[[Q], bool] | None,
 ) -> Counterexample[Q]:
-    """Return the smallest question found that is wrong in the same way."""
-    smallest = subject.shrink(
-        question, lambda smaller, truth: _judged(toi, smaller, truth, tolerance)[0] == found
-    )
+    """Return the smallest question found that is accepted, and wrong in the same way."""
+
+    def fails(smaller: Q, truth: Truth) -> bool:
+        if accept is not None and not accept(smaller):
+            return False
+        return _judged(toi, smaller, truth, tolerance)[0] == found
+
+    smallest = subject.shrink(question, fails)
     (truth,) = subject.truths([smallest])
     return Counterexample(found, smallest, _judged(toi, smallest, truth, tolerance)[1], truth)
 

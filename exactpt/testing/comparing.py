@@ -74,6 +74,7 @@ def assert_same_contact(scene: Scene, answer: Answer, *, tolerance: Rational = T
             exact truth.
         InputError: if the answer is none of these.
     """
+    __tracebackhide__ = True  # pytest shows the test, not this function
     data = answer.to_json() if isinstance(answer, Contact) else answer
     given: object = data
     pairs: object = ()

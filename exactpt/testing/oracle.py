@@ -12,7 +12,7 @@ from typing import BinaryIO, Final
 
 from exactpt.errors import InputError
 from exactpt.kernel.budget import ask
-from exactpt.testing.questions import Asked, Name, objects, read_question
+from exactpt.testing.questions import Asked, Name, id_of, objects, read_question
 from exactpt.testing.space.exact import SpaceContact, contact_of
 from exactpt.testing.space.queries import SpaceQuery
 from exactpt.testing.truth import Truth, truths
@@ -79,9 +79,10 @@ def answers(lines: Sequence[bytes], first: int, refusals: Refusals) -> Iterator[
     Args:
         lines: the questions.
         first: the number of the first line, from 1; it is the id of a question without one.
-        refusals: where the refused ones are counted. Their answer is ``{"id", "error"}``.
+        refusals: where the refused ones are counted. Their answer is ``{"id", "error"}``; without
+            an id that can be read it is ``{"id": null, "line", "error"}``.
     """
-    names: list[Name] = []
+    names: list[tuple[Name, int]] = []  # ids, and numbers of lines
     found: list[Truth | SpaceContact | InputError] = []
     asked: list[Asked] = []
     places: list[int] = []
@@ -92,26 +93,34 @@ def answers(lines: Sequence[bytes], first: int, refusals: Refusals) -> Iterator[
         try:
             name, question = _read(line)
             if isinstance(question, SpaceQuery):
-                names.append(number if name is None else name)
                 found.append(contact_of(question) or Truth(None))
-                continue
+            else:
+                places.append(len(found))
+                asked.append(question)
+                found.append(Truth(None))
         except InputError as error:
-            names.append(number)
+            name = _id_of(line)
             found.append(error)
-            continue
-        names.append(number if name is None else name)
-        places.append(len(found))
-        asked.append(question)
-        found.append(Truth(None))
+        names.append((name, number))
     for place, answer in zip(places, _each(asked), strict=True):
         found[place] = answer
-    for name, result in zip(names, found, strict=True):
+    for (name, number), result in zip(names, found, strict=True):
         if not isinstance(result, InputError):
-            yield json.dumps({"id": name, **result.to_json()})
+            yield json.dumps({"id": number if name is None else name, **result.to_json()})
         else:
             refusals.count += 1
-            refusals.first = refusals.first or f"question {name}: {result}"
-            yield json.dumps({"id": name, "error": str(result)})
+            where = f"line {number}" if name is None else f"question {name}"
+            refusals.first = refusals.first or f"{where}: {result}"
+            line_of = {"line": number} if name is None else {}
+            yield json.dumps({"id": name, **line_of, "error": str(result)})
+
+
+def _id_of(line: bytes) -> Name:
+    """Return the id of a refused line, None if it has none that can be read."""
+    try:
+        return id_of(objects(line))
+    except InputError:
+        return None
 
 
 def _read(line: bytes) -> tuple[Name, Asked | SpaceQuery]:

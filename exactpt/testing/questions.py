@@ -13,13 +13,14 @@ from fractions import Fraction
 from typing import Final, NoReturn, TypeAlias, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import shorten
+from exactpt.geometry.predicates import side
+from exactpt.kernel.numbers import rational, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.scene.format import from_json
 from exactpt.scene.scene import Scene
 
-__all__ = ["Asked", "Moving", "Name", "Question", "double", "objects", "read_question"]
+__all__ = ["Asked", "Moving", "Name", "Question", "double", "id_of", "objects", "read_question"]
 
 Doubles: TypeAlias = tuple[float, ...]
 Name: TypeAlias = "str | int | None"
@@ -91,6 +92,16 @@ class Question:
     def size(self) -> int:
         """The number of vertices."""
         return len(self.a.vertices) + len(self.b.vertices)
+
+    @property
+    def polygons(self) -> bool:
+        """Whether both bodies are polygons: neither points, segments nor open chains."""
+        return all(body.closed and len(body.vertices) > 2 for body in (self.a, self.b))
+
+    @property
+    def convex(self) -> bool:
+        """Whether both bodies are strictly convex polygons."""
+        return self.polygons and _is_convex(self.a) and _is_convex(self.b)
 
     @property
     def summary(self) -> str:
@@ -199,6 +210,11 @@ def _asked(data: dict[str, object]) -> Asked:
 
 
 def id_of(data: dict[str, object]) -> Name:
+    """Return the id of a question as JSON, None if it has none.
+
+    Raises:
+        InputError: if it is neither a text nor an integer.
+    """
     name = data.get("id")
     if isinstance(name, bool) or not isinstance(name, str | int | None):
         raise InputError(f'"id": neither a text nor an integer: {shorten(name)}')
@@ -255,6 +271,13 @@ def _rationals(value: object, where: str) -> object:
     if isinstance(value, list):
         return [_rationals(part, where) for part in value]
     return value if isinstance(value, bool) else str(Fraction(double(value, where)))
+
+
+def _is_convex(body: Moving) -> bool:
+    """Return True if a simple polygon turns strictly one way at every vertex."""
+    points = [(rational(x), rational(y)) for x, y in body.vertices]
+    corners = zip(points[-2:] + points[:-2], points[-1:] + points[:-1], points, strict=True)
+    return {side(*corner) for corner in corners} in ({1}, {-1})
 
 
 def _moving(body: Body) -> Moving:

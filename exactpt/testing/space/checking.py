@@ -30,6 +30,7 @@ def check_vertex_face(
     seed: int = 0,
     families: Sequence[str] | None = None,
     tolerance: Rational = TOLERANCE,
+    accept: Callable[[SpaceQuery], bool] | None = None,
 ) -> Report[SpaceQuery]:
     """Compare a function's times of impact of a vertex and a triangle with the exact ones.
 
@@ -46,11 +47,12 @@ def check_vertex_face(
         seed: the seed of the queries.
         families: names of `exactpt.testing.space.FAMILIES`; all if not given.
         tolerance: the largest error of a time that counts as none.
+        accept: the domain of ``toi``, see `exactpt.testing.check`.
 
     Raises:
-        InputError: if ``toi`` is no function, there is no such family, or a number is negative.
+        InputError: see `exactpt.testing.check`.
     """
-    return check_subject(_subject("vertex-face"), toi, cases, seed, families, tolerance)
+    return check_subject(_subject("vertex-face"), toi, cases, seed, families, tolerance, accept)
 
 
 def check_edge_edge(
@@ -60,12 +62,13 @@ def check_edge_edge(
     seed: int = 0,
     families: Sequence[str] | None = None,
     tolerance: Rational = TOLERANCE,
+    accept: Callable[[SpaceQuery], bool] | None = None,
 ) -> Report[SpaceQuery]:
     """Compare a function's times of impact of two segments with the exact ones.
 
     Arguments and errors are those of `check_vertex_face`.
     """
-    return check_subject(_subject("edge-edge"), toi, cases, seed, families, tolerance)
+    return check_subject(_subject("edge-edge"), toi, cases, seed, families, tolerance, accept)
 
 
 def assert_same_time(query: SpaceQuery, answer: object, *, tolerance: Rational = TOLERANCE) -> None:
@@ -80,6 +83,7 @@ def assert_same_time(query: SpaceQuery, answer: object, *, tolerance: Rational =
         AssertionError: one line: missed, invented, early or late, and the exact time.
         InputError: if the answer is neither a time nor None.
     """
+    __tracebackhide__ = True  # pytest shows the test, not this function
     contact = contact_of(query)
     found = verdict(None if contact is None else contact.time, answer, bound(tolerance))
     if found == "crashed":

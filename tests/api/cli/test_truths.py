@@ -158,12 +158,24 @@ def test_what_is_no_question_is_refused_and_the_others_are_answered(line, says):
 
     said, refusals = answered(good, line, good)
 
-    assert [answer["id"] for answer in said] == [1, 2, 3]
+    assert [answer["id"] for answer in said] == [1, None, 3]
+    assert said[1]["line"] == 2
     assert says in said[1]["error"]
     assert "time" in said[0]
     assert "time" in said[2]
     assert refusals.count == 1
-    assert refusals.first.startswith("question 2: ")
+    assert refusals.first.startswith("line 2: ")
+
+
+def test_the_id_of_a_refused_line_is_its_own_or_null():
+    """Bug: an unnamed bad line 2 and a question of the id 2 had one id."""
+    good = {"id": 2, "time": [0, 1], "a": STILL, "b": STILL}
+
+    said, _ = answered(good, b"{", {"id": "mine", "time": [0, 1]})
+
+    assert [(answer["id"], answer.get("line")) for answer in said] == [
+        (2, None), (None, 2), ("mine", None),
+    ]  # fmt: skip
 
 
 def test_the_oracle_ends_with_code_2_after_a_refusal(tmp_path, capsys):
@@ -172,8 +184,8 @@ def test_the_oracle_ends_with_code_2_after_a_refusal(tmp_path, capsys):
     assert code_of("oracle", str(tmp_path / "q.jsonl")) == 2
 
     out, err = capsys.readouterr()
-    assert json.loads(out) == {"id": 1, "error": "not JSON: 'nothing'"}
-    assert err == "exactpt: 1 of 1 lines refused; question 1: not JSON: 'nothing'\n"
+    assert json.loads(out) == {"id": None, "line": 1, "error": "not JSON: 'nothing'"}
+    assert err == "exactpt: 1 of 1 lines refused; line 1: not JSON: 'nothing'\n"
 
 
 def test_the_judge_says_what_is_wrong(tmp_path, capsys):

@@ -15,7 +15,7 @@ from exactpt.testing import FAMILIES, LINEAR, Question, check, make_question, tr
 from exactpt.testing.truth import truth_of
 
 ROOT = Path(__file__).parents[3]
-CASES = 6 * len(FAMILIES)
+CASES = 3 * len(FAMILIES)
 
 
 @pytest.mark.long
@@ -110,7 +110,49 @@ def test_counterexamples_are_a_pytest_file_that_fails_until_the_function_is_mend
 
     assert wrong_run.returncode == 1
     assert "late: the answer is a contact at t =" in wrong_run.stdout
+    assert "def assert_same_contact" not in wrong_run.stdout  # frames of exactpt are hidden
     assert right_run.returncode == 0, right_run.stdout
+
+
+def test_each_family_has_a_counterexample_of_each_verdict():
+    families = ["edge_to_edge", "sliding"]
+
+    report = check(lambda _: 1000, cases=6, families=families)
+
+    found = [(e.question.name.partition(":")[0], e.verdict) for e in report.counterexamples]
+    assert found == [("edge_to_edge", "late"), ("sliding", "late")]
+    names = ["def test_edge_to_edge_late():", "def test_sliding_late():"]
+    assert [line for line in report.pytest_file().splitlines() if line[:4] == "def "] == names
+
+
+def in_domain(question):
+    return question.convex and question.time[0] == 0
+
+
+def test_a_domain_holds_while_questions_are_drawn_and_shrunken():
+    asked = []
+
+    def mine(question):
+        asked.append(question)
+
+    families = ["sliding", "star_pairs", "ties"]
+    report = check(mine, cases=6, families=families, accept=in_domain)
+
+    assert all(map(in_domain, asked))
+    assert set(report.table.rows) == {"sliding"}, "the others have no convex bodies"
+    assert report.table.total["missed"] == 6
+    (example,) = report.counterexamples
+    assert in_domain(example.question)
+    assert {len(body.vertices) for body in (example.question.a, example.question.b)} == {3}
+
+
+def test_kinds_of_bodies():
+    named = (("sliding", 0, 0), ("ties", 0, 0), ("sliding", 0, 8))
+    boxes, forks, segments = (make_question(*name) for name in named)
+
+    assert (boxes.polygons, boxes.convex) == (True, True)
+    assert (forks.polygons, forks.convex) == (True, False)
+    assert (segments.polygons, segments.convex) == (False, False)
 
 
 @pytest.mark.long
@@ -177,6 +219,12 @@ def test_arrays_answer_all_questions_with_linear_motions(monkeypatch):
     "function, options, message",
     [
         (None, {}, "toi: not a function: None"),
+        (toi, {"accept": 1}, "accept: not a function: 1"),
+        (
+            toi,
+            {"accept": lambda _: False, "families": ["bullet"]},
+            "accept: it refuses all questions",
+        ),
         (toi, {"cases": -1}, "cases: not a number of questions: -1"),
         (toi, {"cases": 1.5}, "cases: not a number of questions: 1.5"),
     ],
