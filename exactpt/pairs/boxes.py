@@ -5,7 +5,7 @@ It is conservative: a pair that is not reported does not touch; a reported pair 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Final, TypeAlias, final
 
 import numpy as np
@@ -15,8 +15,10 @@ from exactpt.geometry.boxes import Boxes, grown, overlapping_pairs, widen_unknow
 from exactpt.kernel.budget import ask
 from exactpt.kernel.doubles import middles
 from exactpt.kernel.numbers import QQ, enclosing_floats
-from exactpt.kernel.rounding import SLACK, TINY, U
+from exactpt.kernel.rounding import SLACK, TINY
 from exactpt.motion.body import Body
+from exactpt.motion.outline import Outline
+from exactpt.pairs.oriented import K, OrientedBoxes, times_between
 
 if TYPE_CHECKING:
     from exactpt.pairs.pieces import MotionPiece
@@ -32,9 +34,6 @@ __all__ = [
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
 
-U4: Final = 4.0 * U
-K: Final = 16.0 * U
-"""Relative bound on the rounding of sums of up to eight terms."""
 PIECES: Final = 4
 """Maximum number of pieces of motion of a body, on average, in the first slab."""
 SHORTEST: Final = 2.0**-40
@@ -42,7 +41,7 @@ SHORTEST: Final = 2.0**-40
 
 
 _COLUMNS: Final = (
-    "_c", "_c_error", "_end", "_high", "_low", "_start", "_v", "_v_error", "body",
+    "_c", "_c_error", "_end", "_high", "_low", "_reach", "_start", "_v", "_v_error", "body",
 )  # fmt: skip
 
 
@@ -61,7 +60,7 @@ class PieceBoxes:
         drift: the median of the velocities.
     """
 
-    __slots__ = (*_COLUMNS, "drift")
+    __slots__ = (*_COLUMNS, "_oriented", "_outline", "drift")
 
     @np.errstate(all="ignore")
     def __init__(self, rows: Sequence[MotionPiece], margin: float = 0.0) -> None:
@@ -78,15 +77,20 @@ class PieceBoxes:
         self._start = np.array([enclosing_floats(row.start)[0] for row in rows])
         self._end = np.array([enclosing_floats(row.end)[1] for row in rows])
         self.drift: Floats = middles(self._v) if len(rows) else np.zeros(2)
+        self._outline: Callable[[int], Outline] = lambda k: straights[k].shape
+        self._oriented: OrientedBoxes | None = None
 
     @classmethod
-    def of_doubles(cls, numbers: Floats, start: QQ, end: QQ) -> PieceBoxes:
+    def of_doubles(
+        cls, numbers: Floats, start: QQ, end: QQ, outline: Callable[[int], Outline]
+    ) -> PieceBoxes:
         """Boxes of one piece for each body, all during one span, known without error.
 
         Args:
             numbers: shape (n, 9): the box, c, v, and at least the radius.
             start: the start of the span.
             end: its end.
+            outline: the vertices of a body, exactly.
         """
         self = cls.__new__(cls)
         n = len(numbers)
@@ -97,10 +101,12 @@ class PieceBoxes:
         self._start = np.full(n, enclosing_floats(start)[0])
         self._end = np.full(n, enclosing_floats(end)[1])
         self.drift = middles(self._v)
+        self._outline, self._oriented = outline, None
         return self
 
     def _put(self, boxes: Boxes, reach: Floats) -> None:
         """Keep the boxes of the shapes, grown."""
+        self._reach = reach
         boxes = grown(boxes, reach[:, None]) if reach.any() else boxes
         self._low, self._high = boxes[:, ::2], boxes[:, 1::2]
 
@@ -154,17 +160,19 @@ class PieceBoxes:
         least, most = self._low[j] - self._high[i], self._high[j] - self._low[i]
         margin = 2.0 * off + K * (np.abs(c) + np.abs(least) + np.abs(most))
         begin, end = least - margin - c, most + margin - c
-        enter = np.where(w > 0.0, begin, end) / w
-        leave = np.where(w > 0.0, end, begin) / w
-        still = w == 0.0
-        beside = still & ((begin > 0.0) | (end < 0.0))
-        enter = np.where(still, -np.inf, enter - U4 * np.abs(enter) - TINY)
-        leave = np.where(still, np.inf, leave + U4 * np.abs(leave) + TINY)
-        enter = np.where(beside, np.inf, enter)
+        enter, leave = times_between(begin, end, w)
         # fmax and fmin take the other number instead of a NaN, which excludes no time.
         first = np.fmax(first, np.fmax(enter[:, 0], enter[:, 1]))
         last = np.fmin(last, np.fmin(leave[:, 0], leave[:, 1]))
         return first, last
+
+    def narrow(self, i: Indices, j: Indices, low: Floats, high: Floats) -> None:
+        """Narrow bounds of the times at which two pieces meet by oriented boxes, in place."""
+        if self._oriented is None:
+            motions = (*self._c.T, *self._v.T, self._c_error, self._v_error, self._reach)
+            outlines = [self._outline(k) for k in range(len(self.body))]
+            self._oriented = OrientedBoxes(outlines, np.array(motions))
+        self._oriented.narrow(i, j, low, high)
 
     @np.errstate(all="ignore")
     def stride(self, now: float) -> float:
@@ -184,7 +192,13 @@ def radius_above(body: Body) -> float:
 
 def pairs_at(boxes: PieceBoxes, time: QQ) -> list[tuple[int, int]]:
     """The pairs i < j of bodies, each with one piece, whose boxes meet at a time."""
-    _, first, second = _meeting(boxes, *enclosing_floats(time))
+    low, high = enclosing_floats(time)
+    active, first, second = _meeting(boxes, low, high)
+    if len(first) > _few(active):
+        lows, highs = np.full(len(first), low), np.full(len(first), high)
+        boxes.narrow(first, second, lows, highs)
+        near = lows <= highs
+        first, second = first[near], second[near]
     pairs = np.sort(np.stack((boxes.body[first], boxes.body[second]), axis=1), axis=1)
     return [(i, j) for i, j in pairs.tolist()]
 
@@ -214,7 +228,7 @@ def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[flo
         ask()
         later = min(now + step, last)
         active, first, second = _meeting(boxes, now, later)
-        many = 8 * active + 64  # comparing boxes in one slab costs little: numpy does it
+        many = _few(active)
         while len(first) > many and step > least and later > now:
             shorter = min(now + step / 4, last)
             fewer = _meeting(boxes, now, shorter)
@@ -223,6 +237,9 @@ def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[flo
             step, later, (active, first, second) = step / 4, shorter, fewer
         enter, leave = boxes.windows(first, second, now, later)
         near = enter <= leave
+        if near.sum() > many:
+            boxes.narrow(first, second, enter, leave)
+            near = enter <= leave
         pairs = zip(enter[near].tolist(), first[near].tolist(), second[near].tolist(), strict=True)
         for time, i, j in sorted(pairs):
             if (i, j) not in seen:
@@ -233,6 +250,11 @@ def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[flo
         if not later > now:
             later = float(np.nextafter(now, np.inf))
         now = later
+
+
+def _few(active: int) -> int:
+    """Number of pairs of which comparing the boxes costs little, of some pieces: numpy does it."""
+    return 8 * active + 64
 
 
 def _meeting(boxes: PieceBoxes, low: float, high: float) -> tuple[int, Indices, Indices]:

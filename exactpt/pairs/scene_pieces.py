@@ -18,7 +18,7 @@ from exactpt.kernel.doubles import native
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.motion.outline import Straight, far_origin, straight_pieces
+from exactpt.motion.outline import Outline, Straight, far_origin, rest_outline, straight_pieces
 from exactpt.pairs.boxes import PieceBoxes, candidate_pairs, pairs_at, radius_above
 from exactpt.pairs.pieces import MOST_VERTICES, MotionPiece, pieces_during
 from exactpt.scene.body_arrays import BodyArrays
@@ -70,7 +70,14 @@ def boxed_pieces_of(scene: Scene) -> ScenePieces | None:
     bodies = scene.bodies
     numbers = _of_arrays(bodies) if isinstance(bodies, BodyArrays) else _of_bodies(bodies)
     if numbers is not None:
-        return ScenePieces(scene, PieceBoxes.of_doubles(numbers, scene._start, scene._end), None)
+
+        def outline(k: int) -> Outline:
+            shape = rest_outline(bodies[k])
+            assert shape is not None  # noqa: S101 - its numbers are doubles
+            return shape
+
+        boxes = PieceBoxes.of_doubles(numbers, scene._start, scene._end, outline)
+        return ScenePieces(scene, boxes, None)
     rows: list[MotionPiece] = []
     origin = far_origin(scene.bodies)
     for i, body in enumerate(scene.bodies):
