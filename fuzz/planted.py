@@ -18,7 +18,7 @@ from unittest.mock import patch
 from exactpt.certificates import certifier, coefficients, incidences, perturbation
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventQueue
-from exactpt.collision import tiling_search
+from exactpt.collision import driver
 from exactpt.errors import InputError
 from exactpt.indices import CertificateId, HalfEdge
 from exactpt.kernel import filters, roots
@@ -230,7 +230,7 @@ PLANTED: Final[dict[str, Callable[[], Any]]] = {
     "rigid by mistake": lambda: _replaced(Certifier, "rigid", _rigid_if_one_velocity),
     "order of ties swapped": lambda: _replaced(perturbation, "x_order_terms", _swapped),
     "containment at the start missed": lambda: _replaced(
-        tiling_search, "initial_touches", _first_body_only
+        driver, "initial_touches", _first_body_only
     ),
     "x-order kept for ever": lambda: _replaced(Certifier, "keeps_x_order", _always(True)),
     "root enclosures too narrow": lambda: _replaced(filters, "linear", _narrow),

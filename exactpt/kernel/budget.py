@@ -21,7 +21,16 @@ from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import shorten
 from exactpt.kernel.rounding import check_rounding
 
-__all__ = ["GRACE", "LONG", "ask", "check_bounds", "resident_memory", "searching", "within"]
+__all__ = [
+    "GRACE",
+    "LONG",
+    "Budget",
+    "ask",
+    "check_bounds",
+    "resident_memory",
+    "searching",
+    "within",
+]
 
 LONG: Final = 64
 """Number of coefficients from which on loops over the coefficients of a polynomial ask."""
@@ -103,6 +112,69 @@ def searching(deadline: float | None, passed: Callable[[], Fraction | None]) -> 
             if spent.reached is None:
                 spent.reached = passed()
             raise
+
+
+_UNLIMITED: Final = contextlib.nullcontext()
+
+
+@final
+class Budget:
+    """What a run may still use.
+
+    Args:
+        events: maximum number of events; None for no limit.
+        seconds: maximum number of seconds of wall-clock time, from now on; None for no limit.
+        memory: maximum memory of the process, in bytes; None for no limit.
+
+    Raises:
+        InputError: if a bound is not a number >= 0.
+    """
+
+    def __init__(
+        self, events: int | None, seconds: float | None, memory: int | None = None
+    ) -> None:
+        check_bounds(max_events=events, max_seconds=seconds, max_memory=memory)
+        self._events = events
+        self._deadline = None if seconds is None else clock.monotonic() + seconds
+        self._memory = memory
+
+    @property
+    def is_bounded(self) -> bool:
+        """Whether the number of events or the time has a limit."""
+        return self._events is not None or self._deadline is not None
+
+    @property
+    def limits_events(self) -> bool:
+        """Whether the number of events has a limit."""
+        return self._events is not None
+
+    def spend(self, events: int) -> bool:
+        """Use up some events; whether there were as many."""
+        if self._events is None:
+            return True
+        self._events -= events
+        return self._events >= 0
+
+    def is_late(self) -> bool:
+        """Whether the seconds are used up."""
+        return self._deadline is not None and clock.monotonic() > self._deadline
+
+    def held(self) -> contextlib.AbstractContextManager[None]:
+        """A context whose long loops stop when the time or the memory is used up.
+
+        A little more time is allowed than between two events, where a run can be interrupted and
+        go on.
+        """
+        if self._deadline is None and self._memory is None:
+            return _UNLIMITED
+        deadline = None if self._deadline is None else self._deadline + GRACE
+        return within(deadline, self._memory)
+
+    def rest(self) -> tuple[int | None, float | None, int | None]:
+        """The events, seconds and memory that are left, None for no limit."""
+        events = None if self._events is None else max(0, self._events)
+        seconds = None if self._deadline is None else max(0.0, self._deadline - clock.monotonic())
+        return events, seconds, self._memory
 
 
 def check_bounds(**bounds: object) -> None:

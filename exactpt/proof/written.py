@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, NamedTuple, final
 from exactpt.errors import AuditError, BudgetExceeded
 from exactpt.files import write_atomically, writing
 from exactpt.kernel.budget import searching
-from exactpt.kernel.counters import Counts
 from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.tiling.report import report
@@ -139,9 +138,7 @@ class ProvedSearch:
     @property
     def stats(self) -> dict[str, object]:
         """The counts of the run; see `exactpt.tiling.report`."""
-        kinetic = self._proof.kinetic
-        counts = Counts(0, 0, {}) if kinetic is None else kinetic.vertices.counters.now()
-        return report(self._scene, kinetic, counts)
+        return report(self._scene, self._proof.kinetic)
 
     def run_to_contact(self) -> Contact | None:
         """Write the proof, and return the first contact, or None.

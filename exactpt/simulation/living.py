@@ -7,7 +7,6 @@ from typing import NamedTuple, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.motion.body import Body, refuse_rounded
 from exactpt.motion.motions import Motion
@@ -92,13 +91,6 @@ class LivingScene:
     def now(self) -> AlgebraicNumber:
         """The current time."""
         return AlgebraicNumber(self._since) if self.tiling is None else self.tiling.now
-
-    @property
-    def counts(self) -> Counts:
-        """The counts of decisions so far."""
-        if self.tiling is None:
-            return Counts(0, 0, {})
-        return self.tiling.vertices.counters.now()
 
     @property
     def scene(self) -> Scene:

@@ -8,15 +8,16 @@ from contextlib import suppress
 from fractions import Fraction
 from typing import TypeAlias, final
 
-from exactpt.collision.tiling_search import MANY
+from exactpt.collision.driver import MANY
 from exactpt.errors import AuditError, BudgetExceeded, InputError, carry, carrying
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.budget import Budget
 from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
 from exactpt.kernel.rounding import check_rounding
 from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
-from exactpt.simulation.budget import Budget, Guard, OneThread
+from exactpt.simulation.contexts import Guard, OneThread
 from exactpt.simulation.event import Event
 from exactpt.simulation.history import Log
 from exactpt.simulation.living import Choice, LivingScene

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from exactpt.kernel.budget import Budget
 from exactpt.kernel.counters import Counts
 from exactpt.kernel.numbers import parse_rational
 from exactpt.scene.scene import Scene
-from exactpt.simulation.budget import Budget
 from exactpt.simulation.living import Choice, LivingScene
 from exactpt.simulation.met import Met
 from exactpt.simulation.running import Run
@@ -18,6 +18,7 @@ from exactpt.simulation.saved import (
     tiling_from_json,
     tiling_to_json,
 )
+from exactpt.tiling.report import counts_of
 
 __all__ = ["run_from_json", "run_to_json"]
 
@@ -30,7 +31,7 @@ def run_to_json(run: Run, scene: object) -> Data:
     """
     run.check_whole()
     living = run.living
-    counts = living.counts
+    counts = counts_of(living.tiling)
     return {
         "name": living.name,
         "tiling": living.choice.asked,

@@ -13,12 +13,12 @@ from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.files import write_atomically
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.budget import Budget
 from exactpt.kernel.numbers import Rational
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.scene.written import to_json as scene_to_json
-from exactpt.simulation.budget import Budget
 from exactpt.simulation.event import Event
 from exactpt.simulation.history import History, Log
 from exactpt.simulation.recording import Recorder
@@ -137,7 +137,7 @@ class Simulation:
     def stats(self) -> dict[str, object]:
         """The counts of the run so far, see `exactpt.tiling.report`."""
         living = self._run.living
-        data = report(living.scene, living.tiling, living.counts)
+        data = report(living.scene, living.tiling)
         return data | {"contacts": self.contacts, "plans": living.changes}
 
     # Time

@@ -29,11 +29,12 @@ from exactpt.kernel.counters import Counts
 from exactpt.scene.scene import Scene
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["report"]
+__all__ = ["counts_of", "report"]
 
 
-def report(scene: Scene, kinetic: Tiling | None, counts: Counts) -> dict[str, object]:
-    """The counts of a run so far."""
+def report(scene: Scene, kinetic: Tiling | None) -> dict[str, object]:
+    """The counts of a run so far; the tiling is None if there is none yet."""
+    counts = counts_of(kinetic)
     data: dict[str, object] = {
         "bodies": len(scene.bodies),
         "vertices": scene.vertex_count,
@@ -69,6 +70,11 @@ def report(scene: Scene, kinetic: Tiling | None, counts: Counts) -> dict[str, ob
         "flips": stats.flips,
         "zeros": certifier.zeros,
     }
+
+
+def counts_of(kinetic: Tiling | None) -> Counts:
+    """The counts of decisions of a run so far."""
+    return Counts(0, 0, {}) if kinetic is None else kinetic.vertices.counters.now()
 
 
 def _locality(kinetic: Tiling) -> tuple[int, float]:

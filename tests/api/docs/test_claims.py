@@ -177,7 +177,7 @@ def test_the_command_line_saves_the_scene_of_a_broken_invariant(tmp_path, monkey
     def broken(_):
         raise AuditError("broken on purpose")
 
-    monkeypatch.setattr("exactpt.collision.tiling_search.initial_touches", broken)
+    monkeypatch.setattr("exactpt.collision.driver.initial_touches", broken)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     with pytest.raises(SystemExit) as ended:
         cli.main(["collide", str(scene), "--method", "kinetic"])

@@ -62,7 +62,7 @@ def test_what_nobody_thought_of_is_a_bug_and_its_scene_is_kept(scene, monkeypatc
     def breaks(_):
         raise ZeroDivisionError("nobody thought of this")
 
-    monkeypatch.setattr("exactpt.collision.tiling_search.initial_touches", breaks)
+    monkeypatch.setattr("exactpt.collision.driver.initial_touches", breaks)
     odd = scene.with_name("a scene without an ending")
     odd.write_bytes(scene.read_bytes())
 

@@ -107,7 +107,7 @@ def test_an_event_that_never_ends_leaves_the_time_before_it(scene, monkeypatch, 
 
 
 def test_before_anything_is_proved_no_time_is_told(scene, monkeypatch, capsys):
-    monkeypatch.setattr("exactpt.collision.tiling_search.initial_touches", for_ever)
+    monkeypatch.setattr("exactpt.collision.driver.initial_touches", for_ever)
 
     assert run("collide", scene, 0.05) == 4
 

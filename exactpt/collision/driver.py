@@ -1,0 +1,263 @@
+"""The driver of a tiling: from event to event, up to a time or to the first contact.
+
+Nothing else calls `Tiling.advance` or `Tiling.advance_many`. Whoever follows a run is an
+`Observer` and declares what it listens to; the driver requests no more from the tiling.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING, Final, final
+
+from exactpt.errors import BudgetExceeded, InputError
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.budget import Budget
+from exactpt.kernel.collection import collector_at_rest
+from exactpt.kernel.numbers import QQ, fraction
+from exactpt.pairs.contact import Contact, contact_of
+from exactpt.pairs.start import initial_touches
+from exactpt.tiling.events import ContactFound, TilingEvent
+from exactpt.tiling.start import TilingPlan, plan_tiling
+
+if TYPE_CHECKING:
+    from exactpt.indices import HalfEdge
+    from exactpt.motion.incidence import Touch
+    from exactpt.scene.scene import Scene
+    from exactpt.tiling.tiling import Tiling
+
+__all__ = ["CHANGES", "EVENTS", "MANY", "NOTHING", "TIMES", "Driver", "Observer"]
+
+NOTHING: Final = 0
+"""Listen only to the start, the end, and changes of motions."""
+TIMES: Final = 1
+"""Listen to event times; events are not recorded."""
+EVENTS: Final = 2
+"""Listen to the events of each event time."""
+CHANGES: Final = 3
+"""Listen to events and to the changed half-edges."""
+
+MANY: Final = 64
+"""Number of event times between two checks of the budget, if nothing listens."""
+
+
+class Observer:
+    """What follows a run; every method does nothing by default.
+
+    Attributes:
+        listens_to: `NOTHING`, `TIMES`, `EVENTS` or `CHANGES`.
+    """
+
+    listens_to: int = TIMES
+
+    def touching(
+        self, scene: Scene, touches: Sequence[Touch], overlaps: Sequence[tuple[int, int]]
+    ) -> None:
+        """Bodies touch at the start (see `initial_touches`); no other method is called."""
+
+    def before(self, scene: Scene, tiling: Tiling) -> None:
+        """Time is about to pass; the scene is that since the last change of motions."""
+
+    def passed(
+        self, tiling: Tiling, events: Sequence[TilingEvent], changed: set[HalfEdge] | None
+    ) -> None:
+        """An event time has been processed.
+
+        Args:
+            tiling: the tiling just after it.
+            events: its events; empty if no observer listens to `EVENTS`.
+            changed: see `Tiling.changes`; None if no observer listens to `CHANGES`.
+        """
+
+    def reached(self, tiling: Tiling, changed: set[HalfEdge] | None) -> None:
+        """No event was left up to a time, which is now; the last arguments are as in `passed`."""
+
+    def met(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
+        """The run has ended with a contact now; the tiling is the one just before."""
+
+    def change(self, t: QQ) -> None:
+        """Motions or bodies have changed at a rational time."""
+
+    def finish(self) -> None:
+        """The run is no longer observed."""
+
+
+@final
+class Driver:
+    """Drives the tiling of a scene.
+
+    Args:
+        scene: returns the scene, from the last change of motions on.
+        tiling: the tiling, between two events; None before `start`.
+        observers: what follows the run.
+        budget: the bounds of `run`.
+
+    Attributes:
+        tiling: the tiling; None before there is one. It may be replaced between two events.
+        observers: what follows the run.
+        budget: the bounds of `run`.
+        since: a rational time with no contact up to it; None before the contacts at the start
+            are known, and if there are any.
+        touches: the incidences of the contact that ended the last `advance`; None without one.
+    """
+
+    def __init__(
+        self,
+        scene: Callable[[], Scene],
+        tiling: Tiling | None = None,
+        *,
+        observers: Sequence[Observer] = (),
+        budget: Budget | None = None,
+    ) -> None:
+        self._scene = scene
+        self.tiling = tiling
+        self.observers = list(observers)
+        self.budget = Budget(None, None) if budget is None else budget
+        self.since: QQ | None = None if tiling is None else scene()._start
+        self.touches: Sequence[Touch] | None = None
+
+    @property
+    def kinetic(self) -> Tiling:
+        """The tiling.
+
+        Raises:
+            InputError: if bodies touch at the start.
+        """
+        if self.tiling is None:
+            raise InputError("the bodies touch at the start: there is no tiling")
+        return self.tiling
+
+    def start(self, tiling: str | TilingPlan, *, exact_only: bool = False) -> Contact | None:
+        """Build the tiling of a name or a choice, or return the contact at the start.
+
+        Raises:
+            BudgetExceeded: if the time or the memory of this thread is used up.
+            InputError: see `plan_tiling`.
+        """
+        scene = self._scene()
+        start = scene._start
+        touches, overlaps = initial_touches(scene)
+        if overlaps:
+            for observer in self.observers:
+                observer.touching(scene, touches, overlaps)
+            return contact_of(scene, AlgebraicNumber(start), touches, overlaps)
+        self.since = start
+        try:
+            with collector_at_rest():  # in one piece: at its end all that is new is visited once
+                plan = plan_tiling(scene, tiling, start) if isinstance(tiling, str) else tiling
+                self.tiling = plan.start(start, exact_only=exact_only)
+        except BudgetExceeded as spent:
+            spent.reached = scene.start
+            raise
+        return None
+
+    def advance(self, until: QQ) -> list[TilingEvent] | None:
+        """Process the events of the next event time, if it is not after ``until``.
+
+        Returns:
+            The events (none if all are internal). None if no event time was left, and the
+            current time is now ``until``; or if there is a contact now: then `touches` has its
+            incidences, and observers are notified by `meet`.
+        """
+        return self._advance(until, EVENTS)
+
+    def run(self, until: QQ) -> Contact | None:
+        """Return the first contact up to a time, or None; events are not returned.
+
+        Raises:
+            BudgetExceeded: if the budget is exceeded; its ``reached`` is a time up to which there
+                is no contact.
+        """
+        level = max((observer.listens_to for observer in self.observers), default=NOTHING)
+        if self.budget.limits_events:
+            level = max(level, EVENTS)
+        if level == NOTHING:
+            self._advance_unobserved(until)
+        else:
+            while (events := self._advance(until, level)) is not None:
+                self.count(len(events))
+                self.check_time()
+        return None if self.touches is None else self.meet()
+
+    def meet(self) -> Contact:
+        """End the run with the contact that `advance` has found."""
+        for observer in self.observers:
+            observer.met(self.kinetic, self.touches or ())
+        return self.contact_ahead()
+
+    def contact_ahead(self) -> Contact:
+        """The contact that `advance` has found."""
+        return contact_of(self._scene(), self.kinetic.now, self.touches or ())
+
+    def count(self, events: int) -> None:
+        """Count events.
+
+        Raises:
+            BudgetExceeded: if the budget permits fewer.
+        """
+        if not self.budget.spend(events):
+            raise BudgetExceeded("the number of events is used up", self.reached())
+
+    def check_time(self) -> None:
+        """Check the time limit of the budget; between two events, so that the run can go on.
+
+        Raises:
+            BudgetExceeded: if it is exceeded.
+        """
+        if self.budget.is_late():
+            raise BudgetExceeded("the time is used up", self.reached())
+
+    def reached(self) -> Fraction:
+        """Return a rational time, at most now, up to which there is no contact; between events."""
+        now = self.kinetic.now
+        return now.low if now.is_rational else now.canonical_interval()[0]
+
+    def passed(self) -> Fraction | None:
+        """Return a rational time up to which there is no contact, also during an event.
+
+        None if nothing is known, see `Search.passed`.
+        """
+        since, tiling = self.since, self.tiling
+        if since is None:
+            return None
+        if tiling is None or tiling.passed is None:
+            return fraction(since)
+        return fraction(max(since, tiling.vertices.frame.exact_time(tiling.passed.low)))
+
+    def _advance_unobserved(self, until: QQ) -> None:
+        """Advance up to a time or to a contact."""
+        self.touches = None
+        try:
+            while self.kinetic.advance_many(until, MANY):
+                self.check_time()
+        except ContactFound as found:
+            self.touches = found.touches
+
+    def _advance(self, until: QQ, level: int) -> list[TilingEvent] | None:
+        """Advance to the next event time, see `advance`; below `EVENTS` no event is recorded."""
+        tiling = self.kinetic
+        self.touches = None
+        for observer in self.observers:
+            observer.before(self._scene(), tiling)
+        events: list[TilingEvent] | None = None
+        try:
+            if level >= EVENTS:
+                events = tiling.advance(until)
+            elif tiling.advance_many(until, 1):
+                events = []
+        except ContactFound as found:
+            self.touches = found.touches
+            return None
+        if self.observers:
+            self._notify(tiling, events)
+        return events
+
+    def _notify(self, tiling: Tiling, events: Sequence[TilingEvent] | None) -> None:
+        """Notify the observers of an event time, or that there is none."""
+        needs_changes = any(observer.listens_to >= CHANGES for observer in self.observers)
+        changed = tiling.changes() if needs_changes else None
+        for observer in self.observers:
+            if events is None:
+                observer.reached(tiling, changed)
+            elif observer.listens_to:
+                observer.passed(tiling, events, changed)
