@@ -352,6 +352,11 @@ class Body:
             for p in tracks
         ]
 
+    def velocity_at(self, t: Rational) -> list[tuple[Fraction, Fraction]]:
+        """The velocities of the vertices just after a rational time, exactly."""
+        now = rational(t)
+        return [place(track.velocity(now)) for track in self._piece_after(now).tracks]
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Body):
             return NotImplemented

@@ -6,7 +6,7 @@ from collections.abc import Hashable, Iterable
 from fractions import Fraction
 from typing import Final, NamedTuple, final
 
-from exactpt.kernel.integer_polynomial import IntPoly, evaluate
+from exactpt.kernel.integer_polynomial import IntPoly, derivative, evaluate
 from exactpt.kernel.numbers import QQ, ZZ, Rational, gcd, place, rational
 from exactpt.kernel.packed import coefficient_bits, pack
 from exactpt.kernel.polynomial import Polynomial
@@ -83,6 +83,15 @@ class Track:
             return evaluate(self.x, t) / self.w[0], evaluate(self.y, t) / self.w[0]
         at_t = evaluate(self.w, t)
         return evaluate(self.x, t) / at_t, evaluate(self.y, t) / at_t
+
+    def velocity(self, t: QQ) -> tuple[QQ, QQ]:
+        """The derivative of the position."""
+        w, dw = evaluate(self.w, t), evaluate(derivative(self.w), t)
+        x, y = (
+            (evaluate(derivative(f), t) * w - evaluate(f, t) * dw) / (w * w)
+            for f in (self.x, self.y)
+        )
+        return x, y
 
     def __repr__(self) -> str:
         return f"Track({self.x}, {self.y}, {self.w})"

@@ -17,13 +17,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from exactpt.errors import InputError
+from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, floor, power_of_two, rational, rationals, show
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.course import jump
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, SimpleMotion, Translation
 
-__all__ = ["GRID", "onward", "planned", "rounded", "translation_at"]
+__all__ = ["GRID", "onward", "planned", "rounded", "translation_at", "translation_velocity"]
 
 GRID = power_of_two(-20)
 """Default grid of velocities."""
@@ -120,6 +121,25 @@ def translation_at(body: Body, t: QQ) -> tuple[Polynomial, Polynomial]:
         parts = zip(ends, motion.motions, strict=True)
         motion = next(m for end, m in parts if end is None or end > t)
     return _translation(motion)
+
+
+def translation_velocity(body: Body, t: QQ | AlgebraicNumber) -> tuple[QQ, QQ]:
+    """The velocity that the motion's translation gives to every vertex just after a time.
+
+    Raises:
+        InputError: if the time is irrational, and the velocity is not constant there.
+    """
+    if isinstance(t, AlgebraicNumber):
+        passed = [b for b in body._breakpoints if t.compare_rational(b) >= 0]
+        near = t._low if t.is_rational or not passed else passed[-1]
+        if not t.is_rational and any(f.degree > 1 for f in translation_at(body, near)):
+            raise InputError(
+                f"body {body.name!r}: its velocity at the irrational time {float(t)!r} is no "
+                f"rational; run to a rational time before"
+            )
+        t = near
+    x, y = translation_at(body, t)
+    return x.derivative()._at(t), y.derivative()._at(t)
 
 
 def _onward(motion: SimpleMotion, t: QQ, v: tuple[QQ, QQ]) -> SimpleMotion:

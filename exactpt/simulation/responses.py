@@ -10,15 +10,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
+from fractions import Fraction
 from typing import TYPE_CHECKING, Final, NamedTuple, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.integer_polynomial import derivative, evaluate
-from exactpt.kernel.numbers import QQ, Rational, nearest_float, rational, shorten
+from exactpt.kernel.numbers import QQ, Rational, fraction, nearest_float, rational, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.motions import made
 from exactpt.simulation.normals import Vector, normals_at
-from exactpt.simulation.plans import GRID, onward, translation_at
+from exactpt.simulation.plans import GRID, onward, translation_velocity
 
 if TYPE_CHECKING:
     from exactpt.pairs.contact import Contact, Pair
@@ -65,7 +65,8 @@ class Bounce:
         masses: positive masses by name; 1 for bodies that are not named.
         slowest: minimum normal speed, positive, at which touching features separate.
         fastest: maximum absolute value of each velocity coordinate; None for no limit.
-        grid: positive step to whose multiples velocities are rounded.
+        grid: positive step to whose multiples velocities are rounded. This, and ``slowest``, is
+            why the energy of elastic collisions drifts; docs/howto/simulation.md has figures.
 
     Raises:
         InputError: if ``fixed`` is a string, or a number is out of range (that of doubles too,
@@ -124,6 +125,33 @@ class Bounce:
             if name not in self._fixed and any(change[name]):
                 plans[name] = self._plan(bodies[name], change[name], t)
         simulation.set_motions(plans)
+
+    def momentum(self, simulation: Simulation) -> tuple[Fraction, Fraction]:
+        """The momentum (x, y) now of all bodies that are not fixed, exactly.
+
+        The velocity of a body is that of its translation: rotations and deformations, which
+        contacts do not change, have no part in it.
+
+        Raises:
+            InputError: if now is irrational and the velocity of a body is not constant, or its
+                motion is of a user-defined class.
+        """
+        moving = self._moving(simulation)
+        x, y = (sum((m * v[k] for m, v in moving), QQ(0)) for k in (0, 1))
+        return fraction(x), fraction(y)
+
+    def kinetic_energy(self, simulation: Simulation) -> Fraction:
+        """The kinetic energy now, see `momentum`: m (vx^2 + vy^2) / 2, of all these bodies."""
+        moving = self._moving(simulation)
+        return fraction(sum((m * (x * x + y * y) / 2 for m, (x, y) in moving), QQ(0)))
+
+    def _moving(self, simulation: Simulation) -> list[tuple[QQ, tuple[QQ, QQ]]]:
+        """The masses and velocities of all bodies that are not fixed."""
+        return [
+            (rational(self._masses.get(body.name, 1.0)), translation_velocity(body, simulation.now))
+            for body in simulation.scene.bodies
+            if body.name not in self._fixed
+        ]
 
     def _check_names(self, simulation: Simulation) -> None:
         """Check that every name that was given is that of a body, now or at a contact before."""
@@ -209,16 +237,8 @@ def _velocities(pair: Pair, a: Body, b: Body, t: QQ) -> tuple[Vector, Vector]:
 
 def _velocity(body: Body, vertex: int, t: QQ) -> Vector:
     """The velocity of a vertex just after a time, in doubles."""
-    piece = body._piece_after(t)
-    if piece.translation is not None:
-        return _translation_speed(body, t)
-    track = piece.track(vertex)
-    w, dw = evaluate(track.w, t), evaluate(derivative(track.w), t)
-    x, y = (
-        nearest_float((evaluate(derivative(f), t) * w - evaluate(f, t) * dw) / (w * w))
-        for f in (track.x, track.y)
-    )
-    return x, y
+    x, y = body._piece_after(t).track(vertex).velocity(t)
+    return nearest_float(x), nearest_float(y)
 
 
 def _velocity_beside(body: Body, edge: int, vertex: tuple[Body, int], t: QQ) -> Vector:
@@ -236,6 +256,6 @@ def _velocity_beside(body: Body, edge: int, vertex: tuple[Body, int], t: QQ) -> 
 
 
 def _translation_speed(body: Body, t: QQ) -> Vector:
-    """The velocity that the motion's translation gives to every vertex."""
-    x, y = translation_at(body, t)
-    return nearest_float(x.derivative()._at(t)), nearest_float(y.derivative()._at(t))
+    """The velocity that the motion's translation gives to every vertex, in doubles."""
+    x, y = translation_velocity(body, t)
+    return nearest_float(x), nearest_float(y)

@@ -232,3 +232,48 @@ def test_each_contact_of_a_run_is_that_of_all_pairs(tiling):
         contacts += simulation.contacts
         assert first_contact_allpairs(ahead.pop()) is None
     assert contacts > 30
+
+
+def test_velocities_are_exact_also_of_vertices_that_turn():
+    ball = Body("ball", BOX, Translation([0, 1, "1/3"], [5, -2]))
+    wheel = Body("wheel", BOX, Rigid([0, 1], x=[0, 3]))
+
+    assert ball.velocity_at(2) == [(Fraction(7, 3), -2)] * 4
+    # Half the angle has the tangent t: the body turns by 2 radians a second at t = 0.
+    assert wheel.velocity_at(0) == [(3, 0), (3, 2), (1, 2), (1, 0)]
+    h = Fraction(1, 10**9)
+    before, after = wheel.at(1 - h)[2], wheel.at(1 + h)[2]
+    for k in (0, 1):
+        assert abs((after[k] - before[k]) / (2 * h) - wheel.velocity_at(1)[2][k]) < 10 * h
+
+
+def test_momentum_and_kinetic_energy_have_the_masses_of_a_bounce():
+    bodies = [
+        Body("left", BOX, Velocity(2, 1)),
+        Body("right", [(x + 10, y) for x, y in BOX], Velocity(-1, 1)),
+        Body("wall", [(30, -9), (30, 9)], Velocity(-1, 0)),
+    ]
+    bounce = Bounce(["wall"], masses={"left": 3, "right": "1/2"})
+    simulation = Simulation(Scene(bodies, time=(0, 20)))
+
+    assert bounce.momentum(simulation) == (Fraction(11, 2), Fraction(7, 2))
+    assert bounce.kinetic_energy(simulation) == Fraction(15, 2) + Fraction(1, 2)
+
+    list(simulation.run(5, on_contact=bounce))
+    assert simulation.contacts == 1
+    assert float(bounce.momentum(simulation)[0]) == pytest.approx(5.5, abs=4 * EXACT)
+    assert float(bounce.kinetic_energy(simulation)) == pytest.approx(8, abs=20 * EXACT)
+
+
+def test_energy_at_an_irrational_time_needs_constant_velocities():
+    falling = Body("falling", BOX, Translation([0, 0], [0, 0, -1]))
+    floor = Body("floor", [(-9, -2), (9, -2)])
+    linear = Scene([Body("ball", BOX, Velocity(1, 0)), Body("far", BOX, Velocity(1, 9))], (0, 1))
+    bounce = Bounce(["floor"])
+    simulation = Simulation(Scene([falling, floor], time=(0, 20)))
+    contact = simulation.run_to_contact()
+
+    assert not contact.time.is_rational
+    with pytest.raises(InputError, match=r"'falling': its velocity at the irrational time 1\.414"):
+        bounce.kinetic_energy(simulation)
+    assert Bounce().momentum(Simulation(linear)) == (2, 9)

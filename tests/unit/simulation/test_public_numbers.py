@@ -70,6 +70,7 @@ ARGUMENTS = {
     "sign_before": ((-1, 1),),
     "sign_of": ((-1, 1),),
     "until": (8.75,),
+    "velocity_at": ("1/3",),
     "with_radius": ("1/3",),
     "with_motion": (Translation([0, "1/3"]),),
 }
