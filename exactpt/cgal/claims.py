@@ -67,7 +67,7 @@ class IsolatedRoot(NamedTuple):
 
     @classmethod
     def of_json(cls, time: Mapping[str, object]) -> IsolatedRoot:
-        """The root in a ``time`` object of docs/format.md: its polynomial, low and high.
+        """Return the root in a ``time`` object of docs/format.md: its polynomial, low and high.
 
         Raises:
             InputError: if a key is missing or a value is not a number.
@@ -111,7 +111,7 @@ class Verdict:
 
 
 def exactly(value: object) -> QQ:
-    """The rational value; floats are refused, since they indicate earlier rounding."""
+    """Return the rational value; floats are refused, since they indicate earlier rounding."""
     if isinstance(value, float):
         raise InputError(f"not an exact number: {value!r}")
     return rational(cast("Rational", value))

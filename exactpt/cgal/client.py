@@ -32,7 +32,7 @@ _AHEAD: Final = 3
 
 
 def find_program() -> Path:
-    """The cgal_check program: ``$EXACTPT_CGAL_CHECK``, the checkout's build, or on PATH.
+    """Return the cgal_check program: ``$EXACTPT_CGAL_CHECK``, the checkout's build, or on PATH.
 
     Raises:
         InputError: if there is none; the message says how to build it.
@@ -99,7 +99,7 @@ class CgalCheck:
     def check_tiling(
         self, tile: Tile, bodies: Iterable[BodyShape], *, deep: bool = False
     ) -> Verdict:
-        """Whether a tile is a pseudo-triangulation of the free space, exactly.
+        """Return True if a tile is a pseudo-triangulation of the free space, exactly.
 
         Args:
             tile: the ``tile`` dictionary of docs/format.md.
@@ -121,7 +121,7 @@ class CgalCheck:
     def check_triangulation(
         self, tile: Tile, bodies: Iterable[BodyShape], *, deep: bool = False
     ) -> Verdict:
-        """Whether a tile's edges, with its ``fan`` edges, triangulate the free space.
+        """Return True if a tile's edges, with its ``fan`` edges, triangulate the free space.
 
         The faces of the tile are not examined: see `check_tiling`.
         """
@@ -129,7 +129,7 @@ class CgalCheck:
         return next(self._verdicts([tiling_request(word, tile, bodies)]))
 
     def check_root(self, polynomial: Sequence[int], low: Rational, high: Rational) -> Verdict:
-        """Whether a polynomial has exactly one real root in [low, high].
+        """Return True if a polynomial has exactly one real root in [low, high].
 
         The figures are ``roots``, the number of distinct real roots; ``rank``, the position of
         this one among them, counted from 1; and ``multiplicity``.
@@ -146,7 +146,7 @@ class CgalCheck:
         return _signs(self._ask(f"compare {root_words(a)} {root_words(b)} end\n"))[0]
 
     def sign_at_root(self, f: Sequence[int], root: RootClaim) -> Signs:
-        """The signs of f just before, at and just after a root.
+        """Return the signs of f just before, at and just after a root.
 
         Raises:
             InputError: if the interval does not isolate a root.
@@ -155,7 +155,7 @@ class CgalCheck:
         return Signs(*_signs(answer))
 
     def hull(self, points: Iterable[Sequence[Rational]]) -> list[int]:
-        """The vertices of the convex hull of points, as indices, counter-clockwise.
+        """Return the vertices of the convex hull of points, as indices, counter-clockwise.
 
         The first is the lexicographically smallest point (by x, then y). Of equal points the first
         counts; points in the interior of a hull edge are left out.

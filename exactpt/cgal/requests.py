@@ -47,7 +47,7 @@ class _BadTileError(Exception):
 
 
 def tiling_request(word: str, tile: Tile, bodies: Iterable[BodyShape]) -> str | Verdict:
-    """The text of a request; or the verdict, if the tile does not match the bodies."""
+    """Return the text of a request; or the verdict, if the tile does not match the bodies."""
     parts = cast("_Tile", tile)
     with_faces = word.startswith("tiling")
     try:
@@ -96,7 +96,7 @@ def _body_lines(vertices: list[_TileVertex], shapes: list[BodyShape]) -> Iterato
 
 
 def _part_words(parts: Sequence[Sequence[Sequence[int]]], place: Sequence[int | None]) -> str:
-    """The parts of a body with holes, by the places of its vertices."""
+    """Return the parts of a body with holes, by the places of its vertices."""
 
     def cycle(ring: Sequence[int]) -> str:
         return " ".join(map(str, (len(ring), *(place[i] for i in ring))))
@@ -149,7 +149,7 @@ def _rational_words(value: QQ) -> str:
 
 
 def point_words(point: Sequence[Rational]) -> str:
-    """The exact coordinates of a point."""
+    """Return the exact coordinates of a point."""
     x, y = point
     return f"{_rational_words(rational(x))} {_rational_words(rational(y))}"
 
@@ -163,7 +163,7 @@ def polynomial_words(f: Sequence[int]) -> str:
 
 
 def root_words(root: RootClaim) -> str:
-    """A root: its polynomial and the interval that isolates it."""
+    """Return a root: its polynomial and the interval that isolates it."""
     if not isinstance(root, IsolatedRoot):
         root = IsolatedRoot(root._polynomial, root._low, root._high)
     low, high = _rational_words(root.low), _rational_words(root.high)

@@ -41,7 +41,7 @@ _CHUNK: Final = 1 << 21
 
 
 def boxes_of_points(groups: Sequence[Sequence[tuple[QQ, QQ]]]) -> Boxes:
-    """The bounding box of each group of points, rounded outward.
+    """Return the bounding box of each group of points, rounded outward.
 
     Where all points are close together but far from the origin, boxes are relative to one of
     the points, so that rounding keeps them apart. Rounding is monotone, so the nearest double
@@ -86,7 +86,7 @@ def widen_unknown(boxes: Boxes) -> None:
 
 
 def overlapping_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
-    """All pairs i < j of closed boxes that intersect, in chunks of index arrays (i, j)."""
+    """Yield all pairs i < j of closed boxes that intersect, in chunks of index arrays (i, j)."""
     n = len(boxes)
     if n <= _FEW:
         low_x, high_x, low_y, high_y = boxes.T
@@ -148,7 +148,7 @@ def _swept_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
 
 
 def _strips(low: Floats, high: Floats) -> tuple[Indices, Indices]:
-    """The lowest and the highest strip of each interval.
+    """Return the lowest and the highest strip of each interval.
 
     About as many intervals begin in each strip, and few meet many strips. A higher
     interval is in no lower strip, wherever the plane is cut.
@@ -166,7 +166,7 @@ def _strips(low: Floats, high: Floats) -> tuple[Indices, Indices]:
 
 
 def _spread(items: Indices, start: Indices, stop: Indices) -> tuple[Indices, Indices]:
-    """Each item repeated for every number in its range [start, stop), and these numbers."""
+    """Return each item repeated for every number in its range [start, stop), and these numbers."""
     sizes = stop - start
     numbers = np.arange(int(sizes.sum())) - np.repeat(np.cumsum(sizes) - sizes - start, sizes)
     return np.repeat(items, sizes), numbers

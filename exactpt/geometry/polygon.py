@@ -24,7 +24,7 @@ __all__ = [
 
 
 def edges(size: int, *, closed: bool) -> list[tuple[int, int]]:
-    """The edges of a body as pairs of vertices; edge i starts at vertex i.
+    """Return the edges of a body as pairs of vertices; edge i starts at vertex i.
 
     A point has none, a segment one (closed or not), a polygon as many as it has vertices.
     """
@@ -35,7 +35,7 @@ def edges(size: int, *, closed: bool) -> list[tuple[int, int]]:
 
 
 def signed_area2(points: Sequence[Point]) -> QQ:
-    """Twice the signed area, positive if counter-clockwise."""
+    """Return twice the signed area, positive if counter-clockwise."""
     total = QQ(0)
     for (x0, y0), (x1, y1) in zip(points, [*points[1:], points[0]], strict=True):
         total += x0 * y1 - x1 * y0
@@ -43,7 +43,7 @@ def signed_area2(points: Sequence[Point]) -> QQ:
 
 
 def is_counter_clockwise(points: Sequence[Point]) -> bool:
-    """Whether a polygon of nonzero area is counter-clockwise.
+    """Return True if a polygon of nonzero area is counter-clockwise.
 
     A simple polygon is oriented as it turns at its leftmost vertex, the lowest if there are
     several: the interior angle there is less than pi. (It is neither 0 nor pi.)
@@ -55,7 +55,7 @@ def is_counter_clockwise(points: Sequence[Point]) -> bool:
 
 
 def segments_meet(a: Point, b: Point, c: Point, d: Point) -> bool:
-    """Whether the closed segments ab and cd intersect."""
+    """Return True if the closed segments ab and cd intersect."""
     abc, abd = side(a, b, c), side(a, b, d)
     cda, cdb = side(c, d, a), side(c, d, b)
     if abc * abd < 0 and cda * cdb < 0:
@@ -69,7 +69,7 @@ def segments_meet(a: Point, b: Point, c: Point, d: Point) -> bool:
 
 
 def first_self_touch(points: Sequence[Point], *, closed: bool) -> tuple[int, int] | None:
-    """Two edges that share more than a common end, or one edge (i, i) of length 0, or None.
+    """Return two edges that share more than a common end, or one edge (i, i) of length 0, or None.
 
     The polygon (or chain) is simple if and only if the result is None.
     """
@@ -107,7 +107,7 @@ def _touch(points: Sequence[Point], e: tuple[int, int], f: tuple[int, int]) -> b
 def contains(
     points: Sequence[Point], p: Point, pairs: Sequence[tuple[int, int]] | None = None
 ) -> bool:
-    """Whether the closed simple polygon, of either orientation, contains p.
+    """Return True if the closed simple polygon, of either orientation, contains p.
 
     Args:
         points: its vertices.

@@ -29,7 +29,7 @@ Point = tuple[QQ, QQ]
 
 
 def orient2d(a: tuple[R, R], b: tuple[R, R], c: tuple[R, R]) -> R:
-    """Twice the signed area of the triangle abc.
+    """Return twice the signed area of the triangle abc.
 
     Positive if a, b, c turn left (counter-clockwise), negative if they turn right,
     zero if they are collinear.
@@ -43,5 +43,5 @@ def side(a: Point, b: Point, c: Point) -> int:
 
 
 def between(a: Point, b: Point, c: Point) -> bool:
-    """Whether c lies in the closed segment ab, if it is on the line ab (or if a = b)."""
+    """Return True if c lies in the closed segment ab, if it is on the line ab (or if a = b)."""
     return all(min(u, v) <= w <= max(u, v) for u, v, w in zip(a, b, c, strict=True))

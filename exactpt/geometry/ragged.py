@@ -60,7 +60,7 @@ def ranges(counts: Indices, most: int) -> list[tuple[int, int]]:
 
 
 def edges_of(offsets: Indices, closed: Flags) -> Edges:
-    """The edges of bodies: polygons if closed and of three or more vertices."""
+    """Return the edges of bodies: polygons if closed and of three or more vertices."""
     sizes = np.diff(offsets)
     rings = closed & (sizes > 2)
     counts = np.where(rings, sizes, np.maximum(sizes - 1, 1))
@@ -113,7 +113,7 @@ def segments_meet(
 
 
 def _beside(u: Floats, p: Floats, v: Floats, error: Floats | float) -> Flags:
-    """Whether the interval from 0 to u and that from p to p + v surely are disjoint.
+    """Return True if the interval from 0 to u and that from p to p + v surely are disjoint.
 
     p + v is off by at most 3 U (|p| + |v|) + error, and u by U |u|; ``error`` includes all
     absolute errors.
@@ -184,7 +184,7 @@ def surely_simple(
 def _apart_from_itself(
     vertices: Floats, d: Floats, edges: Edges, some: Indices, rings: Flags, off: Floats | None
 ) -> Flags:
-    """Whether no two edges of a body meet that are not neighbours.
+    """Return True if no two edges of a body meet that are not neighbours.
 
     ``off`` bounds the errors of the differences of two vertices of each body.
     """

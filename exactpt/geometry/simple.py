@@ -33,7 +33,7 @@ FEW: Final = 20
 def is_surely_simple(
     xs: Sequence[float], ys: Sequence[float], *, closed: bool, error: float = 0.0
 ) -> bool:
-    """Whether a polygon (or chain) certainly is simple, and a polygon has an area.
+    """Return True if a polygon (or chain) certainly is simple, and a polygon has an area.
 
     Args:
         xs: finite coordinates.
@@ -78,7 +78,7 @@ def turn_of_doubles(xs: Sequence[float], ys: Sequence[float], *, is_exact: bool)
 
 
 def _turns_once(xs: Sequence[float], ys: Sequence[float], error: float) -> bool:
-    """Whether a polygon certainly is strictly convex.
+    """Return True if a polygon certainly is strictly convex.
 
     It is, and hence simple, if it turns to the same side at each vertex, by less than pi, and
     by 2 pi in all. Its edges then change their direction along x, those that go neither way
@@ -107,7 +107,7 @@ def _turns_once(xs: Sequence[float], ys: Sequence[float], error: float) -> bool:
 
 
 def _no_edges_meet(xs: Sequence[float], ys: Sequence[float], error: float, *, closed: bool) -> bool:
-    """Whether certainly no two edges share more than a common end.
+    """Return True if certainly no two edges share more than a common end.
 
     Two with a common end do not if they are not parallel.
     """
@@ -177,7 +177,7 @@ def _surely_apart(e: Floats, f: Floats, error: float) -> NDArray[np.bool_]:
 
 
 def _cross_sign(ux: float, uy: float, vx: float, vy: float, error: float) -> int:
-    """The sign of u x v, rounded differences of coordinates; 0 if it is not certain."""
+    """Return the sign of u x v, rounded differences of coordinates; 0 if it is not certain."""
     p, q = ux * vy, uy * vx
     bound = K * (abs(p) + abs(q)) + TINY
     if error:

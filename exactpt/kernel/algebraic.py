@@ -98,7 +98,7 @@ class AlgebraicNumber(RealNumber):
         return len(common) > 1 and sign_at(common, low) * sign_at(common, high) < 0
 
     def sign_of(self, f: IntPoly) -> int:
-        """The sign of f at this number."""
+        """Return the sign of f at this number."""
         if self._low == self._high:
             return sign_at(f, self._low)
         if len(f) >= len(self._polynomial):
@@ -122,7 +122,7 @@ class AlgebraicNumber(RealNumber):
         return s
 
     def sign_after(self, f: IntPoly) -> int:
-        """The sign of f just after this number: 0 if and only if f is the zero polynomial.
+        """Return the sign of f just after this number: 0 if and only if f is the zero polynomial.
 
         It is the sign of the first of f, f', f'', ... that is not 0 here.
         """
@@ -182,7 +182,7 @@ class AlgebraicNumber(RealNumber):
         return AlgebraicNumber._root(p, self._low, self._high)
 
     def minimal_polynomial(self) -> tuple[int, ...]:
-        """The irreducible integer polynomial with this root, constant term first.
+        """Return the irreducible integer polynomial with this root, constant term first.
 
         It is primitive with a positive leading coefficient; for a rational p/q it is (-p, q).
         A polynomial of degree 3 or more is factored by python-flint, or else by SymPy.
@@ -203,7 +203,7 @@ class AlgebraicNumber(RealNumber):
         return tuple(map(int, f))
 
     def to_sympy(self) -> Expression:
-        """The number as a SymPy expression (a rational, a surd or a ``CRootOf``)."""
+        """Return the number as a SymPy expression (a rational, a surd or a ``CRootOf``)."""
         from exactpt.kernel.sympy_door import algebraic_to_sympy
 
         return algebraic_to_sympy(self)
@@ -221,7 +221,7 @@ class AlgebraicNumber(RealNumber):
         return int(self._low.numerator), int(self._low.denominator)
 
     def __hash__(self) -> int:
-        """The hash of the rational, or of the double nearest to an irrational number."""
+        """Return the hash of the rational, or of the double nearest to an irrational number."""
         return hash(self._low) if self.simplified().is_rational else hash(float(self))
 
     def __eq__(self, other: object) -> bool:
@@ -250,7 +250,7 @@ class AlgebraicNumber(RealNumber):
         return self.compare_rational(rational(other))
 
     def to_json(self) -> dict[str, object]:
-        """The number as a JSON object, see docs/format.md; a canonical form of it."""
+        """Return the number as a JSON object, see docs/format.md; a canonical form of it."""
         number = self.simplified()
         low, high = number._canonical_interval()
         return {
@@ -262,5 +262,5 @@ class AlgebraicNumber(RealNumber):
 
 
 def linear_root(f: IntPoly) -> AlgebraicNumber | None:
-    """The root of a polynomial of degree 1; None if it has another degree."""
+    """Return the root of a polynomial of degree 1; None if it has another degree."""
     return AlgebraicNumber(QQ(-f[0], f[1])) if len(f) == 2 else None

@@ -68,7 +68,7 @@ def quotient_at(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> AlgebraicNumber:
 
 
 def square_root(y: AlgebraicNumber) -> AlgebraicNumber:
-    """The square root of a number >= 0."""
+    """Return the square root of a number >= 0."""
     if y.compare_rational(0) == 0:
         return AlgebraicNumber(0)
     polynomial: list[ZZ] = []
@@ -78,7 +78,7 @@ def square_root(y: AlgebraicNumber) -> AlgebraicNumber:
 
 
 def _root_near(f: IntPoly, narrow: Callable[[], tuple[QQ, QQ]]) -> AlgebraicNumber:
-    """The root of f in the intervals that are narrowed around it, one by one."""
+    """Return the root of f in the intervals that are narrowed around it, one by one."""
     f = square_free(f)
     sequence = sturm_sequence(f)
     while True:
@@ -100,7 +100,7 @@ def _rounded_out(low: QQ, high: QQ) -> tuple[QQ, QQ]:
 
 
 def _range(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> tuple[QQ, QQ]:
-    """Bounds of n(t) / d(t); they narrow with every call."""
+    """Return bounds of n(t) / d(t); they narrow with every call."""
     while True:
         t.refine()
         low, high = range_on(d, t._low, t._high)
@@ -111,7 +111,7 @@ def _range(n: IntPoly, d: IntPoly, t: AlgebraicNumber) -> tuple[QQ, QQ]:
 
 
 def _range_of_root(y: AlgebraicNumber) -> tuple[QQ, QQ]:
-    """Bounds of the square root of y; they narrow with every call."""
+    """Return bounds of the square root of y; they narrow with every call."""
     y.refine()
     while y._low <= 0 and not y.is_rational:
         y.refine()
@@ -126,7 +126,7 @@ def _range_of_root(y: AlgebraicNumber) -> tuple[QQ, QQ]:
 
 
 def _norm_in_y(p: IntPoly, n: IntPoly, d: IntPoly) -> IntPoly:
-    """The product of n - y d over the roots of p, as a polynomial in y, up to a factor."""
+    """Return the product of n - y d over the roots of p, as a polynomial in y, up to a factor."""
     count = len(p)
     table = [_norm(p, subtract(n, scale(d, ZZ(y)))) for y in range(count)]
     for k in range(1, count):  # Newton's divided differences
@@ -143,7 +143,7 @@ def _norm_in_y(p: IntPoly, n: IntPoly, d: IntPoly) -> IntPoly:
 
 
 def _norm(p: IntPoly, g: IntPoly) -> QQ:
-    """The product of g over the complex roots of p, by Euclid's algorithm.
+    """Return the product of g over the complex roots of p, by Euclid's algorithm.
 
     With leading coefficients a of p and b of g, and degrees k and m, it is
     (-1)^(k m) b^k / a^m times the product of p over the roots of g.

@@ -36,7 +36,7 @@ ROUNDING: Final = 2.0**-54
 
 
 def nearest_double(x: IsolatedRoot) -> float:
-    """The nearest double (ties, possible only for a rational, to even); ±inf on overflow."""
+    """Return the nearest double (ties, possible only for a rational, to even); ±inf on overflow."""
     while True:
         low, high = nearest_float(x._low), nearest_float(x._high)
         if low == high:
@@ -50,7 +50,7 @@ def nearest_double(x: IsolatedRoot) -> float:
 
 
 def _exact(x: float) -> QQ:
-    """The value of a double; for an infinity, the value the next double would have."""
+    """Return the value of a double; for an infinity, the value the next double would have."""
     if math.isinf(x):
         return power_of_two(1024) if x > 0 else -power_of_two(1024)
     return QQ(*x.as_integer_ratio())
@@ -108,7 +108,7 @@ def _narrow_around_guess(x: IsolatedRoot) -> None:
 
 
 def _value_and_slope(f: list[float], t: float) -> tuple[float, float]:
-    """The value and the derivative at t of a polynomial, leading coefficient first."""
+    """Return the value and the derivative at t of a polynomial, leading coefficient first."""
     value = slope = 0.0
     for c in f:
         slope = slope * t + value
@@ -141,7 +141,7 @@ def _is_alone_in(x: IsolatedRoot, low: QQ, high: QQ) -> bool:
 
 
 def rational_between(x: IsolatedRoot, y: IsolatedRoot) -> QQ:
-    """The dyadic rational of least denominator strictly between x and y, x < y.
+    """Return the dyadic rational of least denominator strictly between x and y, x < y.
 
     The leftmost if there are several.
     """
@@ -161,19 +161,19 @@ def rational_between(x: IsolatedRoot, y: IsolatedRoot) -> QQ:
 
 
 def multiple_before(x: IsolatedRoot, grid: QQ) -> QQ:
-    """The largest multiple of ``grid`` > 0 that is smaller than x."""
+    """Return the largest multiple of ``grid`` > 0 that is smaller than x."""
     m = _floor_on_grid(x, grid)
     return (m if x.compare_rational(m * grid) > 0 else m - 1) * grid
 
 
 def _next_on_grid(x: IsolatedRoot, bits: int) -> QQ:
-    """The least multiple of 2^-bits that is larger than x."""
+    """Return the least multiple of 2^-bits that is larger than x."""
     grid = power_of_two(-bits)
     return (_floor_on_grid(x, grid) + 1) * grid
 
 
 def _floor_on_grid(x: IsolatedRoot, grid: QQ) -> ZZ:
-    """The largest integer m with m * grid <= x."""
+    """Return the largest integer m with m * grid <= x."""
     x.refine_to(grid)
     m = floor(x._low / grid)
     while x.compare_rational((m + 1) * grid) >= 0:

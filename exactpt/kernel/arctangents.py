@@ -16,7 +16,7 @@ _GUARD = 16
 
 @lru_cache(maxsize=64)
 def pi_bounds(bits: int) -> Bounds:
-    """Bounds of pi, at most 2^-bits apart, by Machin's formula."""
+    """Return bounds of pi, at most 2^-bits apart, by Machin's formula."""
     (a, b), (c, d) = _series(QQ(1, 5), bits + 6), _series(QQ(1, 239), bits + 6)
     return 16 * a - 4 * d, 16 * b - 4 * c
 
@@ -34,7 +34,7 @@ def atan_bounds(x: QQ, bits: int) -> Bounds:
 
 
 def _series(x: QQ, bits: int) -> Bounds:
-    """Bounds of the arc tangent of x, for 0 <= x <= 1/2, by its series.
+    """Return bounds of the arc tangent of x, for 0 <= x <= 1/2, by its series.
 
     In units u = 2^-n: rounding x down changes the arc tangent by less than u. Let e be the error of
     a computed power P <= 1/2 of x, s that of the square S <= 1/4: s < 1, and the error of the next

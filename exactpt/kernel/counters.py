@@ -48,7 +48,7 @@ class Counters:
         self.reasons[f"{what}: {why}"] += 1
 
     def now(self) -> Counts:
-        """The totals so far."""
+        """Return the totals so far."""
         return Counts(self.exact, self.filtered, dict(sorted(self.reasons.items())))
 
     def add(self, counts: Counts) -> None:

@@ -55,7 +55,7 @@ def single_roots(f: IntPoly, low: QQ, high: QQ) -> Iterator[tuple[QQ, QQ, bool]]
 
 
 def _on_unit_interval(f: IntPoly, low: QQ, high: QQ) -> list[ZZ]:
-    """A positive multiple of f(low + (high - low) s)."""
+    """Return a positive multiple of f(low + (high - low) s)."""
     width = high - low
     scale = low.denominator * width.denominator
     g = _stretch(f[::-1], ZZ(scale))[::-1]  # scale^deg(f) f(t / scale)
@@ -70,7 +70,7 @@ def _on_unit_interval(f: IntPoly, low: QQ, high: QQ) -> list[ZZ]:
 
 
 def _variations(g: list[ZZ]) -> int:
-    """An upper bound on the number of roots of g in (0, 1), counted with multiplicity.
+    """Return an upper bound on the number of roots of g in (0, 1), counted with multiplicity.
 
     It is the number of sign changes of the coefficients of (1 + s)^deg(g) g(1 / (1 + s)):
     1 / (1 + s) maps the positive s onto (0, 1). The bound exceeds the number of roots by an
@@ -80,7 +80,7 @@ def _variations(g: list[ZZ]) -> int:
 
 
 def _stretch(g: Sequence[ZZ], factor: ZZ) -> list[ZZ]:
-    """The coefficients of g(factor s)."""
+    """Return the coefficients of g(factor s)."""
     power = ZZ(1)
     result = []
     for c in g:
@@ -90,7 +90,7 @@ def _stretch(g: Sequence[ZZ], factor: ZZ) -> list[ZZ]:
 
 
 def _shifted_by_one(g: list[ZZ]) -> list[ZZ]:
-    """The coefficients of g(s + 1), by repeated Horner."""
+    """Return the coefficients of g(s + 1), by repeated Horner."""
     rest, result = g[::-1], []
     is_long = len(rest) > LONG
     while rest:

@@ -21,7 +21,7 @@ INTEGERS: Final = 2.0**53
 
 
 def doubles(values: ArrayLike, what: str) -> Floats:
-    """The values as float64, all of them finite.
+    """Return the values as float64, all of them finite.
 
     Args:
         values: floats of at most 64 bits, or integers that are doubles.
@@ -52,7 +52,7 @@ def doubles(values: ArrayLike, what: str) -> Floats:
 
 
 def indices(values: ArrayLike, what: str) -> Indices:
-    """The values as int64.
+    """Return the values as int64.
 
     Raises:
         InputError: if a value is no integer.
@@ -75,7 +75,7 @@ def native(counts: Indices) -> NDArray[np.intp]:
 
 
 def first_true(flags: NDArray[np.bool_]) -> tuple[int, ...] | None:
-    """The indices of the first true entry; None if there is none."""
+    """Return the indices of the first true entry; None if there is none."""
     if not flags.any():
         return None
     return tuple(int(i) for i in np.unravel_index(int(flags.argmax()), flags.shape))
@@ -89,7 +89,7 @@ def _refuse(wrong: NDArray[np.bool_], given: NDArray[np.generic], what: str, why
 
 
 def middles(rows: Floats) -> Floats:
-    """The upper median of each column of one or more rows.
+    """Return the upper median of each column of one or more rows.
 
     The first use of ``np.median`` imports ``numpy.ma``, which takes longer than many a question.
     """

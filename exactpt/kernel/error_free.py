@@ -20,13 +20,13 @@ _SPLITTER: Final = 2.0**27 + 1.0
 
 
 def is_exact_sum(a: float, b: float, total: float) -> bool:
-    """Whether a + b is the double that it is rounded to."""
+    """Return True if a + b is the double that it is rounded to."""
     of_b = total - a
     return (a - (total - of_b)) + (b - of_b) == 0.0
 
 
 def is_exact_product(a: float, b: float, product: float) -> bool:
-    """Whether a b is a double next to it, for numbers of at most 2^900."""
+    """Return True if a b is a double next to it, for numbers of at most 2^900."""
     c = _SPLITTER * a
     a_high = c - (c - a)
     a_low = a - a_high
@@ -40,7 +40,7 @@ def is_exact_product(a: float, b: float, product: float) -> bool:
 def exact_turn(
     a: tuple[float, float], b: tuple[float, float], c: tuple[float, float], d: tuple[float, float]
 ) -> int:
-    """The sign of (b - a) x (d - c), if that is computed without rounding; else `NOT_EXACT`.
+    """Return the sign of (b - a) x (d - c), if that is computed without rounding; else `NOT_EXACT`.
 
     Coordinates are 0 or of size 2^-300 to 2^100: so a difference is 0 or at least 2^-352, and
     nothing underflows.

@@ -9,7 +9,7 @@ __all__ = ["irreducible_factors"]
 
 
 def irreducible_factors(f: IntPoly) -> list[IntPoly]:
-    """The primitive irreducible factors of a polynomial, with positive leading coefficients.
+    """Return the primitive irreducible factors of a polynomial, with positive leading coefficients.
 
     Raises:
         ImportError: if neither python-flint nor SymPy is installed.

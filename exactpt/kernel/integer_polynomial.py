@@ -46,7 +46,7 @@ SLACK: Final = 32
 
 
 def trimmed(coefficients: Iterable[ZZ]) -> IntPoly:
-    """The polynomial with these coefficients, leading zeros dropped."""
+    """Return the polynomial with these coefficients, leading zeros dropped."""
     f = list(coefficients)
     while f and f[-1] == 0:
         f.pop()
@@ -115,7 +115,7 @@ def evaluate(f: IntPoly, t: QQ) -> QQ:
 
 
 def sign_at(f: IntPoly, t: QQ) -> int:
-    """The sign of f(t): Horner's rule on q**deg(f) * f(p/q), integers only."""
+    """Return the sign of f(t): Horner's rule on q**deg(f) * f(p/q), integers only."""
     if not f:
         return 0
     p, q = t.numerator, t.denominator
@@ -132,13 +132,13 @@ def sign_at(f: IntPoly, t: QQ) -> int:
 
 
 def sign_on(f: IntPoly, low: QQ, high: QQ) -> int:
-    """The constant sign of f on [low, high] if interval Horner proves one, else 0."""
+    """Return the constant sign of f on [low, high] if interval Horner proves one, else 0."""
     a, b = range_on(f, low, high)
     return 1 if a > 0 else -1 if b < 0 else 0
 
 
 def range_on(f: IntPoly, low: QQ, high: QQ) -> tuple[QQ, QQ]:
-    """Bounds of f on [low, high], by Horner's rule in interval arithmetic."""
+    """Return bounds of f on [low, high], by Horner's rule in interval arithmetic."""
     if not f:
         return QQ(0), QQ(0)
     a = b = QQ(f[-1])
@@ -159,7 +159,7 @@ def primitive(f: IntPoly) -> IntPoly:
 
 
 def positive_remainder(f: IntPoly, g: IntPoly) -> IntPoly:
-    """The remainder of a *positive* multiple of f on division by g: primitive.
+    """Return the remainder of a *positive* multiple of f on division by g: primitive.
 
     Ordinary pseudo-division multiplies f by a power of the leading coefficient of g, which
     may be negative. Here |leading coefficient| is used, so the remainder has the sign of
@@ -201,7 +201,7 @@ def quotient(f: IntPoly, g: IntPoly) -> IntPoly:
 
 
 def greatest_common_divisor(f: IntPoly, g: IntPoly) -> IntPoly:
-    """The primitive gcd over the rationals, with positive leading coefficient."""
+    """Return the primitive gcd over the rationals, with positive leading coefficient."""
     f, g = primitive(f), primitive(g)
     while g:
         f, g = g, positive_remainder(f, g) if len(f) >= len(g) else f
@@ -209,7 +209,7 @@ def greatest_common_divisor(f: IntPoly, g: IntPoly) -> IntPoly:
 
 
 def _is_square_free_at_a_point(f: IntPoly) -> bool:
-    """Whether the values of a primitive f and of f' show that these have no common factor.
+    """Return True if the values of a primitive f and of f' show that these have no common factor.
 
     A common factor h, primitive and not constant, divides both over the integers (Gauss), so
     h(N) divides both values at N. The roots of f, and so those of h, are at most 2^bits in
@@ -226,7 +226,7 @@ def _is_square_free_at_a_point(f: IntPoly) -> bool:
 
 
 def square_free(f: IntPoly) -> IntPoly:
-    """The square-free part of f: primitive, with the sign of f's leading coefficient."""
+    """Return the square-free part of f: primitive, with the sign of f's leading coefficient."""
     f = primitive(f)
     if len(f) <= 2:
         return f

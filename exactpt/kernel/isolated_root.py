@@ -65,7 +65,7 @@ class IsolatedRoot:
 
     @classmethod
     def root(cls, polynomial: Iterable[int], low: Rational, high: Rational) -> Self:
-        """The root of a square-free polynomial in (low, high], where it has exactly one.
+        """Return the root of a square-free polynomial in (low, high], where it has exactly one.
 
         ``low`` may be another root; ``low == high`` states that it is the root.
         """
@@ -100,7 +100,7 @@ class IsolatedRoot:
 
     @classmethod
     def surd(cls, quadratic: IntPoly, low: QQ, high: QQ, *, larger: bool) -> Self:
-        """One of the two irrational roots of a quadratic, alone in (low, high).
+        """Return one of the two irrational roots of a quadratic, alone in (low, high).
 
         Args:
             quadratic: with positive leading coefficient.
@@ -152,7 +152,7 @@ class IsolatedRoot:
 
     @property
     def is_rational(self) -> bool:
-        """Whether it is known to be rational; a number of degree 3 or more may be unrecognised."""
+        """True if it is known to be rational; a number of degree 3 or more may be unrecognised."""
         return self._low == self._high
 
     def refine(self) -> None:

@@ -26,19 +26,19 @@ if TYPE_CHECKING:
     from fractions import Fraction as QQ
 
     def gcd(*values: ZZ) -> ZZ:
-        """The greatest common divisor, never negative."""
+        """Return the greatest common divisor, never negative."""
 
     def isqrt(value: ZZ) -> ZZ:
-        """The integer part of the square root of ``value >= 0``."""
+        """Return the integer part of the square root of ``value >= 0``."""
 
     def isqrt_rem(value: ZZ) -> tuple[ZZ, ZZ]:
-        """The integer part r of the square root of ``value >= 0``, and ``value - r * r``."""
+        """Return the integer part r of the square root of ``value >= 0``, and ``value - r * r``."""
 
     def is_square(value: ZZ) -> bool:
-        """Whether ``value`` is the square of an integer."""
+        """Return True if ``value`` is the square of an integer."""
 
     def digits(value: ZZ, width: int) -> list[ZZ]:
-        """The digits of ``value >= 0`` in base 2^width, lowest first."""
+        """Return the digits of ``value >= 0`` in base 2^width, lowest first."""
 
 else:
     QQ = gmpy2.mpq
@@ -82,7 +82,7 @@ class SupportsRatio(Protocol):
     """A number that is a ratio of integers: numpy's floats, a rational `AlgebraicNumber`."""
 
     def as_integer_ratio(self) -> tuple[int, int]:
-        """The numerator and the positive denominator, without a common factor."""
+        """Return the numerator and the positive denominator, without a common factor."""
         ...
 
 
@@ -105,17 +105,17 @@ def sign(value: QQ | ZZ) -> int:
 
 
 def floor(value: QQ) -> ZZ:
-    """The largest integer at most ``value``."""
+    """Return the largest integer at most ``value``."""
     return ZZ(value.numerator // value.denominator)
 
 
 def ceil(value: QQ) -> ZZ:
-    """The smallest integer at least ``value``."""
+    """Return the smallest integer at least ``value``."""
     return ZZ(-(-value.numerator // value.denominator))
 
 
 def exponent(value: QQ) -> int:
-    """The binary logarithm of a positive number, to within 1."""
+    """Return the binary logarithm of a positive number, to within 1."""
     return int(value.numerator.bit_length() - value.denominator.bit_length())
 
 
@@ -126,7 +126,7 @@ def power_of_two(exponent: int) -> QQ:
 
 
 def fraction(value: QQ) -> Fraction:
-    """The number as a ``Fraction``, for callers outside the package.
+    """Return the number as a ``Fraction``, for callers outside the package.
 
     gmpy2's numbers stay inside: in gmpy2 2.3, `limit_denominator` frees the number it is
     called on if it returns that number itself.
@@ -135,17 +135,17 @@ def fraction(value: QQ) -> Fraction:
 
 
 def fractions(values: Iterable[QQ]) -> tuple[Fraction, ...]:
-    """The numbers as ``Fraction``."""
+    """Return the numbers as ``Fraction``."""
     return tuple(map(fraction, values))
 
 
 def place(point: tuple[QQ, QQ]) -> tuple[Fraction, Fraction]:
-    """The point with coordinates as ``Fraction``."""
+    """Return the point with coordinates as ``Fraction``."""
     return fraction(point[0]), fraction(point[1])
 
 
 def parse_rational(text: str) -> QQ:
-    """The number written as ``"p"``, ``"p/q"``, ``"1.25"`` or ``"-3e-2"``, exactly.
+    """Return the number written as ``"p"``, ``"p/q"``, ``"1.25"`` or ``"-3e-2"``, exactly.
 
     Raises:
         InputError: if the text is none of these, a denominator is 0, or a decimal
@@ -176,7 +176,7 @@ def parse_rational(text: str) -> QQ:
 
 
 def shorten(text: object, limit: int = 60) -> str:
-    """The ``repr`` of a value, cut so that a message stays one readable line."""
+    """Return the ``repr`` of a value, cut so that a message stays one readable line."""
     try:
         shown = " ".join(repr(text).splitlines())
     except ValueError:  # Python writes no integers of more than 4,300 digits
@@ -185,13 +185,13 @@ def shorten(text: object, limit: int = 60) -> str:
 
 
 def show(*numbers: QQ) -> str:
-    """A number, or (x, y), as text for a message; long numbers are cut."""
+    """Return a number, or (x, y), as text for a message; long numbers are cut."""
     words = [shorten(str(q))[1:-1] for q in numbers]
     return words[0] if len(words) == 1 else f"({', '.join(words)})"
 
 
 def rational(value: Rational) -> QQ:
-    """The exact rational that ``value`` denotes.
+    """Return the exact rational that ``value`` denotes.
 
     Accepts ints, Fractions, Decimals, gmpy2 ``mpz`` and ``mpq``, numpy integers, finite
     floats including numpy's (their exact binary value), the strings of `parse_rational`, and
@@ -263,7 +263,7 @@ def rationals(values: object, count: int, what: str) -> tuple[QQ, ...]:
 
 
 def nearest_float(value: QQ) -> float:
-    """The double nearest to ``value``; ±inf beyond the largest double.
+    """Return the double nearest to ``value``; ±inf beyond the largest double.
 
     gmpy2 and ``fractions`` round correctly, but for too large a value the former
     returns inf and the latter raises.
@@ -280,7 +280,7 @@ def finite(x: float) -> float:
 
 
 def enclosing_floats(value: QQ) -> tuple[float, float]:
-    """The tightest doubles lo <= value <= hi; equal if and only if value is a double."""
+    """Return the tightest doubles lo <= value <= hi; equal if and only if value is a double."""
     near = nearest_float(value)
     if math.isinf(near):
         largest = math.nextafter(math.inf, 0.0)

@@ -20,12 +20,12 @@ __all__ = ["coefficient_bits", "pack", "unpack", "width_for"]
 
 
 def coefficient_bits(*polynomials: IntPoly) -> int:
-    """The bit length of the largest coefficient."""
+    """Return the bit length of the largest coefficient."""
     return max([c.bit_length() for f in polynomials for c in f], default=0)
 
 
 def width_for(bits: int, length: int, factors: int) -> int:
-    """A width that fits every coefficient of a sum of at most 8 products.
+    """Return a width that fits every coefficient of a sum of at most 8 products.
 
     Each coefficient of a product of polynomials of ``bits`` bits in total is a sum of at
     most length^(factors - 1) products of coefficients: one coefficient of each factor but
@@ -50,7 +50,7 @@ def pack(f: IntPoly, width: int) -> ZZ:
 
 
 def unpack(value: ZZ, width: int, length: int) -> IntPoly:
-    """The polynomial with this value at 2^width.
+    """Return the polynomial with this value at 2^width.
 
     Args:
         value: the value of a polynomial with coefficients below 2^(width - 1) in size.

@@ -95,7 +95,7 @@ class Polynomial:
 
     @classmethod
     def from_sympy(cls, expression: Expression, variable: Variable) -> Polynomial:
-        """A SymPy expression as a polynomial in ``variable``.
+        """Return a SymPy expression as a polynomial in ``variable``.
 
         Raises:
             InputError: if it is not a polynomial with rational coefficients.
@@ -105,7 +105,7 @@ class Polynomial:
         return cls(coefficients_from_sympy(expression, variable))
 
     def to_sympy(self, variable: Variable) -> Expression:
-        """The polynomial as a SymPy expression in ``variable``."""
+        """Return the polynomial as a SymPy expression in ``variable``."""
         from exactpt.kernel.sympy_door import polynomial_to_sympy
 
         return polynomial_to_sympy(self, variable)
@@ -151,11 +151,11 @@ class Polynomial:
         return value
 
     def sign(self, t: AlgebraicNumber | Rational) -> int:
-        """The sign at a time, -1, 0 or 1, exactly."""
+        """Return the sign at a time, -1, 0 or 1, exactly."""
         return _number(t).sign_of(self._integer())
 
     def sign_after(self, t: AlgebraicNumber | Rational) -> int:
-        """The sign just after a time, exactly: 0 for the zero polynomial alone."""
+        """Return the sign just after a time, exactly: 0 for the zero polynomial alone."""
         return _number(t).sign_after(self._integer())
 
     def roots(
@@ -163,7 +163,7 @@ class Polynomial:
         after: AlgebraicNumber | Rational | None = None,
         until: Rational | None = None,
     ) -> list[AlgebraicNumber]:
-        """The distinct real roots t with after < t <= until, in increasing order.
+        """Return the distinct real roots t with after < t <= until, in increasing order.
 
         Args:
             after: a lower bound; None for none.
@@ -183,7 +183,7 @@ class Polynomial:
         return [root.time for root in roots_after(self._integer(), start, end)]
 
     def _integer(self) -> IntPoly:
-        """A positive multiple with integer coefficients."""
+        """Return a positive multiple with integer coefficients."""
         common = ZZ(lcm(*(int(c.denominator) for c in self._coefficients)))
         return tuple(ZZ(c * common) for c in self._coefficients)
 
@@ -244,7 +244,7 @@ class Polynomial:
         return power
 
     def derivative(self) -> Polynomial:
-        """The derivative."""
+        """Return the derivative."""
         return Polynomial._of([i * c for i, c in enumerate(self._coefficients) if i])
 
     def __iter__(self) -> Iterator[Fraction]:
@@ -272,7 +272,7 @@ ONE: Final = Polynomial([1])
 
 
 def polynomial(value: Polynomial | Rational | Iterable[Rational]) -> Polynomial:
-    """A polynomial from itself, from one number (a constant), or from coefficients.
+    """Return a polynomial from itself, from one number (a constant), or from coefficients.
 
     Raises:
         InputError: if ``value`` is none of these.

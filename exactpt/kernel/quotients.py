@@ -29,7 +29,7 @@ def exponent(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> int:
 
 
 def nearest_quotient(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> float:
-    """The double nearest to p / w at a time, at which w is positive."""
+    """Return the double nearest to p / w at a time, at which w is positive."""
     if time.sign_of(p) == 0:
         return 0.0
     while True:
@@ -47,7 +47,7 @@ def nearest_quotient(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> float:
 
 
 def decimal_quotient(p: IntPoly, w: IntPoly, time: AlgebraicNumber, digits: int) -> Decimal:
-    """The decimal nearest to p / w at a time, at which w is positive; of two, the even one.
+    """Return the decimal nearest to p / w at a time, at which w is positive; of two, the even one.
 
     Args:
         p: the numerator.

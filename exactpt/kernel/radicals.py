@@ -25,7 +25,7 @@ _FIRST_BITS = 64
 
 
 def root_sum_sign(coefficients: Mapping[QQ, int]) -> int:
-    """The sign of a sum of c sqrt(r), for the coefficient c of each rational r >= 0."""
+    """Return the sign of a sum of c sqrt(r), for the coefficient c of each rational r >= 0."""
     terms = _independent(coefficients.items())
     if not terms:
         return 0
@@ -41,7 +41,7 @@ def root_sum_sign(coefficients: Mapping[QQ, int]) -> int:
 
 
 def nearest_root_sum(radicands: Iterable[QQ]) -> float:
-    """The double nearest to the sum of the square roots of rationals >= 0.
+    """Return the double nearest to the sum of the square roots of rationals >= 0.
 
     If a root of a non-square remains, the sum is irrational: neither a double nor the midpoint of
     two, so that the ends of a narrow enough enclosure are rounded to the same double.
@@ -59,7 +59,7 @@ def nearest_root_sum(radicands: Iterable[QQ]) -> float:
 
 
 def _independent(terms: Iterable[tuple[QQ, int]]) -> Terms:
-    """The sum with roots that are linearly independent, and no coefficient zero."""
+    """Return the sum with roots that are linearly independent, and no coefficient zero."""
     result: Terms = {}
     for radicand, count in terms:
         # sqrt(p / q) = sqrt(p q) / q
@@ -77,7 +77,7 @@ def _independent(terms: Iterable[tuple[QQ, int]]) -> Terms:
 
 
 def _enclosure(terms: Terms, bits: int) -> tuple[QQ, QQ]:
-    """Bounds of a sum, from each root to within 2^-bits."""
+    """Return bounds of a sum, from each root to within 2^-bits."""
     unit = power_of_two(-bits)
     low = high = QQ(0)
     for n, c in terms.items():

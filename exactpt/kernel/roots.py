@@ -41,7 +41,7 @@ class Root(NamedTuple):
 
 
 def roots_after(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]:
-    """The distinct real roots of f in (start, until], from left to right, lazily.
+    """Return the distinct real roots of f in (start, until], from left to right, lazily.
 
     Args:
         f: not zero.
@@ -66,7 +66,7 @@ def _linear_root(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root
 
 
 def _roots_by_descartes(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]:
-    """The roots of f after start, if ``until`` is not a root."""
+    """Yield the roots of f after start, if ``until`` is not a root."""
     p: IntPoly = ()
     sequence: list[IntPoly] = []
     for low, high, alone in single_roots(f, start._low, until):
@@ -83,7 +83,7 @@ def _roots_by_descartes(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterat
 def _roots_by_sturm(
     f: IntPoly, sequence: list[IntPoly], start: AlgebraicNumber, low: QQ, high: QQ
 ) -> Iterator[Root]:
-    """The roots of f in (low, high] after start, by the Sturm sequence of f."""
+    """Yield the roots of f in (low, high] after start, by the Sturm sequence of f."""
     p = sequence[0]
     simple = len(p) == len(f)
     for left, right in isolating_intervals(sequence, low, high):
@@ -123,7 +123,7 @@ def _quadratic_roots(f: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[
 
 
 def common_roots(f: IntPoly, g: IntPoly, start: AlgebraicNumber, until: QQ) -> Iterator[Root]:
-    """The common real roots of f and g in (start, until], from left to right.
+    """Yield the common real roots of f and g in (start, until], from left to right.
 
     ``crossing`` carries no meaning here. If both are zero, nothing is yielded (every time
     is a common root, so none is the first).

@@ -60,7 +60,7 @@ def sextic(
     now_low: float, now_high: float, horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:  # fmt: skip
-    """The answer for c0 + c1 t + ... + c6 t^6.
+    """Return the answer for c0 + c1 t + ... + c6 t^6.
 
     The window starts now, as wide as the horizon allows; it is doubled after a success
     and cut to a quarter after a failure.
@@ -152,7 +152,7 @@ def _scaled(
     c0: float, c1: float, c2: float, c3: float, c4: float, c5: float, c6: float,
     a: float, h: float,
 ) -> Seven:  # fmt: skip
-    """The Taylor coefficients at a, by repeated Horner, times h^k / binomial(6, k)."""
+    """Return the Taylor coefficients at a, by repeated Horner, times h^k / binomial(6, k)."""
     c5 += a * c6
     c4 += a * c5
     c3 += a * c4
@@ -216,7 +216,7 @@ def _sums(b0: float, b1: float, b2: float, b3: float, b4: float, b5: float, b6: 
 def _bound(
     g0: float, g1: float, g2: float, g3: float, g4: float, g5: float, g6: float, t: float
 ) -> float:
-    """The bound on all errors at times of size at most t: see the module's proof."""
+    """Return the bound on all errors at times of size at most t: see the module's proof."""
     return ((((((g6 * t + g5) * t + g4) * t + g3) * t + g2) * t + g1) * t + g0) * SLACK + TINY
 
 
@@ -269,5 +269,5 @@ def _tighten(
 def _value(
     c0: float, c1: float, c2: float, c3: float, c4: float, c5: float, c6: float, t: float
 ) -> float:
-    """The value at t, by Horner's rule."""
+    """Return the value at t, by Horner's rule."""
     return (((((c6 * t + c5) * t + c4) * t + c3) * t + c2) * t + c1) * t + c0

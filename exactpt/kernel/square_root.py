@@ -13,7 +13,7 @@ BITS: Final = 64
 
 
 def nearest_square_root(value: QQ) -> float:
-    """The double nearest to the square root of a number >= 0; inf beyond the largest double.
+    """Return the double nearest to the square root of a number >= 0; inf beyond the largest double.
 
     For n / d and an even shift s, floor(sqrt(n 2^s / d)) = r has `BITS` bits or more, and the root
     is in [r, r + 1) / 2^(s/2). If it is not r itself, r + 1/2 takes its place: no double and no
@@ -32,13 +32,13 @@ def nearest_square_root(value: QQ) -> float:
 
 
 def exact_square_root(value: QQ) -> QQ | None:
-    """The square root of a number >= 0 if it is rational, else None."""
+    """Return the square root of a number >= 0 if it is rational, else None."""
     root = QQ(isqrt(value.numerator), isqrt(value.denominator))
     return root if root * root == value else None
 
 
 def nearest_root_less(value: QQ, less: QQ) -> float:
-    """The double nearest to sqrt(value) - less, for numbers >= 0.
+    """Return the double nearest to sqrt(value) - less, for numbers >= 0.
 
     An irrational root less a rational is neither a double nor a midpoint of two: with enough bits,
     both bounds of it have the same nearest double.

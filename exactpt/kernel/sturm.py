@@ -58,7 +58,7 @@ def _variations(sequence: list[IntPoly], t: QQ) -> int:
 
 
 def sign_changes(signs: list[int]) -> int:
-    """The number of sign changes in a sequence of signs; zeros are ignored."""
+    """Return the number of sign changes in a sequence of signs; zeros are ignored."""
     count, last = 0, 0
     for s in signs:
         if s and s != last:
@@ -68,7 +68,7 @@ def sign_changes(signs: list[int]) -> int:
 
 
 def count_roots(sequence: list[IntPoly], lo: QQ, hi: QQ) -> int:
-    """The number of distinct real roots of ``sequence[0]`` in (lo, hi].
+    """Return the number of distinct real roots of ``sequence[0]`` in (lo, hi].
 
     Args:
         sequence: a Sturm sequence, from `sturm_sequence`.
@@ -84,7 +84,7 @@ def count_roots(sequence: list[IntPoly], lo: QQ, hi: QQ) -> int:
 
 
 def cauchy_bound(f: IntPoly) -> QQ:
-    """A power of two above the absolute value of every complex root of f (not zero)."""
+    """Return a power of two above the absolute value of every complex root of f (not zero)."""
     largest = max(abs(c) for c in f)
     bits = largest.bit_length() - abs(f[-1]).bit_length() + 2
     return QQ(1 << bits)

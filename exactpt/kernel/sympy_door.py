@@ -35,7 +35,7 @@ def _rational(value: QQ) -> sympy.Rational:
 
 
 def coefficients_from_sympy(expression: Expression, variable: Variable) -> list[QQ]:
-    """The rational coefficients of a polynomial expression, constant term first.
+    """Return the rational coefficients of a polynomial expression, constant term first.
 
     Raises:
         InputError: if the expression is not a polynomial in ``variable`` over the rationals.
@@ -48,13 +48,13 @@ def coefficients_from_sympy(expression: Expression, variable: Variable) -> list[
 
 
 def polynomial_to_sympy(f: Polynomial, variable: Variable) -> Expression:
-    """The expression sum(c[i] * variable**i)."""
+    """Return the expression sum(c[i] * variable**i)."""
     terms = (_rational(c) * variable**i for i, c in enumerate(f._coefficients))
     return sum(terms, start=sympy.Integer(0))
 
 
 def algebraic_to_sympy(number: AlgebraicNumber) -> Expression:
-    """A rational, or the real root of the same index among those of the polynomial."""
+    """Return a rational, or the real root of the same index among those of the polynomial."""
     if number.is_rational:
         return _rational(number._low)
     f = number._polynomial
@@ -64,7 +64,7 @@ def algebraic_to_sympy(number: AlgebraicNumber) -> Expression:
 
 
 def integer_factors(coefficients: list[int]) -> list[list[int]]:
-    """The primitive irreducible factors of an integer polynomial, constant terms first."""
+    """Return the primitive irreducible factors of an integer polynomial, constant terms first."""
     poly = sympy.Poly(coefficients[::-1], sympy.Symbol("t"), domain="ZZ")
     _, factors = poly.factor_list()
     return [[int(c) for c in reversed(factor.all_coeffs())] for factor, _ in factors]

@@ -42,7 +42,7 @@ def linears(
     horizon: Floats | float,
     at_root: Flags,
 ) -> Answers:
-    """The answers for c0 + c1 t: see `exactpt.kernel.filters.linear`."""
+    """Return the answers for c0 + c1 t: see `exactpt.kernel.filters.linear`."""
     gap = abs(c1) - e1
     sloped = (gap > SMALL) & (gap < INFINITY)
     root = -c0 / c1
@@ -76,7 +76,7 @@ def quadratics(
     horizon: Floats | float,
     at_root: Flags,
 ) -> Answers:
-    """The answers for c0 + c1 t + c2 t^2: see `exactpt.kernel.filters.quadratic`."""
+    """Return the answers for c0 + c1 t + c2 t^2: see `exactpt.kernel.filters.quadratic`."""
     square = c1 * c1
     product = 4.0 * c0 * c2
     d = square - product
@@ -148,7 +148,7 @@ def _near_alone(
     horizon: Floats | float,
     at_root: Flags,
 ) -> Answers:
-    """The answers with one root alone: see `exactpt.kernel.filters._near_alone`."""
+    """Return the answers with one root alone: see `exactpt.kernel.filters._near_alone`."""
     alone = (-reach < low) & (high < reach) & (-reach < now_low) & (now_high < reach)
     past = at_root | (high <= now_low)
     before = alone & past & (horizon < reach)

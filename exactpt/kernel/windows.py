@@ -34,7 +34,7 @@ def polynomial(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """The answer for sum(c[i] t^i) of degree 1 or more.
+    """Return the answer for sum(c[i] t^i) of degree 1 or more.
 
     The window starts now, as wide as the horizon allows; it is doubled after a success
     and cut to a quarter after a failure. The last window ends at the horizon, from which
@@ -116,14 +116,14 @@ def polynomial(
 
 
 def _window(c: list[float], e: list[float], a: float, h: float) -> tuple[list[float], float]:
-    """The Bernstein coefficients on [a, a + h], and a bound on the error of each."""
+    """Return the Bernstein coefficients on [a, a + h], and a bound on the error of each."""
     b = _bernstein(c, a, h)
     error = _bernstein_error(c, e, a, h) if -INFINITY < b[-1] < INFINITY else INFINITY
     return b, error
 
 
 def _bernstein(c: list[float], a: float, h: float) -> list[float]:
-    """The Bernstein coefficients of sum(c[i] t^i) on [a, a + h], in floats.
+    """Return the Bernstein coefficients of sum(c[i] t^i) on [a, a + h], in floats.
 
     Computed by a Taylor shift to a (repeated Horner), scaling by h^k / binomial(n, k), and
     n rounds of sums.
@@ -144,7 +144,7 @@ def _bernstein(c: list[float], a: float, h: float) -> list[float]:
 
 
 def _bernstein_error(c: list[float], e: list[float], a: float, h: float) -> float:
-    """A bound on the error of every coefficient of `_bernstein`.
+    """Return a bound on the error of every coefficient of `_bernstein`.
 
     A Bernstein coefficient is the polar form of the polynomial at arguments a and
     a + h, so the monomial t^i adds at most T^i, T = |a| + h: the errors e[i] add up to
@@ -162,7 +162,7 @@ def _bernstein_error(c: list[float], e: list[float], a: float, h: float) -> floa
 
 
 def _one_sign(b: list[float], error: float) -> int:
-    """The certain common sign of all coefficients, or 0."""
+    """Return the certain common sign of all coefficients, or 0."""
     if b[0] > error:
         for x in b:
             if not x > error:
@@ -175,7 +175,7 @@ def _one_sign(b: list[float], error: float) -> int:
 
 
 def _one_change(b: list[float], error: float) -> bool:
-    """Whether the signs are certainly s, ..., s, at most one unknown, then -s, ..., -s."""
+    """Return True if the signs are certainly s, ..., s, at most one unknown, then -s, ..., -s."""
     s = 1.0 if b[0] > 0.0 else -1.0
     k, n = 0, len(b)
     while k < n and s * b[k] > error:
@@ -231,7 +231,7 @@ def _tighten(
 
 
 def _sign(c: list[float], e: list[float], x: float) -> int:
-    """The sign at the double x, or 0 if it is not certain.
+    """Return the sign at the double x, or 0 if it is not certain.
 
     Horner's rule: |error| <= 2(n + 1) U sum(|c[i]| |x|^i), Higham section 5.1.
     """

@@ -21,7 +21,7 @@ __all__ = ["PlanarMap", "edge_key", "twin", "without_steps_back"]
 
 
 def twin(h: HalfEdge) -> HalfEdge:
-    """The half-edge of the same edge in the opposite direction."""
+    """Return the half-edge of the same edge in the opposite direction."""
     return h ^ 1  # type: ignore[return-value]  # a cast would be one more call
 
 
@@ -73,7 +73,7 @@ class PlanarMap:
             self._changed.add(h)
 
     def take_changes(self) -> set[HalfEdge] | None:
-        """The half-edges that may have another origin or successor since the last call.
+        """Return the half-edges that may have another origin or successor since the last call.
 
         Returns:
             The half-edges; None at the first call.
@@ -102,14 +102,14 @@ class PlanarMap:
         return self._free
 
     def copy(self) -> PlanarMap:
-        """An independent copy."""
+        """Return an independent copy."""
         other = PlanarMap()
         other.origin, other._free = self.origin[:], self._free[:]
         other.following, other.previous = self.following[:], self.previous[:]
         return other
 
     def target(self, h: HalfEdge) -> VertexId:
-        """The vertex where a half-edge ends."""
+        """Return the vertex where a half-edge ends."""
         return self.origin[h ^ 1]
 
     def split_face(self, h: HalfEdge, g: HalfEdge) -> HalfEdge:
@@ -174,7 +174,7 @@ class PlanarMap:
         self.place(t, self.origin[h ^ 1])
 
     def face(self, h: HalfEdge) -> list[HalfEdge]:
-        """The half-edges of the face of h, in cyclic order from h.
+        """Return the half-edges of the face of h, in cyclic order from h.
 
         Raises:
             AuditError: if they do not come back to h, in a map that was forged.
@@ -189,7 +189,7 @@ class PlanarMap:
         return cycle
 
     def star(self, h: HalfEdge) -> list[HalfEdge]:
-        """The star of the origin of h: the half-edges out of it, counter-clockwise from h.
+        """Return the star of the origin of h: the half-edges out of it, counter-clockwise from h.
 
         Raises:
             AuditError: if they do not come back to h, in a map that was forged.
@@ -204,7 +204,7 @@ class PlanarMap:
         return star
 
     def half_edges(self) -> list[HalfEdge]:
-        """All half-edges in use, in increasing order."""
+        """Return all half-edges in use, in increasing order."""
         return [HalfEdge(h) for h, v in enumerate(self.origin) if v != NO_VERTEX]
 
     def audit(self) -> None:
@@ -222,7 +222,7 @@ class PlanarMap:
 
 
 def without_steps_back(half_edges: Iterable[HalfEdge]) -> list[HalfEdge]:
-    """A sequence of half-edges with every pair of successive twins cancelled."""
+    """Return a sequence of half-edges with every pair of successive twins cancelled."""
     kept: list[HalfEdge] = []
     for h in half_edges:
         if kept and kept[-1] == twin(h):
@@ -233,5 +233,5 @@ def without_steps_back(half_edges: Iterable[HalfEdge]) -> list[HalfEdge]:
 
 
 def edge_key(u: Index, v: Index) -> tuple[Index, Index]:
-    """The ends of an edge, the smaller one first."""
+    """Return the ends of an edge, the smaller one first."""
     return (u, v) if u < v else (v, u)

@@ -22,7 +22,7 @@ Stars: TypeAlias = dict[VertexId, list[HalfEdge]]
 def build_mesh(
     instant: PredicatesAt, diagonals: Iterable[Diagonal], mesh: Mesh | None = None
 ) -> Mesh:
-    """The mesh of all body edges and these diagonals, with its marks.
+    """Return the mesh of all body edges and these diagonals, with its marks.
 
     Args:
         instant: the predicates.
@@ -80,7 +80,7 @@ def _add_diagonals(mesh: Mesh, diagonals: Iterable[Diagonal]) -> tuple[Stars, St
 def _sorted_star(
     instant: PredicatesAt, mesh: Mesh, v: VertexId, reference: HalfEdge, edges: list[HalfEdge]
 ) -> list[HalfEdge]:
-    """The half-edges out of v in counter-clockwise order from a reference half-edge."""
+    """Return the half-edges out of v in counter-clockwise order from a reference half-edge."""
     if len(edges) < 2:
         return edges
     return sorted(edges, key=cmp_to_key(star_order(instant, mesh, v, reference)))
@@ -89,7 +89,7 @@ def _sorted_star(
 def star_order(
     predicates: Predicates, mesh: Mesh, v: VertexId, reference: HalfEdge
 ) -> Callable[[HalfEdge, HalfEdge], int]:
-    """A comparison of half-edges out of v by their angles in [0, 2 pi) from a reference."""
+    """Return a comparison of half-edges out of v by their angles in [0, 2 pi) from a reference."""
     return _Around(predicates, mesh, v, reference).compare
 
 

@@ -42,7 +42,7 @@ class ConflictZone(NamedTuple):
 
 
 def find_conflict_zone(vertices: Vertices, mesh: Mesh, body: Body, t: QQ) -> ConflictZone:
-    """The conflict zone of a body that is not in the tiling yet.
+    """Return the conflict zone of a body that is not in the tiling yet.
 
     Args:
         vertices: the moving vertices.
@@ -71,7 +71,7 @@ class _Search:
         self.known: dict[VertexId, Point] = {}
 
     def zone(self) -> ConflictZone:
-        """The conflict zone of the body."""
+        """Return the conflict zone of the body."""
         if not self.vertices.bodies:
             return ConflictZone([], [])
         first = self._face_around(self.points[0])
@@ -106,7 +106,7 @@ class _Search:
         return ConflictZone(faces, list(crossed))
 
     def _at(self, v: VertexId) -> Point:
-        """The position of a vertex."""
+        """Return the position of a vertex."""
         if v not in self.known:
             self.known[v] = self.vertices.all[v].track._at(self.t)
         return self.known[v]
@@ -119,7 +119,7 @@ class _Search:
         return self.vertices.all[self.mesh.map.origin[h]].body
 
     def _face_around(self, p: Point) -> list[HalfEdge]:
-        """A closed face that contains a point."""
+        """Return a closed face that contains a point."""
         m = self.mesh.map
         seen: set[HalfEdge] = set()
         first = self.mesh.ring_edge[self.vertices.bodies[-1].ring[0]]
@@ -140,7 +140,7 @@ class _Search:
         raise AuditError(f"no face around ({p[0]}, {p[1]})")
 
     def _distance(self, h: HalfEdge, target: tuple[float, float]) -> float:
-        """An estimate of the distance from an edge to a normalised position."""
+        """Return an estimate of the distance from an edge to a normalised position."""
         (ax, ay), (bx, by) = map(self.vertices.frame.point, self._ends(h))
         dx, dy, px, py = bx - ax, by - ay, target[0] - ax, target[1] - ay
         square = dx * dx + dy * dy
@@ -148,7 +148,7 @@ class _Search:
         return math.hypot(px - s * dx, py - s * dy)
 
     def _turns(self, face: Sequence[HalfEdge], p: Point) -> int:
-        """The winding number of a face around a point, half-open in y as in `contains`."""
+        """Return the winding number of a face around a point, half-open in y as in `contains`."""
         turns = 0
         for h in face:
             a, b = self._ends(h)
@@ -161,7 +161,7 @@ class _Search:
         return turns
 
     def _meets(self, h: HalfEdge) -> bool:
-        """Whether the boundary of the body meets the closed edge of a half-edge."""
+        """Return True if the boundary of the body meets the closed edge of a half-edge."""
         a, b = self._ends(h)
         for axis in (0, 1):
             if max(a[axis], b[axis]) < self.low[axis] or min(a[axis], b[axis]) > self.high[axis]:
@@ -169,5 +169,5 @@ class _Search:
         return any(segments_meet(a, b, c, d) for c, d in self.edges)
 
     def _swallows(self, h: HalfEdge) -> bool:
-        """Whether the body is a polygon that contains the origin of a half-edge."""
+        """Return True if the body is a polygon that contains the origin of a half-edge."""
         return self.body.has_interior and contains(self.points, self._at(self.mesh.map.origin[h]))

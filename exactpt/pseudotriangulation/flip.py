@@ -54,13 +54,13 @@ class Shadows:
     """Tells `flip_until_greedy` the shadow edges of diagonals; a subclass may remember them."""
 
     def is_greedy(self, h: HalfEdge) -> bool:  # noqa: ARG002 - nothing is known
-        """Whether a diagonal is known to have a shadow of larger theta."""
+        """Return True if a diagonal is known to have a shadow of larger theta."""
         return False
 
     def find(
         self, mesh: Mesh, h: HalfEdge, predicates: Predicates
     ) -> tuple[HalfEdge, HalfEdge] | None:
-        """The visits that the shadow edge of a diagonal joins; None if it has no shadow."""
+        """Return the visits that the shadow edge of a diagonal joins; None if it has no shadow."""
         return shadow(mesh, h, predicates)
 
     def keep(self, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge]) -> None:
@@ -123,7 +123,7 @@ def flip_until_greedy(
 
 
 def _theta_is_smaller(mesh: Mesh, s: Ends, t: Ends, predicates: Predicates) -> bool:
-    """Whether theta(s) < theta(t), for two edges that cross.
+    """Return True if theta(s) < theta(t), for two edges that cross.
 
     If they are parallel for ever, they join copies of the same two vertices. Inflation
     then changes the slope by (h(b) - h(a)) / L, where h is +1 for a body below the line
@@ -142,7 +142,7 @@ def _theta_is_smaller(mesh: Mesh, s: Ends, t: Ends, predicates: Predicates) -> b
 
 
 def _rise(mesh: Mesh, a: VertexId, b: VertexId, predicates: Predicates) -> int:
-    """The difference h(b) - h(a) for a bitangent from a to b; see `_theta_is_smaller`."""
+    """Return the difference h(b) - h(a) for a bitangent from a to b; see `_theta_is_smaller`."""
     return _side(mesh, a, a, b, predicates) - _side(mesh, b, a, b, predicates)
 
 

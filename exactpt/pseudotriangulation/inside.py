@@ -47,7 +47,7 @@ def tile_inside(mesh: Mesh, first: HalfEdge, predicates: Predicates) -> None:
 def _is_ear(
     mesh: Mesh, rest: list[HalfEdge], before: HalfEdge, h: HalfEdge, predicates: Predicates
 ) -> bool:
-    """Whether the triangle at the origin of h lies inside and contains no other vertex."""
+    """Return True if the triangle at the origin of h lies inside and contains no other vertex."""
     sign, origin = predicates.sign, mesh.map.origin
     a, b, c = origin[before], origin[h], origin[h ^ 1]
     if sign(a, b, c) <= 0:

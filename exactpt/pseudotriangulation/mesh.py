@@ -81,23 +81,23 @@ class Mesh:
             self.boundary[h >> 1] = boundary
 
     def is_boundary(self, h: HalfEdge) -> bool:
-        """Whether a half-edge belongs to a body edge."""
+        """Return True if a half-edge belongs to a body edge."""
         return self.boundary[h >> 1]
 
     def is_hull(self, h: HalfEdge) -> bool:
-        """Whether an edge is on the convex hull of all bodies."""
+        """Return True if an edge is on the convex hull of all bodies."""
         return OUTER in (self.region[h], self.region[h ^ 1])
 
     def is_fixed(self, h: HalfEdge) -> bool:
-        """Whether an edge is never flipped: a body edge, or one that has a label."""
+        """Return True if an edge is never flipped: a body edge, or one that has a label."""
         return self.boundary[h >> 1]
 
     def is_flippable(self, h: HalfEdge) -> bool:
-        """Whether a half-edge belongs to a diagonal between two tiles of free space."""
+        """Return True if a half-edge belongs to a diagonal between two tiles of free space."""
         return self.region[h] == self.region[h ^ 1] == FREE and not self.is_fixed(h)
 
     def flippable(self) -> list[HalfEdge]:
-        """The diagonals (even half-edges) that may be flipped."""
+        """Return the diagonals (even half-edges) that may be flipped."""
         return [h for h in self.diagonals() if self.is_flippable(h)]
 
     def stays(self, h: HalfEdge) -> tuple[bool, bool]:
@@ -109,17 +109,17 @@ class Mesh:
         return F2
 
     def ends(self, h: HalfEdge) -> Ends:
-        """The origin and the target of a half-edge."""
+        """Return the origin and the target of a half-edge."""
         return self.map.origin[h], self.map.origin[h ^ 1]
 
     def diagonals(self) -> list[HalfEdge]:
-        """The even half-edges of all edges that are not body edges."""
+        """Return the even half-edges of all edges that are not body edges."""
         origin = self.map.origin
         half_edges = map(HalfEdge, range(0, len(origin), 2))
         return [h for h in half_edges if origin[h] >= 0 and not self.boundary[h >> 1]]
 
     def ring_edges(self) -> list[HalfEdge]:
-        """The half-edges of all rings, in the order of their origins."""
+        """Return the half-edges of all rings, in the order of their origins."""
         return [h for h in self.ring_edge if h != NO_HALF_EDGE]
 
     def faces(self, region: int = FREE) -> list[list[HalfEdge]]:
@@ -231,7 +231,7 @@ class Mesh:
         return e
 
     def copy(self) -> Mesh:
-        """An independent copy."""
+        """Return an independent copy."""
         other = Mesh(0)
         self._copy_to(other)
         return other
@@ -242,7 +242,7 @@ class Mesh:
         other.boundary, other.ring_edge = self.boundary[:], self.ring_edge[:]
 
     def state(self) -> dict[str, list[Any]]:
-        """The mesh as JSON data."""
+        """Return the mesh as JSON data."""
         m = self.map
         return {
             "origin": list(m.origin),

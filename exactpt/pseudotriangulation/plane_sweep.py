@@ -42,7 +42,7 @@ class SweptEdge:
 
 
 def sweep_diagonals(instant: PredicatesAt) -> list[Diagonal]:
-    """The diagonals of a pseudo-triangulation of the free space, hull edges included.
+    """Return the diagonals of a pseudo-triangulation of the free space, hull edges included.
 
     The interiors of bodies that deform are tiled too, those of rigid bodies are not.
     """
@@ -95,7 +95,7 @@ class Sweep:
             self.ends[edge.left] = self.ends[edge.right] = None
 
     def run(self) -> list[Diagonal]:
-        """The diagonals of all gaps, from left to right."""
+        """Return the diagonals of all gaps, from left to right."""
         for v in sorted_by_x(self.predicates, self.ends):
             ask()
             edges = self.starting.get(v, [])
@@ -103,7 +103,7 @@ class Sweep:
         return self.diagonals
 
     def _from_bottom_to_top(self, edges: list[SweptEdge]) -> list[SweptEdge]:
-        """Edges with a common left end, sorted from bottom to top."""
+        """Return edges with a common left end, sorted from bottom to top."""
 
         def order(a: SweptEdge, b: SweptEdge) -> int:
             return -self.predicates.sign(a.left, a.right, b.right)
@@ -137,7 +137,7 @@ class Sweep:
         self.active[first:last] = starting
 
     def _first_not_below(self, v: VertexId) -> int:
-        """The position of the lowest edge that is above v or ends there."""
+        """Return the position of the lowest edge that is above v or ends there."""
         low, high = 1, len(self.active)
         while low < high:
             middle = (low + high) // 2
@@ -157,13 +157,13 @@ class Sweep:
             self.diagonals.append(Diagonal(chain[i], v, region))
 
     def _sees(self, v: VertexId, chain: list[VertexId], i: int) -> bool:
-        """Whether v sees edge i of a chain: it lies to the right of the edge, going up."""
+        """Return True if v sees edge i of a chain: it lies to the right of the edge, going up."""
         return self.predicates.sign(chain[i], chain[i + 1], v) < 0
 
     def _split_chain(
         self, v: VertexId, chain: list[VertexId], region: int
     ) -> tuple[list[VertexId], list[VertexId]]:
-        """The chains below and above v, a vertex that splits a gap."""
+        """Return the chains below and above v, a vertex that splits a gap."""
         if not chain or region == SOLID:
             return [v], [v]
         low, high = 0, len(chain) - 1
@@ -176,7 +176,7 @@ class Sweep:
         return [*chain[: low + 1], v], [v, *chain[high:]]
 
     def _only_visible(self, chain: list[VertexId]) -> int:
-        """The end of a chain that is seen by a vertex which sees no edge of it.
+        """Return the end of a chain that is seen by a vertex which sees no edge of it.
 
         It is the lower end, if its wedge between the gap's lower edge (which leads right) and
         the chain is more than pi: then the chain starts to the left. The directions of

@@ -142,7 +142,7 @@ def _remove(mesh: Mesh, predicates: Predicates, todo: list[HalfEdge]) -> list[Ch
 def _corners_after_removal(
     mesh: Mesh, h: HalfEdge, predicates: Predicates
 ) -> tuple[bool, bool] | None:
-    """The marks of the joined angles at the ends of h; None if it cannot be removed."""
+    """Return the marks of the joined angles at the ends of h; None if it cannot be removed."""
     m = mesh.map
     marks = []
     lost = 0
@@ -157,7 +157,7 @@ def _corners_after_removal(
 
 
 def _needless_diagonals(mesh: Mesh, first: HalfEdge, predicates: Predicates) -> list[HalfEdge]:
-    """The diagonals in a sector of a vertex whose angles are all below pi but need not be.
+    """Return the diagonals in a sector of a vertex whose angles are all below pi but need not be.
 
     A sector lies between two successive fixed edges; if the angle of a sector is above pi,
     one of its tiles should have an angle above pi.

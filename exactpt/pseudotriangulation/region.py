@@ -140,11 +140,11 @@ class Region:
         return self.mesh.map.origin[h] >= 0 and self._before.get(h) != self._angle(h)
 
     def _open(self) -> list[HalfEdge]:
-        """The half-edges of the rim with the region to be tiled on their left."""
+        """Return the half-edges of the rim with the region to be tiled on their left."""
         return self._rim
 
     def _edges(self, predicates: Predicates, around: Iterable[HalfEdge]) -> Iterable[SweptEdge]:
-        """The swept edges of half-edges around some faces."""
+        """Yield the swept edges of half-edges around some faces."""
         rim = dict.fromkeys(around)
         done: set[HalfEdge] = set()
         for h in rim:

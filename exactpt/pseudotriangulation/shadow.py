@@ -30,7 +30,7 @@ __all__ = [
 
 
 def opposite_corner(mesh: Mesh, h: HalfEdge) -> HalfEdge:
-    """The corner of the face of h opposite to the side chain with h.
+    """Return the corner of the face of h opposite to the side chain with h.
 
     `NO_HALF_EDGE` if the face does not have exactly three corners, as may happen between the
     repairs of one time.
@@ -49,7 +49,7 @@ def opposite_corner(mesh: Mesh, h: HalfEdge) -> HalfEdge:
 
 
 def shadow(mesh: Mesh, h: HalfEdge, predicates: Predicates) -> tuple[HalfEdge, HalfEdge] | None:
-    """The visits (half-edges of the two faces of h) that the shadow edge of h joins.
+    """Return the visits (half-edges of the two faces of h) that the shadow edge of h joins.
 
     The ends start at the two opposite corners and move away from them along their side
     chains until the segment between them is tangent at both. None if the result does not
@@ -91,7 +91,7 @@ def shadow(mesh: Mesh, h: HalfEdge, predicates: Predicates) -> tuple[HalfEdge, H
 
 
 def _size(mesh: Mesh, h: HalfEdge) -> i64:
-    """The number of visits of the two faces of h without h."""
+    """Return the number of visits of the two faces of h without h."""
     following = mesh.map.following
     size: i64 = -2
     for k in range(2):
@@ -113,7 +113,7 @@ def _step(
     y: VertexId,
     predicates: Predicates,
 ) -> i64:
-    """The direction in which visit i must move for tangency to the segment to y: 1, -1 or 0.
+    """Return the direction in which visit i must move for tangency to the segment to y: 1, -1 or 0.
 
     At its corner (distance 0) the segment must be inside the angle. On the chain after
     the corner both neighbours must be on the right of the segment, on the chain before
@@ -136,7 +136,7 @@ def _step(
 
 
 def crosses(x: VertexId, y: VertexId, u: VertexId, v: VertexId, predicates: Predicates) -> bool:
-    """Whether segments xy and uv cross in their interiors, or share one end."""
+    """Return True if segments xy and uv cross in their interiors, or share one end."""
     if x in (u, v) or y in (u, v):
         return not ((x == u and y == v) or (x == v and y == u))
     if predicates.sign(x, y, u) == predicates.sign(x, y, v):
@@ -179,21 +179,21 @@ def is_tangent(mesh: Mesh, h: HalfEdge, i: HalfEdge, j: HalfEdge, predicates: Pr
 
 
 def visit_after(mesh: Mesh, h: HalfEdge, visit: HalfEdge) -> HalfEdge:
-    """The visit after one, counter-clockwise around the two faces of h without h."""
+    """Return the visit after one, counter-clockwise around the two faces of h without h."""
     following = mesh.map.following
     g = following[visit]
     return following[g ^ 1] if g | 1 == h | 1 else g
 
 
 def visit_before(mesh: Mesh, h: HalfEdge, visit: HalfEdge) -> HalfEdge:
-    """The visit before one, counter-clockwise around the two faces of h without h."""
+    """Return the visit before one, counter-clockwise around the two faces of h without h."""
     previous = mesh.map.previous
     g = previous[visit]
     return previous[g ^ 1] if g | 1 == h | 1 else g
 
 
 def is_corner_without(mesh: Mesh, h: HalfEdge, visit: HalfEdge, predicates: Predicates) -> bool:
-    """Whether a visit of the two faces of h is at a corner of their union.
+    """Return True if a visit of the two faces of h is at a corner of their union.
 
     At an end of h itself the angles of the two faces are one.
     """
@@ -205,7 +205,7 @@ def is_corner_without(mesh: Mesh, h: HalfEdge, visit: HalfEdge, predicates: Pred
 
 
 def has_visits(mesh: Mesh, h: HalfEdge, i: HalfEdge, j: HalfEdge) -> bool:
-    """Whether two half-edges are visits of the two faces of h without h."""
+    """Return True if two half-edges are visits of the two faces of h without h."""
     t = twin(h)
     return (_is_after(mesh, h, i) or _is_after(mesh, t, i)) and (
         _is_after(mesh, h, j) or _is_after(mesh, t, j)
@@ -213,7 +213,7 @@ def has_visits(mesh: Mesh, h: HalfEdge, i: HalfEdge, j: HalfEdge) -> bool:
 
 
 def _is_after(mesh: Mesh, h: HalfEdge, i: HalfEdge) -> bool:
-    """Whether i is another half-edge of the face of h."""
+    """Return True if i is another half-edge of the face of h."""
     following = mesh.map.following
     g = following[h]
     while g not in (h, i):

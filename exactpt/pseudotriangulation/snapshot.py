@@ -55,7 +55,7 @@ class Node:
 
 
 def node_of(body: str, vertex: int, x: str, y: str) -> Node:
-    """The node of a pickle."""
+    """Return the node of a pickle."""
     return Node(body, vertex, parse_rational(x), parse_rational(y))
 
 
@@ -141,7 +141,7 @@ class Snapshot:
         return tuple(sorted(edges))
 
     def to_json(self) -> dict[str, object]:
-        """The snapshot as in docs/format.md (command ``tile``)."""
+        """Return the snapshot as in docs/format.md (command ``tile``)."""
         faces = []
         for f in self.faces:
             face: dict[str, object] = {
@@ -174,12 +174,12 @@ def snapshot_of(
     edges: tuple[Edge, ...],
     faces: tuple[Face, ...],
 ) -> Snapshot:
-    """The snapshot of a pickle."""
+    """Return the snapshot of a pickle."""
     return Snapshot(parse_rational(at), tiling, nodes, edges, faces)
 
 
 def snapshot(vertices: Vertices, mesh: Mesh, name: str, at: QQ) -> Snapshot:
-    """The tiling of a mesh at a rational time, in terms of the scene.
+    """Return the tiling of a mesh at a rational time, in terms of the scene.
 
     Args:
         vertices: the moving vertices, with the trajectories of that time.
@@ -227,7 +227,7 @@ class _Contraction:
         return Snapshot(self.at, name, tuple(self.nodes), tuple(edges), tuple(faces))
 
     def _is_inside(self, h: HalfEdge) -> bool:
-        """Whether an edge is a diagonal inside a body, and so not in the free space."""
+        """Return True if an edge is a diagonal inside a body, and so not in the free space."""
         return self.mesh.region[h] == INSIDE and not self.mesh.is_boundary(h)
 
     def _contracted(self, face: Sequence[HalfEdge]) -> tuple[list[int], list[int]]:
@@ -237,7 +237,7 @@ class _Contraction:
         return nodes, [self.node[self.mesh.map.origin[h]] for h in face if self.mesh.corner[h]]
 
     def _has_area(self, corners: Sequence[int]) -> bool:
-        """Whether a face with these corners has an area."""
+        """Return True if a face with these corners has an area."""
         a, b, c = ((self.nodes[v]._x, self.nodes[v]._y) for v in corners)
         return side(a, b, c) != 0
 
@@ -251,7 +251,7 @@ class _Contraction:
                 self.cuts.setdefault(edge_key(u, v), set()).update(ordered[low + 1 : high])
 
     def _path(self, u: int, v: int) -> Iterator[int]:
-        """The nodes from u to v along an edge with its splits, v excluded."""
+        """Yield the nodes from u to v along an edge with its splits, v excluded."""
         inside = self.cuts.get(edge_key(u, v))
         if not inside:
             yield u
