@@ -15,7 +15,7 @@ PACKAGES: Final = "g++ cmake make libcgal-dev nlohmann-json3-dev"
 
 
 def sources() -> Path:
-    """The folder of the C++ sources: that of the checkout, or the one in an installed package.
+    """Return the folder of the C++ sources, of the checkout or of the installed package.
 
     Raises:
         InputError: if there is none.

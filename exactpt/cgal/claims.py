@@ -41,7 +41,7 @@ class BodyShape(NamedTuple):
 
     @classmethod
     def of_scene(cls, scene: Scene) -> list[BodyShape]:
-        """The shapes of all bodies, with the orientation at the start, which never changes."""
+        """Return the shapes of all bodies, with their constant orientation."""
         return [cls._of_body(body, body._at(scene._start)) for body in scene.bodies]
 
     @classmethod

@@ -114,7 +114,7 @@ class CgalCheck:
     def check_tilings(
         self, tiles: Iterable[tuple[Tile, Iterable[BodyShape]]], *, deep: bool = False
     ) -> Iterator[Verdict]:
-        """The verdicts of `check_tiling` on many tiles, in order; faster, by sending ahead."""
+        """Return the verdicts of `check_tiling` on many tiles, in order, by sending ahead."""
         word = "tiling deep" if deep else "tiling"
         return self._verdicts(tiling_request(word, tile, bodies) for tile, bodies in tiles)
 
@@ -164,7 +164,7 @@ class CgalCheck:
         return [int(i) for i in _claimed(self._ask(f"hull {len(words)} {' '.join(words)} end\n"))]
 
     def orientations(self, triples: Iterable[Sequence[Sequence[Rational]]]) -> list[int]:
-        """The orientation of each triple: 1 for a left turn, 0 collinear, -1 for a right turn."""
+        """Return the orientation of each triple: 1 left turn, 0 collinear, -1 right turn."""
         words = [" ".join(map(point_words, (a, b, c))) for a, b, c in triples]
         return _signs(self._ask(f"orientations {len(words)} {' '.join(words)} end\n"))
 

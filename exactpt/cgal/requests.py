@@ -155,7 +155,7 @@ def point_words(point: Sequence[Rational]) -> str:
 
 
 def polynomial_words(f: Sequence[int]) -> str:
-    """A polynomial over the integers: number of coefficients, then these, constant term first."""
+    """Return an integer polynomial: the number of coefficients, then these, constant first."""
     if f and f[-1] == 0:
         raise InputError("the leading coefficient of a polynomial is zero")
     # ZZ: Python does not convert an int of more than 4,300 digits to a string.

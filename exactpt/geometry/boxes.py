@@ -99,7 +99,7 @@ def overlapping_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
 
 
 def crossing_pairs(some: Boxes, others: Boxes) -> Iterator[tuple[Indices, Indices]]:
-    """All pairs of a closed box of the first and one of the second that intersect, in chunks."""
+    """Yield all intersecting pairs of a closed box of the first and of the second, in chunks."""
     n = len(some)
     if n * len(others) <= _ALL:
         low_x, high_x, low_y, high_y = some.T[..., None]

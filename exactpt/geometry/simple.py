@@ -138,7 +138,7 @@ def _no_edges_meet(xs: Sequence[float], ys: Sequence[float], error: float, *, cl
 
 
 def _are_apart(e: Edge, f: Edge, error: float) -> bool:
-    """Whether two edges certainly are disjoint: by their boxes, or one by the other's line."""
+    """Return True if two edges are certainly disjoint, by boxes or by the line of one."""
     ax, ay, bx, by = e
     cx, cy, dx, dy = f
     off = 4.0 * error  # of which two count, and one covers rounding

@@ -135,7 +135,7 @@ class AlgebraicNumber(RealNumber):
         return 0
 
     def sign_before(self, f: IntPoly) -> int:
-        """The sign of f just before this number: 0 if and only if f is the zero polynomial."""
+        """Return the sign of f just before this number; 0 only for the zero polynomial."""
         factor = 1
         while f:
             ask()

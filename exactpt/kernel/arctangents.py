@@ -22,7 +22,10 @@ def pi_bounds(bits: int) -> Bounds:
 
 
 def atan_bounds(x: QQ, bits: int) -> Bounds:
-    """Bounds of the arc tangent of x, for |x| <= 1; at most 2^-bits apart up to 10,000 bits."""
+    """Return bounds of the arc tangent of x, |x| <= 1.
+
+    They are at most 2^-bits apart, up to 10,000 bits.
+    """
     if x < 0:
         low, high = atan_bounds(-x, bits)
         return -high, -low

@@ -193,7 +193,7 @@ def check_bounds(**bounds: object) -> None:
 
 
 def resident_memory() -> int:
-    """The memory of this process in bytes: what it has now, or where unknown, its maximum."""
+    """Return the memory of this process in bytes: the current, or if unknown, the peak."""
     try:
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
     except (OSError, ValueError):

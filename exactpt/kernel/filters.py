@@ -226,7 +226,7 @@ def _constant(
     now_high: float,
     horizon: float,
 ) -> Answer:
-    """The sign of a quadratic that has no root up to the horizon as its constant dominates."""
+    """Return the sign of a quadratic without a root up to the horizon (its constant wins)."""
     reach = max(abs(now_low), abs(now_high), abs(horizon))
     rest = (e0 + ((abs(c1) + e1) + (abs(c2) + e2) * reach) * reach) * SLACK + TINY
     if INFINITY > abs(c0) > rest:

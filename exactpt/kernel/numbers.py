@@ -229,7 +229,7 @@ def rational(value: Rational) -> QQ:
 
 
 def as_doubles(values: Iterable[object]) -> list[float] | None:
-    """The values as doubles; None if one of them is not a finite ``float`` or a small ``int``.
+    """Return the values as doubles; None unless each is a finite ``float`` or small ``int``.
 
     Of the types derived from these only ``numpy.float64`` counts; integers are small if all
     of their size are doubles.

@@ -136,7 +136,7 @@ class Polynomial:
     @overload
     def __call__(self, t: Polynomial) -> Polynomial: ...
     def __call__(self, t: Rational | Polynomial) -> Fraction | Polynomial:
-        """The value at a rational number, or the polynomial with t replaced by another one."""
+        """Return the value at a rational number, or the composition with a polynomial."""
         if not isinstance(t, Polynomial):
             return fraction(self._at(rational(t)))
         result = ZERO

@@ -188,7 +188,7 @@ def _scaled(
 
 
 def _sums(b0: float, b1: float, b2: float, b3: float, b4: float, b5: float, b6: float) -> Six:
-    """The Bernstein coefficients after the first: binomial sums of scaled Taylor coefficients."""
+    """Return the Bernstein coefficients after the first, sums of scaled Taylor coefficients."""
     b6 += b5
     b5 += b4
     b4 += b3
@@ -225,7 +225,7 @@ def _tighten(
     g0: float, g1: float, g2: float, g3: float, g4: float, g5: float, g6: float,
     low: float, high: float, x: float, s: float,
 ) -> tuple[float, float]:  # fmt: skip
-    """A narrower enclosure of the one root in (low, high), where the sign falls from s to -s.
+    """Return a narrower enclosure of the one root in (low, high), from sign s to -s.
 
     Newton's method from x, safeguarded by bisection, proposes a root x; the certain signs
     at x - d and x + d confirm it.

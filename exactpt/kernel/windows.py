@@ -194,7 +194,7 @@ def _one_change(b: list[float], error: float) -> bool:
 def _tighten(
     c: list[float], e: list[float], low: float, high: float, s: int
 ) -> tuple[float, float]:
-    """A narrower enclosure of the one root in (low, high), where the sign falls from s to -s.
+    """Return a narrower enclosure of the one root in (low, high), from sign s to -s.
 
     Newton's method, safeguarded by bisection, proposes a root x; the signs at x - d and
     x + d, certain by Horner's error bound, confirm it.

@@ -89,7 +89,7 @@ class PlanarMap:
         previous: Iterable[HalfEdge],
         free: list[HalfEdge],
     ) -> PlanarMap:
-        """The map with these half-edges and free handles, the last of which is used first."""
+        """Return the map with these half-edges and free handles (last in, first out)."""
         self = cls()
         self.origin = vertex_vec(origin)
         self.following, self.previous = half_edge_vec(following), half_edge_vec(previous)

@@ -63,7 +63,7 @@ def _has_closed(mesh: Mesh, h: HalfEdge, instant: PredicatesAt) -> bool:
 
 
 def _first(mesh: Mesh, closed: set[HalfEdge], instant: PredicatesAt) -> HalfEdge:
-    """The least closed corner; among infinitesimal copies of its triple, the first to close."""
+    """Return the least closed corner; of infinitesimal copies, the first to close."""
     all_vertices = instant.vertices.all
     number = AlgebraicNumber(instant.time)
     first, *others = sorted(closed)

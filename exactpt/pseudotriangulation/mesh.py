@@ -101,11 +101,11 @@ class Mesh:
         return [h for h in self.diagonals() if self.is_flippable(h)]
 
     def stays(self, h: HalfEdge) -> tuple[bool, bool]:
-        """Whether the edges before and of h remain when their reflex angle becomes straight."""
+        """Return True if h and the edge before it remain when their angle becomes straight."""
         return self.is_boundary(self.map.previous[h]), self.is_boundary(h)
 
     def tile(self, h: HalfEdge) -> Tile:  # noqa: ARG002 - without labels there is only one
-        """The relative hull and level of the tile on the left of a half-edge of free space."""
+        """Return the relative hull and level of the tile on the left of a half-edge."""
         return F2
 
     def ends(self, h: HalfEdge) -> Ends:
@@ -123,7 +123,7 @@ class Mesh:
         return [h for h in self.ring_edge if h != NO_HALF_EDGE]
 
     def faces(self, region: int = FREE) -> list[list[HalfEdge]]:
-        """The faces of a kind as cycles of half-edges, each starting at its least half-edge."""
+        """Return the faces of a kind as cycles of half-edges, each from its least half-edge."""
         seen: set[HalfEdge] = set()
         faces = []
         for h in self.map.half_edges():
@@ -270,7 +270,7 @@ class Mesh:
         return []
 
     def relative_hulls(self) -> Callable[[int], list[VertexId]] | None:
-        """The shortest loop around each body, as vertex ids; None if the mesh does not know."""
+        """Return the shortest loop around each body, as vertex ids; None if unknown."""
         return None
 
     def audit(self) -> None:

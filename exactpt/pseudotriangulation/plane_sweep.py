@@ -50,7 +50,7 @@ def sweep_diagonals(instant: PredicatesAt) -> list[Diagonal]:
 
 
 def body_edges(instant: PredicatesAt) -> list[SweptEdge]:
-    """The edges of all bodies; a body, on the left of its ring, is above edges leading right."""
+    """Return the edges of all bodies; a body is above its edges that lead right."""
     vertices = instant.vertices
     edges = []
     for body in vertices.bodies:
@@ -187,7 +187,7 @@ class Sweep:
         return 0 if leans_left else len(chain) - 1
 
     def _upper_end(self, v: VertexId, chain: list[VertexId], region: int) -> list[VertexId]:
-        """The chain of a gap whose upper edge ends at v; its last vertex is adjacent to v."""
+        """Return the chain of a gap whose upper edge ends at v, to the neighbour of v."""
         if region == SOLID:
             return [v]
         i = len(chain) - 1
@@ -199,7 +199,7 @@ class Sweep:
         return [*chain[: i + 1], v]
 
     def _lower_end(self, v: VertexId, chain: list[VertexId], region: int) -> list[VertexId]:
-        """The chain of a gap whose lower edge ends at v; its first vertex is adjacent to v."""
+        """Return the chain of a gap whose lower edge ends at v, from the neighbour of v."""
         if region == SOLID:
             return [v]
         i = 0

@@ -145,7 +145,7 @@ def crosses(x: VertexId, y: VertexId, u: VertexId, v: VertexId, predicates: Pred
 
 
 def is_tangent(mesh: Mesh, h: HalfEdge, i: HalfEdge, j: HalfEdge, predicates: Predicates) -> bool:
-    """Whether the segment between two visits of the two faces of h is tangent at the first one.
+    """Return True if the segment between two visits at h is tangent at the first one.
 
     At a corner it is inside the angle; at a reflex vertex both neighbours are on one side of it.
     Vertices that are collinear for ever are no tangency.

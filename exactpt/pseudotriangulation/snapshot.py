@@ -231,7 +231,7 @@ class _Contraction:
         return self.mesh.region[h] == INSIDE and not self.mesh.is_boundary(h)
 
     def _contracted(self, face: Sequence[HalfEdge]) -> tuple[list[int], list[int]]:
-        """The nodes around a face, with runs of copies contracted, and those of its corners."""
+        """Return the nodes around a face, runs of copies contracted, and its corners."""
         ids = [self.node[self.mesh.map.origin[h]] for h in face]
         nodes = [v for before, v in zip([ids[-1], *ids[:-1]], ids, strict=True) if v != before]
         return nodes, [self.node[self.mesh.map.origin[h]] for h in face if self.mesh.corner[h]]
