@@ -9,7 +9,6 @@ import numpy as np
 from exactpt.arrays.answers import record_edges, record_overlaps
 from exactpt.arrays.candidates import Candidates, all_candidates
 from exactpt.arrays.contacts import Contacts
-from exactpt.arrays.exact import Translating, exact
 from exactpt.arrays.meetings import INFINITY, first_meetings
 from exactpt.arrays.motions import Motions, reaches
 from exactpt.arrays.outlines import Outlines
@@ -21,6 +20,7 @@ from exactpt.arrays.undecided import decide, search
 from exactpt.geometry.ragged import Flags, ranges
 from exactpt.kernel.doubles import Floats, Indices, native
 from exactpt.kernel.rounding import SLACK, U
+from exactpt.pairs.rational import Candidate
 from exactpt.scene.body_arrays import BodyArrays
 
 __all__ = ["Block"]
@@ -105,11 +105,12 @@ class Block(NamedTuple):
         self._record(k[pair[hits]], candidates.take(hits), cs, low[hits], high[hits])
         left = left[open_[pair[left]]]
         left = left[np.argsort(pair[left], kind="stable")]
-        listed = candidates.take(left).listed(o)
+        times = self.spans.at(k[pair[left]]).times(low[left], high[left])
+        listed = candidates.take(left).listed(o, *times)
         end = np.cumsum(np.where(open_, counts, 0))
         for m in np.flatnonzero(open_).tolist():
             some = listed[int(end[m] - counts[m]) : int(end[m])]
-            self._decide(int(k[m]), some, unclear=bool(unclear[m]))
+            self._decide(int(k[m]), sorted(some), unclear=bool(unclear[m]))
 
     def _record(
         self, k: Indices, hits: Candidates, cs: list[Coefficient], low: Floats, high: Floats
@@ -137,13 +138,11 @@ class Block(NamedTuple):
         else:
             search(self.contacts, self.first + k)
 
-    def _decide(self, k: int, candidates: list[tuple[int, int, int]], *, unclear: bool) -> None:
+    def _decide(self, k: int, candidates: list[Candidate], *, unclear: bool) -> None:
         if self.is_rounded or self.motions.degree > 2:
             self._search(k)
-            return
-        bodies = Translating(self.bodies, int(self.i[k])), Translating(self.bodies, int(self.j[k]))
-        span = exact(float(self.spans.start[k])), exact(float(self.spans.end[k]))
-        decide(self.contacts, self.first + k, bodies, span, candidates, unclear=unclear)
+        else:
+            decide(self.contacts, self.first + k, candidates, unclear=unclear)
 
 
 def _beside_until(

@@ -15,6 +15,8 @@ from exactpt.geometry.ragged import spread
 from exactpt.kernel.double_double import exact_difference
 from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.rounding import SLACK, U
+from exactpt.motion.incidence import Touch
+from exactpt.pairs.rational import Candidate
 
 __all__ = ["Candidates", "all_candidates", "shifted"]
 
@@ -85,11 +87,8 @@ class Candidates(NamedTuple):
         )
         return ExactRelative((u,), (start, *moved), shift)
 
-    def listed(self, o: Outlines) -> list[tuple[int, int, int]]:
-        """For each whether the vertex is of the second body, the vertex, and the edge.
-
-        Vertices and edges are numbered within their bodies.
-        """
+    def listed(self, o: Outlines, low: Floats, high: Floats) -> list[Candidate]:
+        """Records of them, with bounds of their times; features are numbered in their bodies."""
         owners = (
             np.searchsorted(first, numbers, side="right") - 1
             for first, numbers in ((o.first_vertex, self.vertex), (o.first_edge, self.edge))
@@ -97,7 +96,9 @@ class Candidates(NamedTuple):
         of_vertex, of_edge = owners
         vertices = self.vertex - o.first_vertex[of_vertex]
         edges = self.edge - o.first_edge[of_edge]
-        return list(zip(self.second.tolist(), vertices.tolist(), edges.tolist(), strict=True))
+        columns = (low, high, self.second, vertices, edges)
+        rows = zip(*(column.tolist() for column in columns), strict=True)
+        return [Candidate(a, b, Touch(i, v, 1 - i, e, -1)) for a, b, i, v, e in rows]
 
 
 def all_candidates(o: Outlines, i: Indices, j: Indices) -> tuple[Candidates, Indices]:

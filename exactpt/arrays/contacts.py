@@ -13,7 +13,7 @@ from exactpt.errors import InputError
 from exactpt.geometry.ragged import Flags
 from exactpt.kernel.doubles import Floats
 from exactpt.kernel.numbers import shorten
-from exactpt.pairs.features_sweep import PairsSearch
+from exactpt.pairs.search import pair_search
 
 if TYPE_CHECKING:
     from exactpt.pairs.contact import Contact
@@ -96,7 +96,7 @@ class Contacts:
         k = range(len(self))[operator.index(i)]
         if self.refused[k]:
             raise InputError(self._reasons[k])
-        return PairsSearch(self.scene(k)).run_to_contact() if self.found[k] else None
+        return pair_search(self.scene(k)).run_to_contact() if self.found[k] else None
 
     def refuse(self, i: int, reason: str) -> None:
         """Mark a pair that has no answer yet as refused, for a reason of one line."""

@@ -9,10 +9,9 @@ from numpy.typing import ArrayLike
 
 from exactpt.arrays.blocks import Block
 from exactpt.arrays.contacts import Contacts, Errors, masks
-from exactpt.arrays.exact import exact
 from exactpt.arrays.motions import relative_motions
 from exactpt.arrays.outlines import outlines_of
-from exactpt.arrays.spans import read_spans
+from exactpt.arrays.spans import exact, read_spans
 from exactpt.arrays.undecided import search
 from exactpt.errors import InputError
 from exactpt.kernel.doubles import Indices, first_true, indices

@@ -10,20 +10,22 @@ from numpy.typing import ArrayLike
 
 from exactpt.arrays.answers import record, record_edges
 from exactpt.arrays.contacts import Contacts, Errors, masks
-from exactpt.arrays.exact import Path, earliest, exact, first_zero, incidence, is_zero_at
 from exactpt.arrays.meetings import INFINITY, Span, first_meetings
 from exactpt.arrays.relative import Relative, orientations
 from exactpt.arrays.sharpening import ExactRelative, sharpened
-from exactpt.arrays.spans import Spans, read_spans
+from exactpt.arrays.spans import Spans, exact, read_spans
 from exactpt.errors import InputError
 from exactpt.geometry.ragged import Flags
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.double_double import exact_difference
 from exactpt.kernel.doubles import Floats, Indices, doubles
-from exactpt.kernel.numbers import show
+from exactpt.kernel.numbers import QQ, show
 from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import Touch
+from exactpt.motion.incidence import Touch, coincide, lies_on
+from exactpt.motion.track import translated
+from exactpt.pairs.features import FeaturePair
+from exactpt.pairs.rational import Earliest
 from exactpt.scene.scene import Scene
 
 __all__ = ["point_segment_contacts"]
@@ -183,42 +185,39 @@ def _may_shrink(r: Relative, span: Span) -> Flags:
     return may
 
 
-def _paths(row: Floats) -> list[Path]:
-    """The paths of the point and of the segment's ends."""
+def _points(row: Floats) -> list[tuple[tuple[QQ, QQ], tuple[QQ, QQ]]]:
+    """The coefficients in x and in y of the point and of the segment's ends."""
     q = [exact(c) for c in row.tolist()]
-    return [[(q[k], q[k + 1]), (q[k + 6], q[k + 7])] for k in (0, 2, 4)]
+    return [((q[k], q[k + 6]), (q[k + 1], q[k + 7])) for k in (0, 2, 4)]
 
 
 def _decide(contacts: Contacts, i: int, row: Floats, spans: Spans) -> None:
-    """Answer one query exactly."""
-    p, a, b = _paths(row)
+    """Answer one query exactly: when the point is on the segment, or that shrinks to a point."""
+    p, a, b = (translated(x, y) for x, y in _points(row))
     start, end = (exact(float(s[i])) for s in (spans.start, spans.end))
     begin = AlgebraicNumber(start)
-    both = incidence(p, a, b)
-    if is_zero_at(both.u, begin):
+    if coincide(a, b, begin):
         raise InputError(f"query {i}: the segment is a point at the start, t = {show(start)}")
-    time: AlgebraicNumber | None = begin
-    if both.place_at(begin) is None:
-        shrinks = first_zero(both.u, begin, end)
-        time = earliest([both.first_time(begin, end), shrinks])
-    touches: list[Touch] = []
-    if time is not None:
-        place = both.place_at(time)
-        shrunk = is_zero_at(both.u, time)
-        if place == "inside":
-            touches.append(Touch(0, 0, 1, 0, -1))
-        if place == "first" or (place and shrunk):
-            touches.append(Touch(0, 0, 1, -1, 0))
-        if place == "last" or (place and shrunk):
-            touches.append(Touch(0, 0, 1, -1, 1))
-        if shrunk:
-            touches.append(Touch(1, 0, 1, -1, 1))
+    first: Earliest[Touch] = Earliest()
+    shrunk = FeaturePair(Touch(1, 0, 1, -1, 1), a, (b,))
+    if lies_on(p, a, b, begin):
+        first.add(begin, ())
+    else:
+        for pair in (FeaturePair(Touch(0, 0, 1, 0, -1), p, (a, b)), shrunk):
+            time = pair.first_time(QQ(0), begin, end)
+            if time is not None:
+                first.add(time, ())
+    time, touches = first.number, []
+    if time is not None and lies_on(p, a, b, time):
+        ends = [Touch(0, 0, 1, -1, k) for k, c in enumerate((a, b)) if coincide(p, c, time)]
+        touches += ends or [Touch(0, 0, 1, 0, -1)]
+    if time is not None and coincide(a, b, time):
+        touches.append(shrunk.touch)
     record(contacts, i, time, touches, initial=time is begin)
 
 
 def _scene(row: Floats, spans: Spans, i: int) -> Scene:
     """The scene of a query."""
-    p, a, b = _paths(row)
-    point = Body("point", [{"x": x, "y": y} for x, y in (zip(*p, strict=True),)])
-    segment = Body("segment", [{"x": x, "y": y} for x, y in (zip(*f, strict=True) for f in (a, b))])
+    p, *ends = ({"x": x, "y": y} for x, y in _points(row))
+    point, segment = Body("point", [p]), Body("segment", ends)
     return Scene([point, segment], (float(spans.start[i]), float(spans.end[i])))

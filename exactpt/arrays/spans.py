@@ -10,8 +10,9 @@ from numpy.typing import ArrayLike
 from exactpt.arrays.meetings import Span
 from exactpt.errors import InputError
 from exactpt.kernel.doubles import Floats, Indices, doubles, first_true
+from exactpt.kernel.numbers import QQ
 
-__all__ = ["Spans", "read_spans"]
+__all__ = ["Spans", "exact", "read_spans"]
 
 
 class Spans(NamedTuple):
@@ -46,6 +47,11 @@ class Spans(NamedTuple):
             lows = np.nextafter(self.start + low, -np.inf)
             highs = np.nextafter(self.start + high, np.inf)
         return np.where(low < np.inf, lows, np.inf), np.where(high < np.inf, highs, np.inf)
+
+
+def exact(x: float) -> QQ:
+    """The value of a double."""
+    return QQ(*x.as_integer_ratio())
 
 
 def read_spans(time: ArrayLike, count: int) -> Spans:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from exactpt.collision.search import Search
 from exactpt.errors import InputError
 from exactpt.extensions import extension
-from exactpt.pairs.search import LinearSearch, scene_pieces_if_linear
+from exactpt.pairs.search import pair_search
 from exactpt.scene.scene import Scene
 
 __all__ = ["Question", "search_for", "searches_pairs"]
@@ -60,13 +60,8 @@ def search_for(scene: Scene, question: Question) -> Search:
         method = "kinetic"
     seconds = question.max_seconds
     if searches_pairs(method, tiling, groups):
-        rows = None if exact_only else scene_pieces_if_linear(scene)
-        if rows is not None:
-            return LinearSearch(scene, rows, groups, seconds)
-        from exactpt.pairs.features_sweep import PairsSearch
-
-        search = PairsSearch(scene, exact_only=exact_only, max_seconds=seconds, ignoring=groups)
-        if method == "pairs" or groups or not search.is_blind():
+        search = pair_search(scene, exact_only=exact_only, ignoring=groups, max_seconds=seconds)
+        if method == "pairs" or groups or not search.is_blind:
             return search
     from exactpt.collision.tiling_search import TilingSearch
 

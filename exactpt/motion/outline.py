@@ -227,6 +227,9 @@ def straight_pieces(
     are relative to an origin, if there is one, those of vertices to the first vertex. Only pieces
     with the same origin may be compared.
     """
+    motions = pieces_of(body.motion)
+    if any(not isinstance(m, Translation) or max(m.x.degree, m.y.degree) > 1 for m, _ in motions):
+        return None
     shape = shape or rest_outline(body)
     if shape is None:
         return None
@@ -241,9 +244,8 @@ def straight_pieces(
         if shape is None:
             return None
         shift = x - origin[0], y - origin[1]
-    pieces: list[tuple[Straight, QQ | None]] = []
-    for motion, end in pieces_of(body.motion):
-        if not isinstance(motion, Translation) or motion.x.degree > 1 or motion.y.degree > 1:
-            return None
-        pieces.append((Straight(body, shape, motion, edges, points, shift), end))
-    return pieces
+    return [
+        (Straight(body, shape, motion, edges, points, shift), end)
+        for motion, end in motions
+        if isinstance(motion, Translation)
+    ]

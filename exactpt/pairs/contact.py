@@ -12,7 +12,7 @@ from exactpt.motion.incidence import Touch
 from exactpt.pairs.incidences import Pair, details
 from exactpt.scene.scene import Scene
 
-__all__ = ["Contact", "Pair", "contact_of", "touches_of"]
+__all__ = ["Contact", "Pair", "contact_of"]
 
 
 class Found(NamedTuple):
@@ -84,6 +84,20 @@ class Contact:
             object.__setattr__(self, "_pairs", pairs)
         return pairs
 
+    def _touches(self, numbers: Mapping[str, int]) -> list[Touch]:
+        """The incidences, with the bodies numbered by ``numbers``; points are not computed."""
+        found = self._pairs
+        if isinstance(found, Found):
+            order = [numbers.get(body.name, -1) for body in found.scene.bodies]
+            return [t._replace(body=order[t.body], other=order[t.other]) for t in found.touches]
+        return [
+            Touch(
+                numbers[p.body], p.vertex, numbers[p.other],
+                -1 if p.edge is None else p.edge, -1 if p.other_vertex is None else p.other_vertex,
+            )
+            for p in found
+        ]  # fmt: skip
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Contact):
             return NotImplemented
@@ -153,20 +167,6 @@ def contact_of(
     touches = sorted(touches)
     names = tuple((scene.bodies[i].name, scene.bodies[j].name) for i, j in overlaps)
     return Contact(time, _kind(scene, time, touches), Found(scene, touches), names)
-
-
-def touches_of(contact: Contact, numbers: Mapping[str, int]) -> list[Touch]:
-    """Return the incidences of a contact, with the bodies numbered by ``numbers``."""
-    return [
-        Touch(
-            numbers[pair.body],
-            pair.vertex,
-            numbers[pair.other],
-            -1 if pair.edge is None else pair.edge,
-            -1 if pair.other_vertex is None else pair.other_vertex,
-        )
-        for pair in contact.pairs
-    ]
 
 
 def _kind(scene: Scene, time: AlgebraicNumber, touches: Sequence[Touch]) -> str:

@@ -16,7 +16,14 @@ from functools import cached_property
 from typing import NamedTuple, final
 
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, scale, subtract
+from exactpt.kernel.integer_polynomial import (
+    IntPoly,
+    add,
+    multiply,
+    negate,
+    scale,
+    subtract,
+)
 from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
@@ -76,7 +83,17 @@ class FeaturePair:
         if not self.is_of_edge:
             return ()
         a, b = self.ends
-        return _dot(a, b, self.v), _dot(b, a, self.v)
+        along, to_a, to_b = self._along, _vector(self.v, a), _vector(b, self.v)
+        return negate(_dot(along, to_a)), negate(_dot(along, to_b))
+
+    @cached_property
+    def _along(self) -> tuple[IntPoly, IntPoly]:
+        """The vector of the edge, times a positive factor."""
+        return _vector(*self.ends)
+
+    def _has_length(self) -> IntPoly:
+        """A polynomial that is positive where the edge has a length, 0 where it has none."""
+        return _dot(self._along, self._along)
 
     def at_distance(self, squared: QQ) -> IntPoly:
         """A polynomial that is positive where the squared distance is larger, 0 where equal.
@@ -91,7 +108,7 @@ class FeaturePair:
     def holds(self, t: AlgebraicNumber) -> bool:
         """Whether the foot of the perpendicular is on the edge, which has a length."""
         return all(t.sign_of(f) >= 0 for f in self.limits) and (
-            not self.is_of_edge or t.sign_of(_norm(*self.ends)) > 0
+            not self.is_of_edge or t.sign_of(self._has_length()) > 0
         )
 
     def first_time(self, squared: QQ, begin: AlgebraicNumber, until: QQ) -> AlgebraicNumber | None:
@@ -131,7 +148,7 @@ class FeaturePair:
     def holds_after(self, t: AlgebraicNumber) -> bool:
         """Whether it is so just after a time."""
         return all(t.sign_after(f) >= 0 for f in self.limits) and (
-            not self.is_of_edge or t.sign_after(_norm(*self.ends)) > 0
+            not self.is_of_edge or t.sign_after(self._has_length()) > 0
         )
 
 
@@ -187,12 +204,14 @@ def feature_pair(
 
 def _norm(a: Track, b: Track) -> IntPoly:
     """The squared distance of two vertices times (w_a w_b)^2."""
-    x, y = difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
-    return add(multiply(x, x), multiply(y, y))
+    u = _vector(a, b)
+    return _dot(u, u)
 
 
-def _dot(a: Track, b: Track, v: Track) -> IntPoly:
-    """(b - a) . (v - a), times a positive factor."""
-    along_x = multiply(difference(a.x, a.w, b.x, b.w), difference(a.x, a.w, v.x, v.w))
-    along_y = multiply(difference(a.y, a.w, b.y, b.w), difference(a.y, a.w, v.y, v.w))
-    return add(along_x, along_y)
+def _vector(a: Track, b: Track) -> tuple[IntPoly, IntPoly]:
+    """The vector from a to b, times a positive factor."""
+    return difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
+
+
+def _dot(u: tuple[IntPoly, IntPoly], v: tuple[IntPoly, IntPoly]) -> IntPoly:
+    return add(multiply(u[0], v[0]), multiply(u[1], v[1]))

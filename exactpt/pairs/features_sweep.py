@@ -101,6 +101,7 @@ class PairsSearch:
         """See `Search.passed`."""
         return None if self._passed is None else fraction(self._passed)
 
+    @property
     def is_blind(self) -> bool:
         """Whether a tiling is expected to decide less exactly: many vertices have no boxes.
 

@@ -14,7 +14,7 @@ from exactpt.geometry.boxes import Indices
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.incidence import Touch
 from exactpt.pairs.approach_search import ApproachSearch
-from exactpt.pairs.contact import Contact, contact_of, touches_of
+from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.rational import Earliest
 from exactpt.scene.scene import Scene
 
@@ -47,5 +47,5 @@ def first_with_radii(scene: Scene, group: Indices, plain: Contact | None) -> Con
         best.add(*found)
     if plain is not None:
         numbers = {body.name: i for i, body in enumerate(scene.bodies)}
-        best.add(plain.time, touches_of(plain, numbers))
+        best.add(plain.time, plain._touches(numbers))
     return None if best.number is None else contact_of(scene, best.number, best.found)

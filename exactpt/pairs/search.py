@@ -28,12 +28,14 @@ from exactpt.pairs.two_pieces import first_meeting
 from exactpt.scene.scene import Scene
 
 if TYPE_CHECKING:
+    from exactpt.pairs.features_sweep import PairsSearch
     from exactpt.pairs.scene_pieces import ScenePieces
 
 __all__ = [
     "LinearSearch",
     "first_among_candidates",
     "first_among_pieces",
+    "pair_search",
     "scene_pieces_if_linear",
 ]
 
@@ -56,6 +58,7 @@ class LinearSearch:
     """
 
     name = None
+    is_blind = False
 
     def __init__(
         self,
@@ -122,6 +125,22 @@ class LinearSearch:
 
     def _counts(self, i: int, j: int) -> bool:
         return self._group[i] != self._group[j]
+
+
+def pair_search(
+    scene: Scene,
+    *,
+    exact_only: bool = False,
+    ignoring: Collection[Collection[str]] = (),
+    max_seconds: float | None = None,
+) -> LinearSearch | PairsSearch:
+    """The search over pairs: that for linear motion if all bodies move so and none is large."""
+    rows = None if exact_only else scene_pieces_if_linear(scene)
+    if rows is not None:
+        return LinearSearch(scene, rows, ignoring, max_seconds)
+    from exactpt.pairs.features_sweep import PairsSearch
+
+    return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds, ignoring=ignoring)
 
 
 def scene_pieces_if_linear(scene: Scene) -> FewPieces | ScenePieces | None:

@@ -18,7 +18,7 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, renumbered
 from exactpt.motion.outline import is_rigid
-from exactpt.pairs.contact import Contact, contact_of, touches_of
+from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.near import pairs_that_come_near
 from exactpt.pairs.pieces import MotionPiece, linear_pieces
@@ -181,7 +181,7 @@ class SelectedSearch:
         if contact is None:
             return None
         numbers = {scene.bodies[i].name: i for i in pair}
-        return contact.time, touches_of(contact, numbers)
+        return contact.time, contact._touches(numbers)
 
 
 def _move_together(a: Body, b: Body, start: QQ, end: QQ) -> bool:

@@ -17,7 +17,6 @@ from exactpt.kernel.numbers import QQ, ZZ, rational
 from exactpt.motion.incidence import Touch
 from exactpt.pairs.approach import Approach, first_within
 from exactpt.pairs.clearance import Clearance, ClearancePiece
-from exactpt.pairs.contact import touches_of
 from exactpt.pairs.distance import distance
 from exactpt.pairs.features import Feature
 from exactpt.pairs.incidences import tracks_just_before
@@ -212,7 +211,7 @@ def _after_start(random: Random) -> Checked:
     if contact is None:
         fault = None if expected is None else f"no new contact, not {expected}"
         return Checked(scene, "none", fault)
-    found = touches_of(contact, {body.name: i for i, body in enumerate(scene.bodies)})
+    found = contact._touches({body.name: i for i, body in enumerate(scene.bodies)})
     pairs = {_ordered(touch) for touch in found}
     kind = f"{contact.kind}, {'again' if touching else 'first'}"
     fault = None

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from exactpt.arrays import KINDS, Contacts, first_contacts
-from exactpt.arrays.exact import exact
+from exactpt.arrays.spans import exact
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
