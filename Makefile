@@ -81,11 +81,12 @@ small-scope: $(VENV)/developing ## a slice of the fuzzer's small scope, another 
 coverage: $(VENV)/developing cgal_check/build/cgal_check ## branches covered by the tests
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not browser" --cov=exactpt --cov-report=term:skip-covered
 
-lint: $(VENV)/developing ## formatting, rules, types, imports, workflows
+lint: $(VENV)/developing ## formatting, rules, types, imports, spelling, workflows
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/codespell
 	$(BIN)/zizmor --offline --quiet .github/workflows
 	$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-workflows $(wildcard .github/workflows/*.yml)
 
