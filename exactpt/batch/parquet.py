@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping
 from contextlib import contextmanager
 from hashlib import blake2b
 from pathlib import Path
@@ -61,6 +61,13 @@ class Rows:
         groups = (about.row_group(i) for i in range(about.num_row_groups))
         self.size: int = sum(group.total_byte_size for group in groups)
 
+    def others(self) -> tuple[Any, Iterator[Any]]:
+        """Return the schema of all other columns, and record batches of them."""
+        schema = self._file.schema_arrow
+        names = [name for name in schema.names if name != COLUMN]
+        batches = self._file.iter_batches(AT_A_TIME, columns=names) if names else iter(())
+        return _pyarrow().schema([schema.field(name) for name in names]), batches
+
     def chunks(self, done: Mapping[int, Record], most: int) -> Iterator[Chunk]:
         """See `Source`."""
         rows: list[bytes] = []
@@ -111,28 +118,84 @@ class _Sink(io.RawIOBase):
         return len(data)
 
 
+_SIDES = [(f"{what}_{side}", what) for side in "ab" for what in ("body", "vertex", "edge")]
+
+
 @contextmanager
-def table(write: Callable[[bytes], None]) -> Iterator[Callable[[bytes], None]]:
+def table(
+    write: Callable[[bytes], None], rows: Rows | None = None
+) -> Iterator[Callable[[bytes], None]]:
     """Give a function that takes lines of answers and writes them as rows of a Parquet file.
 
-    Its columns: "line"; "time", the nearest double, null where the answer is no time; "error",
-    null where there is none; "answer", the line of JSON.
+    Its columns are those of docs/format.md, and all columns of the input but the scenes.
+
+    Args:
+        write: takes the bytes of the file.
+        rows: the input, if it is Parquet. It has an answer for each row, in the same order.
     """
     arrow = _pyarrow()
-    columns = {"line": arrow.int64(), "time": arrow.float64()}
-    schema = arrow.schema({**columns, "error": arrow.string(), "answer": arrow.string()})
-    with arrow.parquet.ParquetWriter(_Sink(write), schema) as writer:
+    time, text = arrow.float64(), arrow.string()
+    types = {"body": text, "vertex": arrow.int32(), "edge": arrow.int32()}
+    interval = arrow.struct({"body_a": text, "body_b": text, "start": time, "end": time})
+    columns = {"line": arrow.int64(), "time": time, "kind": text}
+    columns |= {name: types[what] for name, what in _SIDES}
+    columns |= {"x": time, "y": time, "intervals": arrow.list_(interval)}
+    columns |= {"error": text, "answer": text}
+    mine = arrow.schema(columns)
+    own, batches = (arrow.schema([]), iter(())) if rows is None else rows.others()
+    left = arrow.Table.from_batches([], own)
+    whole = arrow.schema([*mine, *(f.with_name(_free(f.name, columns, own.names)) for f in own)])
+    with arrow.parquet.ParquetWriter(_Sink(write), whole) as writer:
 
-        def add(text: bytes) -> None:
-            rows = []
-            for answer in text.decode().splitlines():
-                data = json.loads(answer)
-                found = data.get("contact") or data.get("approach")
-                row = {"line": data["line"], "error": data.get("error"), "answer": answer}
-                rows.append({**row, "time": found["time"]["approx"] if found else None})
-            writer.write_table(arrow.Table.from_pylist(rows, schema))
+        def add(answers: bytes) -> None:
+            nonlocal left
+            found = arrow.Table.from_pylist(
+                [_row(line) for line in answers.decode().splitlines()], mine
+            )
+            if len(own):
+                while len(left) < len(found):
+                    more = arrow.Table.from_arrays(next(batches).columns, schema=own)
+                    left = arrow.concat_tables([left, more])
+                theirs, left = left.slice(0, len(found)), left.slice(len(found))
+                found = arrow.Table.from_arrays([*found.columns, *theirs.columns], schema=whole)
+            writer.write_table(found)
 
         yield add
+
+
+def _free(name: str, taken: Container[str], others: Container[str]) -> str:
+    """Return a name for a column of the input that is not one of the answers' columns."""
+    if name in taken:
+        while name in taken or name in others:
+            name = f"input_{name}"
+    return name
+
+
+def _row(answer: str) -> dict[str, object]:
+    """The columns of an answer that are not null."""
+    data = json.loads(answer)
+    row = {"line": data["line"], "error": data.get("error"), "answer": answer}
+    if "intervals" in data:
+        row["intervals"] = [
+            {
+                "body_a": i["a"],
+                "body_b": i["b"],
+                "start": i["from"]["approx"],
+                "end": i["to"]["approx"],
+            }
+            for i in data["intervals"]
+        ]
+    found = data.get("contact") or data.get("approach")
+    if not found:
+        return row
+    row |= {"time": found["time"]["approx"], "kind": found.get("kind")}
+    first = next(iter(found["pairs"] or found.get("overlaps", ())), None)
+    if isinstance(first, dict):
+        row |= {f"{key}_{side}": v for side in "ab" for key, v in first[side].items()}
+        row["x"], row["y"] = first["point"] or (None, None)
+    elif first is not None:
+        row["body_a"], row["body_b"] = first
+    return row
 
 
 def _first_line(error: Exception) -> str:

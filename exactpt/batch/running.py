@@ -92,7 +92,7 @@ def run(
             if report is not None:
                 report(done, source.length)
         records = _all(journal, source)
-        with writing(target) as write, _as_rows(target, write) as add:
+        with writing(target) as write, _as_rows(target, write, source) as add:
             journal.pass_on(add)
         journal.remove()
     finally:
@@ -109,9 +109,11 @@ def _source(path: Path, longest: int) -> Source:
 
 
 def _as_rows(
-    target: Path, write: Callable[[bytes], None]
+    target: Path, write: Callable[[bytes], None], source: Source
 ) -> AbstractContextManager[Callable[[bytes], None]]:
-    return table(write) if target.suffix == PARQUET else nullcontext(write)
+    if target.suffix != PARQUET:
+        return nullcontext(write)
+    return table(write, source if isinstance(source, Rows) else None)
 
 
 def _all(journal: Journal, source: Source) -> list[Record]:

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import click
@@ -18,8 +15,8 @@ from exactpt.cli.options import (
     max_memory,
     output,
 )
-from exactpt.cli.progress import QUIET
-from exactpt.cli.terminal import is_terminal, tell
+from exactpt.cli.progress import QUIET, estimating
+from exactpt.cli.terminal import tell
 from exactpt.errors import InputError
 from exactpt.files import MOST_BYTES
 from exactpt.kernel.numbers import QQ
@@ -77,7 +74,8 @@ def batch(
 
     SCENES has a scene on each line, as JSON; or it is Parquet (.parquet) with a column "scene" of
     such texts (needs: pip install 'exactpt[parquet]'). The answers are lines of JSON in the same
-    order, or a Parquet file; docs/format.md explains them. A scene that has no answer has the
+    order, or a Parquet file, which has the other columns of the input too; docs/format.md
+    explains them. A scene that has no answer has the
     key "error", and the exit code is 2 at the end. --max-seconds, --max-memory and --max-bytes
     bound each scene.
 
@@ -110,8 +108,20 @@ def batch(
         max_memory=max_memory(),
         max_bytes=MOST_BYTES if most is None else most,
     )
-    with _bar(quiet=quiet) as report:
-        done = run(scenes, output, question, jobs=jobs, scheduler=scheduler, report=report)
+    share = [0, 1]
+    try:
+        with estimating("answering", quiet=quiet) as show:
+
+            def report(done: int, whole: int) -> None:
+                share[:] = done, whole
+                show(done, whole)
+
+            done = run(scenes, output, question, jobs=jobs, scheduler=scheduler, report=report)
+    except KeyboardInterrupt:
+        from exactpt.cli import INTERRUPTED
+
+        tell(_interrupted(output, *share))
+        return INTERRUPTED
     if not quiet:
         tell(f"{done.scenes} scenes processed, {done.failures} failed")
     if done.failures:
@@ -119,16 +129,13 @@ def batch(
     return 0
 
 
-@contextmanager
-def _bar(*, quiet: bool) -> Iterator[Callable[[int, int], None] | None]:
-    """Give the function to call with what is done, of how much; None if there is no terminal."""
-    if quiet or not is_terminal():
-        yield None
-        return
-    with click.progressbar(length=1, label="answering", file=sys.stderr) as bar:
-
-        def report(done: int, length: int) -> None:
-            bar.length = length
-            bar.update(done - bar.pos)
-
-        yield report
+def _interrupted(output: Path, done: int, whole: int) -> str:
+    """What is kept of a batch that has been interrupted, and how it goes on."""
+    journal = output.with_name(f"{output.name}.journal")
+    if not journal.exists():
+        return "exactpt: interrupted: nothing was answered yet"
+    share = f"{100 * done // whole}% of the input" if done else "what was answered before"
+    return (
+        f"exactpt: interrupted: {share} is answered, in {output.name}.part and {journal.name}; "
+        f"the same command goes on from there"
+    )

@@ -1,27 +1,32 @@
-"""A progress bar on a terminal, which follows the time of a scene, or counts."""
+"""A progress bar on a terminal, which follows the time of a scene, or counts; lines elsewhere."""
 
 from __future__ import annotations
 
 import sys
+import time as clock
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from math import ceil
 from typing import TYPE_CHECKING, Final
 
 import click
 
-from exactpt.cli.terminal import is_terminal
+from exactpt.cli.terminal import is_terminal, tell
 from exactpt.kernel.numbers import floor
 
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.scene.scene import Scene
 
-__all__ = ["QUIET", "counting", "progress"]
+__all__ = ["QUIET", "SECONDS", "counting", "estimating", "progress"]
 
 QUIET = click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors.")
 
 _STEPS: Final = 1000
 """Number of steps of the full bar."""
+
+SECONDS: Final = 30.0
+"""Least time between two lines about progress, where there is no terminal."""
 
 
 @contextmanager
@@ -56,3 +61,54 @@ def counting(total: int, label: str, *, quiet: bool = False) -> Iterator[Callabl
         return
     with click.progressbar(length=total, label=label, file=sys.stderr) as bar:
         yield lambda: bar.update(1)
+
+
+@contextmanager
+def estimating(label: str, *, quiet: bool = False) -> Iterator[Callable[[int, int], None]]:
+    """Give the function to call with what is done, and of how much, for a long task.
+
+    It shows the share that is done and an estimate of the time left, from the average rate since
+    its first call: a bar on a terminal, elsewhere a line every `SECONDS`.
+    """
+    if quiet:
+        yield lambda _done, _whole: None
+        return
+    first: list[tuple[float, int]] = []  # when the first call was, and what was done by then
+
+    def rest(done: int, whole: int) -> str:
+        now = clock.monotonic()
+        if not first:
+            first.append((now, done))
+        start, before = first[0]
+        if done in (before, whole):
+            return ""
+        return f"about {_in_words((now - start) * (whole - done) / (done - before))} left"
+
+    if is_terminal():
+        with click.progressbar(
+            length=1, label=label, file=sys.stderr, show_eta=False, item_show_func=str
+        ) as bar:
+
+            def move(done: int, whole: int) -> None:
+                bar.length = whole
+                bar.update(done - bar.pos, rest(done, whole))
+
+            yield move
+        return
+    said = clock.monotonic()
+
+    def line(done: int, whole: int) -> None:
+        nonlocal said
+        left = rest(done, whole)
+        if clock.monotonic() - said >= SECONDS and left:
+            said = clock.monotonic()
+            tell(f"{label}: {100 * done // whole}%, {left}")
+
+    yield line
+
+
+def _in_words(seconds: float) -> str:
+    """A duration, rounded up to seconds, minutes or tenths of hours."""
+    if seconds < 100:
+        return f"{ceil(seconds)} s"
+    return f"{ceil(seconds / 60)} min" if seconds < 6000 else f"{ceil(seconds / 360) / 10} h"

@@ -5,7 +5,7 @@ import json
 import pytest
 from scenes_of_two import generic_lines
 
-from exactpt.batch import answers, run
+from exactpt.batch import Question, answers, run
 from exactpt.batch.parquet import Rows
 from exactpt.errors import InputError
 
@@ -44,6 +44,57 @@ def test_from_parquet_to_parquet(scenes, tmp_path, jobs):
         found = data.get("contact")
         assert row["time"] == (found["time"]["approx"] if found else None)
     assert sum(row["time"] is not None for row in rows) > 20
+
+
+def test_columns_of_the_input_pass_through(tmp_path):
+    path, out = tmp_path / "scenes.parquet", tmp_path / "answers.parquet"
+    names = [f"scene {k}" for k in range(2500)]  # more than are read at a time
+    weights = arrow.array([[k] for k in range(2500)], arrow.list_(arrow.int16()))
+    columns = {"name": names, "scene": ["null"] * 2500, "time": weights, "input_time": names}
+    parquet.write_table(arrow.table(columns), path)
+
+    run(path, out)
+
+    found = parquet.read_table(out)
+    assert found["name"].to_pylist() == found["input_time"].to_pylist() == names
+    assert found["input_input_time"].combine_chunks() == weights
+    assert found["time"].null_count == 2500
+    assert "scene" not in found.column_names
+
+
+TWO = json.loads(generic_lines(1)[0]) | {
+    "time": [0, 9],
+    "bodies": [
+        {"name": "ball", "vertices": [[0, 0]], "motion": {"x": [0, 1]}},
+        {"name": "wall", "vertices": [[4, -1], [4, 2]]},
+    ],
+}
+
+
+@pytest.mark.parametrize(
+    "question, expected",
+    [
+        (Question(), {"time": 4.0, "kind": "vertex-edge", "vertex_a": 0, "edge_b": 0, "x": 4.0}),
+        (Question(distance=1), {"time": 3.0, "kind": None, "vertex_a": None}),
+        (
+            Question(every=True),
+            {
+                "time": None,
+                "intervals": [{"body_a": "ball", "body_b": "wall", "start": 4.0, "end": 4.0}],
+            },
+        ),
+    ],
+)
+def test_bodies_features_and_points_have_columns(tmp_path, question, expected):
+    path, out = tmp_path / "scenes.jsonl", tmp_path / "answers.parquet"
+    path.write_text(json.dumps(TWO))
+
+    run(path, out, question)
+
+    (row,) = parquet.read_table(out).to_pylist()
+    assert {name: row[name] for name in expected} == expected
+    if not question.every:
+        assert (row["body_a"], row["body_b"]) == ("ball", "wall")
 
 
 @pytest.mark.long

@@ -5,7 +5,7 @@ from click.testing import CliRunner
 from terminals import Bar, Terminal
 
 from exactpt.cli import cli
-from exactpt.cli.progress import progress
+from exactpt.cli.progress import estimating, progress
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
@@ -79,3 +79,34 @@ def test_the_runs_tell_the_bar(scene, monkeypatch, command):
 
     assert told == sorted(told)
     assert told[-1] == 350  # the contact, at t = 7 of 20
+
+
+def test_lines_with_an_estimate_where_there_is_no_terminal(monkeypatch, capsys):
+    now = [100.0]
+    monkeypatch.setattr("exactpt.cli.progress.clock.monotonic", lambda: now[0])
+
+    with estimating("answering") as report:
+        for done in (500, 510, 520, 600, 601):  # the first half was there before
+            report(done, 1000)
+            now[0] += 20
+
+    assert capsys.readouterr().err.splitlines() == [
+        "answering: 52%, about 16 min left",  # 480 more, 20 in 40 s
+        "answering: 60%, about 6 min left",  # 399 more, 101 in 80 s
+    ]
+
+
+def test_a_bar_with_an_estimate_on_a_terminal(monkeypatch):
+    screen, now = Terminal(), [100.0]
+    monkeypatch.setattr("sys.stderr", screen)
+    monkeypatch.setattr("exactpt.cli.progress.clock.monotonic", lambda: now[0])
+
+    with estimating("answering") as report:
+        report(0, 100)
+        now[0] += 5
+        report(25, 100)
+
+    assert "answering" in screen.getvalue()
+    assert "25%  about 15 s left" in screen.getvalue()
+    with estimating("answering", quiet=True) as silent:
+        silent(1, 2)
