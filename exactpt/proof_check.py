@@ -1,4 +1,4 @@
-"""Checks a proof that a scene has its first contact at a time T, or none.
+"""Check a proof that a scene has its first contact at a time T, or no contact.
 
     python3 -I proof_check.py SCENE PROOF [--until T | --partial | --expect ANSWER] [--work N]
     python3 -I proof_check.py FOLDER [--until T | --partial] [--work N]
@@ -40,7 +40,7 @@ from functools import cmp_to_key, lru_cache
 from itertools import accumulate, combinations, pairwise, zip_longest
 from math import comb, floor, gcd, lcm
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any, TextIO, TypeVar
 
 Point = tuple[Fraction, Fraction]
 Dart = tuple[int, int]
@@ -94,7 +94,7 @@ class Proved(str):
     scene: "Scene"
 
     def within(self, text: str) -> "Proved":
-        """The same in other words."""
+        """Return the same statement with another text."""
         proved = Proved(text)
         proved.__dict__.update(self.__dict__)
         return proved
@@ -112,14 +112,14 @@ PRIME, TEN = 2**61 - 1, Fraction(10)
 
 
 def words(n: int) -> int:
-    """The number of words of 64 bits of an integer, or of a rational's numerator."""
+    """Return the number of 64-bit words of an integer, or of the numerator of a rational."""
     return (n.numerator.bit_length() >> 6) + 1
 
 
 class Poly(tuple[Any, ...]):
     """A polynomial in t: coefficients, constant term first, none for 0.
 
-    Rational ones while a scene is read, integers from then on.
+    Coefficients are rational while a scene is read, integers from then on.
     """
 
     __slots__ = ()
@@ -148,7 +148,7 @@ class Poly(tuple[Any, ...]):
         return Poly(product)
 
     def scaled(self, t: Fraction) -> tuple[int, int]:
-        """The value at a time n / d times d^k, k the number of coefficients; and d^k."""
+        """Return d^k times the value at n / d, with k the number of coefficients; and d^k."""
         n, d, power, total = t.numerator, t.denominator, 1, 0
         WORK.spend(len(self) ** 2 * words(n) * words(d))
         for c in reversed(self):
@@ -157,45 +157,41 @@ class Poly(tuple[Any, ...]):
         return total * d, power
 
     def value(self, t: Fraction) -> Fraction:
-        """The value at a time."""
-        total = Fraction(0)
-        for c in reversed(self):
-            total = total * t + c
-        return total
+        """Return the value at a time."""
+        return Fraction(*self.scaled(t))
 
     def along(self, a: Fraction, b: Fraction) -> "Poly":
-        """The polynomial of s that is the value at the time a + (b - a) s."""
+        """Return the polynomial in s whose value is that of this one at the time a + (b - a) s."""
         f = Poly()
         for c in reversed(self):
             f = f * Poly([a, b - a]) + Poly([c])
         return f
 
     def derivative(self) -> "Poly":
-        """The derivative."""
+        """Return the derivative."""
         return Poly([i * c for i, c in enumerate(self)][1:])
 
     def bound(self, a: Fraction, b: Fraction) -> Fraction:
-        """A bound of the absolute values in [a, b]: of the Bernstein coefficients."""
+        """Return the largest absolute value of the Bernstein coefficients on [a, b]."""
         f = self.along(a, b)
         n, found = len(f) - 1, Fraction(0)
         for j in range(n + 1):
-            found = max(
-                found, abs(sum(c * comb(j, i) / comb(n, i) for i, c in enumerate(f[: j + 1])))
-            )
+            c = sum((c * comb(j, i) / comb(n, i) for i, c in enumerate(f[: j + 1])), Fraction(0))
+            found = max(found, abs(c))
         return found
 
     def sign_at(self, t: Fraction) -> int:
-        """The sign of the value at a time."""
+        """Return the sign of the value at a time."""
         value, _ = self.scaled(t)
         return (value > 0) - (value < 0)
 
     def primitive(self) -> "Poly":
-        """Divided by what the coefficients have in common, with a positive leading one."""
+        """Return the primitive part, with a positive leading coefficient."""
         content = gcd(*self) * (-1 if self[-1] < 0 else 1) if self else 1
         return Poly([c // content for c in self])
 
     def divided(self, g: "Poly") -> tuple["Poly", "Poly"]:
-        """(q, r) with c f = q g + r for a number c that is not 0, and r of lower degree than g."""
+        """Return (q, r) with c f = q g + r, a number c that is not 0, and deg r < deg g."""
         rest, quotient = list(self), [0] * max(0, len(self) - len(g) + 1)
         WORK.spend(len(quotient) * len(self) * words(self[-1] if self else 0) * words(g[-1]))
         for i in range(len(self) - len(g), -1, -1):
@@ -207,29 +203,25 @@ class Poly(tuple[Any, ...]):
         return Poly(quotient), Poly(rest)
 
     def is_prime_to(self, g: "Poly") -> bool:
-        """Whether they are coprime modulo a prime that does not divide our leading coefficient.
+        """Return True if both are coprime modulo a prime, not a divisor of our leading coefficient.
 
         Then they are coprime: modulo the prime, a common divisor keeps its degree.
         """
-        a, b = ([c % PRIME for c in f] for f in (self, g))
+        a, b = [c % PRIME for c in self], Poly(c % PRIME for c in g)
         if not a or not a[-1]:
             return False
-        while b:
-            while b and not b[-1]:
-                b.pop()
-            if len(b) < 2:
-                return len(b) == 1
+        while len(b) > 1:
             WORK.spend(len(b) * len(a))
             inverse = pow(b[-1], -1, PRIME)
             for i in range(len(a) - len(b), -1, -1):
                 q = a[i + len(b) - 1] * inverse % PRIME
                 for j, c in enumerate(b if q else []):
                     a[i + j] = (a[i + j] - q * c) % PRIME
-            a, b = b, a[: len(b) - 1]
-        return False
+            a, b = list(b), Poly(a[: len(b) - 1])
+        return len(b) == 1
 
     def common_divisor(self, g: "Poly") -> "Poly":
-        """The greatest common divisor, by Euclid."""
+        """Return the greatest common divisor, by Euclid's algorithm."""
         if self.is_prime_to(g):
             return Poly([1])
         f = self
@@ -238,14 +230,13 @@ class Poly(tuple[Any, ...]):
         return f.primitive()
 
     def square_free(self) -> "Poly":
-        """The polynomial with the same roots, all of them simple."""
-        derivative = Poly([i * c for i, c in enumerate(self)][1:])
+        """Return the polynomial with the same roots, all of them simple."""
         if len(self) < 3:
             return self.primitive()
-        return self.divided(self.common_divisor(derivative))[0].primitive()
+        return self.divided(self.common_divisor(self.derivative()))[0].primitive()
 
     def variations(self, low: Fraction, high: Fraction) -> int:
-        """At least the number of roots strictly between low and high; it, if 0 or 1.
+        """Return an upper bound of the number of roots in (low, high), exact if it is 0 or 1.
 
         Descartes' rule of signs for (1 + x)^n f((high + low x) / (1 + x)), x > 0. (These
         coefficients are those of f in the Bernstein basis, times binomials.)
@@ -265,7 +256,7 @@ class Poly(tuple[Any, ...]):
         return sum(a != b for a, b in pairwise(c > 0 for c in g if c))
 
     def roots(self, low: Fraction, high: Fraction, depth: int = -1) -> "Iterator[Time]":
-        """The roots in [low, high], low < high, of simple ones; -1: halve as often as needed."""
+        """Yield the roots in [low, high], all of them simple; low < high. Depth -1: no limit."""
         yield from (Time(q) for q in (low, high) if self.sign_at(q) == 0)
         todo = [(low, high, depth)]
         while todo:  # halve intervals, until each root is alone in one
@@ -294,7 +285,7 @@ class Time:
         self.compare_rational((self.low + self.high) / 2)
 
     def compare_rational(self, q: Fraction) -> int:
-        """-1, 0 or 1 as the time is before, at or after q."""
+        """Return -1, 0 or 1 if the time is before, at or after q."""
         if self.high < q or self.low > q or self.low == self.high:
             return (self.low > q) - (self.low < q)
         s = self.f.sign_at(q)
@@ -306,7 +297,7 @@ class Time:
         return order
 
     def compare(self, other: "Time") -> int:
-        """-1, 0 or 1 as the time is before, at or after the other."""
+        """Return -1, 0 or 1 if the time is before, at or after the other one."""
         if other.low == other.high:
             return self.compare_rational(other.low)
         if self.compare_rational(other.low) <= 0:
@@ -317,7 +308,7 @@ class Time:
         return 0 if s == 0 else -1 if s == other.f.sign_at(other.low) else 1
 
     def sign_of(self, g: Poly) -> int:
-        """The sign of g at this time."""
+        """Return the sign of g at this time."""
         differ = False
         while self.low < self.high and g:
             s = g.sign_at(self.low)
@@ -338,22 +329,18 @@ class Time:
 
 
 def twelve_digits(time: Time) -> str:
-    """The first twelve digits of a number, the rest cut off."""
+    """Return the first twelve digits of a number, without the digits after them."""
     sign = time.compare_rational(Fraction(0))
     if sign == 0:
         return "0"
-    while time.low * time.high <= 0 or abs(time.high - time.low) * 10**13 > abs(time.low):
+    while time.low * time.high <= 0 or abs(time.high - time.low) * 10**16 > abs(time.low):
         time.refine()
-    size = abs(time.low)
+    size = min(abs(time.low), abs(time.high))
     k = (size.numerator.bit_length() - size.denominator.bit_length()) * 30103 // 100000 - 2
-    while time.compare_rational(sign * TEN ** (k + 1)) * sign >= 0:
-        k += 1
-    n, unit = floor(size / TEN ** (k - 11)), TEN ** (k - 11)
-    while time.compare_rational(sign * n * unit) * sign < 0:
-        n -= 1
-    while time.compare_rational(sign * (n + 1) * unit) * sign >= 0:
-        n += 1
-    digits = str(n)
+    unit = TEN ** (k - 11)  # of which the number is between 10^11 and 10^15
+    n = floor(size / unit)
+    n += time.compare_rational(sign * (n + 1) * unit) * sign >= 0
+    digits, k = str(n)[:12], k + len(str(n)) - 12
     if 0 <= k < 11:
         shown = f"{digits[: k + 1]}.{digits[k + 1 :]}"
     elif -5 <= k < 0:
@@ -364,7 +351,7 @@ def twelve_digits(time: Time) -> str:
 
 
 def between(a: Time, b: Time, start: Fraction, unit: Fraction) -> Fraction:
-    """A rational number between two times: one with few digits.
+    """Return a rational number with few digits between two times.
 
     There must be a number between them that is the start plus a multiple of the unit.
     """
@@ -385,7 +372,7 @@ def between(a: Time, b: Time, start: Fraction, unit: Fraction) -> Fraction:
 
 
 def zeros(f: Poly, start: Time, end: Time) -> tuple[bool, bool]:
-    """Whether f vanishes strictly between two times; whether at the second one."""
+    """Return whether f vanishes strictly between two times, and whether at the second one."""
     low, high = start.low, end.high
     if f.variations(low, high) == 0:
         return False, end.low == high and f.sign_at(high) == 0
@@ -396,65 +383,58 @@ def zeros(f: Poly, start: Time, end: Time) -> tuple[bool, bool]:
 
 # ---- Tracks: a vertex is at (x / w, y / w), with polynomials x, y and w, the latter positive.
 
+# What a place is at a time: integers (x, y, w). The same functions are for both.
+
 Track = tuple[Poly, Poly, Poly]
+Whole = tuple[int, int, int]
+Entry = TypeVar("Entry", int, Poly)
+Triple = tuple[Entry, Entry, Entry]
+Turn = tuple[Poly, Point, Json]  # the half turn, the orientation, and the rest
 
 
-def vector_of(a: Track, b: Track) -> tuple[Poly, Poly]:
-    """A positive multiple of b - a."""
+def vector_of(a: Triple[Entry], b: Triple[Entry]) -> tuple[Entry, Entry]:
+    """Return a positive multiple of b - a."""
     return b[0] * a[2] - a[0] * b[2], b[1] * a[2] - a[1] * b[2]
 
 
-@lru_cache(100_000)
-def orientation_of(a: Track, b: Track, c: Track) -> Poly:
-    """Positive where a, b, c turn left, 0 where they are on one line: the determinant."""
+def turn(a: Triple[Entry], b: Triple[Entry], c: Triple[Entry]) -> Entry:
+    """Return the determinant: positive where a, b, c turn left, 0 where they are on one line."""
     f = a[0] * (b[1] * c[2] - c[1] * b[2]) + b[0] * (c[1] * a[2] - a[1] * c[2])
     return f + c[0] * (a[1] * b[2] - b[1] * a[2])
 
 
-def dot_of(a: Track, v: Track, b: Track) -> Poly:
-    """A positive multiple of (a - v) . (b - v)."""
+orientation_of = lru_cache(100_000)(turn)
+
+
+def dot_of(a: Triple[Entry], v: Triple[Entry], b: Triple[Entry]) -> Entry:
+    """Return a positive multiple of the dot product (a - v) . (b - v)."""
     (px, py), (qx, qy) = vector_of(v, a), vector_of(v, b)
     return px * qx + py * qy
 
 
 def is_on(time: Time, v: Track, a: Track, b: Track) -> bool:
-    """Whether v is in the closed segment ab at a time."""
+    """Return True if v is in the closed segment ab at a time."""
     return time.sign_of(orientation_of(v, a, b)) == 0 and time.sign_of(dot_of(a, v, b)) <= 0
 
 
-Whole = tuple[int, int, int]  # a point (x / w, y / w), w > 0
-
-
 def whole(p: Point) -> Whole:
-    """A point in integers."""
+    """Return a point in integers."""
     w = lcm(p[0].denominator, p[1].denominator)
     x, y = (c.numerator * (w // c.denominator) for c in p)
     return x, y, w
 
 
-def turn(a: Whole, b: Whole, c: Whole) -> int:
-    """Positive if a, b, c turn left, 0 if they are on a line."""
-    f = a[0] * (b[1] * c[2] - c[1] * b[2]) + b[0] * (c[1] * a[2] - a[1] * c[2])
-    return f + c[0] * (a[1] * b[2] - b[1] * a[2])
-
-
-def side(v: Whole, a: Whole, b: Whole) -> int:
-    """Positive if v sees a and b in directions less than a right angle apart."""
-    x, y = ((p[0] * v[2] - v[0] * p[2], p[1] * v[2] - v[1] * p[2]) for p in (a, b))
-    return x[0] * y[0] + x[1] * y[1]
-
-
 def meet(a: Whole, b: Whole, c: Whole, d: Whole) -> bool:
-    """Whether the closed segments ab and cd have a point in common."""
+    """Return True if the closed segments ab and cd have a point in common."""
     p, q, r, s = turn(a, b, c), turn(a, b, d), turn(c, d, a), turn(c, d, b)
     if ((p > 0 > q) or (p < 0 < q)) and ((r > 0 > s) or (r < 0 < s)):
         return True
     ends = ((p, c, a, b), (q, d, a, b), (r, a, c, d), (s, b, c, d))
-    return any(f == 0 and side(v, x, y) <= 0 for f, v, x, y in ends)
+    return any(f == 0 and dot_of(x, v, y) <= 0 for f, v, x, y in ends)
 
 
 def is_simple(places: Sequence[Point], edges: Iterable[Dart], first: int) -> bool:
-    """Whether edges, by the numbers of their ends from the first one on, meet at joints alone."""
+    """Return True if edges (numbers of vertices, counted from the first) meet only at joints."""
     points = [whole(p) for p in places]
     spans = []
     for u, v in edges:
@@ -473,7 +453,7 @@ def is_simple(places: Sequence[Point], edges: Iterable[Dart], first: int) -> boo
             WORK.spend(64)
             if b == c or d == a:  # one of them ends where the other begins
                 p, q, r = (points[i] for i in ((a, b, d) if b == c else (c, d, b)))
-                if turn(p, q, r) == 0 and side(q, p, r) >= 0:
+                if turn(p, q, r) == 0 and dot_of(p, q, r) >= 0:
                     return False
             elif meet(points[a], points[b], points[c], points[d]):
                 return False
@@ -481,7 +461,7 @@ def is_simple(places: Sequence[Point], edges: Iterable[Dart], first: int) -> boo
 
 
 def surrounds(ring: Sequence[Point], p: Point) -> bool:
-    """Whether a ray from p to the right crosses a polygon an odd number of times."""
+    """Return True if a ray from p to the right crosses a polygon an odd number of times."""
     odd = False
     for a, b in pairwise([*ring, *ring[:1]]):
         if (a[1] > p[1]) != (b[1] > p[1]):
@@ -490,7 +470,7 @@ def surrounds(ring: Sequence[Point], p: Point) -> bool:
 
 
 def comes_before(d: Point, e: Point) -> bool:
-    """Whether the direction d has a smaller angle than e, both in [0, 2 pi)."""
+    """Return True if the direction d has a smaller angle than e, both in [0, 2 pi)."""
     p, q = (v[1] < 0 or (v[1] == 0 and v[0] < 0) for v in (d, e))  # the angle is at least pi
     return p < q or (p == q and d[0] * e[1] - d[1] * e[0] > 0)
 
@@ -569,7 +549,7 @@ class Motion:
 
     def __init__(self, data: Json, of_shape: int) -> None:
         one, zero = c_(Fraction(1)), Poly()
-        self.rigid: tuple[Poly, Point, Json] | None = None
+        self.rigid: Turn | None = None
         kind = next((k for k in ("rigid", "affine") if isinstance(data, dict) and k in data), "")
         optional = ["pivot", "orientation"] if kind == "rigid" else []
         required = {"rigid": ["half_turn"], "affine": ["matrix"], "": []}[kind]
@@ -581,44 +561,37 @@ class Motion:
             high = max(of_shape + degree(*m), degree(x, y))
         h = polynomial(given.get("half_turn", []))
         need(high + 2 * degree(h) <= MOST_DEGREE, f"a degree above {MOST_DEGREE}")
-        need(kind != "affine" or len(m) == 4, "not a matrix:", data)
         self.keeps_lengths, self.form = kind != "affine", (*m, x, y, one)
         if kind == "rigid":
-            p, q = (number(c) for c in entries(given.get("pivot", ["0", "0"]), 2))
-            c, s = (number(c) for c in entries(given.get("orientation", ["1", "0"]), 2))
+            c, s = turned = point(given.get("orientation", ["1", "0"]))
             need(c * c + s * s == 1, "an orientation that is no unit vector:", data)
-            self.rigid = h, (c, s), (p, q, x, y)
+            p, q = map(c_, point(given.get("pivot", ["0", "0"])))
+            self.rigid = h, turned, (p, q, x, y)
             # A turn by the angle a with tan(a / 2) = h: (1 - h^2, 2 h) / (1 + h^2) is (cos, sin).
             w, cosine, sine = one + h * h, one - h * h, h + h
             a, b = cosine * c_(c) - sine * c_(s), sine * c_(c) + cosine * c_(s)
-            e = w * (c_(p) + x) - a * c_(p) + b * c_(q)
-            f = w * (c_(q) + y) - b * c_(p) - a * c_(q)
+            e, f = w * (p + x) - a * p + b * q, w * (q + y) - b * p - a * q
             self.form = a, zero - b, b, a, e, f, w
 
     def at(self, t: Fraction) -> tuple[Fraction, ...]:
-        """The map at a time: a, b, c, d, e, f divided by w."""
+        """Return the coefficients a, b, c, d, e, f at a time, divided by w."""
         *values, w = (f.value(t) for f in self.form)
         return tuple(v / w for v in values)
 
     def track(self, x: Poly, y: Poly) -> Track:
-        """The track of a vertex: integer polynomials."""
+        """Return the track of a vertex: polynomials with integer coefficients."""
         a, b, c, d, e, f, w = self.form
         found = a * x + b * y + e, c * x + d * y + f, w
         m = lcm(*(q.denominator for g in found for q in g))
-        p, q, r = ([k.numerator * (m // k.denominator) for k in g] for g in found)
-        m = gcd(*p, *q, *r)
-        return Poly([k // m for k in p]), Poly([k // m for k in q]), Poly([k // m for k in r])
+        whole = [[k.numerator * (m // k.denominator) for k in g] for g in found]
+        m = gcd(*(k for g in whole for k in g))
+        x, y, w = (Poly([k // m for k in g]) for g in whole)
+        return x, y, w
 
 
 def c_(value: Fraction) -> Poly:
-    """A constant polynomial."""
+    """Return a constant polynomial."""
     return Poly([value])
-
-
-def moved(to: tuple[Fraction, ...], p: Point) -> Point:
-    """Return where a map takes a point."""
-    a, b, c, d, e, f = to
-    return a * p[0] + b * p[1] + e, c * p[0] + d * p[1] + f
 
 
 class Body:
@@ -629,7 +602,7 @@ class Body:
         vertices: the numbers of its vertices in the scene, from ``first`` on.
         closed: whether it is a polygon with its inside.
         rings: the numbers of the vertices of each ring, and whether it bounds a hole.
-        parts: of each part, the indices of its rings, the outline first.
+        parts: of each part, the numbers of the vertices of its rings, the outline first.
     """
 
     def __init__(self, data: Json, first: int, start: Fraction) -> None:
@@ -654,7 +627,6 @@ class Body:
         need(not several or (closed and min(map(len, flat)) > 2), "rings:", data)
         self.shape: list[tuple[Poly, Poly]] = []
         self.frames: list[tuple[Fraction, list[Point]]] = []
-        self.linear: dict[int, list[tuple[Poly, Poly]]] = {}
         if "keyframes" in body:
             self.frames = keyframes(body["keyframes"])
         else:
@@ -664,14 +636,12 @@ class Body:
         self.read_motion(body.get("motion", {}))
         self.vertices, self.closed = range(first, first + self.size), closed and self.size > 2
         self.breaks = sorted({*self.ends, *(t for t, _ in self.frames)})
-        ends_at = [*accumulate(len(ring) for ring in flat)] if several else [self.size]
-        spans = pairwise([0, *ends_at])
-        holes = [k > 0 for part in rings for k in range(len(part))]
-        self.rings = [(self.vertices[i:j], holes[k]) for k, (i, j) in enumerate(spans)]
-        self.parts, k = list[range](), 0
-        for part in rings:
-            self.parts.append(range(k, k + len(part)))
-            k += len(part)
+        self.parts = list[list[range]]()
+        for part in rings if several else [[self.vertices]]:
+            bounds = accumulate(map(len, part), initial=first)
+            self.parts.append([range(i, j) for i, j in pairwise(bounds)])
+            first = self.parts[-1][-1].stop
+        self.rings = [(ring, k > 0) for part in self.parts for k, ring in enumerate(part)]
         self.edges = [
             edge
             for ring, _ in self.rings
@@ -694,43 +664,38 @@ class Body:
         need(all(s < t for s, t in pairwise(self.ends)), "pieces not in order:", data)
         self.motions = [Motion(p["motion"], of_shape) for p in rows]
         for t, (before, after) in zip(self.ends, pairwise(self.motions), strict=True):
-            f, g = before.at(t), after.at(t)
-            jumps = f != g and any(moved(f, p) != moved(g, p) for p in self.outline(t))
-            need(not jumps, f"{self.name!a} jumps at t = {t}")
+            same = before.at(t) == after.at(t) or self.places(t, before) == self.places(t, after)
+            need(same, f"{self.name!a} jumps at t = {t}")
         for name, shows in (("spin", turns_by), ("path", follows)):
             right = name not in given or shows(self.ends, self.motions, given[name])
             need(right, f"not such a {name}:", data)
 
-    def coordinates(self, t: Fraction) -> list[tuple[Poly, Poly]]:
-        """The coordinates of vertices just after a time, before the motion."""
+    def coordinates(self, i: int, t: Fraction) -> tuple[Poly, Poly]:
+        """Return the coordinates of vertex i just after a time, before the motion."""
         if not self.frames:
-            return self.shape
+            return self.shape[i]
         k = bisect_right(self.frames, t, key=lambda frame: frame[0])
-        if k not in self.linear:  # at rest before the first frame and after the last one
-            (s, p), (e, q) = self.frames[max(k - 1, 0)], self.frames[min(k, len(self.frames) - 1)]
-            self.linear[k] = [
-                (line(s, e, a[0], b[0]), line(s, e, a[1], b[1])) for a, b in zip(p, q, strict=True)
-            ]
-        return self.linear[k]
+        # Before the first frame and after the last one it is at rest.
+        (s, p), (e, q) = self.frames[max(k - 1, 0)], self.frames[min(k, len(self.frames) - 1)]
+        x, y = (line(s, e, a, b) for a, b in zip(p[i], q[i], strict=True))
+        return x, y
 
-    def outline(self, t: Fraction) -> list[Point]:
-        """Where the vertices are at a time, before the motion."""
-        return [(x.value(t), y.value(t)) for x, y in self.coordinates(t)]
-
-    def places(self, t: Fraction) -> list[Point]:
-        """Return where the vertices are at a time."""
-        to = self.motions[bisect_right(self.ends, t)].at(t)
-        return [moved(to, p) for p in self.outline(t)]
+    def places(self, t: Fraction, motion: Motion | None = None) -> list[Point]:
+        """Return where the vertices are at a time, by a motion or the one just after that time."""
+        a, b, c, d, e, f = (motion or self.motions[bisect_right(self.ends, t)]).at(t)
+        shape = (self.coordinates(i, t) for i in range(self.size))
+        points = ((x.value(t), y.value(t)) for x, y in shape)
+        return [(a * x + b * y + e, c * x + d * y + f) for x, y in points]
 
     def check_simple(self, places: Sequence[Point]) -> None:
-        """See that edges meet where they are joined alone, and holes and parts are in place."""
+        """Check that edges meet only where they are joined, and where holes and parts are."""
         need(is_simple(places, self.edges, self.first), f"{self.name!a} is not simple at the start")
         if len(self.rings) == 1:
             return
-        outlines = [[places[v - self.first] for v in ring] for ring, _ in self.rings]
+        outlines = {ring: [places[v - self.first] for v in ring] for ring, _ in self.rings}
 
-        def is_in(i: int, j: int) -> bool:
-            return surrounds(outlines[j], outlines[i][0])
+        def is_in(ring: range, other: range) -> bool:
+            return surrounds(outlines[other], outlines[ring][0])
 
         for one, *holes in self.parts:
             wrong = any(not is_in(k, one) for k in holes)
@@ -740,29 +705,31 @@ class Body:
                 wrong |= within and not any(is_in(one, hole) for hole in others)
             need(not wrong, f"{self.name!a}: a hole or part is where none can be")
 
-    def track(self, i: int, piece: int) -> Track:
-        """The track of vertex i in a piece."""
-        if (i, piece) not in self.tracks:
-            after = self.after(piece)
+    def track(self, i: int, after: Fraction) -> Track:
+        """Return the track of vertex i just after a time."""
+        key = i, bisect_right(self.breaks, after)
+        if key not in self.tracks:
             motion = self.motions[bisect_right(self.ends, after)]
-            self.tracks[i, piece] = motion.track(*self.coordinates(after)[i])
-        return self.tracks[i, piece]
-
-    def after(self, piece: int) -> Fraction:
-        """A time just after which a piece holds."""
-        return self.breaks[piece - 1] if piece else (self.breaks or [Fraction(0)])[0] - 1
+            self.tracks[key] = motion.track(*self.coordinates(i, after))
+        return self.tracks[key]
 
     def keeps_lengths(self, t: Fraction) -> bool:
-        """Whether it is but translated and turned just after a time."""
-        (x, y), *others = self.coordinates(t)
+        """Return True if the body is only translated and rotated just after a time."""
+        (x, y), *others = (self.coordinates(i, t) for i in range(self.size))
         same = all(f[1:] == x[1:] and g[1:] == y[1:] for f, g in others)
         return same and self.motions[bisect_right(self.ends, t)].keeps_lengths
 
 
 def line(s: Fraction, e: Fraction, a: Fraction, b: Fraction) -> Poly:
-    """The polynomial of degree 1 that is a at s and b at e."""
+    """Return the polynomial of degree 1 with the value a at s and b at e."""
     slope = (b - a) / (e - s) if a != b else Fraction(0)
     return Poly([a - slope * s, slope])
+
+
+def point(data: Json) -> Point:
+    """Return the point that a list of two numbers is."""
+    x, y = map(number, entries(data, 2))
+    return x, y
 
 
 def vertex(data: Json) -> tuple[Poly, Poly]:
@@ -770,18 +737,14 @@ def vertex(data: Json) -> tuple[Poly, Poly]:
     if isinstance(data, dict):
         given = keys(data, optional=["x", "y"])
         return polynomial(given.get("x", [])), polynomial(given.get("y", []))
-    x, y = entries(data, 2)
-    return c_(number(x)), c_(number(y))
+    x, y = point(data)
+    return c_(x), c_(y)
 
 
 def keyframes(data: Json) -> list[tuple[Fraction, list[Point]]]:
     """Return the times and the places of keyframes; between them all is linear."""
-    path: list[tuple[Fraction, list[Point]]] = []
-    for frame in (keys(f, ["t", "vertices"]) for f in entries(data)):
-        points: list[Point] = []
-        for x, y in (entries(p, 2) for p in entries(frame["vertices"])):
-            points.append((number(x), number(y)))
-        path.append((number(frame["t"]), points))
+    frames = [keys(f, ["t", "vertices"]) for f in entries(data)]
+    path = [(number(f["t"]), [*map(point, entries(f["vertices"]))]) for f in frames]
     need(len({len(points) for _, points in path}) == 1, "keyframes:", data)
     need(all(s < t for (s, _), (t, _) in pairwise(path)), "keyframes not in order:", data)
     return path
@@ -806,25 +769,22 @@ def turns_by(ends: Sequence[Fraction], motions: Sequence[Motion], data: Json) ->
     if degree(turns[0][0], turns[-1][0]) > 0 or any(turn[2] != turns[0][2] for turn in turns):
         return False
     spans = zip(turns[1:-1], pairwise(ends), strict=True)
-    return all(turns_in(h, turned, a, b, omega, error) for (h, turned, _), (a, b) in spans)
+    return all(turns_in(turn, span, omega, error) for turn, span in spans)
 
 
-def turns_in(
-    h: Poly, turned: Point, a: Fraction, b: Fraction, omega: Fraction, error: Fraction
-) -> bool:
-    """Return True if this shows it of one piece, from a to b."""
+def turns_in(turn: Turn, span: Bounds, omega: Fraction, error: Fraction) -> bool:
+    """Return True if this shows it of one piece and its span."""
+    (h, turned, _), (a, b) = turn, span
     slope = Poly([2 * i * c for i, c in enumerate(h)][1:]) - c_(omega) * (c_(Fraction(1)) + h * h)
     between = slope.bound(a, b) * (b - a) / (2 * SAMPLES)
     times = [a + (b - a) * i / SAMPLES for i in range(SAMPLES + 1)]
     bits = bits_for(error, omega * max(abs(a), abs(b)))
     if bits > MOST_ANGLE_BITS or between > error or any(abs(h.value(t)) > 1 for t in times):
         return False
-    low, high = angle_of(turned, bits + 8)
-    halves = [arctan(h.value(t), bits + 8) for t in times]
-    gaps = [
-        (low + 2 * p - omega * t, high + 2 * q - omega * t)
-        for t, (p, q) in zip(times, halves, strict=True)
-    ]
+    (low, high), gaps = angle_of(turned, bits + 8), list[Bounds]()
+    for t in times:
+        p, q = arctan(h.value(t), bits + 8)
+        gaps.append((low + 2 * p - omega * t, high + 2 * q - omega * t))
     return largest_gap(gaps, bits + 8) + between <= error
 
 
@@ -876,13 +836,7 @@ def follows(ends: Sequence[Fraction], motions: Sequence[Motion], data: Json) -> 
     return True
 
 
-def is_near(
-    turn: tuple[Poly, Point, Json],
-    span: Bounds,
-    pose: Sequence[Poly],
-    error: Fraction,
-    off: Fraction,
-) -> bool:
+def is_near(turn: Turn, span: Bounds, pose: Sequence[Poly], error: Fraction, off: Fraction) -> bool:
     """Return True if one piece is shown to be near a pose of the part s of its span."""
     (h, (c, s), (p, q, x, y)), all_of_it = turn, (Fraction(0), Fraction(1))
     if p or q or (span[0] == span[1] and degree(h, x, y) > 0):
@@ -967,7 +921,7 @@ class Scene:
         top = keys(data, ["exactpt", "time", "bodies"])
         version = top["exactpt"]
         need(version == "1" and isinstance(version, Bare), "not of format 1:", version)
-        self.start, self.end = (number(t) for t in entries(top["time"], 2))
+        self.start, self.end = point(top["time"])
         need(self.start < self.end, "an empty time span:", top["time"])
         self.bodies: list[Body] = []
         self.body_of: list[int] = []
@@ -977,27 +931,27 @@ class Scene:
         need(len({body.name for body in self.bodies}) == len(self.bodies), "a name is there twice")
 
     def of(self, v: int) -> Body:
-        """The body of a vertex."""
+        """Return the body of a vertex."""
         return self.bodies[self.body_of[v]]
 
     def track(self, v: int, after: Fraction) -> Track:
-        """The track of a vertex just after a rational time."""
+        """Return the track of a vertex just after a rational time."""
         body = self.of(v)
-        return body.track(v - body.first, bisect_right(body.breaks, after))
+        return body.track(v - body.first, after)
 
     def at(self, v: int, t: Fraction) -> Point:
-        """Where a vertex is at a rational time."""
+        """Return where a vertex is at a rational time."""
         if self.known[0] != t:
             self.known = t, {}
         if v not in self.known[1]:
-            x, y, w = (Fraction(*f.scaled(t)) for f in self.track(v, t))
+            x, y, w = (f.value(t) for f in self.track(v, t))
             self.known[1][v] = x / w, y / w
         return self.known[1][v]
 
     def pieces(
         self, vertices: Sequence[int], start: Time, end: Time
     ) -> list[tuple[Time, Time, list[Track]]]:
-        """The time between start and end, cut at breakpoints: from, to, and the tracks then."""
+        """Return the intervals between start, breakpoints and end, with the tracks in each."""
         found = {q for v in vertices for q in self.of(v).breaks}
         inside = [q for q in found if start.compare_rational(q) < 0 < end.compare_rational(q)]
         times = [start, *map(Time, sorted(inside)), end]
@@ -1005,13 +959,13 @@ class Scene:
         return [(a, b, [self.track(v, a.low) for v in vertices]) for a, b in pairwise(times)]
 
     def tracks_at(self, vertices: Iterable[int], time: Time) -> dict[int, Track]:
-        """Tracks of some vertices that hold at a time."""
+        """Return tracks of some vertices that hold at a time."""
         for q in {q for v in vertices for q in self.of(v).breaks}:
             time.compare_rational(q)  # so that no breakpoint is inside the interval of the time
         return {v: self.track(v, time.low) for v in vertices}
 
     def is_rigid(self, body: Body, end: Fraction) -> bool:
-        """Whether lengths, dot and cross products of successive edges, so shapes, are constant."""
+        """Return True if lengths, dot and cross products of successive edges are constant."""
         n, path = body.size, body.vertices
         triples = [(path[k - 1], path[k], path[(k + 1) % n]) for k in range(n)]
         if not body.closed:
@@ -1023,11 +977,7 @@ class Scene:
                 of_a, of_b = a[2] * v[2], b[2] * v[2]  # the denominators of a - v and b - v
                 forms = [(dot_of(a, v, a), of_a * of_a), (dot_of(b, v, b), of_b * of_b)]
                 forms += [(dot_of(a, v, b), of_a * of_b), (orientation_of(a, v, b), of_a * b[2])]
-                values = [(Fraction(*f.scaled(t)), Fraction(*g.scaled(t))) for f, g in forms]
-                if any(
-                    f * Poly([d]) != g * Poly([n])
-                    for (f, g), (n, d) in zip(forms, values, strict=True)
-                ):
+                if any(f * c_(g.value(t)) != g * c_(f.value(t)) for f, g in forms):
                     return False
         return True
 
@@ -1049,7 +999,7 @@ class PlanarMap:
         self.faces, self.face_of = set[Face](), dict[Dart, Face]()
 
     def begin(self, cycles: list[list[int]]) -> None:
-        """Make the map of these faces; all of step 2 but for bodies."""
+        """Make the map of these faces: step 2 without bodies."""
         for cycle in cycles:
             require(len(cycle) > 1 or (len(self.out) == 1 == len(cycles)), "a face of one vertex")
             face = list(pairwise([*cycle, cycle[0]])) if len(cycle) > 1 else []
@@ -1073,7 +1023,7 @@ class PlanarMap:
         self.make_faces(set(self.after))
 
     def clockwise(self, v: int) -> list[int]:
-        """The vertices to which v has an edge, in order, clockwise."""
+        """Return the vertices to which v has an edge, in clockwise order."""
         order: list[int] = []
         u = next(iter(self.out[v]), -1)
         while u >= 0 and (not order or u != order[0]):
@@ -1082,7 +1032,7 @@ class PlanarMap:
         return order
 
     def change(self, removed: list[Dart], added: list[list[int]]) -> tuple[set[Dart], set[Angle]]:
-        """Change the map but for its faces; half-edges that have gone, and angles that come."""
+        """Change the map without its faces; return removed half-edges and new angles."""
         fans = {v: self.clockwise(v) for d in [*removed, *added] for v in d[:2]}
         gone, come = dict[Dart, Dart](), set[Angle]()  # what followed; an edge may come back
         for u, v in removed:
@@ -1119,7 +1069,7 @@ class PlanarMap:
         return {d for d in gone if d not in self.after}, come
 
     def joined(self, u: int, v: int) -> bool:
-        """Whether a path joins two vertices; searched for from both ends in turn."""
+        """Return True if a path joins two vertices; search from both ends in turn."""
         seen, fronts = ({u}, {v}), [{u}, {v}]
         while all(fronts) and seen[0].isdisjoint(seen[1]):
             for i in (0, 1):
@@ -1128,7 +1078,7 @@ class PlanarMap:
         return not seen[0].isdisjoint(seen[1])
 
     def make_faces(self, touched: set[Dart]) -> set[Face]:
-        """Make the faces around half-edges that have changed anew; the new ones."""
+        """Make the faces around changed half-edges anew; return the new faces."""
         old = {self.face_of[d] for d in touched if d in self.face_of}
         pool = touched.union(*old)
         for d in pool:
@@ -1167,12 +1117,12 @@ class Life:
     kind: str = ""
 
     def form(self, a: Track, p: Track, b: Track) -> Poly:
-        """What vanishes with the angle."""
+        """Return the polynomial that vanishes with the angle."""
         return dot_of(a, p, b) if self.kind in (FLAT, FULL) else orientation_of(a, p, b)
 
 
 class Checker:
-    """Goes through a proof, interval by interval. ``line`` is the one that is looked at."""
+    """Checks a proof, interval by interval; ``line`` is the number of the current line."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene, self.end, self.line = scene, scene.end, 0
@@ -1190,7 +1140,7 @@ class Checker:
     # The lines, and step 7: times increase.
 
     def check_rows(self, rows: list[tuple[int, list[str]]]) -> Proved:
-        """Check the lines of a proof from the third on; what is proved."""
+        """Check the lines of a proof from the third on; return what is proved."""
         self.line, (_, first, last) = rows[0]
         start, self.end = Fraction(first), Fraction(last)
         within = start == self.scene.start < self.end <= self.scene.end
@@ -1227,20 +1177,20 @@ class Checker:
         claim = self.check_contact(row[k:], time)
         if not cycles:
             return self.proved(time, set(), claim)
-        found = self.incidences(vanishing, time)
+        # All faces together, whatever clusters they are in: docs/proofs.md.
+        found = self.incidences({d for face in vanishing for d in face}, time)
         return self.proved(time, found, root_in_words(row[1:k], time, self.name))
 
     # What is proved, in words: b2.1 is vertex 1, or the edge from it on, of the body 2.
 
     def proved(self, time: Time | None, found: set[Angle], what: str) -> Proved:
-        """Put into words what is proved."""
-        start, end, last = self.scene.start, self.end, self.scene.end
+        """Return what is proved."""
+        start, end, last, named = self.scene.start, self.end, self.scene.end, set[int]()
         if time is None:
-            text, named = f"no contact in [{start}, {end}]", set[int]()
-            text += ", the whole span"
-            if end < last:
-                text = f"no contact in [{start}, {end}]; the span of the scene is "
-                text += f"[{start}, {last}]: nothing is said of ({end}, {last}]"
+            text = (
+                f"; the span of the scene is [{start}, {last}]: nothing is said of ({end}, {last}]"
+            )
+            text = f"no contact in [{start}, {end}]" + (text if end < last else ", the whole span")
         elif not found:
             text, named = f"contact at the start t = {start}: {what}", self.named
         else:
@@ -1257,11 +1207,11 @@ class Checker:
         return proved
 
     def short(self, v: int) -> str:
-        """A vertex, in short."""
+        """Return the short name of a vertex."""
         return f"b{self.scene.body_of[v]}.{v - self.scene.of(v).first}"
 
     def read_time(self, words: list[str]) -> Time:
-        """The time that these words are."""
+        """Return the time that these words denote."""
         low, high = Fraction(words[0]), Fraction(words[1])
         if words[2:3] == ["@"]:
             v = self.vertices(words[3:])
@@ -1286,7 +1236,7 @@ class Checker:
         return time
 
     def vertices(self, words: Iterable[str]) -> list[int]:
-        """The vertices that these words are."""
+        """Return the vertices that these words denote."""
         n, found = len(self.scene.body_of), [int(w) for w in words]
         for v in found:
             require(v < n, f"not a vertex, 0 to {n - 1}: {v}")
@@ -1295,7 +1245,7 @@ class Checker:
     # Step 1: the scene.
 
     def read_body(self, body: Body) -> None:
-        """Look at a body by itself."""
+        """Check a body by itself."""
         self.rigid.append(self.scene.is_rigid(body, self.end))
         if not body.closed:
             return
@@ -1315,7 +1265,7 @@ class Checker:
     # Step 2: the map, and its changes.
 
     def begin(self, cycles: list[list[int]]) -> None:
-        """Take the faces at the start."""
+        """Make the map at the start and check it."""
         self.map.begin([*cycles, *self.rings])
         for u, v in self.body_darts:
             require((u, v) in self.map.after, f"the body edge {u} {v} is missing")
@@ -1329,7 +1279,7 @@ class Checker:
         self.begin_lives((u, v, w) for (u, v), (_, w) in self.map.after.items())
 
     def check_insides(self, vertices: Iterable[int]) -> None:
-        """See that edges from vertices into the inside of their body lead to that body."""
+        """Check that edges from vertices into the inside of their body lead to that body."""
         for v in vertices:
             # Clockwise from the edge behind v, up to the one ahead, is the inside.
             order = self.map.clockwise(v)
@@ -1340,20 +1290,19 @@ class Checker:
                 require(same, f"the edge {v} {u} runs inside a body to another one")
 
     def begin_lives(self, angles: Iterable[Angle]) -> None:
-        """Let the lives of angles begin now."""
+        """Start the lives of angles at the current time."""
         for u, v, w in angles:
             if (v, w) not in self.solid:
                 self.life[v, w] = Life(u, self.now, self.line)
                 self.new_angles.add((v, w))
 
     def event(self, time: Time, words: list[str]) -> None:
-        """Let all that happens at one time happen."""
+        """Apply and check all changes at one time."""
         items: dict[str, list[list[int]]] = {"-": [], "+": [], "=": []}
         item: list[int] = []
         for word in words:
             if word in items:
-                item = []
-                items[word].append(item)
+                items[word].append(item := [])
             else:
                 item += self.vertices([word])
         removed, renewed = ([(u, v) for u, v in items[sort]] for sort in "-=")
@@ -1385,7 +1334,7 @@ class Checker:
     # and the turns of the chains add up to pi. And the faces lie side by side.
 
     def look_at(self, sample: Fraction) -> None:
-        """See what is new at a rational time inside the interval that begins now."""
+        """Check new angles and faces at a rational time inside the interval that begins now."""
         for v, w in self.new_angles:
             u = self.life[v, w].u
             tracks = [self.scene.track(x, sample) for x in (u, v, w)]
@@ -1413,7 +1362,7 @@ class Checker:
             self.check_clusters(vanishing, self.now)
 
     def check_face(self, face: Face, sample: Fraction) -> None:
-        """Step 4."""
+        """Check a face: step 4."""
         self.outer.discard(face)
         if face and face[0] in self.solid:
             return
@@ -1435,16 +1384,16 @@ class Checker:
             require(turns == 1, f"the face {shown} turns {turns} times")
 
     def direction(self, u: int, v: int, t: Fraction) -> Point:
-        """The direction from u to v at a rational time."""
+        """Return the direction from u to v at a rational time."""
         p, q = self.scene.at(u, t), self.scene.at(v, t)
         return q[0] - p[0], q[1] - p[1]
 
     def end_lives(self, darts: Iterable[Dart], time: Time) -> set[Face]:
-        """Step 3 for lives that end at a time; the faces with an angle that vanishes then."""
+        """Check lives that end at a time: step 3. Return the faces with a vanishing angle."""
         return {self.map.face_of[d] for d in sorted(darts) if self.end_life(d, time)}
 
     def end_life(self, d: Dart, time: Time) -> bool:
-        """Check the life of an angle that ends at a time; whether the angle vanishes then."""
+        """Check the life of an angle; return True if the angle vanishes at its end."""
         life = self.life.pop(d)
         angle = (life.u, *d)
         i = self.scene.body_of[d[0]]
@@ -1468,7 +1417,7 @@ class Checker:
     # crosses is not simple then, and has an angle that vanishes. The segment stays in a cluster.
 
     def check_clusters(self, faces: set[Face], time: Time) -> None:
-        """See that there is no contact in the clusters of these faces."""
+        """Check that there is no contact in the clusters of these faces."""
         while faces:
             todo, cluster = [faces.pop()], set[Dart]()
             while todo:
@@ -1477,39 +1426,19 @@ class Checker:
                 across = {self.map.face_of[v, u] for u, v in face - self.body_darts} & faces
                 todo += across
                 faces -= across
-            self.check_apart(cluster, time)
+            if found := self.incidences(cluster, time):
+                u, on, v = min(found, key=lambda touch: (touch[1], touch))
+                what = f"vertices {u} and {v} coincide"
+                what = f"vertex {u} is on the edge {v} {self.after_on_ring(v)}" if on else what
+                raise Rejected(f"{what} at t = {time}")
 
-    def check_apart(self, cluster: set[Dart], time: Time) -> None:
-        """See that no vertex of a cluster is on another one, or on a body edge.
+    def incidences(self, darts: set[Dart], time: Time) -> set[Angle]:
+        """Return all incidences at a time among the vertices and body edges of half-edges.
 
-        Vertices are put in order: by abscissas at that time, where these are equal by
-        ordinates. Then those that coincide are neighbours; and on an edge are those that
-        come between its ends and are on its line.
+        Vertices are sorted by abscissas at that time, where these are equal by ordinates. Then
+        those that coincide are neighbours; and on an edge are those that come between its ends
+        and are on its line.
         """
-        tracks = self.scene.tracks_at({v for v, _ in cluster}, time)
-
-        def order(u: int, v: int) -> int:
-            x, y = vector_of(tracks[v], tracks[u])
-            return time.sign_of(x) or time.sign_of(y)
-
-        path = sorted(tracks, key=cmp_to_key(order))
-        rank = {v: i for i, v in enumerate(path)}
-        for u, v in pairwise(path):
-            require(order(u, v), f"vertices {u} and {v} coincide at t = {time}")
-        for u, w in cluster & self.body_darts:
-            first, last = sorted((rank[u], rank[w]))
-            for v in path[first + 1 : last]:
-                turn = time.sign_of(orientation_of(tracks[u], tracks[v], tracks[w]))
-                require(turn, f"vertex {v} is on the edge {u} {w} at t = {time}")
-
-    # Step 8: the contact.
-
-    def incidences(self, faces: set[Face], time: Time) -> set[Angle]:
-        """All that touches at a time, by the faces with an angle that vanishes then.
-
-        They are taken together, whatever clusters they are in: docs/proofs.md.
-        """
-        darts = {d for face in faces for d in face}
         tracks = self.scene.tracks_at({v for v, _ in darts}, time)
 
         def order(u: int, v: int) -> int:
@@ -1527,49 +1456,42 @@ class Checker:
         for u, w in {(min(d), max(d)) for d in darts & self.body_darts}:
             first, last = sorted((rank[u], rank[w]))
             for group in groups[first + 1 : last]:
-                tracked = tracks[u], tracks[group[0]], tracks[w]
-                if time.sign_of(orientation_of(*tracked)) == 0:
+                if time.sign_of(orientation_of(tracks[u], tracks[group[0]], tracks[w])) == 0:
                     edge = u if self.after_on_ring(u) == w else w
                     found |= {(v, 1, edge) for v in group}
         return found
 
+    # Step 8: the contact.
+
     def after_on_ring(self, v: int) -> int:
-        """The next vertex of a ring or chain, in the order of the scene."""
+        """Return the next vertex of a ring or chain, in the order of the scene."""
         body = self.scene.of(v)
         ring = next(ring for ring, _ in body.rings if v in ring)
         return v + 1 if v + 1 in ring else ring[0]
 
     def check_contact(self, row: list[str], time: Time) -> str:
-        """See that the contact is there at a time; what it is, in words."""
+        """Check that the contact is there at a time; return it in words."""
         scene, kind = self.scene, " ".join(w for w in row if w.isalpha())
         numbers = [w for w in row if not w.isalpha()]
         if kind == "vertex inside":
             require(int(numbers[1]) < len(scene.bodies), f"there is no body {numbers[1]}")
             numbers[1:] = map(str, scene.bodies[int(numbers[1])].vertices)
         v = self.vertices(numbers)
-        body, other = scene.of(v[0]), scene.of(v[-1])
-        edges = {(v[-2], v[-1]), (v[0], v[1])} if kind == "edge edge" else {(v[-2], v[-1])}
-        at_start = time.compare_rational(scene.start) == 0 and body is not other
-        if kind == "vertex vertex":
-            p = [*scene.tracks_at(v, time).values()]
-            there = v[0] != v[1] and is_on(time, p[0], p[1], p[1])
-        elif kind == "vertex edge":
+        other, there = scene.of(v[-1]), False
+        at_start = time.compare_rational(scene.start) == 0 and scene.of(v[0]) is not other
+        if kind in ("vertex vertex", "vertex edge"):
             tracks = scene.tracks_at(v, time)
-            there = edges <= self.body_darts and v[0] not in v[1:]
-            there = there and is_on(time, *(tracks[u] for u in v))
+            there = v[0] not in v[1:] and (len(v) == 2 or (v[1], v[2]) in self.body_darts)
+            there = there and is_on(time, *(tracks[u] for u in (v[0], v[1], v[-1])))
         elif kind == "edge edge":
-            there = at_start and edges <= self.body_darts
+            there = at_start and {(v[0], v[1]), (v[2], v[3])} <= self.body_darts
             there = there and meet(*(whole(scene.at(u, scene.start)) for u in v))
-        else:
+        elif at_start and other.closed:
             place = {u: scene.at(u, scene.start) for u in v}
-            rings = [[place[u] for u in ring] for ring, _ in other.rings]
-            inside = sum(surrounds(ring, place[v[0]]) for ring in rings) % 2
-            edge = any(
-                turn(*(whole(place[u]) for u in (*e, v[0]))) == 0
-                and side(*(whole(place[u]) for u in (v[0], *e))) <= 0
-                for e in other.edges
-            )
-            there = bool((inside or edge) and at_start and other.closed)
+            rings = ([place[u] for u in ring] for ring, _ in other.rings)
+            there = sum(surrounds(ring, place[v[0]]) for ring in rings) % 2 == 1
+            p = whole(place[v[0]])
+            there |= any(meet(p, p, *(whole(place[u]) for u in e)) for e in other.edges)
         require(there, f"there is no such contact at t = {time}: {' '.join(row)}")
         self.named = {scene.body_of[v[0]], scene.body_of[v[-1]]}
         if kind == "vertex inside":
@@ -1583,7 +1505,7 @@ class Checker:
 
 
 def root_in_words(row: list[str], time: Time, f: Poly) -> str:
-    """A time as it is written in a proof: a number, or a root of f in an interval."""
+    """Return a time as a proof has it: a number, or a root of f in an interval."""
     low, high = Fraction(row[0]), Fraction(row[1])
     if low == high:
         return str(low)
@@ -1615,7 +1537,7 @@ ORDER = "exactpt-proof scene span( face| inside| outer)*+( event)*+ (contact|non
 
 
 def is_rational(word: str) -> bool:
-    """Whether a word is a rational of at most `MOST_DIGITS` digits above and below."""
+    """Return True if a word is a rational of at most `MOST_DIGITS` digits above and below."""
     over, _, under = word.removeprefix("-").partition("/")
     return bool(
         re.fullmatch(R, word)
@@ -1625,7 +1547,7 @@ def is_rational(word: str) -> bool:
 
 
 def is_bounded(row: list[str]) -> bool:
-    """Whether the numbers of a line and the polynomial of its time are small enough."""
+    """Return True if the numbers of a line and the polynomial of its time are small enough."""
     if row[0] not in ("span", "event", "contact"):
         return True
     end = next((i for i, w in enumerate(row) if w in (*STARTS, "@")), len(row))
@@ -1638,7 +1560,7 @@ def is_bounded(row: list[str]) -> bool:
 
 
 def read(proof: bytes) -> list[tuple[int, list[str]]]:
-    """The numbers and words of the lines of a proof, all of which are in the format."""
+    """Return the numbers and words of the lines of a proof, all of which are in the format."""
     rows = []
     for i, line in enumerate(proof.decode().split("\n"), 1):
         if len(line) > MOST_IN_LINE:
@@ -1655,7 +1577,7 @@ def read(proof: bytes) -> list[tuple[int, list[str]]]:
 
 
 def check(scene_file: bytes, proof_file: bytes, work: int = Work.usual) -> Proved:
-    """Check a proof; what it proves. Raises `Rejected`, `NoProofError`, or `Exhausted`."""
+    """Check a proof; return what it proves. Raises `Rejected`, `NoProofError`, or `Exhausted`."""
     digits = sys.get_int_max_str_digits()
     sys.set_int_max_str_digits(0)  # lengths have bounds of their own
     WORK.left, checker = work, None
@@ -1681,7 +1603,7 @@ def check(scene_file: bytes, proof_file: bytes, work: int = Work.usual) -> Prove
 
 
 def wishes(arguments: list[str]) -> tuple[list[Path], dict[str, str]]:
-    """The paths and the options of a call."""
+    """Return the paths and the options of a call."""
     paths, given, rest = list[Path](), dict[str, str](), iter(arguments)
     for word in rest:
         if word in ("--partial", "--until", "--expect", "--work"):
@@ -1698,7 +1620,7 @@ def wishes(arguments: list[str]) -> tuple[list[Path], dict[str, str]]:
 
 
 def judge(proved: Proved, given: dict[str, str]) -> None:
-    """See that it is what is asked for."""
+    """Check that the statement is the requested one."""
     if "--expect" in given:
         if reason := differs(proved, Path(given["--expect"]).read_bytes()):
             raise Rejected(f"rejected: {reason} {given['--expect']!a}; proved is: {proved}")
@@ -1708,7 +1630,7 @@ def judge(proved: Proved, given: dict[str, str]) -> None:
 
 
 def differs(proved: Proved, answer: bytes) -> str:
-    """How an answer of `exactpt collide --json` differs from what is proved; empty if not."""
+    """Return how an answer of `exactpt collide --json` differs from the statement; "" if not."""
     try:
         data = json.loads(answer, parse_int=Bare, parse_float=Bare)
         contact, pairs = data["contact"], set[Angle]()
@@ -1743,7 +1665,7 @@ USAGE = (
 
 
 def main(arguments: list[str]) -> int:
-    """Check a file or a folder; the exit code."""
+    """Check a file or a folder; return the exit code."""
     try:
         if arguments == ["--version"]:
             return say(hashlib.sha256(Path(__file__).read_bytes()).hexdigest(), 0, sys.stdout)
@@ -1764,7 +1686,7 @@ def main(arguments: list[str]) -> int:
 
 
 def file_bytes(path: Path) -> bytes:
-    """The bytes of a file, not too many."""
+    """Return the bytes of a file, at most one more than allowed."""
     with path.open("rb") as file:
         return file.read(MOST_BYTES + 1)
 
@@ -1773,7 +1695,7 @@ def file_bytes(path: Path) -> bytes:
 
 
 def check_chain(folder: Path, work: int = Work.usual) -> Proved:
-    """Check ``1.proof`` with ``1.scene.json``, and so on, and that each goes on where one ends."""
+    """Check ``1.proof`` with ``1.scene.json``, and so on; each begins where the last one ends."""
     if not folder.is_dir():
         raise NoProofError(f"{str(folder)!a} is no folder")
     numbers = sorted(
@@ -1795,8 +1717,8 @@ def check_chain(folder: Path, work: int = Work.usual) -> Proved:
             start = here.start
         else:
             seams += seam(last, proved, k)
-        hashes = (hashlib.sha256(b).hexdigest() for b in (scene, proof, chain[-1].encode()))
-        a, b, before = hashes
+        parts = scene, proof, chain[-1].encode()
+        a, b, before = (hashlib.sha256(part).hexdigest() for part in parts)
         chain.append(f"{k} {a} {b} {here.start} {proved.until} {before}")
         last = proved
     manifest = folder / "run.chain"
@@ -1813,7 +1735,7 @@ def check_chain(folder: Path, work: int = Work.usual) -> Proved:
 
 
 def seam(before: Proved, after: Proved, k: int) -> list[str]:
-    """See that a part goes on where the one before ends; which bodies come and go there."""
+    """Check that a part begins where the last one ends; return which bodies come and go there."""
     t = after.scene.start
     require(before.time is None, f"rejected: part {k - 1} ends with a contact")
     require(before.until == t, f"rejected: part {k} begins at {t}, not at {before.until}")
@@ -1832,7 +1754,7 @@ def seam(before: Proved, after: Proved, k: int) -> list[str]:
 
 
 def say(text: str, code: int, file: TextIO) -> int:
-    """Print a line in ASCII, with escapes: names may hold controls for a terminal."""
+    """Print a line in ASCII, controls of names escaped; return the exit code."""
     shown = (c if c.isascii() and c.isprintable() else ascii(c)[1:-1] for c in text)
     file.write("".join(shown) + "\n")
     return code
