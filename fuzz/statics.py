@@ -9,6 +9,8 @@ from exactpt.errors import AuditError
 from exactpt.indices import Ends
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
+from exactpt.motion.enclosures import Enclosures
+from exactpt.motion.vertices import WIDTH, Vertices
 from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.scene.scene import Scene
@@ -16,7 +18,7 @@ from exactpt.tiling.events import ContactFound
 from exactpt.tiling.start import start_tiling
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["Audited", "audit_at", "audit_now", "run_and_audit"]
+__all__ = ["Audited", "audit_at", "audit_now", "audit_places", "run_and_audit"]
 
 
 class Audited(NamedTuple):
@@ -51,6 +53,7 @@ def run_and_audit(
     if initial_touches(scene)[1]:
         return None
     kinetic = start_tiling(scene, tiling, scene.start, exact_only=exact_only)
+    audit_places(kinetic.vertices)
     gaps = 0
     try:
         while True:
@@ -67,6 +70,25 @@ def run_and_audit(
                 audit_now(kinetic)
     except ContactFound:
         return Audited(kinetic, contact=True, gaps=gaps)
+    finally:
+        audit_places(kinetic.vertices)
+
+
+def audit_places(vertices: Vertices) -> None:
+    """Compare the coefficients of all vertices with enclosures made anew.
+
+    Raises:
+        AuditError: if they differ.
+    """
+    enclosures = Enclosures(vertices.frame)
+    for moving in vertices.bodies:
+        images = enclosures.of_piece(moving.body._piece_after(moving.since))
+        for v in moving.ring:
+            image = images[vertices.all[v].index]
+            expected = image.x0, image.y0, image.x1, image.y1
+            known = [vertices.places[WIDTH * v + k] for k in range(4)]
+            if repr(known) != repr(list(expected)):  # NaN stands for no enclosure
+                raise AuditError(f"the coefficients of vertex {v} are {known}, not {expected}")
 
 
 def audit_at(kinetic: Tiling, at: QQ) -> None:

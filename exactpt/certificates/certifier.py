@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, final
 
+import numpy as np
 from mypy_extensions import i64
 
 from exactpt.certificates import coefficients
@@ -34,13 +35,13 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from exactpt.kernel.counters import Counters
+    from exactpt.kernel.doubles import Indices
+    from exactpt.kernel.vectorized import Answers
     from exactpt.motion.vertex import Vertex
     from exactpt.motion.vertices import Vertices
 
 __all__ = ["X_ORDER", "Certifier"]
 
-BATCH: Final = 50
-"""Minimum batch size for which numpy is faster."""
 FEW: Final = 16
 """Number of certificates from one look at the budget to the next."""
 
@@ -215,28 +216,22 @@ class Certifier:
         )
         return answer if answer[1] <= horizon else (answer[0], INFINITY, INFINITY)
 
-    def orientations(self, triples: Sequence[Triple]) -> list[tuple[int, EventTime | None]]:
-        """The `orientation` of each triple, in numpy for those in linear motion."""
-        if len(triples) < BATCH or self.exact_only or self.roots_now:
-            return self.orientations_of_any(triples)
-        answers: list[tuple[int, EventTime | None]] = []
-        triples = [least_first(*triple) for triple in triples]
-        now = self.now_low, self.now_high, self._end_high
-        signs, lows, highs = linear_orientations(self._vertices, triples, *now)
-        for (a, b, c), s, low, high in zip(
-            triples, signs.tolist(), lows.tolist(), highs.tolist(), strict=True
-        ):
-            if s == 0:
-                ask()
-                answers.append(self.orientation(a, b, c))
-                continue
-            self.made += 1
-            self.counters.filtered += 1
-            answers.append((s, EventTime(low, high, a, b, c) if low < INFINITY else None))
+    def orientations(self, ids: Indices) -> Answers:
+        """The answers of `filtered_orientation` for rows of three ids, in numpy.
+
+        Only those are counted that are not left open, with sign 0. Nothing may vanish now, and
+        the filters must be on.
+        """
+        answers = linear_orientations(
+            self._vertices, ids, self.now_low, self.now_high, self._end_high
+        )
+        decided = int(np.count_nonzero(answers.signs))
+        self.made += decided
+        self.counters.filtered += decided
         return answers
 
     def orientations_of_any(self, triples: Sequence[Triple]) -> list[tuple[int, EventTime | None]]:
-        """The `orientation` of each triple, one by one: faster if few move straight."""
+        """The `orientation` of each triple."""
         answers: list[tuple[int, EventTime | None]] = []
         for a, b, c in triples:
             if len(answers) % FEW == 0:

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Final, TypeAlias, final
+from typing import Final, final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from exactpt.certificates.batches import linear_parts
+from exactpt.kernel.doubles import Floats, view
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.motion.image import Image
 from exactpt.motion.vertex import Vertex
-from exactpt.motion.vertices import Vertices
+from exactpt.motion.vertices import HORIZON, MOTION, OTHER_MOTION, WIDTH, Vertices
 
 __all__ = ["K", "Positions", "cross_sign", "linear_position", "positions_at"]
-
-Floats: TypeAlias = NDArray[np.float64]
 
 K: Final = 8.0 * U
 """Relative bound on the rounding of a 2 x 2 determinant of differences; see
@@ -29,11 +26,11 @@ def positions_at(vertices: Vertices, low: float, high: float) -> tuple[Floats, F
     Coordinates without a bound are NaN. Trajectories of degree 1 are evaluated in numpy, by
     the formula of `Positions` (at the time 0 itself nothing is rounded).
     """
-    images = [v.image for v in vertices.all]
     errors = vertices.enclosures.errors
-    x0, y0, x1, y1 = linear_parts(images).T
+    places = view(vertices.places).reshape(-1, WIDTH)
+    x0, y0, x1, y1 = places[:, :HORIZON].T
     if low == high == 0.0:
-        x, y, error = x0.copy(), y0.copy(), np.full(len(images), errors[0])
+        x, y, error = x0.copy(), y0.copy(), np.full(len(places), errors[0])
     else:
         m, r = 0.5 * (low + high), high - low
         reach = abs(m) + r
@@ -44,9 +41,9 @@ def positions_at(vertices: Vertices, low: float, high: float) -> tuple[Floats, F
         error = (16.0 * U * bound + of_image + r * slope) * SLACK + TINY
     single = Positions(errors)
     single.move_to(low, high)
-    for k, image in enumerate(images):
-        if image.degree > 1 or image.ws:
-            vertex = vertices.all[k]
+    for k in np.flatnonzero(places[:, MOTION] == OTHER_MOTION).tolist():
+        vertex = vertices.all[k]
+        if vertex.image.degree > 1 or vertex.image.ws:
             single.find(vertex)
             x[k], y[k], error[k] = vertex.x, vertex.y, vertex.error
     unknown = ~(np.isfinite(x) & np.isfinite(y) & np.isfinite(error))

@@ -7,8 +7,9 @@ times by slot. Cancelled events are dropped when they reach the top.
 from __future__ import annotations
 
 from heapq import heappop, heappush
-from typing import Final, Protocol, final
+from typing import TYPE_CHECKING, Final, Protocol, final
 
+import numpy as np
 from librt.vecs import append, vec
 from mypy_extensions import i32, i64, mypyc_attr
 
@@ -18,6 +19,9 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.rounding import INFINITY
+
+if TYPE_CHECKING:
+    from exactpt.kernel.doubles import Floats, Indices
 
 __all__ = ["EventQueue", "EventTime", "ExactQueue", "Resolver", "earlier"]
 
@@ -116,6 +120,27 @@ class EventQueue(Calendar):
         key[at + 1] = i32(b)
         key[at + 2] = i32(c)
         self._put(slot, low, high)
+
+    def schedule_new(
+        self, kind: int, parts: Indices, lows: Floats, highs: Floats, ids: Indices
+    ) -> None:
+        """Put many changes of sign into slots of one kind, none of which is pending.
+
+        Args:
+            kind: the kind of the certificates.
+            parts: their parts, in increasing order.
+            lows: the lower ends of the enclosures, less than infinity.
+            highs: the upper ends.
+            ids: shape (n, 3), the numbers of their functions.
+        """
+        if not len(parts):
+            return
+        n = int(parts[-1]) + 1
+        spans, keys = np.full((n, 2), INFINITY), np.zeros((n, 3), np.int32)
+        spans[parts, 0], spans[parts, 1], keys[parts] = lows, highs, ids
+        self._spans[kind], self._keys[kind] = vec[float](spans.ravel()), vec[i32](keys.ravel())
+        self._count += len(parts)
+        self._make_calendar()
 
     def cancel(self, slot: CertificateId) -> None:
         """Empty a slot."""

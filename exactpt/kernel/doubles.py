@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Final, TypeAlias
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +11,7 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import shorten
 from exactpt.kernel.rounding import check_rounding
 
-__all__ = ["Floats", "Indices", "doubles", "first_true", "indices", "middles", "native"]
+__all__ = ["Floats", "Indices", "doubles", "first_true", "indices", "middles", "native", "view"]
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
@@ -64,6 +64,11 @@ def indices(values: ArrayLike, what: str) -> Indices:
     if given.dtype.kind not in "iu" and given.size:
         raise InputError(f"{what}: not an array of integers: {shorten(values)}")
     return given.astype(np.int64)
+
+
+def view(vector: Any) -> NDArray[Any]:  # noqa: ANN401 - its type is that of no buffer
+    """Return the items of a vector of librt, not copied, until it changes."""
+    return np.asarray(memoryview(vector))
 
 
 def native(counts: Indices) -> NDArray[np.intp]:

@@ -38,6 +38,8 @@ MOTION: Final[i64] = 5
 """Place of the number of the motion among them, see `Image.motion`."""
 OTHER_MOTION: Final[float] = -2.0
 """Number of the motion of all vertices that `Vertices.places` does not describe."""
+UNUSED: Final = (0.0, 0.0, 0.0, 0.0, 0.0, OTHER_MOTION, 0.0, 0.0)
+"""The doubles of a vertex that no body has."""
 
 
 @final
@@ -117,7 +119,7 @@ class Vertices:
         self.all: list[Vertex] = [
             unused(VertexId(v)) for v in range(sum(map(len, rings)) + len(free))
         ]
-        self.places: vec[float] = vec[float]([OTHER_MOTION] * (int(WIDTH) * len(self.all)))
+        self.places: vec[float] = vec[float](UNUSED * len(self.all))
         self.bodies: list[MovingBody] = []
         self._free: list[VertexId] = list(free)
         for body, ring, t in zip(bodies, rings, since, strict=True):
@@ -149,8 +151,8 @@ class Vertices:
             new = VertexId(len(self.all))
             self._free.insert(0, new)
             self.all.append(unused(new))
-            for _ in range(WIDTH):
-                self.places = append(self.places, OTHER_MOTION)
+            for value in UNUSED:
+                self.places = append(self.places, value)
         ring = [(self._free.pop(), index) for index in indices]
         for v, _ in ring:
             self.all[v] = unused(v)

@@ -10,17 +10,21 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Final, final
 
+import numpy as np
 from librt.vecs import vec
 from mypy_extensions import i64
 
 from exactpt.certificates.certificate import ANGLE, MOTION, SHRINK, pack
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.one_sided import OneSided
-from exactpt.certificates.queue import EventTime
 from exactpt.certificates.table import CertificateTable
 from exactpt.indices import NO_HALF_EDGE, HalfEdge, Triple, VertexId, half_edge_vec
+from exactpt.kernel.budget import ask
+from exactpt.kernel.doubles import view
+from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.vertex import Vertex
-from exactpt.motion.vertices import Vertices
+from exactpt.motion.vertices import MOTION as MOTION_OF
+from exactpt.motion.vertices import OTHER_MOTION, WIDTH, Vertices
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import SOLID, Mesh
 from exactpt.tiling.simultaneous import Batch
@@ -30,6 +34,10 @@ if TYPE_CHECKING:
 
 __all__ = ["CertifiedMesh"]
 
+MANY: Final = 50
+"""Number of angles from which on they are certified in numpy."""
+FEW: Final = 16
+"""Number of certificates from one look at the budget to the next."""
 MOST_OF_FIVE: Final[int] = 20
 """Maximum number of angles that `CertifiedMesh.certify_five` certifies."""
 
@@ -68,24 +76,51 @@ class CertifiedMesh:
     def certify_everything(self) -> int:
         """Certify the whole tiling; returns the number pending without those of the rules."""
         self.table.keep_only((MOTION, SHRINK))
-        certified: list[HalfEdge] = []
-        angles: list[Triple] = []
-        region = self.mesh.region
-        for h in self.mesh.map.half_edges():
-            if region[h] != SOLID:
-                a, p, b = self.angle(h)
-                if self._cannot_fail(h, a, p, b):
-                    self._skip(h)
-                else:
-                    certified.append(h)
-                    angles.append((a, p, b))
-        answers = self.certifier.orientations(angles)
-        for h, (s, time) in zip(certified, answers, strict=True):
-            self.table.angles.discard(h)
-            self._keep(h, s, time)
+        mesh, certifier = self.mesh, self.certifier
+        is_usual = not (certifier.exact_only or certifier.roots_now or self.checks_rigid)
+        if is_usual and len(mesh.region) >= MANY:
+            half_edges = self._certify_in_arrays()
+        else:
+            half_edges = [h for h in mesh.map.half_edges() if mesh.region[h] != SOLID]
+        for k, h in enumerate(half_edges):
+            if k % FEW == 0:
+                ask()
+            self.certify(h)
         pending = len(self.table.pending)
         self.rules.certify()
         return pending
+
+    def _certify_in_arrays(self) -> list[HalfEdge]:
+        """Certify all angles, none of which is pending; return those that numpy leaves open."""
+        table, certifier, m = self.table, self.certifier, self.mesh.map
+        origin, following = view(m.origin), view(m.following)
+        h = np.flatnonzero((origin >= 0) & (view(self.mesh.region) != SOLID))
+        corner = view(self.mesh.corner)[h] > 0
+        ids = np.stack([origin[view(m.previous)[h]], origin[h], origin[h ^ 1]], axis=1)
+        second = following[h]
+        third = following[second]
+        shares = corner & (following[third] == h) & ((second < h) | (third < h))
+        motions = view(self.vertices.places).reshape(-1, WIDTH)[ids, MOTION_OF]
+        moves = motions[:, 0]
+        together = (moves >= 0.0) & (moves == motions[:, 1]) & (moves == motions[:, 2])
+        shares |= ids[:, 0] == ids[:, 2]
+        for k in np.flatnonzero((motions == OTHER_MOTION).any(axis=1) & ~shares).tolist():
+            a, p, b = ids[k].tolist()
+            together[k] = certifier.rigid(a, p, b)
+        fails = ~(shares | together)
+        certifier.skipped += len(h) - int(np.count_nonzero(fails))
+        h, corner, ids = h[fails], corner[fails], ids[fails]
+        if len(h) < MANY:
+            few: list[HalfEdge] = h.tolist()
+            return few
+        ids = np.take_along_axis(ids, (ids.argmin(axis=1)[:, None] + np.arange(3)) % 3, axis=1)
+        signs, lows, highs = certifier.orientations(ids)
+        is_known, holds = signs != 0, (signs > 0) == corner
+        table.angles.update(h[is_known & ~holds].tolist())
+        fails = is_known & holds & (lows < INFINITY)
+        table.pending.schedule_new(ANGLE, h[fails], lows[fails], highs[fails], ids[fails])
+        left: list[HalfEdge] = h[~is_known].tolist()
+        return left
 
     def certify(self, h: HalfEdge) -> None:
         """Certify the angle of h, or record it as violated just after now."""
@@ -125,19 +160,6 @@ class CertifiedMesh:
         if a == b or self._shares_certificate(h):
             return True
         return self.certifier.rigid(a, p, b)
-
-    def _keep(self, h: HalfEdge, s: int, time: EventTime | None) -> None:
-        """Schedule the failure of an angle, or record it as violated just after now."""
-        table, certificate = self.table, pack(ANGLE, h)
-        if s == 0:
-            table.flat.add(h)
-        if (s > 0) != self.mesh.corner[h]:
-            table.pending.cancel(certificate)
-            table.angles.add(h)
-        elif time is None:
-            table.pending.cancel(certificate)
-        else:
-            table.pending.schedule(certificate, time)
 
     def _shares_certificate(self, h: HalfEdge) -> bool:
         """Whether the angle belongs to a triangle whose certificate is that of another angle."""

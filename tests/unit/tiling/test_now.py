@@ -2,6 +2,7 @@
 
 from itertools import permutations, product
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -20,7 +21,7 @@ from moving import (
 )
 
 from exactpt.certificates.at_time import PredicatesAt
-from exactpt.certificates.certifier import BATCH, Certifier
+from exactpt.certificates.certifier import Certifier, least_first
 from exactpt.certificates.coincidence import (
     boxes_now,
     coincide,
@@ -35,6 +36,7 @@ from exactpt.certificates.perturbation import orientation
 from exactpt.certificates.queue import EventTime
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ
+from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.motion.vertices import Vertices
@@ -171,12 +173,15 @@ def test_many_certificates_at_once(moving, t):
     """The sign holds up to the time that is told, at which the orientation vanishes."""
     certifier = certifier_at(moving, t)
     triples = [tuple(v.id for v in abc) for abc in permutations(moving.all, 3)]
-    triples = triples[:: len(triples) // (BATCH + 10)]
-    assert len(triples) >= BATCH
-    for triple, (s, time) in zip(triples, certifier.orientations(triples), strict=True):
-        abc = [moving.all[i] for i in triple]
+    triples = triples[:: max(1, len(triples) // 60)]
+    rows = np.array([least_first(*triple) for triple in triples])
+    signs, lows, highs = certifier.orientations(rows)
+    assert certifier.made == np.count_nonzero(signs)
+    for (a, b, c), s, low, high in zip(rows.tolist(), signs, lows, highs, strict=True):
+        abc = [moving.all[i] for i in (a, b, c)]
         if len({id(v.track) for v in abc}) < 3 or s == 0:
             continue
+        time = None if low == INFINITY else EventTime(low, high, a, b, c)
         until = END if time is None else min(END, moving.frame.exact_time(time.low))
         if until > t:
             assert {turn(abc, t + (until - t) * QQ(k, 7)) for k in range(1, 7)} == {s}
