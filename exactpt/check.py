@@ -60,11 +60,11 @@ class Report:
 
     @property
     def ok(self) -> bool:
-        """Whether there are no failures."""
+        """True if there are no failures."""
         return not self.failures
 
     def to_json(self) -> dict[str, object]:
-        """The report as JSON data."""
+        """Return the report as JSON data."""
         return {
             "ok": self.ok,
             "tiling": self.tiling,
@@ -78,7 +78,7 @@ class Report:
         }
 
     def lines(self) -> list[str]:
-        """The report as lines of text."""
+        """Return the report as lines of text."""
         by_cgal = len(self.failures) - (self.pairs_agree is False)
         head = f"CGAL {'DISAGREES' if by_cgal else 'agrees'}: "
         if self.proof is not None:
@@ -226,7 +226,7 @@ def _watch(
 
 @final
 class _Witness:
-    """Asks CGAL about the tilings and event times of a run, and collects the verdicts."""
+    """Has CGAL check the tilings and event times of a run, and collects the verdicts."""
 
     def __init__(self, scene: Scene, cgal: CgalCheck, report: Report) -> None:
         self.scene = scene

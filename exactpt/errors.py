@@ -25,7 +25,7 @@ __all__ = [
 
 
 def printable(text: str) -> str:
-    """The text with every unprintable character escaped: controls, line breaks, overrides.
+    """Return the text with every unprintable character escaped: controls, line breaks, overrides.
 
     Names and paths come from files. Written raw, their control characters would be commands to
     the terminal that shows them, and their directional overrides would reorder its text.
@@ -40,7 +40,7 @@ class ExactPTError(Exception):
 
 
 class InputError(ExactPTError, ValueError):
-    """The input is not acceptable; the message is one printable line: what is wrong, and where."""
+    """The input is not acceptable; one printable line names the fault and its place."""
 
     def __init__(self, message: str) -> None:
         super().__init__(printable(message))

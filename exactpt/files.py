@@ -29,7 +29,7 @@ CHUNK: Final = 1 << 20
 
 
 def read_text(path: Path, most: int | None = None) -> str:
-    """The text of a file in UTF-8, with or without a byte order mark; see `read_bytes`."""
+    """Return the text of a file in UTF-8, with or without a byte order mark; see `read_bytes`."""
     try:
         return read_bytes(path, most).decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -37,7 +37,7 @@ def read_text(path: Path, most: int | None = None) -> str:
 
 
 def read_bytes(path: Path, most: int | None = None) -> bytes:
-    """The content of a file, or of what comes through a pipe or from a terminal.
+    """Return the content of a file, a pipe or a terminal.
 
     Args:
         path: the file.
@@ -131,7 +131,7 @@ def _refusing(path: Path) -> Iterator[None]:
 
 
 def _open_beside(target: Path, mode: int | None) -> BinaryIO:
-    """A new file in the same folder, readable by nobody who may not read the one it replaces."""
+    """Return a new file in the same folder, with permissions no wider than the old file's."""
     name = target.with_name(f".exactpt-{secrets.token_hex(8)}")
     allowed = 0o666 if mode is None else mode & 0o666 | stat.S_IWUSR
     return open(name, "xb", opener=lambda path, flags: os.open(path, flags, allowed))

@@ -120,7 +120,7 @@ def _report_bug(error: Exception, scene: Path | None) -> None:
 
 
 def _scene_of(error: Exception, scene: Path | None) -> bytes | None:
-    """The scene file; if it came through a pipe or from nowhere, the scene that the error has."""
+    """Return the scene file; the scene of the error, if there is no such file."""
     if scene is not None and scene.is_file():
         return scene.read_bytes()
     if isinstance(error, AuditError) and error.scene is not None:

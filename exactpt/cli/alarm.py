@@ -38,7 +38,7 @@ def time_limit(seconds: float | None, memory: int | None = None) -> Iterator[Non
     computation cannot be resumed; so this belongs in a process that ends, not in the library.
 
     Only the main thread receives signals, and Windows has no such signal: elsewhere the long
-    loops of the library ask for the time.
+    loops of the library check the time.
     """
     main = threading.current_thread() is threading.main_thread()
     deadline = None if seconds is None else clock.monotonic() + seconds + GRACE

@@ -79,7 +79,7 @@ def batch(
     key "error", and the exit code is 2 at the end. --max-seconds, --max-memory and --max-bytes
     bound each scene.
 
-    --scheduler tcp://10.0.0.1:8786 asks the workers of a Dask cluster, which need exactpt.
+    --scheduler tcp://10.0.0.1:8786 uses the workers of a Dask cluster, which need exactpt.
 
     If it is interrupted or killed, the same command goes on where it stopped. The bytes of the
     answers do not depend on that, nor on the number of workers.
@@ -130,7 +130,7 @@ def batch(
 
 
 def _interrupted(output: Path, done: int, whole: int) -> str:
-    """What is kept of a batch that has been interrupted, and how it goes on."""
+    """Return the kept part of an interrupted batch, and the command that resumes it."""
     journal = output.with_name(f"{output.name}.journal")
     if not journal.exists():
         return "exactpt: interrupted: nothing was answered yet"

@@ -19,7 +19,7 @@ __all__ = ["answer", "picture"]
 
 
 def answer(scene: str, method: str, tiling: str) -> str:
-    """The first contact of a scene.
+    """Return the first contact of a scene.
 
     Args:
         scene: the text of a scene file.
@@ -48,7 +48,7 @@ def answer(scene: str, method: str, tiling: str) -> str:
 
 
 def picture(scene: str, tiling: str) -> str:
-    """The animation of a scene up to its first contact.
+    """Return the animation of a scene up to its first contact.
 
     Args:
         scene: the text of a scene file.
@@ -68,7 +68,7 @@ def picture(scene: str, tiling: str) -> str:
 
 
 def _or_error(answered: Callable[[], dict[str, str]]) -> str:
-    """What the function returns, as JSON; or what stopped it, in one line."""
+    """Return the result of the function as JSON, or the reason of its end in one line."""
     try:
         return json.dumps(answered())
     except InputError as error:

@@ -90,7 +90,7 @@ def convert(
 
     Moving features (OGC MF-JSON: points, lines and polygons that move straight from date to date,
     as MobilityDB writes them too) keep their motions both ways; times are seconds since
-    1970-01-01T00:00:00Z. What they cannot say, such as turning, is refused.
+    1970-01-01T00:00:00Z. Motions that the format cannot represent, such as rotations, are refused.
 
     Numbers in GeoJSON, MF-JSON and WKT are read as exact decimals. Points of an SVG are computed in
     doubles, which are taken at their exact value, and its y-axis is flipped to point up, as in a
@@ -141,7 +141,7 @@ def convert(
 
 
 def _what_touches(scene: Scene) -> list[str]:
-    """A line about the bodies that touch at the start, if there are any."""
+    """Return a line about the bodies that touch at the start, if there are any."""
     from exactpt.pairs.start import initial_touches
 
     try:

@@ -56,7 +56,7 @@ def collide_enclosed(
 
 
 def _check_alone(asked: str) -> None:
-    """Refuse options that do not go together with the one that is asked for."""
+    """Refuse options that cannot be combined with the given one."""
     context = click.get_current_context()
     option = {str(p.name): p.opts[-1] for p in context.command.params}
     for name, written in option.items():

@@ -11,7 +11,7 @@ __all__ = ["names_in", "two_names"]
 
 
 def names_in(text: str, option: str) -> list[str]:
-    """The names in a text, separated by commas; a name may stand in double quotes, as in CSV."""
+    """Return the names in a text, separated by commas and perhaps quoted, as in CSV."""
     try:
         (names,) = csv.reader([text], strict=True)
     except (csv.Error, ValueError):
@@ -20,7 +20,7 @@ def names_in(text: str, option: str) -> list[str]:
 
 
 def two_names(text: str, option: str) -> tuple[str, str]:
-    """The names of two bodies in a text."""
+    """Return the names of two bodies in a text."""
     names = names_in(text, option)
     if len(names) != 2:
         raise InputError(f"{option}: not the names of two bodies: {shorten(text)}")

@@ -50,7 +50,7 @@ class _Rational(_RationalType):
     def convert(
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> QQ:
-        """The exact rational."""
+        """Return the exact rational."""
         try:
             return parse_rational(str(value))
         except InputError as error:
@@ -65,7 +65,7 @@ class _Moment(_MomentType):
     def convert(
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> QQ | Literal["contact"]:
-        """The exact rational, or "contact"."""
+        """Return the exact rational, or "contact"."""
         return "contact" if value == "contact" else RATIONAL.convert(value, param, ctx)
 
 
@@ -77,7 +77,7 @@ class _Seconds(click.FloatRange):
     def convert(
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> float:
-        """The number; NaN, which passes the range check, is refused."""
+        """Return the number; NaN, which passes the range check, is refused."""
         seconds = float(super().convert(value, param, ctx))  # type: ignore[arg-type]
         if math.isnan(seconds):
             self.fail(f"{value!r} is not a time", param, ctx)
@@ -130,13 +130,13 @@ def bounded(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def max_memory() -> int | None:
-    """The maximum memory of the current command in bytes, if one is given."""
+    """Return the maximum memory of the current command in bytes, if one is given."""
     megabytes: int | None = click.get_current_context().meta.get("exactpt.max_memory")
     return None if megabytes is None else megabytes * 10**6
 
 
 def max_bytes() -> int | None:
-    """The maximum size of the input file of the current command, if one is given."""
+    """Return the maximum size of the input file of the current command, if one is given."""
     bound: int | None = click.get_current_context().meta.get("exactpt.max_bytes")
     return bound
 
@@ -154,7 +154,7 @@ def budget(command: Callable[..., Any]) -> Callable[..., Any]:
 def output(
     words: str, *, required: bool = False, default: Path | None = None
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """The option that names the file to write."""
+    """Return the option that names the file to write."""
     names = ("-o", "--out", "--output", "output")
     kind = click.Path(path_type=Path)
     if default is None:
@@ -163,7 +163,7 @@ def output(
 
 
 def typed(*names: str) -> list[str]:
-    """The options of these parameters that were given on the command line, as they are written."""
+    """Return those of these parameters that were given on the command line, as written."""
     context = click.get_current_context()
     source = context.get_parameter_source
     written = {param.name: max(param.opts, key=len) for param in context.command.params}
@@ -172,7 +172,7 @@ def typed(*names: str) -> list[str]:
 
 
 def load(path: Path, until: QQ | None = None, since: QQ | None = None) -> Scene:
-    """The scene of a file; ``until`` and ``since`` shorten its time span."""
+    """Return the scene of a file; ``until`` and ``since`` shorten its time span."""
     from exactpt.scene.scene import Scene
 
     click.get_current_context().meta[SCENE_FILE] = path

@@ -65,7 +65,7 @@ def counting(total: int, label: str, *, quiet: bool = False) -> Iterator[Callabl
 
 @contextmanager
 def estimating(label: str, *, quiet: bool = False) -> Iterator[Callable[[int, int], None]]:
-    """Give the function to call with what is done, and of how much, for a long task.
+    """Return a function that reports how much of a long task is done, of how much.
 
     It shows the share that is done and an estimate of the time left, from the average rate since
     its first call: a bar on a terminal, elsewhere a line every `SECONDS`.
@@ -108,7 +108,7 @@ def estimating(label: str, *, quiet: bool = False) -> Iterator[Callable[[int, in
 
 
 def _in_words(seconds: float) -> str:
-    """A duration, rounded up to seconds, minutes or tenths of hours."""
+    """Return a duration, rounded up to seconds, minutes or tenths of hours."""
     if seconds < 100:
         return f"{ceil(seconds)} s"
     return f"{ceil(seconds / 60)} min" if seconds < 6000 else f"{ceil(seconds / 360) / 10} h"

@@ -30,7 +30,7 @@ def say(*lines: str) -> None:
 def tell(*lines: str) -> None:
     """Print lines on standard error, unprintable characters escaped.
 
-    If they cannot be written, they are lost: the exit code still says what has happened.
+    If they cannot be written, they are lost; the exit code is the same.
     """
     try:
         click.echo("\n".join(map(printable, lines)), err=True)
@@ -40,7 +40,7 @@ def tell(*lines: str) -> None:
 
 
 def is_terminal() -> bool:
-    """Whether standard error is shown on a terminal."""
+    """Return True if standard error is shown on a terminal."""
     try:
         return sys.stderr is not None and sys.stderr.isatty()
     except ValueError:  # closed
@@ -70,7 +70,7 @@ def drop_standard_output() -> None:
 
 
 def drop_unwritten_output() -> None:
-    """Discard what the standard output still holds if it cannot be written, as on a full disk."""
+    """Discard buffered standard output that cannot be written, as on a full disk."""
     try:
         if sys.stdout is not None:
             sys.stdout.flush()

@@ -68,7 +68,7 @@ def tile(
 
 
 def _build(ctx: click.Context, _parameter: click.Parameter, folder: Path | None) -> None:
-    """Build the program and end, before a scene is asked for."""
+    """Build the program and end, before a scene is required."""
     if folder is None or ctx.resilient_parsing:
         return
     from exactpt.cgal import build_program
@@ -80,7 +80,7 @@ def _build(ctx: click.Context, _parameter: click.Parameter, folder: Path | None)
 
 
 def _write_checker(ctx: click.Context, _: click.Parameter, path: Path | None) -> None:
-    """Write the checker of proofs and end, before a scene is asked for."""
+    """Write the checker of proofs and end, before a scene is required."""
     if path is None or ctx.resilient_parsing:
         return
     from exactpt import proof_check
@@ -94,7 +94,7 @@ def _write_checker(ctx: click.Context, _: click.Parameter, path: Path | None) ->
 
 
 def _check_folder(folder: Path, *, quiet: bool, max_seconds: float | None) -> int:
-    """Have both checkers verify the proofs of a run; what they prove has to be the same."""
+    """Have both checkers verify the proofs of a run; their statements must be equal."""
     from exactpt import proof_check
     from exactpt.cgal import check_proofs
 

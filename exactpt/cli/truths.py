@@ -105,7 +105,7 @@ def questions(
 ) -> int:
     """Write questions about two bodies, one line of JSON each: of a family, or of "all".
 
-    They are the same on every machine. Their ids say what they are, so that `exactpt judge` needs
+    They are the same on every machine. Their ids identify them, so that `exactpt judge` needs
     the answers alone.
 
     With --set, write the Exact 2D collision set, version 1, to a new folder: questions of all

@@ -26,7 +26,7 @@ __all__ = [
 
 
 def answer_in_words(scene: Scene, contact: Contact | None, new: str = "") -> list[str]:
-    """The first contact in words: time, kind, and all incidences with their points.
+    """Return the first contact in words: time, kind, and all incidences with their points.
 
     ``new`` is "new " for a contact after the start.
     """
@@ -47,7 +47,7 @@ def answer_in_words(scene: Scene, contact: Contact | None, new: str = "") -> lis
 
 
 def intervals_in_words(scene: Scene, intervals: Sequence[ContactInterval]) -> list[str]:
-    """The intervals in which bodies meet, one line each."""
+    """Return the intervals in which bodies meet, one line each."""
     if not intervals:
         return answer_in_words(scene, None)
     return [
@@ -59,7 +59,7 @@ def intervals_in_words(scene: Scene, intervals: Sequence[ContactInterval]) -> li
 
 
 def bounds_in_words(scene: Scene, found: EnclosedContact | None) -> list[str]:
-    """Bounds of the time of the first contact, and the pairs that may meet first."""
+    """Return bounds of the time of the first contact, and the pairs that may meet first."""
     if found is None:
         return answer_in_words(scene, None)
     pairs = [f"  {name_in_words(a)} and {name_in_words(b)} may meet first" for a, b in found.pairs]
@@ -70,7 +70,7 @@ def bounds_in_words(scene: Scene, found: EnclosedContact | None) -> list[str]:
 
 
 def _when(time: AlgebraicNumber) -> str:
-    """The nearest double, and the exact number."""
+    """Return the nearest double, and the exact number."""
     from exactpt.render.words import polynomial_in_words
 
     root = f"root of {polynomial_in_words(time._polynomial)}"
@@ -78,19 +78,19 @@ def _when(time: AlgebraicNumber) -> str:
 
 
 def name_in_words(name: str) -> str:
-    """A name; quoted and escaped if it contains unprintable characters."""
+    """Return a name; quoted and escaped if it contains unprintable characters."""
     return name if name.isprintable() else shorten(name)
 
 
 def event_in_words(event: Event) -> str:
-    """An event in words: time, kind, and the edges of the tiling that were removed and added."""
+    """Return an event in words: time, kind, removed and added edges of the tiling."""
     changes = [f"-{u}~{v}" for u, v in event.removed] + [f"+{u}~{v}" for u, v in event.added]
     words = [f"t = {float(event.time)!r}", event.kind, *map(name_in_words, changes)]
     return " ".join(words)
 
 
 def stats_in_words(stats: dict[str, object]) -> list[str]:
-    """One line per count."""
+    """Return one line per count."""
     return [
         f"  {key}: {', '.join(f'{k} {v}' for k, v in value.items()) or 'none'}"
         if isinstance(value, dict)

@@ -50,7 +50,7 @@ class Place:
 
     @property
     def is_free(self) -> bool:
-        """Whether no (closed) body contains the point."""
+        """True if no (closed) body contains the point."""
         return self.body is None
 
 

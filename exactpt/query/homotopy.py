@@ -36,7 +36,7 @@ class ShortestPaths:
         self._sleeves = Sleeves(plane)
 
     def path(self, p: Point, q: Point) -> Path:
-        """The shortest path homotopic to one that crosses the fewest diagonals."""
+        """Return the shortest path homotopic to one that crosses the fewest diagonals."""
         if not self._plane.points:
             return _path((p, q), (), 0)
         first, last = self._tile(p), self._tile(q)
@@ -46,7 +46,7 @@ class ShortestPaths:
         return self._tight(p, first, crossed, q)
 
     def shortest(self, p: Point, q: Point) -> Path:
-        """A shortest path; its ends may be on bodies, but not in their interior."""
+        """Return a shortest path; its ends may be on bodies, but not in their interior."""
         ends = [self._ends_of(find(self._plane, point)[0], point) for point in (p, q)]
         if p == q or not self._plane.points:
             return _path((p, q), (), 0)
@@ -60,7 +60,7 @@ class ShortestPaths:
         return self._named(p, bends(way), q, step.crossed)
 
     def shorten(self, points: Sequence[Point]) -> Path:
-        """The shortest path homotopic to a polyline."""
+        """Return the shortest path homotopic to a polyline."""
         if not self._plane.points:
             return _path((points[0], points[-1]), (), 0)
         first = tile = self._tile(points[0])
@@ -76,7 +76,7 @@ class ShortestPaths:
         return FreeTriangles(self._plane, self._sleeves)
 
     def _ends_of(self, spot: Spot, p: Point) -> tuple[Point, Spot, Ends]:
-        """A point, its spot, and the ends of the edge that it is on, for an insertion."""
+        """Return a point, its spot, and the ends of the edge that it is on, for an insertion."""
         plane = self._plane
         if spot.on is On.FACE and spot.handle < OUTSIDE:
             raise _not_free(p, place_of(plane, spot).body)
@@ -85,7 +85,7 @@ class ShortestPaths:
         return p, spot, (plane.map.origin[spot.handle], plane.map.origin[spot.handle ^ 1])
 
     def _tile(self, p: Point) -> int:
-        """A tile that contains a free point, in its interior or on its boundary."""
+        """Return a tile that contains a free point, in its interior or on its boundary."""
         plane = self._plane
         spot, _ = find(plane, p)
         place = place_of(plane, spot)
@@ -96,7 +96,7 @@ class ShortestPaths:
         return spot.handle
 
     def _crossed_along(self, p: Point, tile: int, q: Point) -> list[HalfEdge]:
-        """The half-edges crossed by a free segment from a point p of ``tile`` to q, in order."""
+        """Return the half-edges that a free segment from p in ``tile`` to q crosses, in order."""
         plane = self._plane
         if p == q:
             return []
@@ -127,7 +127,7 @@ class ShortestPaths:
         return self._named(start, nodes, goal, len(crossed))
 
     def _unreachable(self, p: Point, q: Point) -> UnreachableError:
-        """The error that a body with a hole keeps two points apart.
+        """Return the error that a body with a hole keeps two points apart.
 
         Raises:
             AuditError: if no body has a hole.
@@ -138,7 +138,7 @@ class ShortestPaths:
         return UnreachableError(f"{what}: a body is around one of them")
 
     def _named(self, start: Point, nodes: Sequence[VertexId], goal: Point, crossed: int) -> Path:
-        """The path that bends at these nodes."""
+        """Return the path that bends at these nodes."""
         plane = self._plane
         points = (start, *(plane.points[v] for v in nodes), goal)
         return _path(points, tuple(plane.node_name(v) for v in nodes), crossed)
@@ -149,5 +149,5 @@ def _not_free(p: Point, body: str | None) -> InputError:
 
 
 def _path(points: Iterable[Point], bends: tuple[VertexName, ...], crossed: int) -> Path:
-    """A path with coordinates as `Fraction`."""
+    """Return a path with coordinates as `Fraction`."""
     return Path(tuple(map(place, points)), bends, crossed)

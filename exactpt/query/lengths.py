@@ -15,7 +15,7 @@ __all__ = ["Length", "squared_distance"]
 
 
 def squared_distance(p: Point, q: Point) -> QQ:
-    """The square of the Euclidean distance."""
+    """Return the square of the Euclidean distance."""
     x, y = q[0] - p[0], q[1] - p[1]
     return x * x + y * y
 

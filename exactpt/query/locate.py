@@ -43,7 +43,7 @@ def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
 
 
 def place_of(plane: Subdivision, spot: Spot, crossed: int = 0) -> Place:
-    """The location of a spot in terms of the scene's bodies."""
+    """Return the location of a spot in terms of the scene's bodies."""
     handle = spot.handle
     if spot.on is On.NODE:
         body, vertex = plane.node_name(handle)
@@ -82,10 +82,10 @@ def _node_of(plane: Subdivision, spot: Spot) -> i64:
 def cast(
     plane: Subdivision, origin: Point, direction: Point, limit: QQ | None = None
 ) -> Hit | None:
-    """The first point of a ray that belongs to a body; None if there is none up to ``limit``.
+    """Return the first point of a ray in a body; None if there is none up to ``limit``.
 
     Every node belongs to a body, so a ray can only cross the interior of a diagonal without
-    hitting a body. ``limit`` is a parameter of the ray; None is no limit.
+    hitting a body. ``limit`` is a parameter of the ray, or None.
     """
     spot, _ = find(plane, origin)
     place = place_of(plane, spot)

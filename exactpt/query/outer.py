@@ -31,19 +31,19 @@ class OuterRectangle(NamedTuple):
 
     @classmethod
     def of(cls, snapshot: Snapshot) -> OuterRectangle:
-        """The series for a tiling of at least one body."""
+        """Return the series for a tiling of at least one body."""
         xs, ys = [node._x for node in snapshot.nodes], [node._y for node in snapshot.nodes]
         return cls(min(xs), max(xs), min(ys), max(ys))
 
     def corners(self, count: int) -> list[Point]:
-        """The corners after ``count`` doublings, counter-clockwise from the lower left."""
+        """Return the corners after ``count`` doublings, counter-clockwise from the lower left."""
         left, right, low, high = self
         margin = (right - left + high - low + 1) * power_of_two(count)
         left, right, low, high = left - margin, right + margin, low - margin, high + margin
         return [(left, low), (right, low), (right, high), (left, high)]
 
     def doublings(self, points: Sequence[Point]) -> int:
-        """The number of doublings after which all points are strictly inside."""
+        """Return the number of doublings after which all points are strictly inside."""
         count = 0
         while True:
             (left, low), _, (right, high), _ = self.corners(count)
@@ -55,7 +55,7 @@ class OuterRectangle(NamedTuple):
 def with_outer_triangulation(
     snapshot: Snapshot, hull: Sequence[int], corners: Sequence[Point]
 ) -> Snapshot:
-    """The tiling with the region between its convex hull and a rectangle triangulated.
+    """Return the tiling with the region between its convex hull and a rectangle triangulated.
 
     Args:
         snapshot: a tiling of at least one body.

@@ -50,7 +50,7 @@ class Step:
         return self._total < other._total
 
     def nodes(self) -> list[VertexId]:
-        """The nodes of the path, from its start to here."""
+        """Return the nodes of the path, from its start to here."""
         nodes = []
         step: Step | None = self
         while step is not None:
@@ -60,7 +60,7 @@ class Step:
 
 
 def last_step(free: FreeTriangles, start: VertexId, goal: VertexId) -> Step | None:
-    """The last step of a shortest path from a node to another; None if there is none."""
+    """Return the last step of a shortest path from a node to another; None if there is none."""
     points = free.points
     target = points[goal]
     far = Length(None, squared_distance(points[start], target))
@@ -89,7 +89,7 @@ def last_step(free: FreeTriangles, start: VertexId, goal: VertexId) -> Step | No
 
 
 def _leads_on(free: FreeTriangles, step: Step, corner: Corner, goal: VertexId) -> bool:
-    """Whether a shortest path may go on from a step to a corner."""
+    """Return True if a shortest path may go on from a step to a corner."""
     there = corner[0]
     if there != goal and not free.may_pass(step.corner[0], corner):
         return False

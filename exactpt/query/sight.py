@@ -1,11 +1,11 @@
-"""What is seen from a vertex: the triangulated free space, and sight from triangle to triangle.
+"""Visibility from a vertex: the triangulated free space, and sight from triangle to triangle.
 
 From a vertex, the open cone between the two other corners of a triangle is followed across the edge
 between them; each triangle behind it splits the cone, or narrows it. A vertex within an open
 cone is seen. One on the border of a cone is hidden by the vertex before it, and seen from that one.
 
 A path may touch bodies, but not cross them: at a vertex of an open chain it stays on the side from
-which it came. So places at a vertex are told apart: a `Corner` is a maximal part of the free space
+which it came. So a vertex may have several places: a `Corner` is a maximal part of the free space
 around a vertex between two edges of bodies, the walls.
 
 Source: F. Bungiu, M. Hemmer, J. Hershberger, K. Huang, A. Kröller, *Efficient computation of
@@ -43,7 +43,7 @@ class FreeTriangles:
     """The triangulated tiles of a subdivision, into which points can be inserted.
 
     Args:
-        plane: a subdivision; what is outside its hull is not free.
+        plane: a subdivision; points outside its hull are not free.
         sleeves: its triangulated tiles.
     """
 
@@ -65,7 +65,7 @@ class FreeTriangles:
         self._added.clear()
 
     def __copy__(self) -> FreeTriangles:
-        """An independent copy, for insertions."""
+        """Return an independent copy, for insertions."""
         other = FreeTriangles.__new__(FreeTriangles)
         other.__dict__.update(self.__dict__)
         other.points, other._apex = self.points.copy(), self._apex.copy()  # noqa: SLF001
@@ -75,7 +75,7 @@ class FreeTriangles:
     # Insertion
 
     def inserted(self, p: Point, spot: Spot, ends: Ends) -> VertexId:
-        """The node of a point that no body has in its interior; a new one if need be.
+        """Return the node of a point that no body has in its interior; a new one if need be.
 
         Args:
             p: the point.
@@ -101,7 +101,7 @@ class FreeTriangles:
         return node
 
     def _holding(self, triangles: Sequence[Triangle], p: Point) -> Triangle:
-        """The triangle, of those that still exist, that contains a point."""
+        """Return the triangle, of those that still exist, that contains a point."""
         for a, b, c in triangles:
             if self._apex.get((a, b)) == c:
                 x, y, z = (self.points[v] for v in (a, b, c))
@@ -127,11 +127,11 @@ class FreeTriangles:
     # Corners
 
     def corners_at(self, node: VertexId) -> list[Corner]:
-        """All corners at a node."""
+        """Return all corners at a node."""
         return sorted({self._corner(u, v) for u, v in self._apex if u == node})
 
     def _corner(self, node: VertexId, a: VertexId) -> Corner:
-        """The corner that has the triangle on the left of the edge from a node to a."""
+        """Return the corner that has the triangle on the left of the edge from a node to a."""
         around = [a]
         while (node, a) not in self._walls:
             a = self._apex[a, node]  # clockwise
@@ -141,7 +141,7 @@ class FreeTriangles:
         return node, a
 
     def _fan(self, corner: Corner) -> Iterator[Ends]:
-        """The edges opposite to a corner, in the triangles around it, counter-clockwise."""
+        """Yield the edges opposite to a corner, in the triangles around it, counter-clockwise."""
         node, a = corner
         while True:
             b = self._apex[node, a]
@@ -151,14 +151,14 @@ class FreeTriangles:
             a = b
 
     def walls(self, corner: Corner) -> tuple[VertexId, ...]:
-        """The other ends of the walls of a corner: none, or the first and the last."""
+        """Return the other ends of the walls of a corner: none, or the first and the last."""
         if corner not in self._walls:
             return ()
         *_, (_, last) = self._fan(corner)
         return corner[1], last
 
     def may_pass(self, before: VertexId, corner: Corner) -> bool:
-        """Whether a shortest path from a node may go on beyond a corner.
+        """Return True if a shortest path from a node may go on beyond a corner.
 
         Not where the free space has an angle less than pi, and not where the walls are on both
         sides of the straight line: there it would be shortened, or cross a wall.
@@ -170,7 +170,7 @@ class FreeTriangles:
         return side(here, *ends) <= 0 and side(p, here, ends[0]) * side(p, here, ends[1]) >= 0
 
     def is_taut(self, before: VertexId, corner: Corner, after: VertexId) -> bool:
-        """Whether a path is straight at a corner, or bends around its walls."""
+        """Return True if a path is straight at a corner, or bends around its walls."""
         p, here, q = (self.points[v] for v in (before, corner[0], after))
         turn = side(p, here, q)
         if turn == 0:
@@ -184,7 +184,7 @@ class FreeTriangles:
     # Sight
 
     def seen(self, corner: Corner) -> Iterator[Seen]:
-        """The corners that are seen from a corner: on each ray the first vertex."""
+        """Yield the corners that are seen from a corner: on each ray the first vertex."""
         node, first = corner
         eye = self.points[node]
         yield Seen(self._corner(first, self._apex[node, first]), 0)

@@ -40,7 +40,7 @@ class Sleeves:
         self._tiles: dict[int, list[Triangle]] = {}
 
     def dual_path(self, start: int, goal: int) -> list[HalfEdge] | None:
-        """A shortest path in the dual graph: the fewest diagonals to cross between two tiles.
+        """Return a shortest path in the dual graph: the fewest diagonals between two tiles.
 
         Returns:
             The half-edges of the diagonals in order, each on the side of the tile that is left;
@@ -68,7 +68,7 @@ class Sleeves:
     def portals(
         self, start: Point, tile: int, crossed: Sequence[HalfEdge], goal: Point
     ) -> list[Portal]:
-        """The portals from ``start`` in ``tile`` across half-edges ``crossed`` to ``goal``."""
+        """Return the portals from ``start`` in ``tile`` across ``crossed`` to ``goal``."""
         plane, origin = self._plane, self._plane.map.origin
         portals: list[Portal] = []
         here = self._triangle_of(tile, start)
@@ -81,7 +81,7 @@ class Sleeves:
         return portals + self._between(tile, here, self._triangle_of(tile, goal))
 
     def triangles(self, tile: int) -> list[Triangle]:
-        """The triangles of a tile, counter-clockwise."""
+        """Return the triangles of a tile, counter-clockwise."""
         known = self._tiles.get(tile)
         if known is None:
             m = self._plane.map
@@ -104,7 +104,7 @@ class Sleeves:
         raise AuditError(f"no triangle of tile {tile} has the edge from {u} to {v}")
 
     def _between(self, tile: int, start: int, goal: int) -> list[Portal]:
-        """The portals between two triangles of a tile."""
+        """Return the portals between two triangles of a tile."""
         triangles = self.triangles(tile)
         owner = {
             edge: i for i, (a, b, c) in enumerate(triangles) for edge in ((a, b), (b, c), (c, a))
@@ -127,7 +127,7 @@ class Sleeves:
 
 
 def triangulated(cycle: Sequence[Index], points: list[Point]) -> list[tuple[Index, Index, Index]]:
-    """A triangulation of a simple polygon, given counter-clockwise, by ear clipping.
+    """Return a triangulation of a simple polygon, given counter-clockwise, by ear clipping.
 
     The boundary may touch itself at vertices and along edges. Vertices with an angle of pi are
     kept: no triangle has a vertex in the interior of one of its edges. O(n^2) in a tile of n
@@ -165,7 +165,7 @@ def _is_ear(nodes: Sequence[Index], a: Index, b: Index, c: Index, points: list[P
 def pull_tight(
     start: Point, goal: Point, portals: Sequence[Portal], points: list[Point]
 ) -> list[VertexId]:
-    """The nodes at which the shortest path through portals bends, in order.
+    """Return the nodes at which the shortest path through portals bends, in order.
 
     The funnel algorithm. Nodes that the path passes straight on are left out.
     """
@@ -199,7 +199,7 @@ def pull_tight(
 
 
 def _opens(apex: Point, left: Point, right: Point) -> bool:
-    """Whether ``right`` is to the right of ``left`` as seen from the apex.
+    """Return True if ``right`` is to the right of ``left`` as seen from the apex.
 
     Opposite directions count as well: the apex is then on the portal.
     """
@@ -216,7 +216,7 @@ def _stops_short(apex: Point, end: Point, near: Point) -> bool:
 
 
 def bends(path: Sequence[tuple[Point, VertexId]]) -> list[VertexId]:
-    """The nodes, if not -1, at which a path turns, its start and its goal left out."""
+    """Return the nodes, if not -1, at which a path turns, its start and its goal left out."""
     kept: list[tuple[Point, VertexId]] = []
     for p, node in path:
         if kept and kept[-1][0] == p:

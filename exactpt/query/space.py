@@ -66,7 +66,7 @@ class FreeSpace:
         self._node = kinetic.vertices.nodes()
         self._bodies = [moving.body for moving in kinetic.vertices.bodies]
         self._mesh: Mesh = kinetic.mesh_now(at)
-        # What the mesh knows of relative hulls changes as the run goes on: it is read now.
+        # The relative hulls of the mesh change as the run goes on: they are read now.
         self._relative_hulls = self._mesh.relative_hulls()
         self._at = at
         self._wide: dict[int, ShortestPaths] = {}
@@ -94,7 +94,7 @@ class FreeSpace:
     # Places and rays
 
     def locate(self, point: PointLike) -> Place:
-        """The location of a point: a tile, a diagonal, a body, an edge, a vertex, or outside."""
+        """Return the location of a point: tile, diagonal, body, edge, vertex, or outside."""
         spot, crossed = find(self._plane, _point(point))
         return place_of(self._plane, spot, crossed)
 
@@ -105,7 +105,7 @@ class FreeSpace:
             points: finite doubles of shape (n, 2), exactly as they are.
 
         Raises:
-            InputError: if the shape is another one, or a coordinate is not finite.
+            InputError: if the shape is not (n, 2), or a coordinate is not finite.
         """
         plane = self._plane
         given = np.asarray(points, dtype=np.float64)
@@ -122,7 +122,7 @@ class FreeSpace:
         return Located(kind, owner, feature)
 
     def ray_cast(self, origin: PointLike, direction: PointLike) -> Hit | None:
-        """The first point of a ray that belongs to a body; None if there is none.
+        """Return the first point of a ray that belongs to a body; None if there is none.
 
         Raises:
             InputError: if the direction is (0, 0).
@@ -133,7 +133,7 @@ class FreeSpace:
         return cast(self._plane, start, along)
 
     def is_free(self, p: PointLike, q: PointLike) -> bool:
-        """Whether no body meets the closed segment from p to q."""
+        """Return True if no body intersects the closed segment from p to q."""
         start, end = _point(p), _point(q)
         if start == end:
             return self.locate(start).is_free
@@ -142,20 +142,20 @@ class FreeSpace:
     # Paths
 
     def path(self, start: PointLike, goal: PointLike) -> Path:
-        """The shortest path of the homotopy class of one that crosses the fewest diagonals.
+        """Return the shortest path of the homotopy class of one that crosses the fewest diagonals.
 
         Another homotopy class may contain a shorter path: see `shortest_path`. Free points are
         connected, if need be around the convex hull, unless one is in a hole of a body.
 
         Raises:
             InputError: if one of the points is not free.
-            UnreachableError: if one of them is in a hole, and the other one is not in it too.
+            UnreachableError: if one of them is in a hole, and the other is not in the same hole.
         """
         p, q = _point(start), _point(goal)
         return self._paths((p, q)).path(p, q)
 
     def shortest_path(self, start: PointLike, goal: PointLike) -> Path:
-        """A shortest path of all; it may touch bodies, but not cross them.
+        """Return a shortest path of all; it may touch bodies, but not cross them.
 
         Lengths are compared exactly; of equally short paths it is always the same one. It takes
         longer than `path`: the search looks around from each vertex that it reaches.
@@ -173,13 +173,13 @@ class FreeSpace:
         return self._paths((p, q)).shortest(p, q)
 
     def shorten(self, walk: Sequence[PointLike]) -> Path:
-        """The shortest path homotopic to a polyline, with the same ends.
+        """Return the shortest path homotopic to a polyline, with the same ends.
 
         Args:
             walk: the vertices of a polyline in free space, at least one.
 
         Raises:
-            InputError: if the polyline meets a body.
+            InputError: if the polyline intersects a body.
         """
         points = [_point(p) for p in walk]
         if not points:
@@ -187,7 +187,7 @@ class FreeSpace:
         return self._paths(points).shorten(points)
 
     def _paths(self, points: Sequence[Point]) -> ShortestPaths:
-        """The path finder in the smallest outer rectangle that contains the points."""
+        """Return the path finder in the smallest outer rectangle that contains the points."""
         plane = self._plane
         count = self._around.doublings(points) if plane.points else 0
         if count not in self._wide:
@@ -205,7 +205,7 @@ class FreeSpace:
     # Bodies
 
     def hull(self) -> list[VertexName]:
-        """The vertices on the convex hull of all bodies, counter-clockwise.
+        """Return the vertices on the convex hull of all bodies, counter-clockwise.
 
         Vertices in the interior of a hull edge are included. A hull without area is traversed in
         both directions.
@@ -222,7 +222,7 @@ class FreeSpace:
         return cycle[least:] + cycle[:least]
 
     def relative_hull(self, body: str) -> list[VertexName]:
-        """The vertices of the shortest loop around this body and no other, counter-clockwise.
+        """Return the vertices of the shortest loop around this body alone, counter-clockwise.
 
         Bodies in its holes are in the loop too. The mixed tiling contains it; with any other
         tiling a mixed tiling is built here.
@@ -253,7 +253,7 @@ class FreeSpace:
         return relative_hulls(PredicatesAt(self._vertices, self._at, after=False))
 
     def neighbours(self, body: str) -> list[str]:
-        """The bodies connected to a body by a diagonal, in the order of the scene.
+        """Return the bodies connected to a body by a diagonal, in the order of the scene.
 
         The next body to touch this one is among them at the time of contact: a vertex that is
         about to meet an edge is joined to an end of it.

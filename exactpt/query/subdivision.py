@@ -31,7 +31,7 @@ OUTSIDE: Final = -1
 
 
 def cross(u: Point, v: Point) -> QQ:
-    """The cross product of two vectors: positive if v is to the left of u."""
+    """Return the cross product of two vectors: positive if v is to the left of u."""
     return u[0] * v[1] - u[1] * v[0]
 
 
@@ -88,17 +88,17 @@ class Subdivision:
         self._name_faces(bodies)
 
     def direction(self, h: HalfEdge) -> Point:
-        """The vector from the origin of a half-edge to its target."""
+        """Return the vector from the origin of a half-edge to its target."""
         (a, b), (c, d) = self.points[self.map.origin[h]], self.points[self.map.origin[h ^ 1]]
         return c - a, d - b
 
     def edge_number(self, h: HalfEdge) -> int:
-        """The number of the edge of a body that a half-edge belongs to."""
+        """Return the number of the edge of a body that a half-edge belongs to."""
         u, v = sorted((self.map.origin[h], self.map.origin[h ^ 1]))
         return (u if v == u + 1 else v) - self.first[self.body[u]]
 
     def node_name(self, node: i64) -> tuple[str, int]:
-        """The name of the body and the number of the vertex of a node."""
+        """Return the name of the body and the number of the vertex of a node."""
         body = self.body[node]
         return self.names[body], node - self.first[body]
 
@@ -147,7 +147,7 @@ class Subdivision:
                 self.cycles.setdefault(face, []).append(h)
 
     def _inner_edges(self, i: int, body: Body) -> Iterator[tuple[int, int]]:
-        """The edges of a closed body, directed so that its interior is on their left."""
+        """Yield the edges of a closed body, directed so that its interior is on their left."""
         for rings in body.parts:
             for k, ring in enumerate(rings):
                 nodes = [self.first[i] + vertex for vertex in ring]

@@ -108,12 +108,12 @@ class Ray:
         return sign(dx * (y - oy) - dy * (x - ox))
 
     def reaches(self, node: VertexId) -> QQ:
-        """The parameter of a node on the line of the ray."""
+        """Return the parameter of a node on the line of the ray."""
         (x, y), (ox, oy), (dx, dy) = self._points[node], self.origin, self.direction
         return ((x - ox) * dx + (y - oy) * dy) / self._norm
 
     def crosses(self, u: VertexId, v: VertexId) -> QQ:
-        """The parameter at which the line of the ray crosses the edge from u to v."""
+        """Return the parameter at which the line of the ray crosses the edge from u to v."""
         a, b = self._points[u], self._points[v]
         along = b[0] - a[0], b[1] - a[1]
         return cross((a[0] - self.origin[0], a[1] - self.origin[1]), along) / cross(
@@ -121,7 +121,7 @@ class Ray:
         )
 
     def point(self, at: QQ) -> Point:
-        """The point with parameter ``at``."""
+        """Return the point with parameter ``at``."""
         return (
             self.origin[0] + at * self.direction[0],
             self.origin[1] + at * self.direction[1],
@@ -129,12 +129,12 @@ class Ray:
 
 
 def next_step(plane: Subdivision, ray: Ray, spot: Spot, at: QQ) -> RayStep:
-    """The step of a ray that starts at a spot with parameter ``at``."""
+    """Return the step of a ray that starts at a spot with parameter ``at``."""
     if spot.on is On.FACE:
         return _through_face(plane, ray, spot.handle, at)
     if spot.on is On.EDGE:
         h = HalfEdge(spot.handle)
-        # The ray has a point of the edge, from which its target is where `side` says.
+        # The ray has a point of the edge, whose target is on the side `side` of it.
         turn = -ray.side(plane.map.target(h))
         if turn == 0:
             return _along(plane, ray, h if _ahead(plane, ray, h) else twin(h))
@@ -147,7 +147,7 @@ def next_step(plane: Subdivision, ray: Ray, spot: Spot, at: QQ) -> RayStep:
 
 
 def _ahead(plane: Subdivision, ray: Ray, h: HalfEdge) -> bool:
-    """Whether a half-edge on the line of the ray has the direction of the ray."""
+    """Return True if a half-edge on the line of the ray has the direction of the ray."""
     (x, y), (dx, dy) = plane.direction(h), ray.direction
     return x * dx + y * dy > 0
 
@@ -158,7 +158,7 @@ def _along(plane: Subdivision, ray: Ray, h: HalfEdge) -> RayStep:
 
 
 def _sector(plane: Subdivision, ray: Ray, node: VertexId) -> tuple[HalfEdge, bool]:
-    """The half-edge out of a node whose sector contains the direction; whether it is along it.
+    """Return the half-edge whose sector contains the direction, and if it is parallel.
 
     The sector of h lies between h and the next half-edge counter-clockwise: the corner of the
     face on the left of h.
@@ -185,7 +185,7 @@ def _is_below_pi(plane: Subdivision, h: HalfEdge, g: HalfEdge) -> bool:
 def _through_face(
     plane: Subdivision, ray: Ray, face: int, at: QQ, entry: HalfEdge = NO_HALF_EDGE
 ) -> RayStep:
-    """The step through a face from a parameter on, at which it may be on an edge, the entry."""
+    """Return the step through a face from a parameter on, perhaps from its entry edge."""
     m = plane.map
     best: QQ | None = None
     end: Spot | None = None

@@ -1,4 +1,4 @@
-"""Bodies in numpy arrays: each becomes a `Body` when somebody asks for it."""
+"""Bodies in numpy arrays: each becomes a `Body` on first access."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ class BodyArrays(Sequence[Body]):
         return self._made[k]
 
     def make(self, k: int) -> Body:
-        """A body that is not kept."""
+        """Return a body that is not kept."""
         rows = self.vertices[self.offsets[k] : self.offsets[k + 1]].tolist()
         x, y = self.coefficients[k].tolist()
         motion: Motion = Translation(x, y) if any((*x, *y)) else REST
@@ -92,11 +92,11 @@ class BodyArrays(Sequence[Body]):
         return Body(self.name(k), rows, motion, closed=bool(self.closed[k]), radius=radius)
 
     def name(self, k: int) -> str:
-        """The name of a body."""
+        """Return the name of a body."""
         return str(k) if self._names is None else self._names[k]
 
     def named(self, name: str) -> int | None:
-        """The number of the body of this name; None if there is none."""
+        """Return the number of the body of this name; None if there is none."""
         names = map(str, range(len(self))) if self._names is None else self._names
         return next((k for k, known in enumerate(names) if known == name), None)
 
@@ -106,7 +106,7 @@ class BodyArrays(Sequence[Body]):
         return len(self.vertices)
 
     def doubtful(self, some: Indices | None = None, rounded: Floats | None = None) -> list[int]:
-        """The bodies, all or of some, that the filter does not find simple.
+        """Return the bodies, all or of some, that the filter does not find simple.
 
         If coordinates are the doubles nearest to the exact ones, ``rounded`` bounds the errors of
         each body.

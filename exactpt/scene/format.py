@@ -53,7 +53,7 @@ def load(path: Path, max_bytes: int | None = None) -> Scene:
 
 
 def loads(text: str) -> Scene:
-    """The scene in a JSON text.
+    """Return the scene in a JSON text.
 
     Raises:
         InputError: one line that names the body, the key and the value.
@@ -65,7 +65,7 @@ def loads(text: str) -> Scene:
 
 
 def from_json(data: Mapping[str, object]) -> Scene:
-    """The scene in JSON data.
+    """Return the scene in JSON data.
 
     Raises:
         InputError: one line that names the body, the key and the value.
@@ -133,7 +133,7 @@ def _holes(data: dict[str, Json], where: str) -> list[list[Position]]:
 
 
 def _ring(data: Json, where: str, of: str, *, closed: bool = True) -> list[Position]:
-    """The vertices of a ring, named ``where``; each is a vertex ``of`` something."""
+    """Return the vertices of a ring, named ``where``; each is a vertex ``of`` something."""
     rows = a_list(data, where)
     if not rows:
         raise InputError(f"{where}: at least one vertex is needed")

@@ -121,5 +121,5 @@ EVERY: Final[dict[str, Family]] = {**FAMILIES, **POINTS, **ROUNDED, **RINGS, **S
 
 
 def generate(family: str, seed: int) -> Scene:
-    """The scene of a family with this seed."""
+    """Return the scene of a family with this seed."""
     return EVERY[family](Random(f"{family}:{seed}"))

@@ -45,7 +45,7 @@ Json: TypeAlias = "bool | str | list[Json] | dict[str, Json] | None"
 
 
 def parse_json(text: str) -> Json:
-    """The value of a JSON text, numbers as they are written.
+    """Return the value of a JSON text, numbers as they are written.
 
     Raises:
         InputError: if it is not JSON, repeats a key, or is nested too deeply.
@@ -76,7 +76,7 @@ def _unique_keys(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
 
 
 def exact_number(data: Json, where: str) -> QQ:
-    """The rational that a number or a string denotes.
+    """Return the rational that a number or a string denotes.
 
     Raises:
         InputError: if it is not a rational, or has more than `MOST_DIGITS`.
@@ -93,12 +93,12 @@ def exact_number(data: Json, where: str) -> QQ:
 
 
 def is_too_long(value: QQ) -> bool:
-    """Whether a number has more than `MOST_DIGITS`."""
+    """Return True if a number has more than `MOST_DIGITS`."""
     return max(value.numerator.bit_length(), value.denominator.bit_length()) > MOST_BITS
 
 
 def a_list(data: Json, where: str, length: int | None = None) -> list[Json]:
-    """The entries of a list, of this length if one is given.
+    """Return the entries of a list, of this length if one is given.
 
     Raises:
         InputError: if it is not such a list.
@@ -116,7 +116,7 @@ def an_object(
     required: Iterable[str] = (),
     optional: Iterable[str] = (),
 ) -> dict[str, Json]:
-    """An object with all of the required keys, and no others but the optional ones.
+    """Return an object with all of the required keys, and no others but the optional ones.
 
     Raises:
         InputError: if it is not such an object.
@@ -135,7 +135,7 @@ def an_object(
 
 
 def shown(data: Json) -> str:
-    """A value as text for a message, short and on one line."""
+    """Return a value as text for a message, short and on one line."""
     if isinstance(data, (Number, bool)) or data is None:
         return shorten(str(data) if isinstance(data, Number) else json.dumps(data))[1:-1]
     return shorten(json.loads(json.dumps(data)) if isinstance(data, (list, dict)) else data)

@@ -30,7 +30,7 @@ class Scene:
 
     Attributes:
         bodies: in the order of the file; names are unique. A tuple, or a sequence that makes
-            each body when it is asked for (`from_arrays`).
+            each body on first access (`from_arrays`).
 
     Raises:
         InputError: if a name repeats, the end is not after the start, or a polygon or
@@ -67,7 +67,7 @@ class Scene:
         radii: ArrayLike = 0.0,
         time: Sequence[Rational] = (0, 1),
     ) -> Scene:
-        """The scene of bodies in numpy arrays, with the exact values of their doubles.
+        """Return the scene of bodies in numpy arrays, with the exact values of their doubles.
 
         >>> corners = [(0, 0), (2, 0), (0, 2), (5, 1)]
         >>> scene = Scene.from_arrays(corners, [0, 3, 4], velocities=[(0, 0), (-1, 0)])
@@ -75,7 +75,7 @@ class Scene:
         <Body '1': point of 1 vertices>
 
         Polygons and chains are validated at once, in numpy where its bounds allow it. A body,
-        and the rationals of its vertices, is made when somebody asks for it.
+        and the rationals of its vertices, is made on first access.
 
         Args:
             vertices: shape (N, 2), the vertices of all bodies.
@@ -139,7 +139,7 @@ class Scene:
 
     @classmethod
     def from_json(cls, data: Mapping[str, object]) -> Scene:
-        """The scene in JSON data, as from `to_json`; see docs/format.md.
+        """Return the scene in JSON data, as from `to_json`; see docs/format.md.
 
         A float counts as the decimal that Python prints for it, as in a file.
 
@@ -150,7 +150,7 @@ class Scene:
         return scene
 
     def to_json(self) -> dict[str, object]:
-        """The scene as data for ``json.dump``, exact: what `save` writes.
+        """Return the scene as data for ``json.dump``, exact: what `save` writes.
 
         Raises:
             InputError: see `save`.
@@ -160,7 +160,7 @@ class Scene:
         return to_json(self)
 
     def body(self, name: str) -> Body:
-        """The body of this name.
+        """Return the body of this name.
 
         Raises:
             InputError: if there is none.
@@ -210,7 +210,7 @@ class Scene:
     def at(
         self, t: Rational | AlgebraicNumber, digits: int | None = None
     ) -> dict[str, list[tuple[Fraction, Fraction]]] | dict[str, list[tuple[Decimal, Decimal]]]:
-        """The positions of the vertices of every body at a time, by name; see `Body.at`.
+        """Return the positions of the vertices of every body at a time, by name; see `Body.at`.
 
         Args:
             t: the time; without ``digits``, a rational one.
@@ -233,7 +233,7 @@ class Scene:
         parts: Literal["keep", "split"] = "keep",
         radius: Rational = 0,
     ) -> Scene:
-        """The scene of shapely geometries, at rest.
+        """Return the scene of shapely geometries, at rest.
 
         A MultiPolygon is one body; of other geometries, each part is.
 
@@ -251,7 +251,7 @@ class Scene:
         return scene
 
     def to_shapely(self, t: Rational, *, tolerance: float | None = None) -> dict[str, BaseGeometry]:
-        """The bodies at a rational time as shapely geometries, by name.
+        """Return the bodies at a rational time as shapely geometries, by name.
 
         Coordinates are the nearest doubles. A rounded body becomes a polygon of chords, by
         shapely's buffer, which also fills dents shallower than a hundredth of the radius.
@@ -269,7 +269,7 @@ class Scene:
         return geometries
 
     def until(self, end: Rational) -> Scene:
-        """The scene up to an earlier end; a later end changes nothing.
+        """Return the scene up to an earlier end; a later end changes nothing.
 
         Raises:
             InputError: if the end is not after the start.
@@ -282,7 +282,7 @@ class Scene:
         return scene_of(self.bodies, self._start, last)
 
     def since(self, start: Rational) -> Scene:
-        """The scene from a later start on; an earlier start changes nothing.
+        """Return the scene from a later start on; an earlier start changes nothing.
 
         Raises:
             InputError: if the start is not before the end, or a polygon or chain is not simple
@@ -298,7 +298,7 @@ class Scene:
         return scene_of(self.bodies, first, self._end)
 
     def going_on(self, bodies: Iterable[Body], start: QQ) -> Scene:
-        """The scene from a later start on, with bodies already known to be valid then."""
+        """Return the scene from a later start on, at which its bodies are known to be valid."""
         return scene_of(tuple(bodies), start, self._end)
 
     @property
@@ -310,13 +310,13 @@ class Scene:
 
     @property
     def is_rounded(self) -> bool:
-        """Whether a body has a radius."""
+        """True if a body has a radius."""
         if isinstance(self.bodies, BodyArrays):
             return bool(self.bodies.radii.any())
         return any(body._radius for body in self.bodies)
 
     def __eq__(self, other: object) -> bool:
-        """Whether the bodies, in order, and the time spans are equal."""
+        """Return True if the bodies, in order, and the time spans are equal."""
         if not isinstance(other, Scene):
             return NotImplemented
         return (self.bodies, self._start, self._end) == (other.bodies, other._start, other._end)
@@ -350,7 +350,7 @@ class Scene:
                 picture is of this plot alone.
 
         Raises:
-            InputError: if the suffix is another one, a library is missing, or there is no contact
+            InputError: if the suffix is unknown, a library is missing, or there is no contact
                 or body to draw.
             TimeRangeError: if there is nothing to draw at that time.
         """
@@ -360,12 +360,12 @@ class Scene:
         )
 
     def _repr_html_(self) -> str | None:
-        """The animation up to the first contact, for notebooks; None if that would take long."""
+        """Return the animation up to the first contact, for notebooks; None if it takes long."""
         player: str | None = extension("player of a scene")(self)
         return player
 
     def _repr_svg_(self) -> str:
-        """The bodies at the start as SVG, for notebooks."""
+        """Return the bodies at the start as SVG, for notebooks."""
         return str(extension("picture of a scene")(self))
 
     def __repr__(self) -> str:
@@ -376,7 +376,7 @@ class Scene:
 
 
 def scene_of(bodies: Sequence[Body], start: QQ, end: QQ) -> Scene:
-    """The scene of bodies that are known to be valid."""
+    """Return the scene of bodies that are known to be valid."""
     scene = Scene.__new__(Scene)
     scene.bodies, scene._start, scene._end = bodies, start, end
     return scene
@@ -396,7 +396,7 @@ def a_scene(value: object) -> Scene:
 
 
 def _valid_scene(bodies: Sequence[Body], start: str, end: str) -> Scene:
-    """The scene of a pickle, which was validated before."""
+    """Return the scene of a pickle, which was validated before."""
     return scene_of(bodies, rational(start), rational(end))
 
 

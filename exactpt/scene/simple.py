@@ -20,7 +20,7 @@ def check_simple(body: Body, start: QQ) -> None:
     """Check that a body is a simple polygon or chain at the start of a scene.
 
     If it has several rings, each is simple and disjoint from all others, each hole is inside of
-    its outline and of no other hole, and no part is inside of another one.
+    its outline and of no other hole, and no part is inside another part.
 
     Raises:
         InputError: if it is not.
@@ -70,7 +70,7 @@ def _check_nesting(body: Body, points: Sequence[Point], start: QQ) -> None:
     rings = [ring for rings in body.parts for ring in rings]
     parts = [k for k, rings in enumerate(body.parts) for _ in rings]
     outlines = [k for k, part in enumerate(parts) if k == 0 or parts[k - 1] != part]
-    # A ring is inside of another one only if their boxes, rounded outward, intersect.
+    # A ring is inside another ring only if their boxes, rounded outward, intersect.
     near: list[list[int]] = [[] for _ in rings]
     for first, second in overlapping_pairs(
         boxes_of_points([points[ring.start : ring.stop] for ring in rings])

@@ -44,7 +44,7 @@ def _coefficients(f: Polynomial) -> list[str]:
 
 
 def to_json(scene: Scene) -> dict[str, object]:
-    """The scene as JSON data, rationals as ``"p/q"``; `loads` gives the same scene back.
+    """Return the scene as JSON data, rationals as ``"p/q"``; `loads` gives the same scene back.
 
     Raises:
         InputError: if it has a number or a custom motion that files cannot hold.

@@ -23,7 +23,7 @@ PATTERNS = {
     "'then' at the end of a clause: at that time": r"\bthen[.;,]|\bthen$",
     "'for ever': for all times, identically": r"\bfor ever\b",
     "a verb of speech: call, report, return": (
-        r"\b(asks?|asked|tells?|told|says?|said|answers|answered)\b"
+        r"\b(asks?|asked|tells?|told|says?|said|answered)\b"
     ),
     "'is none', 'is no X': is not a": (
         r"\b(that|which) (is|are) none\b|(?<!there )\b(is|are) no [a-z]+\b"
