@@ -143,10 +143,10 @@ def _commands() -> Iterator[str]:
     """The help text of every command, and where exit codes and limits are documented."""
     import click
 
-    from exactpt.cli import cli
+    from exactpt.cli import all_commands
 
     yield "# Command line\n\nThe help text of each command. [Exit codes](../format.md#exit-codes)."
-    for name, command in sorted(cli.commands.items()):
+    for name, command in sorted(all_commands().items()):
         context = click.Context(command, info_name=f"exactpt {name}", terminal_width=90)
         yield f"\n## `exactpt {name}`\n\n```text\n{command.get_help(context)}\n```"
 

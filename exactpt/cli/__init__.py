@@ -7,29 +7,23 @@ import sys
 import tempfile
 import traceback
 from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Final
 
 import click
 
 from exactpt.cli.alarm import endings
-from exactpt.cli.batch import batch
-from exactpt.cli.bench import bench
-from exactpt.cli.files import convert, generate
 from exactpt.cli.options import SCENE_FILE
-from exactpt.cli.pictures import demo, draw
-from exactpt.cli.runs import collide, simulate
 from exactpt.cli.terminal import (
     drop_standard_output,
     drop_unwritten_output,
     encodable,
     tell,
 )
-from exactpt.cli.tilings import check, tile
-from exactpt.cli.truths import judge, oracle, questions
 from exactpt.errors import AuditError, BudgetExceeded, InputError, RoundingError
 
-__all__ = ["cli", "main"]
+__all__ = ["all_commands", "cli", "main"]
 
 OK, BAD_INPUT, BROKEN, SPENT, INTERRUPTED = 0, 2, 3, 4, 130
 """Exit codes; code 1 is set by commands: a contact (collide --exit-code), or a failed check."""
@@ -37,8 +31,29 @@ LONGEST: Final = 5000
 """Maximum number of characters of a message: more than the paths of most systems have."""
 
 
+_MODULES: Final = {
+    "batch": "batch", "bench": "bench", "check": "tilings", "collide": "runs", "convert": "files",
+    "demo": "pictures", "draw": "pictures", "generate": "files", "judge": "truths",
+    "oracle": "truths", "questions": "truths", "simulate": "runs", "tile": "tilings",
+}  # fmt: skip
+"""The module of each command, which is imported when the command is run, or its help shown."""
+
+
 class _Commands(click.Group):
     """The group of commands; reports internal errors."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002
+        """Return the names of all commands."""
+        return list(_MODULES)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
+        """Return a command; None if there is none of this name."""
+        if cmd_name not in _MODULES:
+            return None
+        command: click.Command = getattr(
+            import_module(f"exactpt.cli.{_MODULES[cmd_name]}"), cmd_name
+        )
+        return command
 
     def invoke(self, ctx: click.Context) -> object:
         """Run a command and return its exit code, if it has one."""
@@ -98,12 +113,10 @@ def cli(context: click.Context) -> None:
         click.echo(_FIRST)
 
 
-_COMMANDS = (
-    demo, collide, simulate, tile, check, draw, convert, generate, batch, questions, oracle,
-    judge, bench,
-)  # fmt: skip
-for _command in _COMMANDS:
-    cli.add_command(_command)
+def all_commands() -> dict[str, click.Command]:
+    """Return all commands by name."""
+    modules = {name: import_module(f"exactpt.cli.{module}") for name, module in _MODULES.items()}
+    return {name: getattr(module, name) for name, module in modules.items()}
 
 
 def _report_bug(error: Exception, scene: Path | None) -> None:

@@ -8,6 +8,7 @@ import click
 
 from exactpt.cli.naming import names_in, two_names
 from exactpt.cli.options import (
+    QUIET,
     RATIONAL,
     TILING,
     bounded,
@@ -15,7 +16,7 @@ from exactpt.cli.options import (
     max_memory,
     output,
 )
-from exactpt.cli.progress import QUIET, estimating
+from exactpt.cli.progress import estimating
 from exactpt.cli.terminal import tell
 from exactpt.errors import InputError
 from exactpt.files import MOST_BYTES

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import RATIONAL, bounded, max_bytes, max_memory, output, typed
-from exactpt.cli.progress import QUIET
+from exactpt.cli.options import QUIET, RATIONAL, bounded, max_bytes, max_memory, output, typed
 from exactpt.cli.terminal import say, tell
 from exactpt.cli.words import name_in_words
 from exactpt.errors import InputError

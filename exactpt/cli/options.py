@@ -26,6 +26,7 @@ else:  # before click 8.4 it has no parameter
 
 __all__ = [
     "MOMENT",
+    "QUIET",
     "RATIONAL",
     "SCENE",
     "SCENE_FILE",
@@ -90,6 +91,7 @@ SCENE_FILE: Final = "exactpt.scene"
 RATIONAL = _Rational()
 SECONDS = _Seconds(min=0)
 MOMENT = _Moment()
+QUIET = click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors.")
 SCENE = click.argument("scene", type=click.Path(path_type=Path), metavar="SCENE")
 TILING = click.option(
     "--tiling",

@@ -9,8 +9,18 @@ import click
 
 from exactpt.cli.alarm import time_limit
 from exactpt.cli.naming import two_names
-from exactpt.cli.options import MOMENT, SCENE, TILING, budget, load, max_memory, naming_at, output
-from exactpt.cli.progress import QUIET, progress
+from exactpt.cli.options import (
+    MOMENT,
+    QUIET,
+    SCENE,
+    TILING,
+    budget,
+    load,
+    max_memory,
+    naming_at,
+    output,
+)
+from exactpt.cli.progress import progress
 from exactpt.cli.terminal import say
 from exactpt.cli.words import answer_in_words
 from exactpt.errors import InputError

@@ -18,9 +18,8 @@ if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.scene.scene import Scene
 
-__all__ = ["QUIET", "SECONDS", "counting", "estimating", "progress"]
+__all__ = ["SECONDS", "counting", "estimating", "progress"]
 
-QUIET = click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors.")
 
 _STEPS: Final = 1000
 """Number of steps of the full bar."""

@@ -11,10 +11,8 @@ from typing import TYPE_CHECKING
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.intervals import collide_all, collide_enclosed
 from exactpt.cli.naming import names_in, two_names
-from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, max_memory
-from exactpt.cli.progress import QUIET, progress
+from exactpt.cli.options import QUIET, RATIONAL, SCENE, TILING, budget, load, max_memory
 from exactpt.cli.terminal import drop_standard_output, say
 from exactpt.cli.words import answer_in_words, event_in_words, stats_in_words
 from exactpt.errors import BudgetExceeded, InputError
@@ -114,6 +112,8 @@ def collide(
       exactpt collide scene.json --after-start --between ball,wheel --since 1/2
     """
     if every or enclosed:
+        from exactpt.cli.intervals import collide_all, collide_enclosed
+
         answer = collide_all if every else collide_enclosed
         return answer(scene, until, as_json=as_json, exit_code=exit_code, max_seconds=max_seconds)
     from exactpt.collision.searches import Question
@@ -262,6 +262,7 @@ def _run(
     max_seconds: float | None,
 ) -> list[str]:
     """Simulate and report every event; the lines to print at the end."""
+    from exactpt.cli.progress import progress
     from exactpt.simulation.simulation import Simulation
 
     simulation: Simulation | None = None

@@ -10,8 +10,18 @@ from pathlib import Path
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import RATIONAL, SCENE, TILING, budget, load, max_memory, naming_at, output
-from exactpt.cli.progress import QUIET, progress
+from exactpt.cli.options import (
+    QUIET,
+    RATIONAL,
+    SCENE,
+    TILING,
+    budget,
+    load,
+    max_memory,
+    naming_at,
+    output,
+)
+from exactpt.cli.progress import progress
 from exactpt.cli.terminal import say, tell
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import QQ, rational

@@ -10,8 +10,8 @@ from typing import BinaryIO
 import click
 
 from exactpt.cli.alarm import time_limit
-from exactpt.cli.options import RATIONAL, bounded, max_bytes, max_memory, output, typed
-from exactpt.cli.progress import QUIET, counting
+from exactpt.cli.options import QUIET, RATIONAL, bounded, max_bytes, max_memory, output, typed
+from exactpt.cli.progress import counting
 from exactpt.cli.terminal import say, tell
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ

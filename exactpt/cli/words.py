@@ -71,10 +71,11 @@ def bounds_in_words(scene: Scene, found: EnclosedContact | None) -> list[str]:
 
 def _when(time: AlgebraicNumber) -> str:
     """Return the nearest double, and the exact number."""
+    if time.is_rational:
+        return f"{float(time)!r} ({time._low})"
     from exactpt.render.words import polynomial_in_words
 
-    root = f"root of {polynomial_in_words(time._polynomial)}"
-    return f"{float(time)!r} ({time._low if time.is_rational else root})"
+    return f"{float(time)!r} (root of {polynomial_in_words(time._polynomial)})"
 
 
 def name_in_words(name: str) -> str:

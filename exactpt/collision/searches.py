@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from exactpt.collision.search import Search
 from exactpt.errors import InputError
 from exactpt.extensions import extension
 from exactpt.pairs.search import pair_search
 from exactpt.scene.scene import Scene
+
+if TYPE_CHECKING:
+    from exactpt.collision.search import Search
 
 __all__ = ["Question", "search_for", "searches_pairs"]
 

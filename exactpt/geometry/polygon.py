@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.geometry.predicates import Point, between, side
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
@@ -83,6 +82,8 @@ def first_touch(
     for i, (u, v) in enumerate(pairs):
         if points[u] == points[v]:
             return i, i
+    from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
+
     boxes = boxes_of_points([(points[u], points[v]) for u, v in pairs])
     found: list[tuple[int, int]] = []
     for first, second in overlapping_pairs(boxes):

@@ -13,12 +13,7 @@ from collections.abc import Sequence
 from itertools import combinations
 from typing import Final
 
-import numpy as np
-from numpy.typing import NDArray
-
-from exactpt.geometry.boxes import Floats, overlapping_pairs
 from exactpt.geometry.polygon import edges
-from exactpt.kernel.budget import ask
 from exactpt.kernel.rounding import SLACK, TINY, U
 
 __all__ = ["is_surely_simple", "turn_of_doubles"]
@@ -117,16 +112,9 @@ def _no_edges_meet(xs: Sequence[float], ys: Sequence[float], error: float, *, cl
     if m <= FEW:
         pairs = list(combinations(range(m), 2))
     else:
-        ends = np.array(rows)
-        x, y = ends[:, ::2], ends[:, 1::2]
-        low_x, low_y = x.min(axis=1) - 4.0 * error, y.min(axis=1) - 4.0 * error
-        boxes = np.stack((low_x, x.max(axis=1), low_y, y.max(axis=1)), axis=1)
-        pairs = []
-        for first, second in overlapping_pairs(boxes):
-            ask()
-            unsure = (second == first + 1) | (closed & (second - first == m - 1))
-            unsure |= ~_surely_apart(ends[first], ends[second], error)
-            pairs += zip(first[unsure].tolist(), second[unsure].tolist(), strict=True)
+        from exactpt.geometry.edge_pairs import unsure_pairs
+
+        pairs = unsure_pairs(rows, error, closed=closed)
     for i, j in pairs:
         if j == i + 1 or (closed and j - i == m - 1):
             a, b = (rows[i], rows[j]) if j == i + 1 else (rows[j], rows[i])
@@ -156,24 +144,6 @@ def _are_apart(e: Edge, f: Edge, error: float) -> bool:
     vx, vy = dx - cx, dy - cy
     s = _cross_sign(vx, vy, ax - cx, ay - cy, error)
     return bool(s) and s == _cross_sign(vx, vy, bx - cx, by - cy, error)
-
-
-@np.errstate(all="ignore")
-def _surely_apart(e: Floats, f: Floats, error: float) -> NDArray[np.bool_]:
-    """Return for which pairs of edges one is surely on one side of the line of the other."""
-    apart = np.zeros(len(e), np.bool_)
-    for line, ends in ((e, f), (f, e)):
-        u = line[:, 2:] - line[:, :2]
-        signs = []
-        for k in (0, 2):
-            v = ends[:, k : k + 2] - line[:, :2]
-            p, q = u[:, 0] * v[:, 1], u[:, 1] * v[:, 0]
-            bound = K * (np.abs(p) + np.abs(q)) + TINY
-            size = np.abs(u).sum(axis=1) + np.abs(v).sum(axis=1)
-            bound = (bound + 2.0 * error * (size + 4.0 * error)) * SLACK
-            signs.append((p - q > bound) * 1 - (p - q < -bound))
-        apart |= signs[0] * signs[1] > 0
-    return apart
 
 
 def _cross_sign(ux: float, uy: float, vx: float, vy: float, error: float) -> int:

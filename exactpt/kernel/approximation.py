@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Final
 from exactpt.kernel.budget import ask
 from exactpt.kernel.integer_polynomial import sign_at
 from exactpt.kernel.numbers import QQ, ZZ, enclosing_floats, floor, nearest_float, power_of_two
-from exactpt.kernel.sturm import count_roots, sturm_sequence
 
 if TYPE_CHECKING:
     from exactpt.kernel.isolated_root import IsolatedRoot
@@ -134,6 +133,8 @@ def canonical_interval(x: IsolatedRoot) -> tuple[QQ, QQ]:
 def _is_alone_in(x: IsolatedRoot, low: QQ, high: QQ) -> bool:
     if x._low <= low and high <= x._high:
         return True
+    from exactpt.kernel.sturm import count_roots, sturm_sequence
+
     return (
         sign_at(x._polynomial, low) != 0
         and count_roots(sturm_sequence(x._polynomial), low, high) == 1

@@ -24,7 +24,6 @@ from exactpt.kernel.numbers import (
 )
 from exactpt.kernel.quotients import decimal_quotient
 from exactpt.motion.course import Course, Piece
-from exactpt.motion.local_time import Velocity
 from exactpt.motion.motions import (
     REST,
     Motion,
@@ -204,6 +203,8 @@ class Body:
         Raises:
             InputError: see `Body`.
         """
+        from exactpt.motion.local_time import Velocity
+
         vx, vy = rationals(velocity, 2, "a velocity has two coordinates")
         return cls(name, shape, Velocity(vx, vy, since=at), closed=closed, radius=radius)
 

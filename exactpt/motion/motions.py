@@ -10,7 +10,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from itertools import pairwise
-from typing import Final, Protocol, TypeAlias, TypeVar, final
+from typing import TYPE_CHECKING, Final, Protocol, TypeAlias, TypeVar, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import (
@@ -25,7 +25,9 @@ from exactpt.kernel.numbers import (
 )
 from exactpt.kernel.polynomial import ZERO, Polynomial, polynomial
 from exactpt.motion.track import Track, track, translated
-from exactpt.motion.turn import Turn, turn_of
+
+if TYPE_CHECKING:
+    from exactpt.motion.turn import Turn
 
 __all__ = [
     "REST",
@@ -193,6 +195,8 @@ class Rigid(_Given):
     def track(self, position: Position) -> Track:
         """The trajectory of the vertex with this position in the rest frame."""
         if self._turn is None:
+            from exactpt.motion.turn import turn_of
+
             path = Polynomial([self._pivot[0]]) + self.x, Polynomial([self._pivot[1]]) + self.y
             self._turn = turn_of(self.half_turn, self._pivot, path, self._orientation)
         return self._turn.track(position)

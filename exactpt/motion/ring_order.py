@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING
 
 from exactpt.geometry.polygon import is_counter_clockwise
 from exactpt.geometry.simple import turn_of_doubles
-from exactpt.indices import VertexId
 from exactpt.kernel.numbers import QQ
-from exactpt.motion.infinitesimal import ring_of_copies
 
 if TYPE_CHECKING:
+    from exactpt.indices import VertexId
     from exactpt.motion.body import Body
 
 __all__ = ["ring_indices", "rings_of", "turns_left"]
@@ -29,6 +28,8 @@ def ring_indices(body: Body, t: QQ, *, plain: bool = False) -> list[int]:
     if plain:
         return list(range(body.size))
     if not body.has_interior:
+        from exactpt.motion.infinitesimal import ring_of_copies
+
         return ring_of_copies(body.size)
     turned: list[int] = []
     for rings in body.parts:

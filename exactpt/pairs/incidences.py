@@ -15,11 +15,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.course import Piece
 from exactpt.motion.incidence import Touch, difference, orientation
 from exactpt.motion.outline import is_rigid
-from exactpt.motion.ring_order import turns_left
 from exactpt.motion.track import Track
-from exactpt.pairs.exterior import exterior_side
-from exactpt.pairs.features import excess
-from exactpt.pairs.radius_touch import place_of
 from exactpt.scene.scene import Scene
 
 __all__ = ["Pair", "details", "tracks_before", "tracks_just_before"]
@@ -105,6 +101,8 @@ def details(
         if ring is None or any(scene.bodies[i]._radius for i in (touch.body, touch.other)):
             outward = 0
         elif _may_have_crossed_itself(scene, touch):
+            from exactpt.pairs.exterior import exterior_side
+
             outward = exterior_side(scene.bodies[touch.other], pieces, touch, number)
         else:
             outward = sides.get(ring) or sides.setdefault(ring, _outward(scene, *ring))
@@ -125,6 +123,8 @@ def _as_root(
     v, other = pieces[touch.body].track(touch.vertex), pieces[touch.other]
     reach = scene.bodies[touch.body]._radius + scene.bodies[touch.other]._radius
     if reach:
+        from exactpt.pairs.features import excess
+
         f = excess(v, _ends(scene, touch, other), reach * reach)
     elif touch.edge >= 0:
         f = orientation(v, *_ends(scene, touch, other))
@@ -159,6 +159,8 @@ def _pair(
     x, y, w = v.x, v.y, v.w
     radii = scene.bodies[touch.body]._radius, scene.bodies[touch.other]._radius
     if any(radii):
+        from exactpt.pairs.radius_touch import place_of
+
         x, y, w, n_x, n_y, n_w = place_of(v, ends, *radii)
         normal = nearest_quotient(n_x, n_w, time), nearest_quotient(n_y, n_w, time)
     elif len(ends) == 2:
@@ -196,6 +198,8 @@ def _outward(scene: Scene, number: int, ring: range) -> int:
 
     That is 1 for the right one, -1 for the left one.
     """
+    from exactpt.motion.ring_order import turns_left
+
     body = scene.bodies[number]
     is_outline = ring in [outline for outline, *_ in body.parts]
     return 1 if turns_left(body, ring, scene._start) == is_outline else -1

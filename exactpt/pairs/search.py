@@ -23,7 +23,6 @@ from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.pieces import Distance, FewPieces, MotionPiece, contact_distance, linear_pieces
 from exactpt.pairs.rational import Earliest, Meeting, Span, span_of
 from exactpt.pairs.selection import groups_of
-from exactpt.pairs.start import initial_touches
 from exactpt.pairs.two_pieces import first_meeting
 from exactpt.scene.scene import Scene
 
@@ -112,6 +111,8 @@ class LinearSearch:
         scene, rows = self._scene, self._rows
         near = [(i, j) for i, j in rows.near_at_start() if self._counts(i, j)]
         if near:
+            from exactpt.pairs.start import initial_touches
+
             touches, overlaps = initial_touches(scene, near)
             if overlaps:
                 return contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)

@@ -12,10 +12,8 @@ from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Straight
-from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.filters import candidates_of
 from exactpt.pairs.rational import Candidate, Meeting, Span, earliest, first_incidence
-from exactpt.pairs.stretches import segments_of
 
 __all__ = ["ContactDistance", "first_at_distance", "first_meeting"]
 
@@ -84,6 +82,9 @@ def first_at_distance(
             distance is 0.
         squared: the square of the distance.
     """
+    from exactpt.pairs.features import FeaturePair
+    from exactpt.pairs.stretches import segments_of
+
     pieces = [body._piece_after(start) for body in bodies]
     begin = AlgebraicNumber(start)
 

@@ -22,8 +22,6 @@ from exactpt.motion.motions import (
     SimpleMotion,
     Translation,
 )
-from exactpt.motion.pose_path import PosePath
-from exactpt.motion.spin import Spin
 from exactpt.scene.json_values import (
     VERSION,
     Json,
@@ -197,8 +195,14 @@ def _motion(data: Json, where: str) -> Motion:
         path = _path(data["path"], f'{where}: "path"') if "path" in data else None
         try:
             if path:
+                from exactpt.motion.pose_path import PosePath
+
                 return PosePath.of_pieces(pieces, *path)
-            return Spin.of_pieces(pieces, *spin) if spin else Pieces(pieces)
+            if spin:
+                from exactpt.motion.spin import Spin
+
+                return Spin.of_pieces(pieces, *spin)
+            return Pieces(pieces)
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
     return _simple_motion(data, where)

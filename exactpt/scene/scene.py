@@ -14,12 +14,13 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational, rationals, shorten, show
 from exactpt.kernel.rounding import check_rounding
 from exactpt.motion.body import Body
-from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.simple import check_simple
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
     from shapely.geometry.base import BaseGeometry
+
+    from exactpt.scene.body_arrays import BodyArrays
 
 __all__ = ["Scene", "a_scene", "scene_of"]
 
@@ -93,6 +94,8 @@ class Scene:
         Raises:
             InputError: if the arrays do not describe bodies, see `Scene`.
         """
+        from exactpt.scene.body_arrays import BodyArrays
+
         bodies = BodyArrays(
             vertices, offsets, velocities=velocities, coefficients=coefficients, closed=closed,
             names=names, radii=radii,
@@ -165,9 +168,10 @@ class Scene:
         Raises:
             InputError: if there is none.
         """
-        if isinstance(self.bodies, BodyArrays):
-            known = self.bodies.named(name)
-            found = None if known is None else self.bodies[known]
+        arrays = self._arrays
+        if arrays is not None:
+            known = arrays.named(name)
+            found = None if known is None else arrays[known]
         else:
             found = next((body for body in self.bodies if body.name == name), None)
         if found is not None:
@@ -304,16 +308,25 @@ class Scene:
     @property
     def vertex_count(self) -> int:
         """The number of vertices of all bodies."""
-        if isinstance(self.bodies, BodyArrays):
-            return self.bodies.vertex_count
-        return sum(body.size for body in self.bodies)
+        arrays = self._arrays
+        return arrays.vertex_count if arrays is not None else sum(body.size for body in self.bodies)
 
     @property
     def is_rounded(self) -> bool:
         """True if a body has a radius."""
-        if isinstance(self.bodies, BodyArrays):
-            return bool(self.bodies.radii.any())
+        arrays = self._arrays
+        if arrays is not None:
+            return bool(arrays.radii.any())
         return any(body._radius for body in self.bodies)
+
+    @property
+    def _arrays(self) -> BodyArrays | None:
+        """The bodies, if they are in arrays."""
+        if isinstance(self.bodies, tuple):
+            return None
+        from exactpt.scene.body_arrays import BodyArrays
+
+        return self.bodies if isinstance(self.bodies, BodyArrays) else None
 
     def __eq__(self, other: object) -> bool:
         """Return True if the bodies, in order, and the time spans are equal."""

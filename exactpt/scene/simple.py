@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from exactpt.errors import InputError
-from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.geometry.polygon import contains, first_touch, signed_area2
 from exactpt.geometry.predicates import Point
 from exactpt.geometry.simple import is_surely_simple
@@ -67,6 +66,8 @@ def _not_simple(
 
 def _check_nesting(body: Body, points: Sequence[Point], start: QQ) -> None:
     """Check that disjoint rings are outlines and holes of disjoint parts."""
+    from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
+
     rings = [ring for rings in body.parts for ring in rings]
     parts = [k for k, rings in enumerate(body.parts) for _ in rings]
     outlines = [k for k, part in enumerate(parts) if k == 0 or parts[k - 1] != part]

@@ -9,7 +9,7 @@ import pytest
 from folding import every
 
 from exactpt import Scene, Simulation
-from exactpt.cli import cli, main
+from exactpt.cli import all_commands, cli, main
 
 QUESTION = (
     '{"id": "sliding:0:0", "time": [0, 9], "a": {"vertices": [[0, 0]]},'
@@ -36,7 +36,7 @@ def examples(command):
 
 MARKS = {"check": pytest.mark.cgal, "bench": pytest.mark.slow}
 MINUTES = ["exactpt questions --set --jobs 4", "exactpt draw scene.json -o film.gif"]
-COMMANDS = {"": cli, **cli.commands}
+COMMANDS = {"": cli, **all_commands()}
 EXAMPLES = [
     pytest.param(line, marks=pytest.mark.slow if line in MINUTES else MARKS.get(name, []))
     for name, command in COMMANDS.items()

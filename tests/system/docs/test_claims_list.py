@@ -9,7 +9,7 @@ from folding import every
 
 from benchmarks.__main__ import bench
 from benchmarks.catalogue import BENCHMARKS
-from exactpt.cli import cli
+from exactpt.cli import all_commands
 from fuzz import __main__ as fuzzer
 
 ROOT = Path(__file__).parents[3]
@@ -59,7 +59,7 @@ def test_a_test_is_there(test):
 def command_of(words):
     """The click command that some words call."""
     if words[0] == "exactpt":
-        return cli.commands[words[1]]
+        return all_commands()[words[1]]
     if words[1:3] == ["-m", "benchmarks"]:
         return bench
     how = {

@@ -6,8 +6,9 @@ from random import Random
 import numpy as np
 import pytest
 
+from exactpt.geometry.edge_pairs import _surely_apart
 from exactpt.geometry.polygon import first_self_touch, segments_meet, signed_area2
-from exactpt.geometry.simple import _surely_apart, is_surely_simple
+from exactpt.geometry.simple import is_surely_simple
 from exactpt.kernel.numbers import QQ, rational
 from exactpt.kernel.rounding import U
 
