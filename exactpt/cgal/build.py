@@ -30,7 +30,7 @@ def sources() -> Path:
 def build_program(folder: Path) -> Path:
     """Build cgal_check in a folder, which is made; returns the program.
 
-    It takes a minute, and prints what CMake says if it fails.
+    It takes a minute, and prints the output of CMake if it fails.
 
     Raises:
         InputError: if CMake or a library is missing, or the build fails.

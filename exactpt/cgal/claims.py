@@ -1,4 +1,4 @@
-"""Claims that cgal_check is asked to verify, and its verdicts."""
+"""Claims that cgal_check verifies, and its verdicts."""
 
 from __future__ import annotations
 

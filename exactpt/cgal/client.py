@@ -35,7 +35,7 @@ def find_program() -> Path:
     """Return the cgal_check program: ``$EXACTPT_CGAL_CHECK``, the checkout's build, or on PATH.
 
     Raises:
-        InputError: if there is none; the message says how to build it.
+        InputError: if there is none; the message has the command that builds it.
     """
     named = os.environ.get(_VARIABLE)
     if named:
@@ -58,7 +58,7 @@ def recognise(program: Path) -> None:
     """Check that a program is cgal_check: it answers the greeting of its protocol.
 
     Raises:
-        InputError: if it is another one.
+        InputError: if it is another program.
     """
     with CgalCheck(program) as witness:
         witness.orientations([])

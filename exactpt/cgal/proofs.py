@@ -24,7 +24,7 @@ class ProofVerdict(NamedTuple):
 
     Attributes:
         accepted: True if the proof holds.
-        line: the answer in words: what has been proved, or the first line that does not hold.
+        line: the verdict: the proved statement, or the first line that does not hold.
     """
 
     accepted: bool
@@ -32,7 +32,7 @@ class ProofVerdict(NamedTuple):
 
     @property
     def statement(self) -> str | None:
-        """What has been proved, without the hash of the scene; None if the proof does not hold."""
+        """The proved statement, without the hash of the scene; None if the proof does not hold."""
         return self.line.split(" ", 2)[2] if self.accepted else None
 
     @property
@@ -65,7 +65,7 @@ def check_proof(
         max_seconds: maximum duration in seconds; None for no limit.
 
     Raises:
-        InputError: if there is no program or it is another one, or the file is no proof of this
+        InputError: if there is no such program, or the file is not a proof of this
             scene.
         BudgetExceeded: if ``max_seconds``, or the program's own budget of work, is exceeded.
         AuditError: if the program itself fails.

@@ -1,4 +1,4 @@
-"""The bodies that shapes become: names, holes, parts, repairs, and what cannot be a body."""
+"""The bodies that shapes become: names, holes, parts, repairs, and shapes that cannot be a body."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def scene_of(
     repair: Repair | None = None,
     skipped: Callable[[str], None] | None = None,
 ) -> Scene:
-    """The scene at rest of some shapes, in their order.
+    """Return the scene at rest of some shapes, in their order.
 
     Args:
         shapes: the shapes, one for each body; a name that is taken gets a number.
@@ -49,7 +49,7 @@ def scene_of(
             if None, such a shape is an error.
 
     Raises:
-        InputError: one line that names the shape and says what to do about it.
+        InputError: one line that names the shape and the remedy.
     """
     empty = Scene([], time)
     found = _Bodies(time, holes, radius, repair)
@@ -120,7 +120,7 @@ class _Bodies:
 def body_of(
     shape: Shape, name: str, motion: Motion = REST, *, holes: Holes = "keep", radius: Rational = 0
 ) -> Body:
-    """The body that a shape becomes.
+    """Return the body that a shape becomes.
 
     Repeated consecutive points count once. A line that ends where it began becomes the polygon
     that it bounds.
@@ -148,7 +148,7 @@ def _rings_of(part: Shape, *, fill: bool) -> list[list[Point]]:
 
 
 def _ring_of(shape: Shape, ring: Sequence[Point]) -> tuple[list[Point], bool]:
-    """The points of a ring of a shape, each once, and whether it bounds a polygon."""
+    """Return the points of a ring of a shape, each once, and whether it bounds a polygon."""
     points = _distinct_neighbours(ring)
     closes = shape.kind != "point" and len(points) > 1 and points[0] == points[-1]
     if closes:
@@ -186,7 +186,7 @@ def _distinct_neighbours(points: Sequence[Point]) -> list[Point]:
 
 
 def free_name(wanted: str, taken: Container[str], last: dict[str, int]) -> str:
-    """The wanted name, or the first free one of "wanted 2", "wanted 3", ...
+    """Return the wanted name, or the first free one of "wanted 2", "wanted 3", ...
 
     ``last`` has the last number tried for each name: those below it stay taken.
     """

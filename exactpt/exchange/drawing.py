@@ -30,15 +30,15 @@ _NUMBER: Final = re.compile(r"[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?")
 
 
 def valid_text(text: str) -> str:
-    """The text with the replacement character in place of those that XML cannot hold."""
+    """Return the text with the replacement character in place of those that XML cannot hold."""
     return _NO_TEXT.sub("\ufffd", text)
 
 
 def read_drawing(text: str) -> Xml.Element:
-    """The root element of a drawing.
+    """Return the root element of a drawing.
 
     Raises:
-        InputError: if the text is no drawing, is nested too deeply, an element uses itself, or
+        InputError: if the text is not a drawing, is nested too deeply, an element uses itself, or
             there are too many copies.
     """
     try:
@@ -114,13 +114,13 @@ class _Shallow(Xml.TreeBuilder):
 def _check_copies(root: Xml.Element) -> None:
     """Check depth and number of the elements of a drawing in which each ``use`` is a copy.
 
-    An element that uses itself is infinitely deep, and is met at the depth allowed.
+    An element that uses itself is infinitely deep, and is refused at the allowed depth.
     """
     named = {name: element for element in root.iter() if (name := element.get("id")) is not None}
     whole: dict[Xml.Element, tuple[int, int]] = {}
 
     def expand(element: Xml.Element, depth: int) -> tuple[int, int]:
-        """The number of elements of a copy, and its depth."""
+        """Return the number of elements of a copy, and its depth."""
         if element in whole:
             count, height = whole[element]
         elif depth <= DEEPEST:
@@ -140,7 +140,7 @@ def _check_copies(root: Xml.Element) -> None:
 
 
 def _parts(element: Xml.Element, named: dict[str, Xml.Element]) -> list[Xml.Element]:
-    """The children of an element, and the element that it uses."""
+    """Return the children of an element, and the element that it uses."""
     parts = list(element)
     if element.tag.rpartition("}")[2] == "use":
         links = [element.get(key) for key in _HREFS]

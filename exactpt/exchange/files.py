@@ -45,7 +45,7 @@ def read_shapes(
     skipped: Callable[[str], None] | None = None,
     max_bytes: int | None = None,
 ) -> Scene:
-    """The scene at rest of a GeoJSON, WKT or SVG file.
+    """Return the scene at rest of a GeoJSON, WKT or SVG file.
 
     A MultiPolygon is one body; of other shapes, and in SVG, each part is.
 
@@ -69,7 +69,7 @@ def read_shapes(
         max_bytes: maximum size of the file, which is refused otherwise; by default 10^8.
 
     Raises:
-        InputError: one line that names the file, the shape and what is wrong with it.
+        InputError: one line that names the file, the shape and its fault.
     """
     if holes not in ("keep", "refuse", "fill"):
         raise InputError(f"holes: either keep, refuse or fill: {holes!r}")
@@ -110,7 +110,7 @@ def _repair(told: Callable[[str], None] | None) -> Repair | None:
 
 
 def holds_scene(path: Path, max_bytes: int | None = None) -> bool:
-    """Whether a file is a scene file.
+    """Return True if a file is a scene file.
 
     Raises:
         InputError: if it cannot be read.
@@ -131,7 +131,7 @@ def _format(path: Path) -> Format:
 
 
 def _said(kind: Format, text: str) -> Format:
-    """The format of a file: of JSON, what the content says."""
+    """Return the format of a file, by its suffix or, of JSON, by its content."""
     if kind not in ("scene", "geojson"):
         return kind
     data = parse_json(text)

@@ -45,12 +45,12 @@ _TYPE_OF: Final = {kind: name for name, kind in _PARTS.items()}
 
 
 def is_type(word: Json) -> bool:
-    """Whether it is the type of a GeoJSON object."""
+    """Return True if it is the type of a GeoJSON object."""
     return isinstance(word, str) and word in TYPES
 
 
 def shapes_of(text: str) -> Iterator[Shape]:
-    """The shapes of a GeoJSON text, named after their features.
+    """Yield the shapes of a GeoJSON text, named after their features.
 
     The parts of a MultiPolygon are one shape, those of other geometries are one each.
 
@@ -63,7 +63,7 @@ def shapes_of(text: str) -> Iterator[Shape]:
     (Fraction(1, 10), Fraction(0, 1))
 
     Raises:
-        InputError: one line that names the feature and what is wrong with it.
+        InputError: one line that names the feature and its fault.
     """
     try:
         data = parse_json(text)
@@ -93,7 +93,7 @@ def _of_feature(data: Json, where: str) -> Iterator[Shape]:
 
 
 def name_of(feature: dict[str, Json]) -> str:
-    """The name of a feature, see `shapes_of`; empty if it has none."""
+    """Return the name of a feature, see `shapes_of`; empty if it has none."""
     properties = feature.get("properties")
     keys = properties if isinstance(properties, dict) else {}
     lowered = {key.lower(): value for key, value in reversed(keys.items())}
@@ -104,7 +104,7 @@ def name_of(feature: dict[str, Json]) -> str:
 
 
 def geometry_shapes(data: Json, where: str, name: str, depth: int = 0) -> Iterator[Shape]:
-    """The shapes of a geometry."""
+    """Yield the shapes of a geometry."""
     if depth > DEEPEST:
         raise InputError(f"{where[:60]}...: nested more than {DEEPEST} deep")
     if not isinstance(data, dict) or not is_type(data.get("type")):
@@ -133,7 +133,7 @@ def geometry_shapes(data: Json, where: str, name: str, depth: int = 0) -> Iterat
 
 
 def part(kind: Kind, data: Json, where: str, name: str) -> Shape:
-    """The shape of the coordinates of a point, a line string or a polygon."""
+    """Return the shape of the coordinates of a point, a line string or a polygon."""
     if kind == "point":
         return Shape(where, name, kind, [_point(data, where)] if data != [] else ())
     if kind == "line":
@@ -173,7 +173,7 @@ def geojson_of(shapes: Iterable[Shape]) -> str:
 
 
 def coordinates_of(shape: Shape) -> object:
-    """The coordinates of a shape, as the nearest doubles."""
+    """Return the coordinates of a shape, as the nearest doubles."""
     if shape.kind == "point":
         return rounded(shape)[0]
     if shape.kind == "line":
@@ -189,7 +189,7 @@ def coordinates_of(shape: Shape) -> object:
 
 
 def _turned(ring: list[Place], points: Sequence[Point], *, left: bool) -> list[Place]:
-    """A closed ring, counter-clockwise or clockwise as its exact points tell."""
+    """Return a closed ring, with the orientation of its exact points."""
     area = signed_area2(points)
     ring = ring if (area >= 0 if left else area <= 0) else ring[::-1]
     return [*ring, ring[0]]

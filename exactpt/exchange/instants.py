@@ -20,7 +20,7 @@ _EPOCH: Final = date(1970, 1, 1)
 
 
 def seconds_of(data: Json, where: str) -> QQ:
-    """The seconds of a date with a time, which may have any number of decimals.
+    """Return the seconds of a date with a time, which may have any number of decimals.
 
     Without a time zone it is in UTC; a number is milliseconds.
 
@@ -47,7 +47,7 @@ def seconds_of(data: Json, where: str) -> QQ:
 
 
 def instant_of(seconds: QQ) -> str:
-    """The date with the time in UTC, with as many decimals as it takes.
+    """Return the date with the time in UTC, with as many decimals as it takes.
 
     Raises:
         InputError: if it has no finite decimals, or its year is not from 1 to 9999.
@@ -62,7 +62,7 @@ def instant_of(seconds: QQ) -> str:
 
 
 def _decimals(part: QQ) -> str:
-    """The decimals of a number in [0, 1), with the point; empty for 0."""
+    """Return the decimals of a number in [0, 1), with the point; empty for 0."""
     if not part:
         return ""
     rest, twos, fives = int(part.denominator), 0, 0

@@ -55,7 +55,7 @@ class _Path(NamedTuple):
 
 
 def is_moving(data: Json) -> bool:
-    """Whether a JSON value is a moving geometry, a feature with one, or a collection of such."""
+    """Return True if a JSON value is a moving geometry or feature, or a collection of them."""
     if not isinstance(data, dict):
         return False
     if data.get("type") == "FeatureCollection" and isinstance(data.get("features"), list):
@@ -71,7 +71,7 @@ def scene_of_features(
     holes: Holes = "keep",
     skipped: Callable[[str], None] | None = None,
 ) -> Scene:
-    """The scene of moving features, which all move for the whole time span.
+    """Return the scene of moving features, which all move for the whole time span.
 
     Args:
         text: the JSON.
@@ -82,7 +82,7 @@ def scene_of_features(
             if None, such a feature is an error.
 
     Raises:
-        InputError: one line that names the feature and what is wrong with it.
+        InputError: one line that names the feature and its fault.
     """
     found: list[tuple[str, Body, tuple[QQ, QQ]]] = []
     names: dict[str, object] = {}
@@ -160,7 +160,7 @@ def _path(feature: Json, where: str) -> _Path:
 
 
 def _sequence(geometry: dict[str, Json], where: str) -> dict[str, Json]:
-    """The geometry with the one sequence that it has in place of the list of them."""
+    """Return the geometry with the one sequence that it has in place of the list of them."""
     if "sequences" not in geometry:
         return geometry
     sequences = a_list(geometry["sequences"], f'{where}: "sequences"')
@@ -191,7 +191,7 @@ def _shapes(geometry: dict[str, Json], kind: str, where: str, name: str) -> list
 
 
 def _posed(geometry: dict[str, Json], where: str, name: str) -> list[Shape]:
-    """A geometry at its poses, {"position": {"lat": y, "lon": x}, "rotation": radians} each.
+    """Return a geometry at its poses, {"position": {"lat": y, "lon": x}, "rotation": radians} each.
 
     The cosine of an angle that is a decimal number, but for 0, is not rational.
     """
@@ -216,7 +216,7 @@ def _posed(geometry: dict[str, Json], where: str, name: str) -> list[Shape]:
 
 
 def _body(path: _Path, name: str, holes: Holes) -> Body:
-    """The body: it translates in pieces if all of its shapes are translates of the first one."""
+    """Return the body; it translates in pieces if its shapes are translates of each other."""
     rests = [body_of(shape, name, holes=holes) for shape in path.shapes]
     first, frames = rests[0], [rest._at(path.times[0]) for rest in rests]
     for i, frame in enumerate(frames):
@@ -237,7 +237,7 @@ def _body(path: _Path, name: str, holes: Holes) -> Body:
 
 
 def _translation(a: Sequence[Point], b: Sequence[Point]) -> Point | None:
-    """By what a becomes b; None if it does not by a translation."""
+    """Return the vector by which a is translated to b; None if there is none."""
     moves = {(q[0] - p[0], q[1] - p[1]) for p, q in zip(a, b, strict=True)}
     return moves.pop() if len(moves) == 1 else None
 
@@ -254,7 +254,7 @@ def _motion(times: Sequence[QQ], moves: Sequence[Point]) -> Motion:
 
 
 def mfjson_of(scene: Scene) -> str:
-    """A scene whose vertices move straight, piece by piece, as a collection of moving features.
+    """Return a scene of piecewise linear vertices as a collection of moving features.
 
     Raises:
         InputError: if a body does something else, has a radius, or moves at a time that is no

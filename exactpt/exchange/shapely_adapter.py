@@ -55,7 +55,7 @@ _KINDS: Final[dict[str, Kind]] = {
 
 
 def read_wkt(text: str, where: str) -> tuple[BaseGeometry, int, int]:
-    """The geometry of a text, its number of points, and the number of coordinates of each.
+    """Return the geometry of a text, its number of points, and the number of coordinates of each.
 
     Raises:
         InputError: if it is not well-known text, or of a kind that shapely cannot read.
@@ -78,7 +78,7 @@ def read_wkt(text: str, where: str) -> tuple[BaseGeometry, int, int]:
 def shapes_of_geometry(
     geometry: object, where: str, name: str, points: Sequence[Point] | None = None
 ) -> Iterator[Shape]:
-    """The shapes of a geometry; a collection may mix kinds.
+    """Yield the shapes of a geometry; a collection may mix kinds.
 
     The parts of a MultiPolygon are one shape, those of other geometries are one each.
 
@@ -114,7 +114,7 @@ def shapes_of_geometry(
 
 
 def _units(geometry: BaseGeometry) -> Iterator[list[BaseGeometry]]:
-    """The parts of a geometry, recursively, in the order of its coordinates; polygons together."""
+    """Yield the parts of a geometry, recursively, in their order; polygons together."""
     if geometry.geom_type in _KINDS:
         yield [geometry]
     elif geometry.geom_type == "MultiPolygon":
@@ -125,7 +125,7 @@ def _units(geometry: BaseGeometry) -> Iterator[list[BaseGeometry]]:
 
 
 def body_from(geometry: object, name: str, motion: Motion, holes: Holes, radius: Rational) -> Body:
-    """The body of a geometry, see `Body.from_shapely`."""
+    """Return the body of a geometry, see `Body.from_shapely`."""
     shapes = list(shapes_of_geometry(geometry, "geometry", name))
     if len(shapes) != 1:
         raise InputError(
@@ -142,7 +142,7 @@ def scene_from(
     parts: Parts,
     radius: Rational,
 ) -> Scene:
-    """The scene at rest of geometries, see `Scene.from_shapely`."""
+    """Return the scene at rest of geometries, see `Scene.from_shapely`."""
     if isinstance(geometries, Mapping):
         named = [(str(name), geometry) for name, geometry in geometries.items()]
     else:
@@ -156,17 +156,17 @@ def scene_from(
 
 
 def mended(shape: Shape, told: Callable[[str], None]) -> list[Shape]:
-    """The valid polygons that shapely's make_valid makes of a shape that is not one.
+    """Return the valid polygons that shapely's make_valid makes of a shape that is not one.
 
     Lines and points that it leaves are dropped. Parts that still touch become shapes of their own,
     since a body's parts are disjoint.
 
     Args:
         shape: the shape; its points are rounded to doubles.
-        told: called with a line that says what has changed.
+        told: called with a line about each repair.
 
     Raises:
-        InputError: if it is no polygon, or nothing of it is left.
+        InputError: if it is not a polygon, or nothing of it is left.
     """
     if shape.kind != "polygon":
         raise InputError(f"{shape.where}: only polygons are repaired: {shorten(shape.name)}")
@@ -205,12 +205,12 @@ def _size(geometry: BaseGeometry) -> str:
 
 
 def geometries_of(scene: Scene, at: QQ, tolerance: float | None) -> dict[str, BaseGeometry]:
-    """The bodies at a time, by name, see `Scene.to_shapely`."""
+    """Return the bodies at a time, by name, see `Scene.to_shapely`."""
     return {shape.name: _geometry(shape, tolerance) for shape in shapes_at(scene, at)}
 
 
 def outlined(shape: Shape, tolerance: float | None) -> Shape:
-    """A shape with a radius as a polygon, with chords within a tolerance of its arcs.
+    """Return a shape with a radius as a polygon, with chords within a tolerance of its arcs.
 
     Raises:
         InputError: if the tolerance is not positive, or a chord for each arc is too many.
@@ -227,7 +227,7 @@ def outlined(shape: Shape, tolerance: float | None) -> Shape:
 
 
 def _geometry(shape: Shape, tolerance: float | None) -> BaseGeometry:
-    """The outline; the core where the radius is so small that doubles show nothing around it."""
+    """Return the outline; the core, if the radius vanishes beside it in doubles."""
     core, radius = _core(shape), nearest_float(rational(shape.radius))
     if not radius:
         return core
@@ -246,7 +246,10 @@ def _core(shape: Shape) -> BaseGeometry:
 
 
 def _quarter(radius: float, tolerance: float | None) -> int:
-    """The number of chords of a quarter of a circle: n with r (1 - cos(pi / 4 n)) <= tolerance."""
+    """Return the least number of chords of a quarter of a circle within the tolerance.
+
+    It is the least n with r (1 - cos(pi / 4 n)) <= tolerance.
+    """
     ratio = 0.01 if tolerance is None else tolerance / radius
     if not (math.isfinite(ratio) and ratio > 0):
         raise InputError(f"the tolerance is a positive number: {tolerance}")

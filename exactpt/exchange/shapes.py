@@ -86,7 +86,7 @@ def together(parts: Sequence[Shape]) -> list[Shape]:
 
 
 def shapes_at(scene: Scene, at: QQ) -> list[Shape]:
-    """The bodies of a scene at a time, as shapes.
+    """Return the bodies of a scene at a time, as shapes.
 
     Raises:
         InputError: if the time is outside the time span.
@@ -119,7 +119,7 @@ def _kind(body: Body) -> Kind:
 
 
 def rounded(shape: Shape) -> list[tuple[float, float]]:
-    """The points of a shape, each coordinate rounded to the nearest double.
+    """Return the points of a shape, each coordinate rounded to the nearest double.
 
     Raises:
         InputError: if a coordinate is larger than the largest double.
@@ -140,14 +140,14 @@ def _rounded(shape: Shape, ring: Sequence[Point]) -> list[tuple[float, float]]:
 
 
 def nested(rings: Sequence[Sequence[Point]]) -> list[tuple[int, list[int]]]:
-    """The outer rings among rings that do not cross, each with its holes, all as indices.
+    """Return the outer rings among rings that do not cross, each with its holes, all as indices.
 
     By the even-odd rule, a ring inside an odd number of others is a hole; it belongs to the
     innermost outer ring around it.
 
     Of rings that do not cross, those around a ring are around each other too. So they are the
     innermost one and those around that, and only boxes around a ring's box need to be tried,
-    from the innermost on. A box around another one contains more boxes than that.
+    from the innermost on. A box around another box contains more boxes.
 
     Raises:
         InputError: if too many boxes are inside others.

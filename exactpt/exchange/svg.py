@@ -32,7 +32,7 @@ _MOST_POINTS: Final = 2_000_000
 
 
 def shapes_of(text: str, tolerance: float) -> Iterator[Shape]:
-    """The outlines of a drawing, in the units of its ``viewBox``, named by their ``id``.
+    """Yield the outlines of a drawing, in the units of its ``viewBox``, named by their ``id``.
 
     A closed subpath is a polygon, with the subpaths inside it as holes (even-odd rule); an open
     one is a line, filled or not. Text and images are left out.
@@ -89,7 +89,7 @@ def _nested(rings: Sequence[list[Point]], where: str) -> list[tuple[int, list[in
 
 
 def _paths(text: str) -> Iterator[tuple[str, svgelements.Path]]:
-    """The visible outlines with their ids, in user units of the drawing."""
+    """Yield the visible outlines with their ids, in user units of the drawing."""
     try:
         import svgelements
     except ImportError:
@@ -111,7 +111,7 @@ def _paths(text: str) -> Iterator[tuple[str, svgelements.Path]]:
                 yield element.id or "", path
     except (ExactPTError, MemoryError):
         raise
-    except Exception as error:  # what a damaged drawing raises in a parser that trusts it
+    except Exception as error:  # any error that a damaged drawing causes in the parser
         raise InputError(f"not a drawing that can be read: {_reason(root, error)}") from None
 
 
@@ -129,7 +129,7 @@ def _reason(root: Xml.Element, error: Exception) -> str:
 
 
 def _points(subpath: svgelements.Subpath, tolerance: float, most: int) -> list[Point]:
-    """The corners of a subpath and the ends of its chords, with y upwards: at most ``most``."""
+    """Return at most ``most`` corners and ends of chords of a subpath, with y upwards."""
     import svgelements
 
     first = subpath[0]
@@ -148,7 +148,7 @@ def _points(subpath: svgelements.Subpath, tolerance: float, most: int) -> list[P
 
 
 def _chord_count(curve: svgelements.Curve, tolerance: float) -> int:
-    """The number of equal parameter steps whose chords stay within the tolerance.
+    """Return the number of equal parameter steps whose chords stay within the tolerance.
 
     A curve whose second derivative is at most M is within M / (8 n^2) of its n chords. A Bezier
     curve of degree d has M <= d (d - 1) times its largest second difference. An ellipse is

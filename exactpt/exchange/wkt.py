@@ -24,10 +24,10 @@ _NUMBER: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASC
 
 
 def shapes_of(text: str) -> Iterator[Shape]:
-    """The shapes of a text with one or more geometries, one for each part.
+    """Yield the shapes of a text with one or more geometries, one for each part.
 
     Raises:
-        InputError: one line that names the geometry and what is wrong with it.
+        InputError: one line that names the geometry and its fault.
     """
     from exactpt.exchange.shapely_adapter import read_wkt, shapes_of_geometry
 
@@ -45,7 +45,7 @@ def shapes_of(text: str) -> Iterator[Shape]:
 
 
 def _depth(text: str) -> int:
-    """The depth to which parentheses are nested: shapely recurses, and copies at every level."""
+    """Return the nesting depth of parentheses, since shapely recurses and copies per level."""
     steps = (1 if mark[0] == "(" else -1 for mark in _PARENTHESIS.finditer(text))
     return max(accumulate(steps), default=0)
 

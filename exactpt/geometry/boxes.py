@@ -122,7 +122,7 @@ def _swept_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
     n = len(boxes)
     order = np.argsort(boxes[:, 0], kind="stable")
     low_y, high_y = boxes[order, 2], boxes[order, 3]
-    # In this order, the x-interval of box i meets exactly those of the boxes i < j < ends[i].
+    # In this order, the x-interval of box i intersects exactly those of boxes i < j < ends[i].
     ends = np.searchsorted(boxes[order, 0], boxes[order, 1], side="right")
     lowest, highest = _strips(low_y, high_y)
     # One copy of each box for each of its strips, sorted by strip.
@@ -150,7 +150,7 @@ def _swept_pairs(boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
 def _strips(low: Floats, high: Floats) -> tuple[Indices, Indices]:
     """Return the lowest and the highest strip of each interval.
 
-    About as many intervals begin in each strip, and few meet many strips. A higher
+    About as many intervals begin in each strip, and few intersect many strips. A higher
     interval is in no lower strip, wherever the plane is cut.
     """
     n = len(low)

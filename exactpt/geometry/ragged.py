@@ -1,7 +1,7 @@
 """Many bodies in one array of vertices: their edges, and a filter that finds them simple.
 
 Body k has the vertices ``offsets[k]`` to ``offsets[k + 1]`` - 1. A filter, never a decision:
-what it does not find simple is for `exactpt.geometry.polygon.first_self_touch`.
+the other bodies are for `exactpt.geometry.polygon.first_self_touch`.
 """
 
 from __future__ import annotations
@@ -184,7 +184,7 @@ def surely_simple(
 def _apart_from_itself(
     vertices: Floats, d: Floats, edges: Edges, some: Indices, rings: Flags, off: Floats | None
 ) -> Flags:
-    """Return True if no two edges of a body meet that are not neighbours.
+    """Return True if no two edges of a body intersect that are not neighbours.
 
     ``off`` bounds the errors of the differences of two vertices of each body.
     """

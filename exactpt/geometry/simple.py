@@ -1,4 +1,4 @@
-"""Float filters for simple polygons and chains: what one accepts is simple, and has an area.
+"""Float filters for simple polygons and chains: accepted ones are simple, with an area.
 
 The sign of an orientation. With coordinates off by at most e, a rounded difference u has an
 error of at most 2 e + U |u|, so the determinant p - q of two differences u, v one of at most

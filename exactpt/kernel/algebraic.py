@@ -94,7 +94,7 @@ class AlgebraicNumber(RealNumber):
         if common != other._polynomial:
             common = greatest_common_divisor(common, other._polynomial)
         # common divides self._polynomial, which has one simple root in [self._low, self._high];
-        # its sign changes in [low, high] (the ends are no roots) iff that root is common.
+        # its sign changes in [low, high] (the ends are not roots) iff that root is common.
         return len(common) > 1 and sign_at(common, low) * sign_at(common, high) < 0
 
     def sign_of(self, f: IntPoly) -> int:

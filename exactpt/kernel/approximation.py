@@ -149,7 +149,7 @@ def rational_between(x: IsolatedRoot, y: IsolatedRoot) -> QQ:
     # A grid point between x and y belongs to all finer grids too: gallop, then bisect.
     coarse, bits = -1, 0
     while y.compare_rational(found := _next_on_grid(x, bits)) <= 0:
-        ask()  # of a forged state, x need not be smaller than y
+        ask()  # in a forged state, x may be y or more
         coarse, bits = bits, 2 * bits + 1
     while bits - coarse > 1:
         middle = (coarse + bits) // 2

@@ -1,6 +1,6 @@
-"""Budgets of time and memory: long loops ask whether the budget of their thread is used up.
+"""Budgets of time and memory: long loops check the budget of their thread.
 
-A budget holds in the thread that has set it, needs no signals, and is asked for wherever a
+A budget holds in the thread that has set it, needs no signals, and is checked wherever a
 loop may take long: over vertices, certificates, coefficients of long polynomials, bisections.
 """
 
@@ -98,7 +98,7 @@ def within(deadline: float | None, memory: int | None = None) -> Iterator[None]:
 
 @contextlib.contextmanager
 def searching(deadline: float | None, passed: Callable[[], Fraction | None]) -> Iterator[None]:
-    """As `within`, `GRACE` after a deadline, for a search that tells how far it has come.
+    """As `within`, `GRACE` after a deadline, for a search that reports its progress.
 
     Args:
         deadline: as for `within`.

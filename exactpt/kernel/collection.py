@@ -13,8 +13,8 @@ __all__ = ["collector_at_rest"]
 def collector_at_rest() -> Iterator[None]:
     """Within the context, cyclic garbage is not collected, in any thread.
 
-    The collector visits all objects again and again while their number grows, though what is
-    built contains none that is garbage: a third of the time of a tiling's start.
+    The collector visits all objects again and again while their number grows, though none
+    of the new objects is garbage: a third of the time of a tiling's start.
     """
     was_on = gc.isenabled()
     gc.disable()

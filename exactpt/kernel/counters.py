@@ -19,7 +19,7 @@ class Counts(NamedTuple):
     Attributes:
         exact: those that needed exact arithmetic.
         filtered: those decided by floats with a proven bound.
-        reasons: the exact ones, by what was decided and why the filter failed.
+        reasons: the exact ones, by their subject and the reason of the filter's failure.
     """
 
     exact: int

@@ -25,10 +25,10 @@ def doubles(values: ArrayLike, what: str) -> Floats:
 
     Args:
         values: floats of at most 64 bits, or integers that are doubles.
-        what: what they are, for the message.
+        what: their name in the message.
 
     Raises:
-        InputError: if a value is no number, not finite, or not a double.
+        InputError: if a value is not a number, not finite, or not a double.
         RoundingError: see `check_rounding`.
     """
     check_rounding()
@@ -55,7 +55,7 @@ def indices(values: ArrayLike, what: str) -> Indices:
     """Return the values as int64.
 
     Raises:
-        InputError: if a value is no integer.
+        InputError: if a value is not an integer.
     """
     try:
         given = np.asarray(values)

@@ -1,4 +1,4 @@
-"""What is computed in doubles without rounding: then the doubles are the exact result.
+"""Computations in doubles without rounding errors: the doubles are the exact result.
 
 The error of a sum, and of a product, is itself a double, as long as nothing overflows and no
 product of nonzero numbers is below 2^-900.

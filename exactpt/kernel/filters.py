@@ -120,7 +120,7 @@ def quadratic(
     one, is of size at least (|q| - eq) / (|c2| + e2): see `_near_alone`.
 
     ``at_root``: the polynomial is known to vanish now. The two enclosures are of two
-    different roots; so if only one of them meets [now_low, now_high], that root is now.
+    different roots; so if only one of them intersects [now_low, now_high], that root is now.
     """
     if c2 == 0.0 and e2 == 0.0:
         return linear(c0, c1, e0, e1, now_low, now_high, horizon, at_root)

@@ -45,7 +45,7 @@ FIRST_STEPS: Final = 6
 class IsolatedRoot:
     """A real root of an integer polynomial, or a rational, whose interval is refined in place.
 
-    Refining changes what is known of the number, not the number.
+    Refining narrows the interval of the number, not the number itself.
 
     The polynomial is square-free and primitive with a positive leading coefficient; for a
     rational p/q it is ``(-p, q)``. No other real root of it lies in [low, high], and
@@ -172,7 +172,7 @@ class IsolatedRoot:
         self._bits = self._bits + 1 if self._bits < 1 else 4
 
     def _refine_by_secant(self) -> None:
-        """One step of Abbott's QIR: of 2^bits equal cells, try the one the secant meets.
+        """One step of Abbott's QIR: of 2^bits equal cells, try the one that the secant hits.
 
         Where the polynomial is nearly linear the root is in that cell, and the next step
         squares the number of cells. Otherwise the next step takes its square root, and the

@@ -34,7 +34,7 @@ class Polynomial:
 
     Sums, differences, products and powers are polynomials, and so are quotients by numbers; a
     number stands for the constant polynomial. Coefficients given as doubles are kept, and become
-    rationals when these are asked for.
+    rationals on first access.
 
     >>> t = Polynomial([0, 1])
     >>> f = t / 2 - t**2

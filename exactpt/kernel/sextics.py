@@ -15,7 +15,7 @@ of another window.
 
 A root now, at r. Then p = (t - r) q, and coefficient k of p on [r, b] is k (b - r) / 6
 times coefficient k - 1 of q. It is also (b - r) / 6 times the sum of k polar forms of the
-derivative p', each at five arguments r and b. What is computed is that sum times h / (6 k),
+derivative p', each at five arguments r and b. The computed value is that sum times h / (6 k),
 with arguments a and a + h: Bernstein coefficients without the constant term, divided by
 k. The terms of c[i] have sizes of at most (h / 6) i |c[i]| T^(i-1) <= (h / T) |c[i]| T^i
 and go through one operation more. Each of the five arguments is off by at most u T, or by

@@ -1,8 +1,8 @@
-"""The conflict zone of a new body in a tiling: the faces that it meets.
+"""The conflict zone of a new body in a tiling: the faces that it intersects.
 
 A search from any face visits others in the order of their distance (in floats, which
 decide only the order) until it finds one that contains a vertex of the body; from there,
-every diagonal that the body meets leads to another face of the zone, exactly. Everything is
+every diagonal that the body crosses leads to another face of the zone, exactly. Everything is
 decided at the given time, for closed faces and the closed body, so that nothing is missed
 where certificates vanish at that time.
 """
@@ -30,11 +30,11 @@ __all__ = ["ConflictZone", "find_conflict_zone"]
 
 
 class ConflictZone(NamedTuple):
-    """The faces and diagonals that a body meets.
+    """The faces and diagonals that a body intersects.
 
     Attributes:
-        faces: one half-edge of every face that it meets.
-        crossed: one half-edge of every diagonal that it meets.
+        faces: one half-edge of every face that it intersects.
+        crossed: one half-edge of every diagonal that it intersects.
     """
 
     faces: list[HalfEdge]
@@ -51,7 +51,7 @@ def find_conflict_zone(vertices: Vertices, mesh: Mesh, body: Body, t: QQ) -> Con
         t: the time.
 
     Raises:
-        InputError: if the body touches another one.
+        InputError: if the body touches another body.
     """
     return _Search(vertices, mesh, body, t).zone()
 
@@ -161,7 +161,7 @@ class _Search:
         return turns
 
     def _meets(self, h: HalfEdge) -> bool:
-        """Return True if the boundary of the body meets the closed edge of a half-edge."""
+        """Return True if the boundary of the body intersects the closed edge of a half-edge."""
         a, b = self._ends(h)
         for axis in (0, 1):
             if max(a[axis], b[axis]) < self.low[axis] or min(a[axis], b[axis]) > self.high[axis]:

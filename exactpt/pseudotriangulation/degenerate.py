@@ -1,9 +1,9 @@
 """The tiling at a degenerate instant, the time of an event itself.
 
 A kinetic tiling is the one just after the current time. Where certificates vanish at that
-time, some of its edges pass through vertices then, and some of its faces have no area.
+time, some of its edges pass through vertices, and some of its faces have no area.
 `close_at` gives the tiling of the instant itself: vertices collinear then are treated
-like vertices collinear for ever (`exactpt.certificates.perturbation`), so that the middle
+like permanently collinear vertices (`exactpt.certificates.perturbation`), so that the middle
 one of three sticks out.
 """
 

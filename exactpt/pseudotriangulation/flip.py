@@ -51,7 +51,7 @@ class Flip(NamedTuple):
 
 
 class Shadows:
-    """Tells `flip_until_greedy` the shadow edges of diagonals; a subclass may remember them."""
+    """Provides `flip_until_greedy` with shadow edges of diagonals; a subclass may store them."""
 
     def is_greedy(self, h: HalfEdge) -> bool:  # noqa: ARG002 - nothing is known
         """Return True if a diagonal is known to have a shadow of larger theta."""
@@ -83,7 +83,7 @@ def flip_until_greedy(
         mesh: a pseudo-triangulation just after the time of the predicates.
         predicates: the predicates just after that time.
         candidates: the edges (even half-edges, each once) to test first.
-        shadows: what is known of shadow edges, and learns of those found.
+        shadows: the known shadow edges; new ones are reported to it.
 
     Returns:
         The flips, in order.
@@ -125,7 +125,7 @@ def flip_until_greedy(
 def _theta_is_smaller(mesh: Mesh, s: Ends, t: Ends, predicates: Predicates) -> bool:
     """Return True if theta(s) < theta(t), for two edges that cross.
 
-    If they are parallel for ever, they join copies of the same two vertices. Inflation
+    If they are permanently parallel, they join copies of the same two vertices. Inflation
     then changes the slope by (h(b) - h(a)) / L, where h is +1 for a body below the line
     (`exactpt.tiling.greedy.slope`); larger slope is smaller theta.
     """

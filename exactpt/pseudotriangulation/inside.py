@@ -21,7 +21,7 @@ def tile_inside(mesh: Mesh, first: HalfEdge, predicates: Predicates) -> None:
         predicates: the predicates of the time.
 
     Raises:
-        AuditError: if the body is not simple then.
+        AuditError: if the body is not simple at that time.
     """
     m = mesh.map
     rest = m.face(first)

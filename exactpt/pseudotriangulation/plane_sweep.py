@@ -5,8 +5,8 @@ vertices that bounds its tiles so far on the right: from the last vertex of its 
 to that of its upper one, convex to the right. A new vertex in the gap is joined to the
 chain by its two tangents; the chain between their ends becomes the third side of a
 pseudo-triangle. For points this is the incremental pseudo-triangulation (paper, section
-3.1); a vertex on an edge of a gap needs one tangent, and where two edges meet, the chain
-between them closes the gap.
+3.1); a vertex on an edge of a gap needs one tangent, and where two edges end at one vertex, the
+chain between them closes the gap.
 
 The result is a pseudo-triangulation, but not one with the fewest faces
 (`exactpt.pseudotriangulation.pointed`). Time O(n log n) plus the lengths of the chains

@@ -118,7 +118,7 @@ def _step(
     At its corner (distance 0) the segment must be inside the angle. On the chain after
     the corner both neighbours must be on the right of the segment, on the chain before
     it on the left: the solid side. A neighbour farther from the corner that is on the
-    line for ever is nearer to y and sticks out: the end moves there. (A neighbour may be
+    line for all times is nearer to y and sticks out: the end moves there. (A neighbour may be
     another visit of the vertex of y; then the other end must move.) The test that moved the
     visit here, away from its corner, shows that it need not move back.
     """
@@ -148,7 +148,7 @@ def is_tangent(mesh: Mesh, h: HalfEdge, i: HalfEdge, j: HalfEdge, predicates: Pr
     """Return True if the segment between two visits at h is tangent at the first one.
 
     At a corner it is inside the angle; at a reflex vertex both neighbours are on one side of it.
-    Vertices that are collinear for ever are no tangency.
+    Permanently collinear vertices are not a tangency.
 
     A segment xy that is tangent at both ends is the shadow edge of h, unless it is h:
 

@@ -2,7 +2,7 @@
 
 Vertices are those of the scene. Infinitesimal copies of a vertex are contracted to it;
 faces without area are dropped, and edges along such a face are split at its vertices.
-What remains is a tiling of the unperturbed free space: no vertex lies in the interior of an
+The rest is a tiling of the unperturbed free space: no vertex lies in the interior of an
 edge, and every face has three corners.
 """
 
