@@ -188,7 +188,9 @@ def _verdict(proof: ProofRun, scene_file: bytes, deadline: float | None) -> Proo
             for line in proof.lines():
                 file.write(f"{line}\n")
                 if deadline is not None and clock.monotonic() > deadline:
-                    raise BudgetExceeded("the budget of the check is used up", proof.passed())
+                    raise BudgetExceeded(
+                        "the budget of the check is used up", proof.driver.passed()
+                    )
         return check_proof(scene_path, path, max_seconds=_left(deadline))
 
 

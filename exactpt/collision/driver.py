@@ -31,11 +31,11 @@ __all__ = ["CHANGES", "EVENTS", "MANY", "NOTHING", "TIMES", "Driver", "Observer"
 NOTHING: Final = 0
 """Listen only to the start, the end, and changes of motions."""
 TIMES: Final = 1
-"""Listen to event times; events are not recorded."""
+"""Listen to event times (`Observer.passed`); events are not recorded."""
 EVENTS: Final = 2
-"""Listen to the events of each event time."""
+"""Listen to the events of each event time (`Observer.happened`)."""
 CHANGES: Final = 3
-"""Listen to events and to the changed half-edges."""
+"""Listen to the half-edges changed at each event time (`Observer.changed`)."""
 
 MANY: Final = 64
 """Number of event times between two checks of the budget, if nothing listens."""
@@ -50,27 +50,28 @@ class Observer:
 
     listens_to: int = TIMES
 
-    def touching(
-        self, scene: Scene, touches: Sequence[Touch], overlaps: Sequence[tuple[int, int]]
-    ) -> None:
-        """Bodies touch at the start (see `initial_touches`); no other method is called."""
+    def touching(self, scene: Scene) -> None:
+        """Bodies touch at the start; no other method is called."""
 
     def before(self, scene: Scene, tiling: Tiling) -> None:
         """Time is about to pass; the scene is that since the last change of motions."""
 
-    def passed(
-        self, tiling: Tiling, events: Sequence[TilingEvent], changed: set[HalfEdge] | None
-    ) -> None:
-        """An event time has been processed.
+    def passed(self, tiling: Tiling) -> None:
+        """An event time has been processed, which is now."""
+
+    def happened(self, tiling: Tiling, events: Sequence[TilingEvent]) -> None:
+        """An event time has been processed, which is now, with these events."""
+
+    def changed(self, tiling: Tiling, changed: set[HalfEdge] | None) -> None:
+        """An event time has been processed, or none was left up to a time, which is now.
 
         Args:
             tiling: the tiling just after it.
-            events: its events; empty if no observer listens to `EVENTS`.
-            changed: see `Tiling.changes`; None if no observer listens to `CHANGES`.
+            changed: see `Tiling.changes`.
         """
 
-    def reached(self, tiling: Tiling, changed: set[HalfEdge] | None) -> None:
-        """No event was left up to a time, which is now; the last arguments are as in `passed`."""
+    def reached(self, tiling: Tiling) -> None:
+        """No event was left up to a time, which is now."""
 
     def met(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
         """The run has ended with a contact now; the tiling is the one just before."""
@@ -98,7 +99,9 @@ class Driver:
         budget: the bounds of `run`.
         since: a rational time with no contact up to it; None before the contacts at the start
             are known, and if there are any.
-        touches: the incidences of the contact that ended the last `advance`; None without one.
+        touches: the incidences of the contact that ended the last `start` or `advance`; None
+            without one.
+        overlaps: the pairs of bodies in contact at the start, as in `initial_touches`.
     """
 
     def __init__(
@@ -115,6 +118,7 @@ class Driver:
         self.budget = Budget(None, None) if budget is None else budget
         self.since: QQ | None = None if tiling is None else scene()._start
         self.touches: Sequence[Touch] | None = None
+        self.overlaps: Sequence[tuple[int, int]] = ()
 
     @property
     def kinetic(self) -> Tiling:
@@ -138,8 +142,9 @@ class Driver:
         start = scene._start
         touches, overlaps = initial_touches(scene)
         if overlaps:
+            self.touches, self.overlaps = touches, overlaps
             for observer in self.observers:
-                observer.touching(scene, touches, overlaps)
+                observer.touching(scene)
             return contact_of(scene, AlgebraicNumber(start), touches, overlaps)
         self.since = start
         try:
@@ -254,10 +259,14 @@ class Driver:
 
     def _notify(self, tiling: Tiling, events: Sequence[TilingEvent] | None) -> None:
         """Notify the observers of an event time, or that there is none."""
-        needs_changes = any(observer.listens_to >= CHANGES for observer in self.observers)
-        changed = tiling.changes() if needs_changes else None
-        for observer in self.observers:
-            if events is None:
-                observer.reached(tiling, changed)
-            elif observer.listens_to:
-                observer.passed(tiling, events, changed)
+        levels = [observer.listens_to for observer in self.observers]
+        changed = tiling.changes() if CHANGES in levels else None
+        for level, observer in zip(levels, self.observers, strict=True):
+            if level == CHANGES:
+                observer.changed(tiling, changed)
+            elif events is None:
+                observer.reached(tiling)
+            elif level == TIMES:
+                observer.passed(tiling)
+            elif level == EVENTS:
+                observer.happened(tiling, events)

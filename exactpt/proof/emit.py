@@ -3,28 +3,29 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
-from fractions import Fraction
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, final
 
-from exactpt.errors import BudgetExceeded
-from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.collision.driver import CHANGES, Driver, Observer
+from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt.kernel.budget import Budget
 from exactpt.motion.body import refuse_rounded
-from exactpt.pairs.contact import Contact, contact_of
-from exactpt.pairs.start import initial_touches
 from exactpt.proof.degrees import refuse_degrees
 from exactpt.proof.lines import Lines, header
 from exactpt.proof.nodes import Nodes
-from exactpt.proof.watch import Watch
+from exactpt.proof.watch import Step, Watch
 from exactpt.scene.written import to_json
-from exactpt.tiling.events import ContactFound
-from exactpt.tiling.start import check_tiling, proved_until, start_tiling, tiling_for_contact
+from exactpt.tiling.start import check_tiling, tiling_for_contact
 
 if TYPE_CHECKING:
+    from exactpt.indices import HalfEdge
+    from exactpt.kernel.numbers import QQ
+    from exactpt.motion.incidence import Touch
+    from exactpt.pairs.contact import Contact
     from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
 
-__all__ = ["ProofRun", "scene_bytes"]
+__all__ = ["Part", "ProofRun", "scene_bytes"]
 
 
 def scene_bytes(scene: Scene) -> bytes:
@@ -47,7 +48,7 @@ class ProofRun:
         tiling: the name of the tiling.
         nodes: the vertices of the scene.
         maker: what makes the lines.
-        kinetic: the tiling; None before the run, or if there is no run.
+        driver: drives the tiling.
         contact: the first contact, or None; known once all lines have been generated.
     """
 
@@ -65,49 +66,90 @@ class ProofRun:
         refuse_degrees(scene.bodies)
         check_tiling(tiling)
         self.tiling: str = tiling_for_contact(scene, tiling)
-        self._options = exact_only, max_events
+        self._exact_only = exact_only
         self._file = scene_bytes(scene) if scene_file is None else scene_file
         self.nodes = Nodes(scene)
         self.maker = Lines(self.nodes)
-        self.kinetic: Tiling | None = None
+        self.driver = Driver(lambda: scene, budget=Budget(max_events, None))
         self.contact: Contact | None = None
-        self._begun = False
-
-    def passed(self) -> Fraction | None:
-        """See `Search.passed`."""
-        if not self._begun:
-            return None
-        return proved_until(self.kinetic, self._scene._start)
 
     def lines(self) -> Iterator[str]:
         """The lines, without line ends."""
-        scene = self._scene
+        scene, driver = self._scene, self.driver
         yield from header(self._file, scene._start, scene._end)
-        touches, overlaps = initial_touches(scene)
-        if overlaps:
-            self.contact = contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)
-            yield self.maker.contact_at_start(touches, overlaps)
-        elif scene.bodies:
-            yield from self._run()
-        else:
+        if not scene.bodies:
             yield "none"
-
-    def _run(self) -> Iterator[str]:
-        scene, (exact_only, most), events = self._scene, self._options, 0
-        self._begun = True
-        kinetic = start_tiling(scene, self.tiling, scene._start, exact_only=exact_only)
-        self.kinetic = kinetic
-        watch = Watch(kinetic, self.nodes)
-        yield from self.maker.faces(watch.first())
-        try:
-            while (happened := kinetic.advance(scene._end)) is not None:
-                events += len(happened)
-                if most is not None and events > most:
-                    raise BudgetExceeded("the number of events is used up", self.passed())
-                if kinetic.now.compare_rational(scene._end) < 0:
-                    yield from self.maker.event(watch.step())
-        except ContactFound as found:
-            self.contact = contact_of(scene, kinetic.now, sorted(found.touches))
-            yield from self.maker.contact(kinetic.now, watch.names(), found.touches)
+            return
+        self.contact = driver.start(self.tiling, exact_only=self._exact_only)
+        if self.contact is not None:
+            yield self.maker.contact_at_start(driver.touches or (), driver.overlaps)
+            return
+        made: list[str] = []
+        part = Part(driver.kinetic, self.nodes, self.maker, made.extend)
+        driver.observers.append(part)
+        while (events := driver.advance(scene._end)) is not None:
+            driver.count(len(events))
+            yield from made
+            made.clear()
+        if driver.touches is None:
+            part.none(scene._end)
         else:
-            yield from self.maker.none(scene._end)
+            self.contact = driver.meet()
+        yield from made
+
+
+@final
+class Part(Observer):
+    """The lines of a proof from a time on, but the header.
+
+    The last event is held back, since there is no line for one at the end.
+
+    Args:
+        kinetic: the tiling, between two events.
+        nodes: the vertices of its bodies, in a scene that starts now.
+        maker: makes the lines.
+        put: what takes the lines, without line ends.
+
+    Attributes:
+        watch: the tiling.
+    """
+
+    listens_to: int = CHANGES
+
+    def __init__(
+        self, kinetic: Tiling, nodes: Nodes, maker: Lines, put: Callable[[Iterable[str]], None]
+    ) -> None:
+        self.watch = Watch(kinetic, nodes)
+        self._maker, self._put = maker, put
+        self._held: Step | None = None
+        self._last = AlgebraicNumber(nodes.scene._start)
+        self._put(self._maker.faces(self.watch.first()))
+
+    def changed(self, tiling: Tiling, changed: set[HalfEdge] | None) -> None:
+        """See `Observer.changed`."""
+        if self._held is None or self._held.time.compare(tiling.now) < 0:
+            self._release()
+            self._held = self.watch.step(changed)
+
+    def met(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
+        """See `Observer.met`."""
+        self._release()
+        self._put(self._maker.contact(tiling.now, self.watch.names(), touches))
+
+    def none(self, end: QQ) -> None:
+        """Put the last lines, if there is no contact up to a time."""
+        if self._held is not None and self._held.time.compare_rational(end) < 0:
+            self._release()
+        self._put(self._maker.none(end))
+
+    def before_now(self) -> QQ:
+        """Now, if it is rational; else a time between the last two events."""
+        now = self.watch.now.simplified()
+        return now._low if now.is_rational else rational_between(self._last, now)
+
+    def _release(self) -> None:
+        """Put the lines of the event that is held back."""
+        if self._held is not None:
+            self._last = self._held.time
+            self._put(self._maker.event(self._held))
+            self._held = None

@@ -8,7 +8,7 @@ begins to deform.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -16,12 +16,10 @@ from typing import TYPE_CHECKING, Final, final
 
 from exactpt.errors import InputError
 from exactpt.files import write_atomically, writing
-from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.proof.degrees import refuse_degrees
-from exactpt.proof.emit import ProofRun, scene_bytes
+from exactpt.proof.emit import Part, ProofRun, scene_bytes
 from exactpt.proof.lines import Lines, header
 from exactpt.proof.nodes import Nodes, rigid_until
-from exactpt.proof.watch import Step, Watch
 
 if TYPE_CHECKING:
     from exactpt.kernel.numbers import QQ
@@ -60,7 +58,7 @@ class ProofFolder:
             raise InputError(f"{folder}: contains proofs")
         self._written = 0
         self._before = CHAIN
-        self._part: _Part | None = None
+        self._part: Part | None = None
 
     def touching(self, scene: Scene) -> None:
         """See `Recorder.touching`."""
@@ -71,39 +69,54 @@ class ProofFolder:
         """See `Recorder.begin`."""
         if self._part is None and kinetic.now.compare_rational(scene._end) < 0:
             refuse_degrees(scene.bodies)
-            self._part = _Part(scene.going_on(scene.bodies, kinetic.now._low), kinetic)
+            self._begin(scene.going_on(scene.bodies, kinetic.now._low), kinetic)
 
     def advanced(self) -> None:
         """See `Recorder.advanced`."""
         part = self._part
         if part is not None:
-            part.advanced()
-            if part.watch.now.compare_rational(part.end) >= 0:
-                self.change(part.end)
+            kinetic = part.watch.kinetic
+            part.changed(kinetic, kinetic.changes())
+            if kinetic.now.compare_rational(self._end) >= 0:
+                self.change(self._end)
 
     def change(self, t: QQ) -> None:
         """See `Recorder.change`."""
         part, self._part = self._part, None
-        if part is not None and t > part.scene._start:
+        if part is not None and t > self._scene._start:
             part.none(t)
-            self._keep(part, t)
+            self._keep(t)
 
     def met(self, touches: Sequence[Touch]) -> None:
         """See `Recorder.met`."""
         part, self._part = self._part, None
         if part is not None:
-            part.contact(touches)
-            self._keep(part, part.end)
+            part.met(part.watch.kinetic, touches)
+            self._keep(self._end)
 
     def finish(self) -> None:
         """See `Recorder.finish`."""
         if self._part is not None:
             self.change(self._part.before_now())
 
-    def _keep(self, part: _Part, end: QQ) -> None:
+    def _begin(self, scene: Scene, kinetic: Tiling) -> None:
+        """Begin a part, whose lines are in a temporary file until its end is known."""
+        self._scene, self._end = scene, rigid_until(scene)
+        nodes = Nodes(scene.until(self._end))
+        file = self._file = TemporaryFile("w+", encoding="utf-8")  # noqa: SIM115 - see `_keep`
+
+        def put(lines: Iterable[str]) -> None:
+            file.writelines(f"{line}\n" for line in lines)
+
+        self._part = Part(kinetic, nodes, Lines(nodes), put)
+
+    def _keep(self, end: QQ) -> None:
         """Write the files of a part that is over."""
-        file = scene_bytes(part.scene)
-        self._write(file, chain(header(file, part.scene._start, end), part.lines()))
+        scene = scene_bytes(self._scene)
+        with self._file as file:
+            file.seek(0)
+            lines = (line.rstrip("\n") for line in file)
+            self._write(scene, chain(header(scene, self._scene._start, end), lines))
 
     def _write(self, scene: bytes, lines: Iterable[str]) -> None:
         self._written += 1
@@ -127,66 +140,3 @@ class ProofFolder:
         except OSError as error:
             raise InputError(f"{self._folder}: cannot be written: {error.strerror}") from None
         self._before = line
-
-
-@final
-class _Part:
-    """A part of a run: a proof whose lines are in a temporary file until its end is known.
-
-    The last event is held back, since there is no line for one at the end.
-
-    Attributes:
-        scene: the scene from the start of this part on.
-        end: the time at which the part ends at the latest.
-        watch: the tiling.
-    """
-
-    def __init__(self, scene: Scene, kinetic: Tiling) -> None:
-        self.scene = scene
-        self.end = rigid_until(scene)
-        nodes = Nodes(scene.until(self.end))
-        self.watch = Watch(kinetic, nodes)
-        self._lines = Lines(nodes)
-        self._file = TemporaryFile("w+", encoding="utf-8")  # noqa: SIM115 - closed with the part
-        self._held: Step | None = None
-        self._last = AlgebraicNumber(scene._start)
-        self._put(self._lines.faces(self.watch.first()))
-
-    def advanced(self) -> None:
-        """Note the changes of an event, or that there was none up to now."""
-        if self._held is None or self._held.time.compare(self.watch.now) < 0:
-            self._release()
-            self._held = self.watch.step()
-
-    def none(self, end: QQ) -> None:
-        """Put the last lines, if there is no contact up to a time."""
-        if self._held is not None and self._held.time.compare_rational(end) < 0:
-            self._release()
-        self._put(self._lines.none(end))
-
-    def contact(self, touches: Sequence[Touch]) -> None:
-        """Put the last lines, if there is a contact now."""
-        self._release()
-        self._put(self._lines.contact(self.watch.now, self.watch.names(), touches))
-
-    def before_now(self) -> QQ:
-        """Now, if it is rational; else a time between the last two events."""
-        now = self.watch.now.simplified()
-        return now._low if now.is_rational else rational_between(self._last, now)
-
-    def lines(self) -> Iterator[str]:
-        """The lines, which can be read once."""
-        with self._file as file:
-            file.seek(0)
-            for line in file:
-                yield line.rstrip("\n")
-
-    def _release(self) -> None:
-        """Put the lines of the event that is held back."""
-        if self._held is not None:
-            self._last = self._held.time
-            self._put(self._lines.event(self._held))
-            self._held = None
-
-    def _put(self, lines: Iterable[str]) -> None:
-        self._file.writelines(f"{line}\n" for line in lines)

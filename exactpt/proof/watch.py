@@ -75,9 +75,9 @@ class Watch:
         # A single point has no half-edge.
         return come or {Cycle("outer", (v,)) for v in range(len(self._nodes.body_of))}
 
-    def step(self) -> Step:
-        """The changes since the last call."""
-        changed, mesh = self.kinetic.changes(), self.kinetic.mesh_after()
+    def step(self, changed: set[HalfEdge] | None) -> Step:
+        """The changes since the last call, from the changed half-edges (`Tiling.changes`)."""
+        mesh = self.kinetic.mesh_after()
         if changed is None:
             changed = {*mesh.map.half_edges(), *self._face_of}
         if self.kinetic.vertices.changes != self._changes:

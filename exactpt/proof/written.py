@@ -138,7 +138,7 @@ class ProvedSearch:
     @property
     def stats(self) -> dict[str, object]:
         """The counts of the run; see `exactpt.tiling.report`."""
-        return report(self._scene, self._proof.kinetic)
+        return report(self._scene, self._proof.driver.tiling)
 
     def run_to_contact(self) -> Contact | None:
         """Write the proof, and return the first contact, or None.
@@ -157,7 +157,7 @@ class ProvedSearch:
 
     def passed(self) -> Fraction | None:
         """See `Search.passed`."""
-        return self._proof.passed()
+        return self._proof.driver.passed()
 
 
 def write_proof(
