@@ -2,31 +2,24 @@
 
 from __future__ import annotations
 
-import math
 import signal
 import sys
-import time as clock
 from itertools import cycle
 from pathlib import Path
-from types import FrameType
-from typing import Final
 
 import click
 
-from exactpt.cgal import find_program
-from exactpt.errors import InputError
 from exactpt.files import write_atomically
 from exactpt.scene.generate import FAMILIES as BODIES
 from exactpt.scene.generate import POINTS, RINGS, ROUNDED, SPINNING
 from exactpt.tiling.start import TILINGS
-from fuzz import battery, corpus, planted, soak
-from fuzz.campaign import Campaign, run
-from fuzz.cases import QUESTION, Outcome
-from fuzz.hostile import run as hostile_run
-from fuzz.hostile.files import FORMATS
+from fuzz import battery, planted, soak
+from fuzz.campaign import INTERRUPTS
+from fuzz.cases import QUESTION, Scenes
+from fuzz.hostile.run import hostile_files
+from fuzz.options import FAILED, HELP, INTERRUPTED, Options, conduct, options, require_cgal
 from fuzz.pair_record import pair_record
-from fuzz.proofs.both import proof_both
-from fuzz.proofs.command import proof_mutants
+from fuzz.proofs.command import proof_both, proof_mutants
 from fuzz.questions.checks import QUESTIONS
 from fuzz.questions.command import questions
 from fuzz.record import differences, record
@@ -36,19 +29,10 @@ from fuzz.thin import SUFFIX
 from fuzz.transformations.command import transformations
 from fuzz.witnesses import WITNESSES
 
-FAILED, INTERRUPTED = 1, 130
 FAMILIES = (*BODIES, *POINTS, *ROUNDED, *RINGS)
 ASKED = tuple(QUESTION + name for name in QUESTIONS)
 MIXED = tuple(name for pair in zip(FAMILIES, cycle(ASKED), strict=False) for name in pair)
 """A scene and a question in turn; every question is among the first thirty cases."""
-KEPT: Final = Path("questions-found")
-"""Folder for questions with a difference."""
-
-
-IMPATIENT: Final = 3.0
-"""Seconds in which a second Ctrl-C is taken for the first one."""
-
-HELP = {"help_option_names": ["-h", "--help"]}
 
 
 @click.command("fuzz", context_settings=HELP)
@@ -58,28 +42,12 @@ HELP = {"help_option_names": ["-h", "--help"]}
 @click.option("--family", "more", multiple=True, type=click.Choice([*sorted(FAMILIES), *ASKED]))
 @click.option("--thin", is_flag=True, help="Reduce half of the bodies to chains, segments, points.")
 @click.option("--witness", "witnesses", multiple=True, type=click.Choice(list(WITNESSES)))
-@click.option("--cases", "--count", "count", type=click.IntRange(min=1), help="Number of scenes.")
-@click.option("--seconds", type=click.FloatRange(min=0), help="Time limit.")
-@click.option("--minutes", type=click.FloatRange(min=0), help="Time limit.")
-@click.option("--seed", type=int, default=0, show_default=True, help="Seed of the first scenes.")
-@click.option("--start", type=click.IntRange(min=0), default=0, help="Number of the first case.")
-@click.option("--jobs", type=click.IntRange(min=1), default=1, help="Number of processes.")
-@click.option("--scheduler", help="The address of a Dask scheduler, instead of --jobs.")
 @click.option("--shrink", default=60.0, show_default=True, help="Seconds for shrinking a failure.")
+@options(None)
 def fuzz(
-    families: tuple[str, ...],
-    more: tuple[str, ...],
-    thin: bool,  # noqa: FBT001
-    witnesses: tuple[str, ...],
-    count: int | None,
-    seconds: float | None,
-    minutes: float | None,
-    seed: int,
-    start: int,
-    jobs: int,
-    scheduler: str | None,
-    shrink: float,
-) -> None:
+    chosen: Options, families: tuple[str, ...], more: tuple[str, ...], witnesses: tuple[str, ...],
+    shrink: float, *, thin: bool,
+) -> None:  # fmt: skip
     """Look for scenes on which the witnesses disagree, and questions with wrong answers.
 
     By default 200 cases, a scene of each family and a question in turn. A named family or witness
@@ -95,56 +63,18 @@ def fuzz(
       python -m fuzz proof-mutants
       python -m fuzz questions
       python -m fuzz transformations
-      python -m fuzz --hostile --cases 100000
-      python -m fuzz --soak 60
+      python -m fuzz hostile --cases 100000
+      python -m fuzz soak 60
     """
-    if minutes is not None:
-        seconds = 60 * minutes
-    if count is None and seconds is None:
-        count = 200
-    chosen = (*families, *more) or (FAMILIES if thin or witnesses else MIXED)
+    names = (*families, *more) or (FAMILIES if thin or witnesses else MIXED)
     if thin:
-        chosen = tuple(name if name in ASKED else name + SUFFIX for name in chosen)
-    campaign = Campaign(
-        families=chosen,
-        witnesses=witnesses or tuple(WITNESSES),
-        seed=seed,
-        start=start,
-        count=count,
-        seconds=seconds,
-        shrink_seconds=shrink,
-    )
-    if not {"cgal", "proof"}.isdisjoint(campaign.witnesses):
-        _require_cgal()
-    click.echo(f"seed {seed}, from case {start} on, witnesses {', '.join(campaign.witnesses)}")
-    summary = run(campaign, _report, jobs=jobs, scheduler=scheduler)
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.SIG_IGN)  # whoever is impatient gets the table too
-    click.echo("\n".join(summary.table()))
-    rate = len(summary.outcomes) / summary.seconds if summary.seconds else 0.0
-    click.echo(f"{len(summary.outcomes)} cases in {summary.seconds:.0f} s, {rate:.1f} a second")
-    if not summary.finished:
-        resume = summary.next_start(start)
-        click.echo(f"interrupted; to go on: --seed {seed} --start {resume}", err=True)
-        sys.exit(INTERRUPTED)
-    sys.exit(FAILED if summary.failed else 0)
-
-
-def _report(outcome: Outcome) -> None:
-    for failure in outcome.failures:
-        case = outcome.case
-        click.echo(f"case {case.number}, {case.family} {case.seed}: {failure.why}")
-        if case.question is None:
-            click.echo(f"  shrunk: {corpus.save(failure, case)}")
-        else:
-            click.echo(f"  saved: {corpus.save(failure, case, KEPT)}")
-
-
-def _require_cgal() -> None:
-    try:
-        find_program()
-    except InputError as error:
-        raise click.UsageError(f"{error}; or choose among the others with --witness") from None
+        names = tuple(name if name in ASKED else name + SUFFIX for name in names)
+    witnesses = witnesses or tuple(WITNESSES)
+    if not {"cgal", "proof"}.isdisjoint(witnesses):
+        require_cgal("--witness")
+    click.echo(f"seed {chosen.seed}, witnesses {', '.join(witnesses)}")
+    check = Scenes(names, witnesses, chosen.seed, shrink)
+    conduct(check, chosen, whole=200, again=f"--seed {chosen.seed}")
 
 
 @click.command("battery", context_settings=HELP)
@@ -153,7 +83,7 @@ def _require_cgal() -> None:
 @click.option("--samples", type=click.IntRange(min=0), default=5, show_default=True)
 def run_battery(words: tuple[str, ...], large: bool, samples: int) -> None:  # noqa: FBT001
     """Run the highly degenerate scenes of the battery (those with a WORD in their names)."""
-    _require_cgal()
+    require_cgal("another command")
     click.echo(battery.table([])[0])
     differences = 0
     for name, trial in battery.BATTERY.items():
@@ -228,40 +158,7 @@ def public_queries(folder: Path, count: int | None, *, engines: bool) -> None:
     sys.exit(FAILED if differences else 0)
 
 
-@click.command("--hostile", context_settings=HELP)
-@click.option("--cases", "count", type=click.IntRange(min=1), default=10_000, show_default=True)
-@click.option("--seconds", type=click.FloatRange(min=0), help="Time limit.")
-@click.option("--seed", type=int, default=0, show_default=True)
-@click.option("--start", type=click.IntRange(min=0), default=0, help="Number of the first file.")
-@click.option("--format", "formats", multiple=True, type=click.Choice(FORMATS))
-@click.option(
-    "--keep",
-    type=click.Path(file_okay=False, path_type=Path),
-    default=Path("hostile-found"),
-    show_default=True,
-    help="Folder for files with a fault.",
-)
-def run_hostile(
-    count: int, seconds: float | None, seed: int, start: int, formats: tuple[str, ...], keep: Path
-) -> None:
-    """Have every command and reader read damaged files; half have one changed value."""
-    tallies, rest = hostile_run.run(
-        formats or FORMATS,
-        count,
-        seed=seed,
-        start=start,
-        seconds=seconds,
-        report=click.echo,
-        keep=keep,
-    )
-    click.echo("\n".join(hostile_run.table(tallies)))
-    if rest is not None:
-        click.echo(f"interrupted; to go on: --seed {seed} --start {rest}", err=True)
-        sys.exit(INTERRUPTED)
-    sys.exit(FAILED if any(tally.outcomes["FAULT"] for tally in tallies.values()) else 0)
-
-
-@click.command("--soak", context_settings=HELP)
+@click.command("soak", context_settings=HELP)
 @click.argument("minutes", type=click.FloatRange(min=0, min_open=True))
 @click.option("--seed", type=int, default=0, show_default=True)
 @click.option("--tiling", default="lazy", show_default=True, type=click.Choice(TILINGS))
@@ -282,8 +179,8 @@ def run_soak(minutes: float, seed: int, tiling: str) -> None:
 
 
 COMMANDS = {
-    "--soak": run_soak,
-    "--hostile": run_hostile,
+    "soak": run_soak,
+    "hostile": hostile_files,
     "record": make_record,
     "space-queries": public_queries,
     "battery": run_battery,
@@ -296,33 +193,27 @@ COMMANDS = {
 }
 
 
-class _Interrupted:
-    """A handler of signals: Ctrl-C again within seconds would lose what is printed by then."""
-
-    def __init__(self) -> None:
-        self._last = -math.inf
-
-    def __call__(self, signum: int, frame: FrameType | None) -> None:
-        now = clock.monotonic()
-        if now - self._last > IMPATIENT:
-            self._last = now
-            signal.default_int_handler(signum, frame)
-
-
 def main() -> None:
     """Run a subcommand; without its name, a campaign.
 
     A termination signal acts like Ctrl-C, so that worker processes are ended too.
     """
-    interrupted = _Interrupted()
     for number in (signal.SIGINT, signal.SIGTERM):
         if signal.getsignal(number) is not signal.SIG_IGN:  # as in the background of a shell
-            signal.signal(number, interrupted)
+            signal.signal(number, INTERRUPTS)
     name, *rest = [*sys.argv[1:], ""]
-    if name in COMMANDS:
-        COMMANDS[name](rest[:-1], prog_name=f"python -m fuzz {name}")
-    else:
-        fuzz(prog_name="python -m fuzz")
+    name = {"--soak": "soak", "--hostile": "hostile"}.get(name, name)  # as they were once
+    command = COMMANDS.get(name, fuzz)
+    words = rest[:-1] if name in COMMANDS else sys.argv[1:]
+    own = f" {name}" if name in COMMANDS else ""
+    try:
+        sys.exit(command.main(words, prog_name=f"python -m fuzz{own}", standalone_mode=False))
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
+    except click.Abort:
+        click.echo("interrupted; nothing to go on from", err=True)
+        sys.exit(INTERRUPTED)
 
 
 if __name__ == "__main__":

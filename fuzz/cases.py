@@ -1,12 +1,12 @@
-"""Cases: a scene of a family and a seed, the verdicts of the witnesses, and their times."""
+"""Scenes of families before witnesses, and questions between them: the campaign by default."""
 
 from __future__ import annotations
 
 import contextlib
 import json
 import time as clock
-import traceback
-from collections.abc import Callable, Sequence
+from collections import defaultdict
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final, NamedTuple
 
@@ -15,32 +15,19 @@ from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from exactpt.testing.shrinking import shrink_data
-from exactpt.workers import work
-from fuzz.limits import HANGS, TimeIsUp, TooSlow, limit, patience_of
-from fuzz.questions.checks import checked
+from exactpt.workers.work import HANGS
+from fuzz import corpus
+from fuzz.campaign import FOUND, Check, Counts, Finding, Item, Result, Step, Tell
+from fuzz.limits import TimeIsUp, TooSlow, limit, patience_of, signed
+from fuzz.questions.command import KEPT, ask
 from fuzz.subscene import scene_of
 from fuzz.witnesses import WITNESSES, Difference
 
-__all__ = [
-    "QUESTION",
-    "Case",
-    "Failure",
-    "Outcome",
-    "Step",
-    "failure_of",
-    "left_by",
-    "run_case",
-    "shrunk",
-    "stopped",
-]
+__all__ = ["QUESTION", "Case", "Failure", "Scenes", "failure_of", "run_case", "shrunk"]
 
 
 QUESTION: Final = "questions/"
 """What the family of a case begins with if it is no scene, but one of `fuzz.questions`."""
-
-
-PATIENCE: Final = 60.0
-"""Seconds after which a question counts as hanging."""
 
 SEVERAL, LONG = 8, ("runs", "spin")
 """Number of questions in a case, and those that are long enough one by one."""
@@ -75,49 +62,78 @@ class Failure:
     why: str
     scene: str
 
-
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """The result of a case.
-
-    Attributes:
-        case: the case.
-        seconds: time of each witness, by name.
-        failures: the failures found.
-        complete: whether all witnesses have answered before the end of the campaign.
-    """
-
-    case: Case
-    seconds: dict[str, float]
-    failures: tuple[Failure, ...]
-    complete: bool = True
+    def of(self, case: Case) -> Finding:
+        """Return the finding of a case, with the files of the corpus."""
+        number, family, seed = case
+        why = f"fuzz {self.witness}, {family} {seed}: {self.why}\n"
+        files = corpus.files_of(self.witness, json.loads(self.scene), why)
+        return Finding(family, self.signature, f"case {number}, {family} {seed}: {self.why}", files)
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
-    """What is done next with a case.
+@dataclass(frozen=True)
+class Scenes(Check):
+    """The check of scenes by witnesses.
 
     Attributes:
-        witness: name of the witness.
-        seconds: limit of its time, or of the time for shrinking.
-        scene: the scene as JSON.
-        failure: the failure that is being shrunk.
+        families: names of families and questions (`QUESTION`), taken in turn.
+        witnesses: names of the witnesses that check every scene.
+        seed: the seed of the first scene of each family.
+        shrink_seconds: time limit for shrinking each failure.
     """
 
-    witness: str
-    seconds: float
-    scene: str
-    failure: Failure | None = None
+    families: Sequence[str]
+    witnesses: Sequence[str]
+    seed: int = 0
+    shrink_seconds: float = 60.0
+    name = "scenes"
+
+    @property
+    def about(self) -> object:
+        """The families, the witnesses and the seed."""
+        return [list(self.families), list(self.witnesses), self.seed]
+
+    def case(self, number: int) -> Case:
+        """Return a case by its number."""
+        turn, k = divmod(number, len(self.families))
+        return Case(number, self.families[k], self.seed + turn)
+
+    def run(self, item: Item, tell: Tell, ends: float | None) -> Result:
+        """Check a case."""
+        (number,) = item.numbers
+        return run_case(
+            self.case(number), tell, witnesses=self.witnesses,
+            shrink_seconds=self.shrink_seconds, ends=ends,
+        )  # fmt: skip
+
+    def table(self, counts: Counts) -> list[str]:
+        """One line for each family: cases, cases per second, failures, seconds by witness."""
+        rows = sorted({row for row, _ in counts})
+        columns = list(dict.fromkeys(column for _, column in counts))
+        timed = [column for column in columns if column not in ("cases", FOUND)]
+        total = defaultdict[str, float](int)
+        for (_, column), n in counts.items():
+            total[column] += n
+        lines = [f"{'family':22}{'cases':>8}{'a second':>10}{'failures':>10}"
+                 + "".join(map("{:>11}".format, timed))]  # fmt: skip
+        for row in [*rows, "all"]:
+            line = (
+                total if row == "all" else {c: counts[row, c] for c in (*columns, "cases", FOUND)}
+            )
+            seconds = sum(line[column] for column in timed)
+            rate = line["cases"] / seconds if seconds else 0.0
+            lines.append(f"{row:22}{line['cases']:>8}{rate:>10.1f}{line[FOUND]:>10}"
+                         + "".join(f"{line[column]:>9.1f} s" for column in timed))  # fmt: skip
+        return lines
 
 
 def run_case(
     case: Case,
-    tell: Callable[[Step], None] = lambda _: None,
+    tell: Tell = lambda _: None,
     *,
     witnesses: Sequence[str],
     shrink_seconds: float = 60.0,
     ends: float | None = None,
-) -> Outcome:
+) -> Result:
     """Have witnesses check a case; each failure is shrunk for at most ``shrink_seconds``.
 
     Args:
@@ -126,78 +142,55 @@ def run_case(
         witnesses: names of the witnesses.
         shrink_seconds: time limit for shrinking a failure.
         ends: the time (of ``time.time``) at which the campaign is over; None if it has no end.
+
+    Raises:
+        TimeIsUp: at this time, if nothing has been found.
     """
+    counts = Counts({(case.family, "cases"): 1})
     if case.question is not None:
-        return _run_question(case, case.question, tell, ends)
+        return _ask_several(case, case.question, counts, tell, ends)
     try:
         scene = scene_of(case.family, case.seed)
     except InputError as error:
-        return Outcome(
-            case, {}, (_failure("generator", "InputError", str(error), Scene([], (0, 1))),)
-        )
-    seconds: dict[str, float] = {}
-    failures: list[Failure] = []
-    most, text = patience_of(scene), json.dumps(to_json(scene))
+        nothing = Scene([], (0, 1))
+        return Result(counts, [_failure("generator", "InputError", str(error), nothing).of(case)])
+    found: list[Finding] = []
+    most = patience_of(scene)
     for name in witnesses:
-        tell(Step(name, most, text))
+        tell(Step(most, _failure(name, HANGS, name, scene).of(case)))
         began = clock.perf_counter()
         try:
             failure = failure_of(name, scene, case.seed, most, ends)
         except TimeIsUp:
-            return Outcome(case, seconds, tuple(failures), complete=False)
-        seconds[name] = clock.perf_counter() - began
+            if not found:
+                raise
+            break
+        counts[case.family, name] = seconds = clock.perf_counter() - began
         if failure is not None:
             # A failure that takes little time takes little time in a smaller scene, too.
-            patience = most if failure.signature == HANGS else min(most, 2.0 + 4.0 * seconds[name])
-            tell(Step(name, shrink_seconds + patience, text, failure))
-            failures.append(shrunk(failure, case.seed, shrink_seconds, patience, ends))
-    return Outcome(case, seconds, tuple(failures))
+            patience = most if failure.signature == HANGS else min(most, 2.0 + 4.0 * seconds)
+            tell(Step(shrink_seconds + patience, failure.of(case), is_found=True))
+            found.append(shrunk(failure, case.seed, shrink_seconds, patience, ends).of(case))
+    return Result(counts, found)
 
 
-def _run_question(
-    case: Case, question: str, tell: Callable[[Step], None], ends: float | None
-) -> Outcome:
+def _ask_several(
+    case: Case, question: str, counts: Counts, tell: Tell, ends: float | None
+) -> Result:
     """Have some questions answered and compared with their definitions; nothing is shrunk."""
-    failures: list[Failure] = []
-    began = clock.perf_counter()
     several = 1 if question in LONG else SEVERAL
+    found: list[Finding] = []
+    began = clock.perf_counter()
     for number in range(several * case.number, several * (case.number + 1)):
-        tell(Step(question, PATIENCE, "null"))
         try:
-            with limit(PATIENCE, ends):
-                found = checked(question, case.seed, number)
-            if found.fault is None:
-                continue
-            signature, why, data = "difference", found.fault, found.to_json()
+            asked = ask(question, case.seed, number, tell, ends, keep=KEPT)
         except TimeIsUp:
-            return Outcome(case, {}, tuple(failures), complete=False)
-        except TooSlow:
-            signature, why, data = HANGS, f"{HANGS}: no answer within {PATIENCE:.0f} s", None
-        except Exception as error:  # any exception is a finding
-            (signature, why), data = _signed(error), None
-        again = f"--question {question} --seed {case.seed} --start {number} --cases 1"
-        why += f"\n  again: python -m fuzz questions {again}"
-        failures.append(Failure(question, signature, why, json.dumps(data)))
-    return Outcome(case, {"questions": clock.perf_counter() - began}, tuple(failures))
-
-
-def stopped(case: Case, step: Step | None, what: str) -> Outcome:
-    """The outcome of a case whose process was stopped: what it was shrinking, or that it hangs."""
-    if step is None:
-        failure = _failure("generator", what, f"{what} before the first witness", Scene([], (0, 1)))
-    elif step.failure is not None:
-        failure = step.failure
-    else:
-        failure = Failure(step.witness, what, f"{what}, where no limit interrupts it", step.scene)
-    return Outcome(case, {}, (failure,))
-
-
-def left_by(case: Case, step: work.Step | None, why: str) -> Outcome | None:
-    """What is left by a process that was stopped: None if its case only is not finished."""
-    last = step if isinstance(step, Step) else None
-    if why == work.UNFINISHED and (last is None or last.failure is None):
-        return None
-    return stopped(case, last, why)
+            if not found:
+                raise
+            break
+        found += (finding._replace(row=case.family) for finding in asked.findings)
+    counts[case.family, "questions"] = clock.perf_counter() - began
+    return Result(counts, found)
 
 
 def failure_of(
@@ -221,15 +214,8 @@ def failure_of(
     except Difference as found:
         return _failure(name, found.kind, str(found), scene)
     except Exception as error:  # any exception is a finding
-        return _failure(name, *_signed(error), scene)
+        return _failure(name, *signed(error), scene)
     return None
-
-
-def _signed(error: Exception) -> tuple[str, str]:
-    """The signature of an exception, and its description."""
-    where = traceback.extract_tb(error.__traceback__)[-1]
-    signature = f"{type(error).__name__} in {where.name}"
-    return signature, f"{signature}: {error}"
 
 
 def _failure(name: str, signature: str, why: str, scene: Scene) -> Failure:

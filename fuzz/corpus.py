@@ -11,10 +11,7 @@ import json
 from pathlib import Path
 from typing import Final
 
-from exactpt.files import write_atomically
-from fuzz.cases import Case, Failure
-
-__all__ = ["FOLDER", "files", "save"]
+__all__ = ["FOLDER", "files", "files_of"]
 
 FOLDER: Final = Path(__file__).parent / "corpus"
 
@@ -24,14 +21,9 @@ def files(folder: Path = FOLDER) -> list[Path]:
     return sorted(folder.glob("*.json"))
 
 
-def save(failure: Failure, case: Case, folder: Path = FOLDER) -> Path:
-    """Write a failure and its note; returns the path of the scene."""
-    data = json.loads(failure.scene)
-    text = json.dumps(data, indent=1) + "\n"
-    digest = hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()[:10]
-    path = folder / f"{failure.witness}-{digest}.json"
-    folder.mkdir(exist_ok=True)
-    write_atomically(path, text)
-    found = f"fuzz {failure.witness}, {case.family} {case.seed}: {failure.why}\n"
-    write_atomically(path.with_suffix(".txt"), found)
-    return path
+def files_of(witness: str, scene: object, note: str) -> dict[Path, bytes]:
+    """Return the files of a new scene, given as JSON data, and of its note."""
+    digest = hashlib.sha256(json.dumps(scene, sort_keys=True).encode()).hexdigest()[:10]
+    path = FOLDER / f"{witness}-{digest}.json"
+    text = json.dumps(scene, indent=1) + "\n"
+    return {path: text.encode(), path.with_suffix(".txt"): note.encode()}

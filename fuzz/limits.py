@@ -8,15 +8,14 @@ import signal
 import sys
 import threading
 import time as clock
+import traceback
 from collections.abc import Iterator
 from types import FrameType
 from typing import Final, NoReturn
 
 from exactpt.scene.scene import Scene
 
-__all__ = ["HANGS", "TimeIsUp", "TooSlow", "limit", "patience_of"]
-
-HANGS: Final = "hangs"
+__all__ = ["TimeIsUp", "TooSlow", "limit", "patience_of", "signed"]
 
 WAITING: Final = 6.0
 """Elapsed time, in units of the limit of processor time, after which work that waits is stuck."""
@@ -42,6 +41,13 @@ def patience_of(scene: Scene) -> float:
     No witness has taken a tenth of this in any scene of the families.
     """
     return 5.0 + scene.vertex_count / 10
+
+
+def signed(error: Exception) -> tuple[str, str]:
+    """Return the signature of an exception, the same for the same fault, and a description."""
+    where = traceback.extract_tb(error.__traceback__)[-1]
+    signature = f"{type(error).__name__} in {where.name}"
+    return signature, f"{signature}: {error}"
 
 
 @contextlib.contextmanager

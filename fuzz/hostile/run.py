@@ -1,25 +1,23 @@
-"""Campaigns of hostile files, and their table."""
+"""Hostile files: the check of a campaign, and its table."""
 
 from __future__ import annotations
 
-import signal
-import time as clock
-from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
-from types import FrameType
-from typing import Final, NamedTuple
+from typing import Final
 
-from exactpt.files import write_atomically
+import click
+
 from exactpt.kernel import budget
-from fuzz.hostile.files import Hostile, hostile
-from fuzz.hostile.readers import Ended, read
+from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
+from fuzz.hostile import readers
+from fuzz.hostile.files import FORMATS, hostile
+from fuzz.options import HELP, Options, conduct, options
 
-__all__ = ["OUTCOMES", "Outcome", "Tally", "run", "table"]
+__all__ = ["OUTCOMES", "Files", "hostile_files"]
 
 OUTCOMES: Final = ("read", "refused", "spent", "broken", "FAULT")
 
@@ -27,119 +25,73 @@ MOST_MEMORY: Final = 300_000_000
 """Maximum growth of the process, in bytes, by the reading of one file."""
 
 
-@dataclass(slots=True)
-class Tally:
-    """The outcomes of one format.
+@dataclass(frozen=True)
+class Files(Check):
+    """The check of hostile files.
 
     Attributes:
-        outcomes: number of each.
-        values: number of files with one changed value.
-        seconds: processor time, in all and for the slowest.
-        grown: the largest growth of memory by one file, in bytes.
+        formats: their formats, taken in turn.
+        seed: seed of all files.
+        keep: folder for files with a fault.
     """
 
-    outcomes: Counter[str] = field(default_factory=Counter)
-    values: int = 0
-    seconds: float = 0.0
-    slowest: float = 0.0
-    grown: int = 0
+    formats: Sequence[str]
+    seed: int
+    keep: Path
+    name = "hostile"
 
-    def add(self, file: Hostile, ended: Ended, grown: int) -> None:
-        """Count a file."""
-        self.outcomes[ended.outcome] += 1
-        self.values += file.wound == "value"
-        self.seconds += ended.seconds
-        self.slowest = max(self.slowest, ended.seconds)
-        self.grown = max(self.grown, grown)
+    @property
+    def about(self) -> object:
+        """The formats and the seed."""
+        return [list(self.formats), self.seed]
 
+    def run(self, item: Item, tell: Tell, ends: float | None) -> Result:  # noqa: ARG002 - it is short
+        """Have a file read."""
+        number = item.numbers.start
+        kind = self.formats[number % len(self.formats)]
+        file = hostile(kind, number, self.seed)
+        path = self.keep / f"{kind}-{self.seed}-{number}"
+        finding = Finding(kind, "hangs", str(path), {path: file.content})
+        tell(Step(readers.PATIENCE, finding))
+        before = budget.resident_memory()
+        with TemporaryDirectory() as folder:
+            ended = readers.read(kind, file, Random(f"reader {self.seed} {number}"), Path(folder))
+        grown = budget.resident_memory() - before
+        if not ended.fault and grown > MOST_MEMORY:
+            ended = ended._replace(outcome="FAULT", fault=f"{grown >> 20} MB more memory")
+        seconds, ms = ended.seconds, 1000 * ended.seconds
+        counts = Counts({(kind, "files"): 1, (kind, ended.outcome): 1, (kind, "ms"): ms})
+        counts.update({(kind, "value"): int(file.wound == "value"), (kind, "slowest s"): seconds})
+        counts[kind, "MB more"] = max(0, grown) / 2**20
+        if not ended.fault:
+            return Result(counts)
+        why = f"{path}: {ended.reader}: {ended.fault[:400]}"
+        return Result(counts, [finding._replace(signature="FAULT", why=why)])
 
-class Outcome(NamedTuple):
-    """What a campaign has counted.
-
-    Attributes:
-        tallies: of each format.
-        rest: number of the file at which an interrupted campaign goes on; None if it has ended.
-    """
-
-    tallies: dict[str, Tally]
-    rest: int | None
-
-
-class _Interrupts:
-    """Whether a signal has interrupted the process, even if a command has caught the exception."""
-
-    def __init__(self) -> None:
-        self.came = False
-
-    @contextmanager
-    def noticed(self) -> Iterator[None]:
-        """Notice SIGINT and SIGTERM, and leave what happens then as it was."""
-        old = {
-            number: handler
-            for number in (signal.SIGINT, signal.SIGTERM)
-            if callable(handler := signal.getsignal(number))
-        }
-
-        def handle(number: int, frame: FrameType | None) -> None:
-            self.came = True
-            old[signal.Signals(number)](number, frame)
-
-        for number in old:
-            signal.signal(number, handle)
-        try:
-            yield
-        finally:
-            for number, handler in old.items():
-                signal.signal(number, handler)
+    def table(self, counts: Counts) -> list[str]:
+        """One line for each format: files, of these with one changed value, outcomes, cost."""
+        head = ("format", "files", "value", *OUTCOMES, "ms", "slowest s", "MB more")
+        lines = [f"{head[0]:10}" + "".join(f"{word:>10}" for word in head[1:])]
+        for kind in self.formats:
+            numbers = "".join(f"{counts[kind, word]:>10}" for word in head[1:-3])
+            mean = counts[kind, "ms"] / max(1, counts[kind, "files"])
+            cost = (
+                f"{mean:>10.1f}{counts[kind, 'slowest s']:>10.2f}{counts[kind, 'MB more']:>10.0f}"
+            )
+            lines.append(f"{kind:10}{numbers}{cost}")
+        return lines
 
 
-def run(
-    formats: Sequence[str],
-    count: int,
-    *,
-    seed: int = 0,
-    start: int = 0,
-    seconds: float | None = None,
-    report: Callable[[str], None],
-    keep: Path,
-) -> Outcome:
-    """Read hostile files, the formats in turn; files with a fault are kept in a folder.
-
-    Interrupted, it returns what it has counted; the file that was being read is not.
-    """
-    tallies = {kind: Tally() for kind in formats}
-    deadline = None if seconds is None else clock.monotonic() + seconds
-    interrupts, number = _Interrupts(), start
-    with suppress(KeyboardInterrupt), TemporaryDirectory() as folder, interrupts.noticed():
-        for number in range(start, start + count):
-            if deadline is not None and clock.monotonic() > deadline:
-                break
-            kind = formats[number % len(formats)]
-            file = hostile(kind, number, seed)
-            before = budget.resident_memory()
-            ended = read(kind, file, Random(f"reader {seed} {number}"), Path(folder))
-            if interrupts.came:
-                break
-            grown = budget.resident_memory() - before
-            if not ended.fault and grown > MOST_MEMORY:
-                ended = ended._replace(outcome="FAULT", fault=f"{grown >> 20} MB more memory")
-            tallies[kind].add(file, ended, grown)
-            if ended.fault:
-                keep.mkdir(exist_ok=True)
-                path = keep / f"{kind}-{seed}-{number}"
-                write_atomically(path, file.content)
-                report(f"{path}: {ended.reader}: {ended.fault[:400]}")
-    return Outcome(tallies, number if interrupts.came else None)
-
-
-def table(tallies: dict[str, Tally]) -> list[str]:
-    """One line for each format: files, of these with one changed value, outcomes, cost."""
-    head = ("format", "files", "value", *OUTCOMES, "ms", "slowest s", "MB more")
-    lines = [f"{head[0]:10}" + "".join(f"{word:>10}" for word in head[1:])]
-    for kind, tally in tallies.items():
-        files = sum(tally.outcomes.values())
-        numbers = [files, tally.values, *(tally.outcomes[word] for word in OUTCOMES)]
-        mean = 1000 * tally.seconds / files if files else 0.0
-        cost = f"{mean:>10.1f}{tally.slowest:>10.2f}{tally.grown / 2**20:>10.0f}"
-        lines.append(f"{kind:10}" + "".join(f"{n:>10}" for n in numbers) + cost)
-    return lines
+@click.command("hostile", context_settings=HELP)
+@click.option("--format", "formats", multiple=True, type=click.Choice(FORMATS))
+@click.option(
+    "--keep",
+    type=click.Path(file_okay=False, path_type=Path),
+    default=Path("hostile-found"),
+    show_default=True,
+    help="Folder for files with a fault.",
+)
+@options(10_000)
+def hostile_files(chosen: Options, formats: tuple[str, ...], keep: Path) -> None:
+    """Have every command and reader read damaged files; half have one changed value."""
+    conduct(Files(formats or FORMATS, chosen.seed, keep), chosen, again=f"--seed {chosen.seed}")

@@ -5,26 +5,27 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-import sys
-from collections import Counter
 from collections.abc import Iterator
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from itertools import count, islice
 from pathlib import Path
 from random import Random
 from typing import Any, Final
-
-import click
 
 from exactpt import proof_check
 from exactpt.errors import InputError
 from exactpt.proof import prove
 from exactpt.scene.generate import FAMILIES, POINTS, RINGS, SPINNING, generate
+from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
+from fuzz.limits import limit
 from fuzz.proofs.checking import checker
 from fuzz.proofs.texts import TEXTS
 
-__all__ = ["damaged", "proof_both", "verdicts"]
+__all__ = ["Both", "damaged", "verdicts"]
+
+PATIENCE: Final = 300.0
+"""Seconds in which a proof is made and verified."""
 
 CHARACTERS: Final = '0123456789-+/eE."[]{},:null \\u0\x00\t@=#'
 VALUES: Final[list[Any]] = [
@@ -87,23 +88,22 @@ def base(number: int) -> tuple[bytes, tuple[str, ...]] | None:
     return (proved.scene, tuple(lines)) if len(lines) <= MOST_LINES else None
 
 
-def damaged(seed: int) -> Iterator[tuple[bytes, bytes]]:
-    """Pairs of a scene and a proof, of which at least one is damaged."""
-    for number in count():
-        random = Random(f"both:{seed}:{number}")
-        right = base(random.randrange(150))
-        if right is None or random.random() * len(right[1]) > SHORT:  # long ones take most time
-            continue
-        scene, lines = right[0], list(right[1])
-        sort = random.random()
-        if sort < 0.4:
-            scene = _scene(scene, random)
-        if sort > 0.3:
-            for _ in range(random.choice((1, 1, 2))):
-                lines = _lines(lines, random)
-        if len(lines) > 1 and random.random() < 0.995:
-            lines[1] = f"scene sha256 {hashlib.sha256(scene).hexdigest()}"
-        yield scene, ("\n".join(lines) + "\n").encode("utf-8", "surrogatepass")
+def damaged(seed: int, number: int) -> tuple[bytes, bytes] | None:
+    """Return a scene and a proof, of which at least one is damaged; None for most long proofs."""
+    random = Random(f"both:{seed}:{number}")
+    right = base(random.randrange(150))
+    if right is None or random.random() * len(right[1]) > SHORT:  # long ones take most time
+        return None
+    scene, lines = right[0], list(right[1])
+    sort = random.random()
+    if sort < 0.4:
+        scene = _scene(scene, random)
+    if sort > 0.3:
+        for _ in range(random.choice((1, 1, 2))):
+            lines = _lines(lines, random)
+    if len(lines) > 1 and random.random() < 0.995:
+        lines[1] = f"scene sha256 {hashlib.sha256(scene).hexdigest()}"
+    return scene, ("\n".join(lines) + "\n").encode("utf-8", "surrogatepass")
 
 
 def _lines(lines: list[str], random: Random) -> list[str]:
@@ -216,23 +216,50 @@ def verdicts(scene: bytes, proof: bytes) -> tuple[tuple[int, str], tuple[int, st
     return by_python, (CODES[line.split(": ")[0]], line)
 
 
-@click.command("proof-both", context_settings={"help_option_names": ["-h", "--help"]})
-@click.option("--cases", type=click.IntRange(min=1), default=1000, show_default=True)
-@click.option("--seed", type=int, default=1, show_default=True)
-@click.option(
-    "--keep", type=click.Path(file_okay=False, path_type=Path), default=Path("both-found")
-)
-def proof_both(cases: int, seed: int, keep: Path) -> None:
-    """Have both checkers verify damaged proofs: exit code and statement must be the same."""
-    found, codes = 0, Counter[int]()
-    for number, (scene, proof) in enumerate(islice(damaged(seed), cases)):
-        one, other = verdicts(scene, proof)
-        codes[one[0]] += 1
-        if one[0] != other[0] or (one[0] == 0 and one[1] != other[1]):
-            found += 1
-            keep.mkdir(exist_ok=True)
-            (keep / f"{seed}.{number}.scene.json").write_bytes(scene)
-            (keep / f"{seed}.{number}.proof").write_bytes(proof)
-            click.echo(f"{keep}/{seed}.{number}: {one[1]!a:.150}\n  {other[1]!a:.150}")
-    click.echo(f"{cases} cases, exit codes {dict(sorted(codes.items()))}; {found} disagreements")
-    sys.exit(1 if found else 0)
+@dataclass(frozen=True)
+class Both(Check):
+    """The check of damaged proofs by both checkers.
+
+    Attributes:
+        most: number of proofs.
+        seed: seed of all of them.
+        keep: folder for those about which the checkers disagree.
+    """
+
+    most: int
+    seed: int
+    keep: Path
+    name = "proof-both"
+
+    @property
+    def about(self) -> object:
+        """The seed."""
+        return self.seed
+
+    def wanted(self, counts: Counts) -> frozenset[str] | None:
+        """Return nothing if there are enough proofs."""
+        made = sum(n for (_, column), n in counts.items() if column == "proofs")
+        return None if made < self.most else frozenset()
+
+    def run(self, item: Item, tell: Tell, ends: float | None) -> Result:
+        """Have a proof verified, if there is one with this number."""
+        number = item.numbers.start
+        with limit(PATIENCE, ends):
+            made = damaged(self.seed, number)
+            if made is None:
+                return Result(Counts())
+            path = self.keep / f"{self.seed}.{number}"
+            names = [path.with_name(path.name + end) for end in (".scene.json", ".proof")]
+            finding = Finding("", "hangs", str(path), dict(zip(names, made, strict=True)))
+            tell(Step(PATIENCE, finding))
+            one, other = verdicts(*made)
+        counts = Counts({(f"exit code {one[0]}", "proofs"): 1})
+        if one[0] == other[0] and (one[0] != 0 or one[1] == other[1]):
+            return Result(counts)
+        why = f"{path}: {one[1]!a:.150}\n  {other[1]!a:.150}"
+        return Result(counts, [finding._replace(signature="disagreement", why=why)])
+
+    def table(self, counts: Counts) -> list[str]:
+        """One line for each exit code."""
+        rows = sorted((row, n) for (row, column), n in counts.items() if column == "proofs")
+        return [f"{row}: {n:,} proofs" for row, n in rows]

@@ -5,9 +5,8 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-import time as clock
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -15,7 +14,6 @@ from random import Random
 from typing import Final, NamedTuple
 
 from exactpt.errors import InputError
-from exactpt.files import write_atomically
 from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof import prove
 from exactpt.proof.emit import scene_bytes
@@ -23,11 +21,16 @@ from exactpt.scene.format import loads
 from exactpt.scene.generate import FAMILIES, POINTS, RINGS, generate
 from exactpt.scene.scene import Scene
 from exactpt.tiling.start import tilings_for
+from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
+from fuzz.limits import limit
 from fuzz.proofs.checking import checker, is_geometric
 from fuzz.proofs.texts import TEXTS
 from fuzz.proofs.wrong import wheel, wrong_splice
 
-__all__ = ["KINDS", "Mutant", "Progress", "is_true", "mutants", "run"]
+__all__ = ["KINDS", "Mutant", "Mutants", "is_true", "mutants"]
+
+ROUND: Final = 600.0
+"""Seconds in which the mutants of a round are made and verified."""
 
 PER_SCENE: Final = 3
 """Number of mutants of a kind that a proof gets."""
@@ -61,61 +64,58 @@ class Mutant(NamedTuple):
     proof: bytes
 
 
-@dataclass(slots=True)
-class Counts:
-    """Numbers of mutants of a kind.
+@dataclass(frozen=True)
+class Mutants(Check):
+    """The check of mutants, in rounds: case n has those of one proof, and others.
 
     Attributes:
-        mutants: all of them.
-        past: those which reading and map have not rejected.
-        true: those which are accepted, and true.
+        most: number of mutants of a kind.
+        past: number of mutants of a kind that reading and map do not reject.
+        keep: folder for mutants that are accepted and not true.
     """
 
-    mutants: int = 0
-    past: int = 0
-    true: int = 0
+    most: int
+    past: int
+    keep: Path
+    name = "proof-mutants"
 
+    def wanted(self, counts: Counts) -> frozenset[str]:
+        """Return the kinds of which there are not enough."""
+        return frozenset(
+            kind for kind in KINDS
+            if counts[kind, "mutants"] < self.most or counts[kind, "past"] < self.past
+        )  # fmt: skip
 
-@dataclass(slots=True)
-class Progress:
-    """The progress of a campaign.
+    def run(self, item: Item, tell: Tell, ends: float | None) -> Result:
+        """Have the mutants of a round verified."""
+        number, counts = item.numbers.start, Counts()
+        findings = []
+        with limit(ROUND, ends):
+            for i, mutant in enumerate(mutants(number, set(item.wanted or KINDS))):
+                path = self.keep / f"{mutant.kind} {number}.{i}"
+                files = {path.with_name(f"{path.name}.scene.json"): mutant.scene,
+                         path.with_name(f"{path.name}.proof"): mutant.proof}  # fmt: skip
+                finding = Finding(mutant.kind, "hangs", str(path), files)
+                tell(Step(ROUND, finding))
+                answer = checker().verdict(mutant.scene, mutant.proof)
+                is_accepted = answer.startswith("accepted: ")
+                counts[mutant.kind, "mutants"] += 1
+                counts[mutant.kind, "past"] += is_accepted or is_geometric(answer)
+                if is_accepted and is_true(mutant, answer):
+                    counts[mutant.kind, "true"] += 1
+                elif is_accepted:
+                    why = f"accepted, and not true: {path}"
+                    findings.append(finding._replace(signature="accepted", why=why))
+        return Result(counts, findings)
 
-    Attributes:
-        next: the number of the next round.
-        counts: by kind.
-        found: mutants that are accepted and not true, as names of files without ending.
-    """
-
-    next: int = 0
-    counts: dict[str, Counts] = field(default_factory=lambda: {kind: Counts() for kind in KINDS})
-    found: list[str] = field(default_factory=list)
-
-    def save(self, path: Path) -> None:
-        """Write it to a file, from which a campaign can continue."""
-        write_atomically(path, json.dumps(asdict(self)) + "\n")
-
-    @classmethod
-    def load(cls, path: Path) -> Progress:
-        """Read it from a file.
-
-        Raises:
-            InputError: if it is no such file.
-        """
-        try:
-            data = json.loads(path.read_text(encoding="utf-8"))
-            counts = {kind: Counts(**data["counts"][kind]) for kind in KINDS}
-            return cls(data["next"], counts, data["found"])
-        except (OSError, ValueError, KeyError, TypeError) as error:
-            raise InputError(f"{path}: not the state of a campaign: {error}") from None
-
-    def table(self) -> list[str]:
+    def table(self, counts: Counts) -> list[str]:
         """One line for each kind, and the sum."""
         lines = [f"{'mutants of proofs':30}{'all':>9}{'past the map':>14}{'true':>7}"]
-        rows = [*self.counts.items()]
-        total = Counts(*(sum(getattr(c, n) for _, c in rows) for n in ("mutants", "past", "true")))
-        for kind, c in [*rows, ("all", total)]:
-            lines.append(f"{kind:30}{c.mutants:>9}{c.past:>14}{c.true:>7}")
-        return [*lines, f"{len(self.found)} accepted, and not true"]
+        rows = {kind: [counts[kind, c] for c in ("mutants", "past", "true")] for kind in KINDS}
+        total = [sum(column) for column in zip(*rows.values(), strict=True)]
+        for kind, (made, past, true) in {**rows, "all": total}.items():
+            lines.append(f"{kind:30}{made:>9}{past:>14}{true:>7}")
+        return lines
 
 
 def mutants(number: int, kinds: set[str]) -> Iterator[Mutant]:
@@ -194,42 +194,3 @@ def is_true(mutant: Mutant, answer: str) -> bool:
         return is_then and contact.kind == "initial"
     said = answer.split(": incidences exactly ")[1].split(" (", maxsplit=1)[0]
     return is_then and sorted(said.split(", ")) == pairs
-
-
-def run(
-    progress: Progress,
-    report: Callable[[Mutant, str], None],
-    saved: Callable[[], None],
-    *,
-    most: int,
-    past: int,
-    seconds: float | None = None,
-) -> None:
-    """Continue a campaign.
-
-    Args:
-        progress: its progress, updated.
-        report: called with a mutant that is accepted and not true, and its name.
-        saved: called after every round.
-        most: number of mutants of a kind.
-        past: number of mutants of a kind that reading and map do not reject.
-        seconds: time limit in seconds; None for no limit.
-    """
-    deadline = None if seconds is None else clock.monotonic() + seconds
-    while deadline is None or clock.monotonic() < deadline:
-        kinds = {k for k, c in progress.counts.items() if c.mutants < most or c.past < past}
-        if not kinds:
-            return
-        for i, mutant in enumerate(list(mutants(progress.next, kinds))):
-            counts = progress.counts[mutant.kind]
-            answer = checker().verdict(mutant.scene, mutant.proof)
-            is_accepted = answer.startswith("accepted: ")
-            counts.mutants += 1
-            counts.past += is_accepted or is_geometric(answer)
-            if is_accepted and is_true(mutant, answer):
-                counts.true += 1
-            elif is_accepted:
-                progress.found.append(f"{mutant.kind} {progress.next}.{i}")
-                report(mutant, progress.found[-1])
-        progress.next += 1
-        saved()

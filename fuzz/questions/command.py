@@ -1,29 +1,101 @@
-"""The command ``python -m fuzz questions``."""
+"""The command ``python -m fuzz questions``, and what is done with each case of it."""
 
 from __future__ import annotations
 
 import json
-import sys
-import time as clock
-from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
 import click
 
-from exactpt.cgal import find_program
-from exactpt.errors import InputError
+from exactpt.workers.work import HANGS
+from fuzz.campaign import FOUND, Check, Counts, Finding, Item, Result, Step, Tell
+from fuzz.limits import TooSlow, limit, signed
+from fuzz.options import HELP, Options, conduct, options, require_cgal
 from fuzz.questions.checks import QUESTIONS, checked
 
-__all__ = ["questions"]
+__all__ = ["KEPT", "Questions", "ask", "questions"]
 
-FAILED, INTERRUPTED = 1, 130
+KEPT: Final = Path("questions-found")
+"""Folder for questions with a difference."""
 
-EVERY: Final = 1000
-"""Number of cases between two lines of progress."""
+PATIENCE: Final = 60.0
+"""Seconds after which a question counts as hanging."""
 
 
-@click.command("questions", context_settings={"help_option_names": ["-h", "--help"]})
+def ask(
+    question: str, seed: int, number: int, tell: Tell, ends: float | None, keep: Path
+) -> Result:
+    """Compare the answers of a case with their definitions; an exception is a finding.
+
+    Raises:
+        TimeIsUp: at the end of the campaign.
+    """
+    again = f"--question {question} --seed {seed} --start {number} --cases 1"
+    wrong = Finding(question, HANGS, f"{question}, case {number}")
+    tell(Step(PATIENCE, wrong))
+    counts = Counts()
+    try:
+        with limit(PATIENCE, ends):
+            found = checked(question, seed, number)
+        counts.update({(question, found.kind, "cases"): 1, (question, "", "signs"): found.signs})
+        if found.fault is None:
+            return Result(counts)
+        path = keep / f"{question}-{seed}-{number}.json"
+        content = json.dumps(found.to_json()).encode()
+        signature, why, files = "difference", found.fault, {path: content}
+    except TooSlow:
+        signature, why, files = HANGS, f"{HANGS}: no answer within {PATIENCE:.0f} s", {}
+    except Exception as error:  # any exception is a finding
+        (signature, why), files = signed(error), {}
+    why = f"{wrong.why}: {why}\n  again: python -m fuzz questions {again}"
+    return Result(counts, [Finding(question, signature, why, files)])
+
+
+@dataclass(frozen=True)
+class Questions(Check):
+    """The check of questions, which are taken in turn.
+
+    Attributes:
+        asked: their names.
+        seed: seed of all cases.
+        keep: folder for cases with a difference.
+    """
+
+    asked: Sequence[str]
+    seed: int
+    keep: Path
+    name = "questions"
+
+    @property
+    def about(self) -> object:
+        """The questions and the seed."""
+        return [list(self.asked), self.seed]
+
+    def run(self, item: Item, tell: Tell, ends: float | None) -> Result:
+        """Check a case."""
+        turn, k = divmod(item.numbers.start, len(self.asked))
+        return ask(self.asked[k], self.seed, turn, tell, ends, self.keep)
+
+    def table(self, counts: Counts) -> list[str]:
+        """One line for each kind of cases, and one for each question."""
+        lines = []
+        for question in self.asked:
+            kinds = {key[1]: n for key, n in counts.items() if key[::2] == (question, "cases")}
+            lines += [f"{n:8}  {kind}" for kind, n in sorted(kinds.items(), key=lambda at: -at[1])]
+            signs = counts[question, "", "signs"]
+            by_cgal = f", {signs} decisions of CGAL" if signs else ""
+            differences = counts[question, FOUND]
+            lines.append(
+                f"{question}, seed {self.seed}: {sum(kinds.values())} cases{by_cgal}, "
+                f"{differences} differences"
+            )
+        return lines
+
+
+@click.command("questions", context_settings=HELP)
 @click.option(
     "--question",
     "asked",
@@ -31,67 +103,25 @@ EVERY: Final = 1000
     type=click.Choice(list(QUESTIONS)),
     help="One of them (repeatable); by default all.",
 )
-@click.option("--cases", type=click.IntRange(min=1), default=1000, show_default=True)
-@click.option("--seed", type=int, default=0, show_default=True)
-@click.option("--start", type=click.IntRange(min=0), default=0, help="Number of the first case.")
 @click.option(
     "--keep",
     type=click.Path(file_okay=False, path_type=Path),
-    default=Path("questions-found"),
+    default=KEPT,
     show_default=True,
     help="Folder for scenes with a difference.",
 )
-def questions(asked: tuple[str, ...], cases: int, seed: int, start: int, keep: Path) -> None:
+@options(1000)
+def questions(chosen: Options, asked: tuple[str, ...], keep: Path) -> None:
     """Compare answers about distance, intervals and new contacts with their definitions.
+
+    Several questions are taken in turn.
 
     \b
     Examples:
       python -m fuzz questions --question distance --cases 20000
       python -m fuzz questions --question after-start --seed 7 --start 5000
     """
-    differences = 0
-    for question in asked or QUESTIONS:
-        if question == "cgal":
-            _require_cgal()
-        differences += _run(question, cases, seed, start, keep)
-    sys.exit(FAILED if differences else 0)
-
-
-def _run(question: str, cases: int, seed: int, start: int, keep: Path) -> int:
-    """Check the cases of a question, print a table of them; the number of differences."""
-    kinds: Counter[str] = Counter()
-    differences = signs = done = 0
-    begin = clock.monotonic()
-    try:
-        for number in range(start, start + cases):
-            case = checked(question, seed, number)
-            done, signs = done + 1, signs + case.signs
-            kinds[case.kind] += 1
-            if case.fault is not None:
-                differences += 1
-                keep.mkdir(parents=True, exist_ok=True)
-                path = keep / f"{question}-{seed}-{number}.json"
-                path.write_text(json.dumps(case.to_json()), encoding="utf-8")
-                click.echo(f"{question}, case {number}: {case.fault}\n  {path}")
-            if done % EVERY == 0:
-                click.echo(f"{question}: {done} cases, {differences} differences", err=True)
-    except KeyboardInterrupt:
-        click.echo(f"interrupted; to go on: --seed {seed} --start {start + done}", err=True)
-        sys.exit(INTERRUPTED)
-    finally:
-        for kind, count in sorted(kinds.items(), key=lambda item: -item[1]):
-            click.echo(f"{count:8}  {kind}")
-        by_cgal = f", {signs} decisions of CGAL" if signs else ""
-        seconds = clock.monotonic() - begin
-        click.echo(
-            f"{question}, seed {seed}, from case {start} on: {done} cases in {seconds:.0f} s"
-            f"{by_cgal}, {differences} differences"
-        )
-    return differences
-
-
-def _require_cgal() -> None:
-    try:
-        find_program()
-    except InputError as error:
-        raise click.UsageError(f"{error}; or choose among the others with --question") from None
+    names = asked or tuple(QUESTIONS)
+    if "cgal" in names:
+        require_cgal("--question")
+    conduct(Questions(names, chosen.seed, keep), chosen, again=f"--seed {chosen.seed}")

@@ -2,38 +2,99 @@
 
 from __future__ import annotations
 
-import sys
-import time as clock
-from collections import Counter
+import json
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Final
 
 import click
 
+from exactpt.scene.scene import Scene
+from exactpt.scene.written import to_json
+from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
+from fuzz.limits import limit
+from fuzz.options import HELP, Options, conduct, options
 from fuzz.transformations.answers import QUESTIONS
 from fuzz.transformations.images import TRANSFORMATIONS
-from fuzz.transformations.run import SCENES, Fault, check, load, save, table
+from fuzz.transformations.run import SCENES, Fault, check
 
-__all__ = ["transformations"]
+__all__ = ["Transformations", "equalities", "transformations"]
 
 SPINNING: Final = ("enclosed contact", "positions")
 """The questions about gears, mills and orbits: the others are about the pieces of a `Spin`."""
 
-EVERY: Final = 20
-"""Number of scenes between two writings of the counts."""
+PATIENCE: Final = 300.0
+"""Seconds in which all questions about a scene and its images are answered."""
 
 
-@click.command("transformations", context_settings={"help_option_names": ["-h", "--help"]})
-@click.option("--scenes", type=click.IntRange(min=1), default=100, show_default=True)
-@click.option("--seconds", type=click.FloatRange(min=0), help="Time limit.")
-@click.option("--seed", type=int, default=0, show_default=True)
-@click.option("--step", type=click.IntRange(min=1), default=1, help="Take every STEP-th scene.")
-@click.option("--first", type=click.IntRange(min=0), default=0, help="Number of the first scene.")
-@click.option(
-    "--counts",
-    type=click.Path(dir_okay=False, path_type=Path),
-    help="File of the counts; a run that was stopped continues from it.",
-)
+@dataclass(frozen=True)
+class Transformations(Check):
+    """The check of answers about a scene and its images.
+
+    Attributes:
+        seed: seed of all scenes.
+        draw: what scenes are drawn from, one of `SCENES`.
+        enough: number of cases of a question and a transformation; None: no limit.
+        keep: folder for scenes with a disagreement.
+    """
+
+    seed: int
+    draw: str
+    enough: int | None
+    keep: Path
+    name = "transformations"
+
+    @property
+    def about(self) -> object:
+        """The seed, and what scenes are drawn from."""
+        return [self.seed, self.draw]
+
+    def wanted(self, counts: Counts) -> frozenset[tuple[str, str]]:
+        """Return the questions and transformations without enough cases."""
+        return frozenset(
+            key
+            for question in (SPINNING if self.draw == "spinning" else QUESTIONS)
+            for key in ((question, name) for name in TRANSFORMATIONS)
+            if self.enough is None or counts[key] < self.enough
+        )
+
+    def run(self, item: Item, tell: Tell, ends: float | None) -> Result:
+        """Compare the answers about a scene."""
+        number, counts, findings = item.numbers.start, Counts(), []
+        tell(Step(PATIENCE, Finding("", "hangs", f"scene {number}")))
+
+        def wanted(question: str, transformation: str) -> bool:
+            return item.wanted is None or (question, transformation) in item.wanted
+
+        within = partial(limit, PATIENCE, ends)
+        for *key, fault in check(number, self.seed, wanted, within, SCENES[self.draw]):
+            counts[tuple(key)] += 1
+            if fault is not None:
+                findings.append(self._finding(fault))
+        return Result(counts, findings)
+
+    def _finding(self, fault: Fault) -> Finding:
+        name = f"{fault.number}-{fault.question}-{fault.transformation}".replace(" ", "-")
+
+        def file(kind: str, scene: Scene) -> tuple[Path, bytes]:
+            return self.keep / f"{name}-{kind}.json", json.dumps(to_json(scene)).encode()
+
+        files = dict([file("old", fault.old), file("new", fault.new)])
+        why = f"{fault.question}, {fault.transformation}, scene {fault.number}: {fault.why}"
+        return Finding(fault.question, "disagreement", why, files)
+
+    def table(self, counts: Counts) -> list[str]:
+        """One line for each question: the cases of each transformation."""
+        lines = [f"{'question':28}" + "".join(f"{name:>12}" for name in TRANSFORMATIONS)]
+        for question in QUESTIONS:
+            numbers = "".join(f"{counts[question, name]:>12,}" for name in TRANSFORMATIONS)
+            lines.append(f"{question:28}{numbers}")
+        total = sum(n for (_, name), n in counts.items() if name in TRANSFORMATIONS)
+        return [*lines, f"{total:,} answers"]
+
+
+@click.command("transformations", context_settings=HELP)
 @click.option(
     "--enough",
     type=click.IntRange(min=1),
@@ -55,10 +116,10 @@ EVERY: Final = 20
     "mills and orbits; thin bodies that stand on a wall.",
 )
 @click.option("--table", "is_table", is_flag=True, help="Print what stays equal, and stop.")
+@options(100)
 def transformations(
-    scenes: int, seconds: float | None, seed: int, step: int, first: int, counts: Path | None,
-    enough: int | None, keep: Path, draw: str, *, is_table: bool,
-) -> None:  # fmt: skip
+    chosen: Options, enough: int | None, keep: Path, draw: str, *, is_table: bool
+) -> None:
     """Compare answers about scenes and about their images under transformations.
 
     \b
@@ -70,40 +131,8 @@ def transformations(
     if is_table:
         click.echo("\n".join(equalities()))
         return
-    done, tally = load(counts) if counts else (0, Counter())
-    deadline = None if seconds is None else clock.monotonic() + seconds
-    faults = 0
-
-    def wanted(question: str, transformation: str) -> bool:
-        few = enough is None or tally[question, transformation] < enough
-        return few and (draw != "spinning" or question in SPINNING)
-
-    for k in range(done, scenes):
-        if deadline is not None and clock.monotonic() > deadline:
-            break
-        for question, transformation, fault in check(
-            first + k * step, seed, wanted, draw=SCENES[draw]
-        ):
-            tally[question, transformation] += 1
-            if fault is not None:
-                faults += 1
-                _report(fault, keep)
-        if counts and (k + 1) % EVERY == 0:
-            save(counts, k + 1, tally)
-        done = k + 1
-    if counts:
-        save(counts, done, tally)
-    click.echo("\n".join(table(tally)))
-    click.echo(f"{done} scenes, {faults} disagreements")
-    sys.exit(1 if faults else 0)
-
-
-def _report(fault: Fault, keep: Path) -> None:
-    keep.mkdir(parents=True, exist_ok=True)
-    name = f"{fault.number}-{fault.question}-{fault.transformation}".replace(" ", "-")
-    fault.old.save(keep / f"{name}-old.json")
-    fault.new.save(keep / f"{name}-new.json")
-    click.echo(f"{fault.question}, {fault.transformation}, scene {fault.number}: {fault.why}")
+    again = f"--seed {chosen.seed} --draw {draw}"
+    conduct(Transformations(chosen.seed, draw, enough, keep), chosen, again=again)
 
 
 def equalities() -> list[str]:

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import json
-from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from pathlib import Path
 from random import Random
 from typing import Final, NamedTuple
 
@@ -21,7 +18,7 @@ from fuzz.questions.tiny import pair_scene, touching_scene
 from fuzz.transformations.answers import QUESTIONS, Case, NotAskedError, Refusal, answer
 from fuzz.transformations.images import TRANSFORMATIONS, Image, move_alike
 
-__all__ = ["SCENES", "Fault", "Tally", "check", "load", "save", "scene_of", "table"]
+__all__ = ["SCENES", "Fault", "check", "scene_of"]
 
 TILINGS: Final = ("lazy", "greedy", "mixed")
 FAMILIES: Final = (pair_scene, pair_scene, distant_scene, touching_scene, crowded_scene,
@@ -133,10 +130,6 @@ def _case(random: Random, image: Image) -> Case:
     )
 
 
-Tally = Counter[tuple[str, str]]
-"""Number of cases by question and transformation."""
-
-
 SCENES: Final[dict[str, Callable[[Random], Scene]]] = {
     "mixed": scene_of,
     "alike": alike,
@@ -212,28 +205,3 @@ def _checked(
         if why is not None:
             fault = Fault(asked, name, number, why, image.old.scene, image.new.scene)
         yield asked, name, fault
-
-
-def table(tally: Tally) -> list[str]:
-    """Return one line for each question: the cases of each transformation."""
-    lines = [f"{'question':28}" + "".join(f"{name:>12}" for name in TRANSFORMATIONS)]
-    for question in QUESTIONS:
-        counts = "".join(f"{tally[question, name]:>12,}" for name in TRANSFORMATIONS)
-        lines.append(f"{question:28}{counts}")
-    return [*lines, f"{sum(tally.values()):,} cases"]
-
-
-def load(path: Path) -> tuple[int, Tally]:
-    """Return the number of the next case and the counts of a run, from its file."""
-    if not path.exists():
-        return 0, Counter()
-    data = json.loads(path.read_text(encoding="utf-8"))
-    return data["next"], Counter({(q, t): n for q, t, n in data["cases"]})
-
-
-def save(path: Path, number: int, tally: Tally) -> None:
-    """Write the number of the next case and the counts."""
-    cases = [[q, t, n] for (q, t), n in sorted(tally.items())]
-    part = path.with_suffix(".part")
-    part.write_text(json.dumps({"next": number, "cases": cases}), encoding="utf-8")
-    part.replace(path)

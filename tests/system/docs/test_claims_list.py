@@ -22,7 +22,7 @@ CLAIMS = re.findall(ROW, PAGE, re.MULTILINE)
 """For each claim: its page, its anchor, and what shows it."""
 SHOWN = sorted({word for *_, shown in CLAIMS for word in re.findall("`([^`]+)`", shown)})
 TESTS = [word for word in SHOWN if word.startswith("tests/")]
-DISPATCHING = {"-m", "--hostile", "--soak"}
+DISPATCHING = {"-m"}
 COMMANDS = [word for word in SHOWN if not word.startswith("tests/")]
 
 
@@ -62,16 +62,7 @@ def command_of(words):
         return all_commands()[words[1]]
     if words[1:3] == ["-m", "benchmarks"]:
         return bench
-    how = {
-        "--cases": fuzzer.fuzz,
-        "proof-mutants": fuzzer.proof_mutants,
-        "questions": fuzzer.questions,
-        "small-scope": fuzzer.small_scope,
-        "planted": fuzzer.find_planted,
-        "--hostile": fuzzer.run_hostile,
-        "--soak": fuzzer.run_soak,
-    }
-    return next(how[word] for word in [*words[3:4], *words] if word in how)
+    return fuzzer.COMMANDS.get(words[3], fuzzer.fuzz)
 
 
 @every("command", COMMANDS)

@@ -90,7 +90,7 @@ def test_a_named_command_is_there(text):
     assert words[:3] == ["python", "-m", "fuzz"]
     command = COMMANDS.get(words[3], campaign)
     choices = [c for p in command.params for c in getattr(p.type, "choices", ())]
-    options = {name for p in command.params for name in p.opts} | {"--soak"}
+    options = {name for p in command.params for name in p.opts}
     for word in words[3:]:
         known = word in COMMANDS or word in options or word in choices or word.isdigit()
         assert known, word

@@ -13,26 +13,30 @@ from folding import every
 
 from exactpt.scene.format import loads
 from exactpt.simulation.store import _checksum
+from fuzz.campaign import Progress, campaign
 from fuzz.hostile import readers
 from fuzz.hostile.files import FORMATS, hostile, scene_text
-from fuzz.hostile.run import run, table
+from fuzz.hostile.run import OUTCOMES, Files
 
 ROOT = Path(__file__).parents[3]
 
 
+def run(formats, count, keep, seed=0):
+    """The check, its counts, and its findings."""
+    check, progress, told = Files(formats, seed, keep), Progress(), []
+    campaign(check, progress, told.append, count=count)
+    return check, progress.counts, told
+
+
 @pytest.mark.parametrize("kind", FORMATS)
 def test_files_of_every_format_are_read_or_refused(tmp_path, kind):
-    faults = []
+    check, counts, faults = run([kind], 60, tmp_path)
 
-    tallies = run([kind], 60, report=faults.append, keep=tmp_path).tallies
-
-    tally = tallies[kind]
     assert faults == []
-    assert sum(tally.outcomes.values()) == 60
-    assert tally.outcomes["refused"] > 10
-    assert 10 < tally.values < 50
-    assert list(tmp_path.iterdir()) == []
-    assert table(tallies)[1].split()[:2] == [kind, "60"]
+    assert sum(counts[kind, word] for word in OUTCOMES) == counts[kind, "files"] == 60
+    assert counts[kind, "refused"] > 10
+    assert 10 < counts[kind, "value"] < 50
+    assert check.table(counts)[1].split()[:2] == [kind, "60"]
 
 
 def test_a_file_is_the_same_for_its_number():
@@ -89,13 +93,14 @@ def test_faults_are_noticed_and_kept(tmp_path, monkeypatch, target, how, fault):
     monkeypatch.setattr(readers, "COMMANDS", ("tile {0}",))
     monkeypatch.setattr(target, how)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    told = []
 
-    tallies = run(["scene"], 3, report=told.append, keep=tmp_path / "found").tallies
+    _, counts, told = run(["scene"], 3, tmp_path / "found")
 
-    assert tallies["scene"].outcomes["FAULT"] == 3
-    assert all(fault in line for line in told)
-    assert len(list((tmp_path / "found").iterdir())) == 3
+    assert counts["scene", "FAULT"] == counts["scene", "found"] == 3
+    assert all(fault in found.why for found in told)
+    for number, found in enumerate(told):
+        content = hostile("scene", number, 0).content
+        assert found.files == {tmp_path / "found" / f"scene-0-{number}": content}
 
 
 @every(
@@ -119,11 +124,7 @@ def test_what_is_promised(code, out, err, written, fault):
 
 @pytest.mark.slow
 def test_ten_thousand_files(tmp_path):
-    faults = []
-
-    run(FORMATS, 10_000, seed=7, report=faults.append, keep=tmp_path)
-
-    assert faults == []
+    assert run(FORMATS, 10_000, tmp_path, seed=7)[2] == []
 
 
 def test_the_working_folder_stays(tmp_path):
@@ -141,6 +142,7 @@ def test_bug_an_interrupt_was_counted_as_a_fault(tmp_path, number):
     program = f"""
 import os, signal, sys
 from fuzz import __main__ as fuzzer
+from fuzz.campaign import Progress, campaign
 from fuzz.hostile import readers
 
 main, calls = readers.main, []
@@ -160,7 +162,8 @@ def command(words):
 readers.main = command
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGTERM, signal.SIG_DFL)
-sys.argv = ["fuzz", "--hostile", "--cases", "1000", "--seed", "5", "--format", "scene"]
+sys.argv = ["fuzz", "--hostile", "--cases", "1000", "--seed", "5", "--format", "scene",
+            "--jobs", "0"]
 fuzzer.main()
 """
     done = subprocess.run(
@@ -170,5 +173,5 @@ fuzzer.main()
 
     assert done.returncode == 130
     assert done.stderr == "interrupted; to go on: --seed 5 --start 2\n"
-    assert done.stdout.splitlines()[1].split()[:2] == ["scene", "2"]
+    assert done.stdout.splitlines()[2].split()[:2] == ["scene", "2"]
     assert not list(tmp_path.iterdir())

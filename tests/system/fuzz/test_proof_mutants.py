@@ -9,11 +9,12 @@ from click.testing import CliRunner
 from exactpt import proof_check, prove
 from exactpt.errors import AuditError
 from exactpt.scene.generate import generate
+from fuzz.campaign import Progress, campaign
 from fuzz.proofs import checking
 from fuzz.proofs import run as mutants_run
 from fuzz.proofs.checking import checker, is_geometric
 from fuzz.proofs.command import proof_mutants
-from fuzz.proofs.run import KINDS, Mutant, Progress, is_true, mutants
+from fuzz.proofs.run import KINDS, Mutant, Mutants, is_true, mutants
 from fuzz.small_scope.look import looks_at_proofs
 from fuzz.small_scope.scope import planned
 from fuzz.witnesses import Difference, check_proof
@@ -53,13 +54,15 @@ def test_the_same_mutants_again():
 def test_a_campaign_that_is_resumed(tmp_path):
     state, keep = tmp_path / "state.json", tmp_path / "found"
     words = ["--cases", "33", "--past", "1", "--keep", str(keep), "--state", str(state)]
+    words += ["--jobs", "0"]
     done = CliRunner().invoke(proof_mutants, [*words, "--seconds", "0"])
-    assert (done.exit_code, state.exists()) == (0, False)
+    assert (done.exit_code, json.loads(state.read_text())["next"]) == (0, 0)
     done = CliRunner().invoke(proof_mutants, words)
-    assert done.output.endswith("\n0 accepted, and not true\n")
-    data = json.loads(state.read_text())
-    assert all(c["mutants"] >= 3 and c["past"] >= 1 for c in data["counts"].values())
-    assert CliRunner().invoke(proof_mutants, words).output == done.output
+    assert done.output.endswith(": 0 differences\n")
+    counts = Progress.load(state, Mutants(3, 1, keep)).counts
+    assert all(counts[kind, "mutants"] >= 3 and counts[kind, "past"] >= 1 for kind in KINDS)
+    again = CliRunner().invoke(proof_mutants, words).output
+    assert again.splitlines()[1:-1] == done.output.splitlines()[1:-1]
     state.write_text("{}")
     assert CliRunner().invoke(proof_mutants, words).exit_code == 2
 
@@ -72,12 +75,12 @@ def test_what_is_accepted_and_wrong_is_found(tmp_path, monkeypatch):
     monkeypatch.setattr(mutants_run, "checker", Blind)
     found = []
     progress = Progress()
-    seconds = 5.0
-    mutants_run.run(
-        progress, lambda *met: found.append(met), lambda: None, most=3, past=1, seconds=seconds
+    campaign(Mutants(3, 1, tmp_path), progress, found.append, seconds=5.0)
+    assert len(found) == progress.found > 0
+    assert all(
+        [path.name.split(".", 2)[2] for path in finding.files] == ["scene.json", "proof"]
+        for finding in found
     )
-    assert len(found) == len(progress.found) > 0
-    assert all(isinstance(mutant, Mutant) for mutant, _ in found)
 
 
 def test_the_checker_is_started_again():
@@ -109,7 +112,7 @@ def test_states_of_both_kinds_of_runs(tmp_path):
     from fuzz.small_scope.command import small_scope
 
     state = str(tmp_path / "state.json")
-    words = ["--count", "3", "--start", "0", "--state", state, "--proofs"]
+    words = ["--count", "3", "--start", "0", "--state", state, "--proofs", "--jobs", "0"]
     done = CliRunner().invoke(small_scope, words)
     assert done.exit_code == 0
     assert "proof " in done.output

@@ -21,7 +21,7 @@ DEFINED = [name for name in checks.QUESTIONS if name != "cgal"]
 
 
 def run(*words):
-    return CliRunner().invoke(questions, words, catch_exceptions=False)
+    return CliRunner().invoke(questions, [*words, "--jobs", "0"], catch_exceptions=False)
 
 
 @pytest.mark.parametrize("question", DEFINED)
@@ -30,7 +30,7 @@ def test_no_difference(question, tmp_path):
     result = run("--question", question, "--cases", cases, "--keep", str(tmp_path / "found"))
 
     assert result.exit_code == 0, result.output
-    assert f"{question}, seed 0, from case 0 on: {cases} cases" in result.output
+    assert f"\n{question}, seed 0: {cases} cases" in result.output
     assert result.output.endswith(" 0 differences\n")
     assert len(result.output.splitlines()) > 3  # several kinds of cases
     assert not (tmp_path / "found").exists()

@@ -23,8 +23,9 @@ from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from fuzz import corpus
+from fuzz.campaign import Item, Progress, campaign
 from fuzz.planted import PLANTED
-from fuzz.small_scope import by_arrays
+from fuzz.small_scope import by_arrays, tally
 from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.command import small_scope
 from fuzz.small_scope.look import AFTER_START, look, looks
@@ -38,7 +39,7 @@ from fuzz.small_scope.placements import (
     placements,
     small_shapes,
 )
-from fuzz.small_scope.run import Progress, count, run, start_of
+from fuzz.small_scope.run import Scope, start_of
 from fuzz.small_scope.sample import FAR, SAMPLES, sampled
 from fuzz.small_scope.scenes import touching
 from fuzz.small_scope.scope import COMPLETE, entries, in_part, planned, sizes
@@ -327,54 +328,46 @@ def test_a_day_starts_where_the_day_before_has_not_been():
     assert planned(later).number == later
 
 
-def counts(tally):
-    """A tally without its times."""
-    return tally.cells, {k: v[:2] for k, v in tally.methods.items()}, tally.faults
+def counts(progress):
+    """Counts without times."""
+    return {key: n for key, n in progress.counts.items() if key[-1] != "seconds"}
+
+
+def run(progress, report=lambda _: None, **limits):
+    campaign(Scope(), progress, report, **limits)
+    return progress
+
+
+def wrong(numbers):
+    """Number of scenes on which methods disagree."""
+    result = Scope(shrink=0.0).run(Item(numbers), lambda _: None, None)
+    return tally.disagreements(result.counts)
 
 
 def test_a_run_resumes(tmp_path):
     state = tmp_path / "state.json"
-    whole, part, again = Progress(40, 40), Progress(40, 40), None
-    run(whole, lambda _: None, most=70)
+    whole = run(Progress(40, 40), count=70)
 
-    run(part, lambda _: None, most=30)
-    part.save(state)
-    again = Progress.load(state)
-    run(again, lambda _: None, most=40)
+    run(Progress(40, 40), count=30, state=state)
+    again = run(Progress.load(state, Scope()), count=70)
 
     assert again.next == whole.next == 110
-    assert counts(again.tally) == counts(whole.tally)
-    assert whole.tally.scenes == 70
+    assert counts(again) == counts(whole)
+    assert sum(row[0] for row in tally.cells(whole.counts).values()) == 70
 
 
-def test_the_state_of_another_scope_is_refused(tmp_path):
+def test_the_state_of_another_scope_is_refused(tmp_path, monkeypatch):
     state = tmp_path / "state.json"
-    state.write_text('{"round": {"complete": 1}}')
-    with pytest.raises(InputError, match="another scope"):
-        Progress.load(state)
-    state.write_text("[")
-    with pytest.raises(InputError, match="not the state of a run"):
-        Progress.load(state)
-
-
-def test_time_is_up_and_ctrl_c():
-    progress = Progress()
-    run(progress, lambda _: None, seconds=0)
-    assert (progress.next, progress.finished) == (0, True)
-
-    def interrupt(_):
-        raise KeyboardInterrupt
-
-    run(progress, interrupt, most=60)
-    assert (progress.next, progress.finished) == (50, False)
+    Progress().save(state, Scope())
+    monkeypatch.setattr("fuzz.small_scope.run.sizes", lambda: {"complete": 1})
+    with pytest.raises(InputError, match="another campaign: small scope"):
+        Progress.load(state, Scope())
 
 
 def test_two_processes_see_what_one_sees():
-    one, two = Progress(), Progress()
-    run(one, lambda _: None, most=60)
-    run(two, lambda _: None, most=60, jobs=2)
+    one, two = run(Progress(), count=60), run(Progress(), count=60, jobs=2)
 
-    assert counts(one.tally) == counts(two.tally)
+    assert counts(one) == counts(two)
 
 
 def test_tilings_are_audited_now_and_then():
@@ -459,18 +452,17 @@ def test_a_call_that_fails_is_asked_scene_by_scene(monkeypatch):
     "bug", ["even roots ignored", "vertex on vertex ignored", "contact proof skipped"]
 )
 def test_a_planted_bug_is_found_in_a_few_scenes(bug):
-    assert count(range(60)).disagreements == 0
+    assert wrong(range(60)) == 0
     with PLANTED[bug]():
-        assert count(range(60)).disagreements > 0
+        assert wrong(range(60)) > 0
 
 
 @pytest.mark.plain
 def test_a_fault_is_printed_shrunk_and_saved(tmp_path, monkeypatch):
-    save = corpus.save
-    monkeypatch.setattr(corpus, "save", lambda failure, case: save(failure, case, tmp_path))
+    monkeypatch.setattr(corpus, "FOLDER", tmp_path)
 
     with PLANTED["vertex on vertex ignored"]():
-        done = CliRunner().invoke(small_scope, ["--count", "20", "--shrink", "2"])
+        done = CliRunner().invoke(small_scope, ["--count", "20", "--shrink", "2", "--jobs", "0"])
 
     assert done.exit_code == 1
     assert "saved: " in done.output
@@ -484,18 +476,18 @@ def test_the_command(tmp_path):
     state = tmp_path / "state.json"
 
     def fuzz(*arguments):
-        return CliRunner().invoke(small_scope, arguments)
+        return CliRunner().invoke(small_scope, [*arguments, "--jobs", "0"])
 
     done = fuzz("--count", "20", "--state", str(state))
     assert done.exit_code == 0
     assert done.output.startswith("scenes of a round: complete ")
     assert " 0.00 %" in done.output
-    again = fuzz("--count", "1", "--state", str(state))
-    assert "from scene 20 on" in again.output
+    again = fuzz("--count", "21", "--state", str(state))
+    assert "from case 20 on\n" in again.output
     assert Scene.load(_saved(tmp_path, fuzz("--show", "5").output)).vertex_count
     assert fuzz("--start", "1", "--state", str(state)).exit_code == 2
     assert fuzz("--start", "1", "--today").exit_code == 2
-    assert "from scene 2" in fuzz("--today", "--seconds", "0").output
+    assert "from case 2" in fuzz("--today", "--seconds", "0").output
 
 
 def _saved(folder, text):
