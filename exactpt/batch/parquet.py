@@ -164,7 +164,7 @@ def table(
 
 
 def _free(name: str, taken: Container[str], others: Container[str]) -> str:
-    """Return a name for a column of the input that is not one of the answers' columns."""
+    """Return a name for a column of the input that is not the name of a column of this module."""
     if name in taken:
         while name in taken or name in others:
             name = f"input_{name}"

@@ -66,13 +66,15 @@ def counting(total: int, label: str, *, quiet: bool = False) -> Iterator[Callabl
 def estimating(label: str, *, quiet: bool = False) -> Iterator[Callable[[int, int], None]]:
     """Return a function that reports how much of a long task is done, of how much.
 
-    It shows the share that is done and an estimate of the time left, from the average rate since
+    It shows the share done and an estimate of the time left, from the average rate since
     its first call: a bar on a terminal, elsewhere a line every `SECONDS`.
     """
     if quiet:
         yield lambda _done, _whole: None
         return
-    first: list[tuple[float, int]] = []  # when the first call was, and what was done by then
+    first: list[
+        tuple[float, int]
+    ] = []  # the time of the first call, and the amount done by that time
 
     def rest(done: int, whole: int) -> str:
         now = clock.monotonic()

@@ -137,7 +137,7 @@ class ProvedSearch:
 
     @property
     def stats(self) -> dict[str, object]:
-        """The counts of the run; see `exactpt.tiling.report`."""
+        """The counts of the run, see docs/howto/simulation.md."""
         return report(self._scene, self._proof.driver.tiling)
 
     def run_to_contact(self) -> Contact | None:

@@ -24,7 +24,8 @@ from exactpt.simulation.history import History, Log
 from exactpt.simulation.recording import Recorder
 from exactpt.simulation.running import begin
 from exactpt.simulation.spaces import SpaceCache
-from exactpt.tiling.report import report
+from exactpt.tiling.catalogue import AUTO
+from exactpt.tiling.report import report, rules_of
 
 if TYPE_CHECKING:
     from exactpt.pairs.contact import Contact
@@ -135,9 +136,14 @@ class Simulation:
 
     @property
     def stats(self) -> dict[str, object]:
-        """The counts of the run so far, see `exactpt.tiling.report`."""
+        """The counts of the run so far, and the rules of the tiling and why they were chosen.
+
+        docs/howto/simulation.md#statistics explains the keys.
+        """
         living = self._run.living
         data = report(living.scene, living.tiling)
+        if living.tiling is not None:
+            data |= rules_of(living.tiling, is_auto=living.choice.asked == AUTO)
         return data | {"contacts": self.contacts, "plans": living.changes}
 
     # Time

@@ -15,6 +15,7 @@ __all__ = [
     "Entry",
     "choose",
     "find",
+    "has_convex_rules",
     "known",
     "names",
     "with_relative_hulls",
@@ -125,6 +126,11 @@ def find(name: str, *, convex: bool) -> Entry:
         convex: whether it is for convex bodies alone.
     """
     return choose(name, points=True, convex=lambda: convex)
+
+
+def has_convex_rules(name: str) -> bool:
+    """Return True if a tiling of this name has other rules for convex bodies."""
+    return any(entry.name == name and entry.is_for_convex for entry in ENTRIES)
 
 
 def with_relative_hulls() -> Entry:

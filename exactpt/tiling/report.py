@@ -1,35 +1,17 @@
-"""Statistics of a run: those of docs/format.md, and the measures of a kinetic data structure.
-
-Keys, in addition to those of docs/format.md:
-
-* ``by_kind``: number of events by kind. ``external``: number of events that change the
-  tiling as users see it; ``internal``: all others (new motions, infinitesimal copies of
-  vertices, extreme vertices).
-* ``pending``, ``most_pending``: number of certificates in the queue, now and at most.
-* ``locality``: number of pending certificates that involve one body, maximum and mean.
-* ``responsiveness``: certificates computed or skipped per event.
-* ``efficiency``: ratio of all events to external events.
-* ``batches``: number of times at which several certificates failed; ``rebuilds``: number
-  of times that the tiling was rebuilt; ``flips``: number of flips in repairs.
-* ``zeros``: number of certificates decided exactly because they vanish, now or
-  identically.
-* ``reasons``: number of exact decisions by ``"what: why"``. What: "certificate" (a sign,
-  and when it may change), "sign" (in repairs and constructions), "time" (the order of two
-  events), "place" (the order along a line, coincidence), "contact" (a vertex on an edge).
-  Why: "zero" (the sign is zero: collinear, equal in x or y, simultaneous, touching), "close"
-  (it is not zero, but too small for the filter), "copies" (infinitesimal copies of a vertex
-  of a degenerate body), "range" (numbers out of the range of the filters), "asked" (filters
-  off).
-"""
+"""Statistics of a run; docs/howto/simulation.md explains the keys."""
 
 from __future__ import annotations
 
 from exactpt.certificates.certifier import X_ORDER
+from exactpt.geometry.predicates import side
 from exactpt.kernel.counters import Counts
+from exactpt.kernel.numbers import shorten
+from exactpt.motion.vertices import MovingBody
 from exactpt.scene.scene import Scene
+from exactpt.tiling.catalogue import Bodies, has_convex_rules
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["counts_of", "report"]
+__all__ = ["counts_of", "report", "rules_of"]
 
 
 def report(scene: Scene, kinetic: Tiling | None) -> dict[str, object]:
@@ -70,6 +52,33 @@ def report(scene: Scene, kinetic: Tiling | None) -> dict[str, object]:
         "flips": stats.flips,
         "zeros": certifier.zeros,
     }
+
+
+def rules_of(kinetic: Tiling, *, is_auto: bool) -> dict[str, object]:
+    """The class of the rules of a tiling, and why it was chosen.
+
+    Args:
+        kinetic: the tiling.
+        is_auto: whether "auto" was requested.
+    """
+    entry = kinetic.entry
+    fits = {Bodies.POINTS: "all bodies are points", Bodies.CONVEX: "all bodies stay convex"}
+    why = fits.get(entry.bodies, f"{entry.name} is for any bodies")
+    if entry.bodies is Bodies.ANY and (is_auto or has_convex_rules(entry.name)):
+        name = next((m.body.name for m in kinetic.vertices.bodies if _may_bend(m)), None)
+        if name is not None:  # the body may have been removed since
+            why = f"body {shorten(name)} need not stay convex"
+    return {"tiling": entry.name, "rules": entry.place.partition(":")[2], "why": why}
+
+
+def _may_bend(moving: MovingBody) -> bool:
+    """Return True unless a body is a point, a segment or a polygon that stays convex."""
+    body = moving.body
+    if moving.is_tiled or body.has_rings or body.size < 3 or not body.closed:
+        return moving.is_tiled or body.size > 2
+    points = body._at(moving.since)
+    sides = (side(points[i - 2], points[i - 1], p) for i, p in enumerate(points))
+    return {1, -1}.issubset(sides)
 
 
 def counts_of(kinetic: Tiling | None) -> Counts:

@@ -1,5 +1,6 @@
 """The catalogue: which tiling is meant, and a structure that is registered from outside."""
 
+import re
 import sys
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -13,8 +14,10 @@ from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.detector import first_contact
 from exactpt.errors import InputError
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
+from exactpt.motion.body import Body
 from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.scene.generate import generate
+from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
 from exactpt.tiling import catalogue
 from exactpt.tiling.events import ContactFound
@@ -128,3 +131,34 @@ def test_flipping_rules_from_outside_keep_the_same_tiling(registered, monkeypatc
     assert type(inside.kinetic.rules).__name__ == "ShadowRules"
     assert events == [event.to_json() for event in inside.run()]
     assert len(events) > 0
+
+
+DART = [(0, 0), (4, 2), (0, 4), (1, 2)]
+BOX = [(9, 0), (10, 0), (10, 1), (9, 1)]
+
+
+@pytest.mark.parametrize(
+    ("bodies", "tiling", "rules", "why"),
+    [
+        ([BOX], "greedy", "VerticalRules", "all bodies stay convex"),
+        ([BOX, DART], "greedy", "ShadowRules", "body 'b1' need not stay convex"),
+        ([BOX, DART], "auto", "MixedRules", "body 'b1' need not stay convex"),
+        ([BOX], "auto", "VerticalRules", "all bodies stay convex"),
+        ([BOX], "mixed", "MixedRules", "mixed is for any bodies"),
+        ([[(0, 0)], [(1, 1)]], "auto", "IncrementalTiling", "all bodies are points"),
+    ],
+)
+def test_stats_name_the_rules_and_why_they_were_chosen(bodies, tiling, rules, why):
+    scene = Scene([Body(f"b{i}", outline) for i, outline in enumerate(bodies)], time=(0, 1))
+
+    stats = Simulation(scene, tiling=tiling).stats
+
+    assert (stats["rules"], stats["why"]) == (rules, why)
+
+
+def test_the_page_on_tilings_has_all_that_predicates_offer():
+    page = (Path(__file__).parents[3] / "docs" / "extending.md").read_text(encoding="utf-8")
+    table = page.partition("| attribute |")[2].partition("\n\n")[0]
+    named = set(re.findall(r"`(\w+)[`(]", table)) - {"vertices", "time", "after"}
+
+    assert named == {name for name in vars(PredicatesAt) if not name.startswith("_")}
