@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from exactpt.pairs.intervals import ContactInterval, contact_intervals, contacts
     from exactpt.pairs.planner import Planner
     from exactpt.pairs.surroundings import Surroundings, clearance
+    from exactpt.proof.certified import certify
     from exactpt.proof.written import Proof, prove
     from exactpt.query.answers import Hit, Path, Place
     from exactpt.query.space import FreeSpace
@@ -89,6 +90,7 @@ __all__ = [
     "Translation",
     "UnreachableError",
     "Velocity",
+    "certify",
     "clearance",
     "contact_intervals",
     "contacts",
@@ -147,6 +149,7 @@ _ROOMS: Final = {
     ),
     "exactpt.motion.pose_path": ("PosePath",),
     "exactpt.motion.spin": ("Spin",),
+    "exactpt.proof.certified": ("certify",),
     "exactpt.proof.written": (
         "Proof",
         "prove",
@@ -198,6 +201,7 @@ for _name, _place in {
     "drawing of a scene": "exactpt.render.draw:draw",
     "drawing of a simulation": "exactpt.render.draw:draw_run",
     "search that writes a proof": "exactpt.proof.written:ProvedSearch",
+    "search that writes a certificate": "exactpt.proof.certified:CertifiedSearch",
     "proofs of a simulation": "exactpt.proof.living:ProofFolder",
     "table of a contact": "exactpt.render.notebook:contact_html",
 }.items():

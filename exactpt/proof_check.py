@@ -603,6 +603,7 @@ class Body:
         closed: whether it is a polygon with its inside.
         rings: the numbers of the vertices of each ring, and whether it bounds a hole.
         parts: of each part, the numbers of the vertices of its rings, the outline first.
+        radius: the body is all that is within this distance of what it is without.
     """
 
     def __init__(self, data: Json, first: int, start: Fraction) -> None:
@@ -614,8 +615,8 @@ class Body:
         is_text = isinstance(self.name, str) and not isinstance(self.name, Bare) and self.name
         need(is_text and not re.search("[\ud800-\udfff]", self.name), "a name:", self.name)
         need(isinstance(closed, bool), "closed:", closed)
-        radius = number(body.get("radius", "0"))
-        need(radius == 0, "a radius: no proof is possible:", body.get("radius"))
+        self.radius = number(body.get("radius", "0"))
+        need(self.radius >= 0, "a radius:", body.get("radius"))
         parts = [keys(p, ["vertices"], ["holes"]) for p in entries(body.get("parts", []))]
         need(parts or "parts" not in body, "no parts:", data)
         rings = [
@@ -1588,7 +1589,10 @@ def check(scene_file: bytes, proof_file: bytes, work: int = Work.usual) -> Prove
         digest = hashlib.sha256(scene_file).hexdigest()
         if rows[1][1][2] != digest:
             raise NoProofError("the proof is of another scene: the hash of its file is another one")
-        checker = Checker(Scene(text))
+        scene = Scene(text)
+        for body in scene.bodies:
+            need(body.radius == 0, "a radius: no proof is possible:", str(body.radius))
+        checker = Checker(scene)
         proved = checker.check_rows(rows[2:])
         return proved.within(f"accepted: {digest[:16]} {proved}")
     except UnicodeDecodeError:

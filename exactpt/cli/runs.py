@@ -74,6 +74,12 @@ __all__ = ["collide", "simulate"]
     type=click.Path(path_type=Path),
     help="Write a proof of the answer; python3 -I exactpt/proof_check.py SCENE PROOF checks it.",
 )
+@click.option(
+    "--certificate",
+    type=click.Path(path_type=Path),
+    help="Write a certificate that bodies are apart up to shortly before the contact, its scene "
+    "beside it; exactpt check FILE checks it. For any method, not with --after-start.",
+)
 @click.option("--stats", is_flag=True, help="Print counts of events, certificates and decisions.")
 @click.option("--exit-code", is_flag=True, help="Return 1 if there is a contact.")
 @click.option("--exact-only", is_flag=True, help="Switch the float filters off.")
@@ -91,6 +97,7 @@ def collide(
     between: tuple[str, ...],
     since: QQ | None,
     proof: Path | None,
+    certificate: Path | None,
     stats: bool,
     exit_code: bool,
     exact_only: bool,
@@ -108,6 +115,7 @@ def collide(
       exactpt collide scene.json --enclosed
       exactpt collide scene.json --until 7/2 --exit-code && echo "no contact"
       exactpt collide scene.json --proof answer.proof
+      exactpt collide scene.json --certificate answer.apart
       exactpt collide scene.json --method pairs --ignore boat,buoy --ignore ball,wheel
       exactpt collide scene.json --after-start --between ball,wheel --since 1/2
     """
@@ -128,6 +136,7 @@ def collide(
         after_start=after_start,
         between=[two_names(text, "--between") for text in between] or None,
         proof=proof,
+        certificate=certificate,
         max_events=max_events,
         max_seconds=max_seconds,
     )
@@ -154,7 +163,7 @@ def _first_contact(
         with time_limit(question.max_seconds, max_memory()):
             given = load(path, until, since)
             answer |= {"until": str(given._end), "tiling": question.tiling}
-            if question.proof is not None:
+            if question.proof is not None or question.certificate is not None:
                 question = question._replace(scene_file=path.read_bytes())
             search = search_for(given, question)
             answer["tiling"] = search.name

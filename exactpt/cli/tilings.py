@@ -89,17 +89,19 @@ def _build(ctx: click.Context, _parameter: click.Parameter, folder: Path | None)
     ctx.exit()
 
 
-def _write_checker(ctx: click.Context, _: click.Parameter, path: Path | None) -> None:
-    """Write the checker of proofs and end, before a scene is required."""
+def _write_checker(ctx: click.Context, option: click.Parameter, path: Path | None) -> None:
+    """Write a checker of proofs or certificates and end, before a scene is required."""
     if path is None or ctx.resilient_parsing:
         return
-    from exactpt import proof_check
+    from exactpt import check_apart, proof_check
     from exactpt.files import write_atomically
 
-    content = Path(proof_check.__file__).read_bytes()
+    is_apart = option.name == "write_apart"
+    kind = "CERTIFICATE" if is_apart else "PROOF"
+    content = Path(check_apart.__file__ if is_apart else proof_check.__file__).read_bytes()
     write_atomically(path, content)
     say(f"{hashlib.sha256(content).hexdigest()}  {path}")
-    tell(f"run it as: python3 -I {path} SCENE PROOF")
+    tell(f"run it as: python3 -I {path} SCENE {kind}")
     ctx.exit()
 
 
@@ -124,6 +126,33 @@ def _check_folder(folder: Path, *, quiet: bool, max_seconds: float | None) -> in
     return 0 if accepted and agree else 1
 
 
+def _begins_as_certificate(path: Path) -> bool:
+    """Return True for a file, not a pipe, that exactpt collide --certificate has written."""
+    if not path.is_file():
+        return False
+    with path.open("rb") as file:
+        return file.read(13) == b"exactpt-apart"
+
+
+def _check_certificate(path: Path, *, quiet: bool) -> int:
+    """Check a certificate of the scene beside it."""
+    from exactpt import check_apart
+    from exactpt.files import read_bytes
+    from exactpt.proof.written import beside
+
+    try:
+        verdict, code = str(check_apart.check(read_bytes(beside(path)), read_bytes(path))), 0
+    except check_apart.Rejected as rejected:
+        verdict, code = str(rejected), 1
+    except check_apart.NoProofError as refused:
+        raise InputError(f"{path}: {refused}") from None
+    except check_apart.Exhausted as exhausted:
+        raise BudgetExceeded(str(exhausted), None) from None
+    if not quiet:
+        say(verdict)
+    return code
+
+
 @click.command()
 @SCENE
 @click.option(
@@ -134,6 +163,15 @@ def _check_folder(folder: Path, *, quiet: bool, max_seconds: float | None) -> in
     expose_value=False,
     callback=_write_checker,
     help="Write the checker of proofs, one file of Python, to this path instead.",
+)
+@click.option(
+    "--write-apart",
+    metavar="FILE",
+    type=click.Path(path_type=Path, dir_okay=False),
+    is_eager=True,
+    expose_value=False,
+    callback=_write_checker,
+    help="Write the checker of certificates, one file of Python, to this path instead.",
 )
 @click.option(
     "--build",
@@ -159,11 +197,13 @@ def check(
     """Have an independent program verify a proof, every tiling and every event time.
 
     Of a folder that exactpt simulate --proof has written: have two checkers verify its proofs,
-    and that each part goes on where the one before ends.
+    and that each part goes on where the one before ends. Of a certificate that exactpt collide
+    --certificate has written, with FILE.scene.json beside it: check it, and print its statement.
 
     \b
     Examples:
       exactpt check scene.json
+      exactpt check answer.apart
       exactpt check scene.json --json
       exactpt check folder
       exactpt check --write-checker check.py
@@ -180,6 +220,9 @@ def check(
     if scene.is_dir():
         with time_limit(max_seconds, max_memory()):
             return _check_folder(scene, quiet=quiet, max_seconds=max_seconds)
+    if _begins_as_certificate(scene):
+        with time_limit(max_seconds, max_memory()):
+            return _check_certificate(scene, quiet=quiet)
     try:
         with time_limit(max_seconds, max_memory()):
             given = load(scene)

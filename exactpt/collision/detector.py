@@ -34,6 +34,7 @@ def first_contact(
     between: Iterable[Sequence[str]] | None = None,
     since: Rational | None = None,
     proof: str | Path | None = None,
+    certificate: str | Path | None = None,
     max_seconds: float | None = None,
     max_memory: int | None = None,
 ) -> Contact | None:
@@ -58,6 +59,9 @@ def first_contact(
         proof: file to write, with what an independent program needs to check the answer
             (docs/proofs.md). The scene is written beside it, with ``.scene.json`` after the
             name. This needs a tiling: "kinetic" or "auto".
+        certificate: file to write, and the scene likewise, with what another program needs to check
+            that bodies stay apart up to a time L, and that two are in contact by a time H soon
+            after (docs/proofs.md): by any method, not for ``after_start``.
         max_seconds: time limit in seconds of wall-clock time; None for no limit.
         max_memory: maximum memory of the process, in bytes; None for no limit.
 
@@ -65,7 +69,7 @@ def first_contact(
         BudgetExceeded: if the time or memory is used up, in any thread, also before the search
             begins; its ``reached`` is a time up to which there is no contact, or None.
         InputError: if there is no such method, tiling or body, the scene is none, or the proof
-            cannot be written.
+            or certificate cannot be written.
     """
     if method not in METHODS:
         raise InputError(f"no method {method!r}; there are: {', '.join(METHODS)}")
@@ -73,6 +77,7 @@ def first_contact(
     a_scene(scene)
     with _budget(max_seconds, max_memory), carrying(lambda: scene):
         groups = ignoring if isinstance(ignoring, str) else list(ignoring)
+        given = scene
         if since is not None:
             scene = scene.since(since)
         question = Question(
@@ -83,6 +88,8 @@ def first_contact(
             after_start=after_start,
             between=between,
             proof=None if proof is None else Path(proof),
+            certificate=None if certificate is None else Path(certificate),
+            given=given,
         )
         return search_for(scene, question).run_to_contact()
 

@@ -21,9 +21,10 @@ class Question(NamedTuple):
     """What is asked about a scene, and how it is to be found.
 
     Attributes:
-        method, tiling, exact_only, ignoring, after_start, between, proof: as in `first_contact`;
-            the names of method and tiling are known.
+        method, tiling, exact_only, ignoring, after_start, between, proof, certificate: as in
+            `first_contact`; the names of method and tiling are known.
         scene_file: the bytes of the scene's file, of which a proof then speaks.
+        given: the scene with its first start, of which a certificate speaks if there is no file.
         max_events: maximum number of events of a tiling, which "auto" then keeps; None for no
             limit.
         max_seconds: time limit, in seconds; None for no limit.
@@ -36,7 +37,9 @@ class Question(NamedTuple):
     after_start: bool = False
     between: Iterable[Sequence[str]] | None = None
     proof: Path | None = None
+    certificate: Path | None = None
     scene_file: bytes | None = None
+    given: Scene | None = None
     max_events: int | None = None
     max_seconds: float | None = None
 
@@ -52,6 +55,8 @@ def search_for(scene: Scene, question: Question) -> Search:
         InputError: if the method cannot answer this question.
     """
     method, tiling, exact_only, groups = question[:4]
+    if question.certificate is not None:
+        return _certified(scene, question)
     if question.after_start or question.between is not None:
         return _selected(scene, question)
     if groups and method == "kinetic":
@@ -69,6 +74,20 @@ def search_for(scene: Scene, question: Question) -> Search:
 
     most = question.max_events
     return TilingSearch(scene, tiling, exact_only=exact_only, max_events=most, max_seconds=seconds)
+
+
+def _certified(scene: Scene, question: Question) -> Search:
+    """The search, whichever it is, that writes a certificate.
+
+    Raises:
+        InputError: if there is a proof, too, or it is about new contacts.
+    """
+    if question.after_start or question.proof is not None:
+        what = "with a proof" if question.proof is not None else "of a new contact after the start"
+        raise InputError(f"there is no certificate {what}")
+    search = search_for(scene, question._replace(certificate=None))
+    certified: Search = extension("search that writes a certificate")(search, scene, question)
+    return certified
 
 
 def _selected(scene: Scene, question: Question) -> Search:

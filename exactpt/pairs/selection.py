@@ -24,12 +24,13 @@ class Selection:
     Attributes:
         named: the pairs i < j of body numbers that ``between`` names and that count, each once,
             sorted; None if it is not given.
+        group: the group number of each body; a body in no group has a number of its own.
 
     Raises:
         InputError: if there is no body of a name, or a pair is not one of two bodies.
     """
 
-    __slots__ = ("_group", "named")
+    __slots__ = ("group", "named")
 
     def __init__(
         self,
@@ -37,7 +38,7 @@ class Selection:
         between: Iterable[Sequence[str]] | None = None,
         ignoring: Iterable[Collection[str]] = (),
     ) -> None:
-        self._group = groups_of(scene, ignoring)
+        self.group = groups_of(scene, ignoring)
         self.named: list[tuple[int, int]] | None = None
         if between is not None:
             self.named = self.of(_numbered(scene, between))
@@ -45,11 +46,11 @@ class Selection:
     @property
     def is_all(self) -> bool:
         """True if every pair of bodies counts."""
-        return self.named is None and self._group == list(range(len(self._group)))
+        return self.named is None and self.group == list(range(len(self.group)))
 
     def of(self, pairs: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
         """Return those of some pairs i < j that count, in their order."""
-        group, named = self._group, None if self.named is None else set(self.named)
+        group, named = self.group, None if self.named is None else set(self.named)
         return [
             (i, j) for i, j in pairs if group[i] != group[j] and (named is None or (i, j) in named)
         ]

@@ -14,14 +14,15 @@ from exactpt.scene.scene import Scene, a_scene
 from exactpt.tiling.report import report
 
 if TYPE_CHECKING:
+    from exactpt.check_apart import Proved as Certified
     from exactpt.pairs.contact import Contact
     from exactpt.proof_check import Proved
 
-__all__ = ["Proof", "ProvedSearch", "prove", "write_proof"]
+__all__ = ["Proof", "ProvedSearch", "beside", "prove", "write_proof"]
 
 
 class Proof(NamedTuple):
-    """An answer with its proof, in memory.
+    """An answer with its proof, or its certificate (`certify`), in memory.
 
     Attributes:
         contact: the first contact, or None.
@@ -33,8 +34,8 @@ class Proof(NamedTuple):
     scene: bytes
     text: bytes
 
-    def check(self) -> Proved:
-        """Have `exactpt.proof_check` verify the proof.
+    def check(self) -> Proved | Certified:
+        """Have `exactpt.proof_check`, or `exactpt.check_apart`, verify the proof.
 
         Returns:
             what it proves, in words: a text with the attributes ``until`` and ``whole`` (whether
@@ -44,13 +45,14 @@ class Proof(NamedTuple):
             AuditError: if a line of it does not hold.
             BudgetExceeded: if the checker's budget of work is used up.
         """
-        from exactpt import proof_check
+        from exactpt import check_apart, proof_check
 
+        checker = check_apart if self.text.startswith(b"exactpt-apart") else proof_check
         try:
-            return proof_check.check(self.scene, self.text)
-        except proof_check.Rejected as rejected:
+            return checker.check(self.scene, self.text)  # type: ignore[no-any-return]
+        except (proof_check.Rejected, check_apart.Rejected) as rejected:
             raise AuditError(str(rejected)) from None
-        except proof_check.Exhausted as exhausted:
+        except (proof_check.Exhausted, check_apart.Exhausted) as exhausted:
             raise BudgetExceeded(str(exhausted), None) from None
 
     def save(self, path: str | Path) -> None:
@@ -59,7 +61,7 @@ class Proof(NamedTuple):
         Raises:
             InputError: if a file cannot be written.
         """
-        write_atomically(_beside(Path(path)), self.scene)
+        write_atomically(beside(Path(path)), self.scene)
         write_atomically(Path(path), self.text)
 
 
@@ -91,8 +93,8 @@ def prove(
     return Proof(run.contact, file, text.encode())
 
 
-def _beside(path: Path) -> Path:
-    """The path of the scene of a proof."""
+def beside(path: Path) -> Path:
+    """The path of the scene of a proof or certificate."""
     return path.with_name(f"{path.name}.scene.json")
 
 
@@ -149,7 +151,7 @@ class ProvedSearch:
             InputError: if a file cannot be written.
         """
         if self._beside:
-            write_atomically(_beside(self._path), self._file)
+            write_atomically(beside(self._path), self._file)
         with searching(None, self.passed), writing(self._path) as write:
             for line in self._proof.lines():
                 write(f"{line}\n")

@@ -36,6 +36,7 @@ PATTERNS = {
 def texts_of(path):
     """Docstrings, comments and raised messages of a module."""
     source = path.read_text(encoding="utf-8")
+    source = re.sub(r"(?s)# ---- Copied from .*?# ---- End of the copy\.", "", source)
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Raise) and node.exc is not None:
             yield ast.unparse(node.exc)

@@ -1,0 +1,429 @@
+"""Certificates that bodies stay apart: written, checked, and wrong ones."""
+
+import hashlib
+import json
+import runpy
+import subprocess
+import sys
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+import exactpt
+from exactpt import Body, Rigid, Scene, Translation, check_apart, proof_check
+from exactpt.cli import cli
+from exactpt.errors import AuditError, BudgetExceeded, InputError
+from exactpt.proof.apart import Paths
+from exactpt.scene.generate import generate
+
+ROOT = Path(check_apart.__file__).parent.parent
+BOX = [(0, 0), (1, 0), (1, 1), (0, 1)]
+
+
+def moved(shape, x, y):
+    return [(a + x, b + y) for a, b in shape]
+
+
+def bodies(*others):
+    return Scene([Body("a", BOX, Translation([0, 1])), *others], time=(0, 8))
+
+
+TWO = bodies(Body("b", moved(BOX, 5, 0)))  # which meet at t = 4
+PAST = bodies(Body("b", moved(BOX, 5, 2)))  # which do not
+MANY = bodies(Body("b", moved(BOX, 5, 2)), Body("c", moved(BOX, 5, -1)), Body("d", [(7, 0)]))
+
+
+def said(proof):
+    return proof.check().split(" ", 2)[2]
+
+
+def verdict(scene, *lines, start=0, until=8):
+    """What the checker answers of a certificate with these lines."""
+    file = (scene if isinstance(scene, bytes) else exactpt.certify(scene).scene) if scene else b""
+    digest = hashlib.sha256(file).hexdigest()
+    head = ["exactpt-apart 1", f"scene sha256 {digest}", f"span {start} {until}"]
+    try:
+        return check_apart.check(file, "\n".join([*head, *lines, ""]).encode()).split(" ", 2)[2]
+    except check_apart.Rejected as rejected:
+        return str(rejected)
+    except check_apart.NoProofError as refused:
+        return f"no proof: {refused}"
+
+
+def scene_file(*given, time=(0, 8)):
+    return json.dumps({"exactpt": 1, "time": time, "bodies": given}).encode()
+
+
+def test_the_copy_of_the_reader_is_current():
+    copier = runpy.run_path(str(ROOT / ".ci/copy_reader.py"))
+    text = Path(check_apart.__file__).read_text(encoding="utf-8")
+    copied = text.split(copier["BEGIN"] + "\n")[1].split(copier["END"])[0]
+    source = Path(proof_check.__file__).read_text(encoding="utf-8")
+    assert copied == copier["reader"](source), "run python .ci/copy_reader.py"
+    own = text.replace(copied, "").splitlines()
+    assert sum(bool(line.strip()) for line in own) <= 370
+
+
+def test_the_checker_imports_nothing_but_the_standard_library():
+    code = (
+        "import sys; before = set(sys.modules); import exactpt.check_apart;"
+        "print(*sorted(set(sys.modules) - before))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    found = {m for m in done.stdout.split() if m.startswith("exactpt")}
+    assert found == {"exactpt", "exactpt.extensions", "exactpt.check_apart"}
+
+
+def test_items_are_numbered_alike():
+    for family in ("frames", "lakes", "stars", "chains", "points"):
+        try:
+            scene = generate(family, 3)
+        except KeyError:
+            continue
+        read = check_apart.Scene(exactpt.proof.emit.scene_bytes(scene).decode())
+        items = [(i, *d) for i, b in enumerate(read.bodies) for d in b.edges or [(b.first,) * 2]]
+        assert Paths(scene.bodies).items == items
+
+
+def test_a_contact_is_enclosed_within_a_millionth():
+    proof = exactpt.certify(TWO)
+    assert proof.contact == exactpt.first_contact(TWO)
+    words = said(proof)
+    assert words.endswith("4]: b0.0 and b1.0 at t = 4 (b0 is 'a', b1 is 'b')")
+    low = Fraction(words.split("(")[1].split(",")[0])
+    assert 0 < 4 - low <= Fraction(8, 2**20)
+
+
+def test_no_contact():
+    proof = exactpt.certify(PAST)
+    assert said(proof) == "no two bodies share a point in [0, 8], the whole span"
+    assert proof.check().whole
+
+
+def test_some_pairs():
+    assert "first contact of two bodies in" in said(exactpt.certify(MANY))
+    words = said(exactpt.certify(MANY, between=[("a", "b"), ("b", "c")]))
+    assert words.split(" (")[0] == (
+        "no two bodies share a point in [0, 8], the whole span; between b0 b1; between b1 b2"
+    )
+    proof = exactpt.certify(MANY, ignoring=[("a", "d", "c")])
+    assert "; ignoring b0 b2 b3 (b0 is 'a', b2 is 'c', b3 is 'd')" in said(proof)
+    assert not proof.check().whole
+    with pytest.raises(InputError, match="no pair of bodies counts"):
+        exactpt.certify(MANY, between=[("a", "b")], ignoring=[("a", "b")])
+
+
+def test_since_a_time():
+    words = said(exactpt.certify(PAST, since=3))
+    assert words.startswith(
+        "no two bodies share a point in [3, 8]; the span of the scene is [0, 8]"
+    )
+    assert words.endswith(": nothing is said of [0, 3)")
+    assert said(exactpt.certify(TWO, since=5)).startswith("two bodies share a point at the start t")
+
+
+def test_at_the_start():
+    nested = bodies(Body("b", [(Fraction(1, 2), Fraction(1, 2))], Translation([0, 1])))
+    assert ": b1.0 inside b0 at t = 0 (" in said(exactpt.certify(nested))
+    touching = bodies(Body("b", [(1, -1), (1, 5)]))
+    assert ": b0.0 and b1.0 at t = 0 (" in said(exactpt.certify(touching))
+
+
+def test_radius():
+    scene = Scene(
+        [
+            Body("a", [(0, 0)], Translation([0, 1]), radius=1),
+            Body("b", [(6, -1), (6, 1)], radius=2),
+        ],
+        time=(0, 8),
+    )
+    words = said(exactpt.certify(scene))
+    assert words.endswith(", 3]: b0.0 and b1.0 at t = 3 (b0 is 'a', b1 is 'b')")
+    assert said(exactpt.certify(scene, at=0, distance="2.999")).startswith(
+        "no two bodies are within"
+    )
+    with pytest.raises(BudgetExceeded):
+        exactpt.certify(scene, at=0, distance=3)
+
+
+def test_within_a_distance():
+    assert ", 3]: b0.0 and b1.0 at t = 3 (" in said(exactpt.certify(TWO, distance=1))
+    words = said(exactpt.certify(PAST, distance="0.999"))
+    assert words == "no two bodies are within 999/1000 in [0, 8], the whole span"
+    words = said(exactpt.certify(PAST, distance="1.5"))
+    assert words.startswith("first time within 3/2 of two bodies in (")
+
+
+def test_a_point_passes_through_a_segment_at_an_irrational_time():
+    wall = Body("wall", [(2, -1), (2, 1)])
+    scene = Scene([Body("p", [(0, 0)], Translation([0, 0, 1])), wall], time=(0, 5))
+    words = said(exactpt.certify(scene))
+    assert ": b0.0 through b1.0 in [" in words
+    low, high = map(Fraction, words.split("(")[1].split("]")[0].split(", "))
+    assert low**2 < 2 < high**2
+    assert high - low <= Fraction(5, 2**20)
+
+
+@pytest.mark.parametrize("family", ["turning", "keyframed", "stars", "lakes", "spinning", "convoy"])
+def test_families(family):
+    try:
+        scene = generate(family, 2)
+    except KeyError:
+        pytest.skip("no such family")
+    assert exactpt.certify(scene).check().startswith("accepted: ")
+
+
+def test_first_contact_and_the_command_write_it(tmp_path):
+    path, file = tmp_path / "x.apart", tmp_path / "s.json"
+    contact = exactpt.first_contact(TWO, since=1, certificate=path)
+    assert contact.time == 4
+    done = CliRunner().invoke(cli, ["check", str(path)])
+    assert done.exit_code == 0
+    assert " first contact of two bodies in (" in done.output
+    TWO.save(file)
+    arguments = ["collide", str(file), "--certificate", str(path), "--until", "3"]
+    CliRunner().invoke(cli, arguments, catch_exceptions=False)
+    done = CliRunner().invoke(cli, ["check", str(path)])
+    assert done.output.endswith(
+        " no two bodies share a point in [0, 3]; the span of the scene is [0, 8]: nothing is said "
+        "of (3, 8]\n"
+    )
+    path.write_bytes(path.read_bytes().replace(b"none", b"meet 7 0 4"))
+    done = CliRunner().invoke(cli, ["check", str(path)], standalone_mode=False)
+    assert (done.return_value, done.output[:16]) == (1, "rejected: line 5")
+
+
+def test_exit_codes(tmp_path, capsys):
+    path, file = tmp_path / "x.apart", tmp_path / "x.apart.scene.json"
+    exactpt.first_contact(PAST.until(5), certificate=path)
+    PAST.save(file)
+    new = hashlib.sha256(file.read_bytes()).hexdigest()
+    lines = path.read_text().split("\n")
+    path.write_text("\n".join([lines[0], f"scene sha256 {new}", *lines[2:]]))
+    for options, code in (
+        ([], 1),
+        (["--partial"], 0),
+        (["--until", "5"], 0),
+        (["--until", "6"], 1),
+        (["--until", "5", "--partial"], 2),
+        (["--work", "9"], 4),
+        (["--what"], 2),
+    ):
+        assert check_apart.main([str(file), str(path), *options]) == code, options
+        assert capsys.readouterr().out.count("\n") == (code != 2)
+
+
+def test_what_has_no_certificate(tmp_path):
+    with pytest.raises(InputError, match="no certificate of a new contact"):
+        exactpt.first_contact(TWO, after_start=True, certificate=tmp_path / "x")
+    with pytest.raises(InputError, match="no certificate with a proof"):
+        exactpt.first_contact(TWO, proof=tmp_path / "p", certificate=tmp_path / "x")
+    folding = Body("f", [([0, 1], 0), (5, 1), (5, -1)], closed=False)
+    bent = Body("g", [(3, 9), (5, 9)])
+    assert said(exactpt.certify(Scene([folding, bent], time=(0, 4)))).startswith("no two bodies")
+    assert not list(tmp_path.iterdir())
+
+
+# Wrong certificates. The two boxes of PAST are apart by y: 1 < 3/2 < 2; by x only up to t = 4.
+
+RIGHT = "c 0 1 3/2"
+
+
+def test_a_right_one_by_hand():
+    assert verdict(PAST, RIGHT, "none") == "no two bodies share a point in [0, 8], the whole span"
+    assert verdict(PAST, "c 0 1 2", "none").startswith("no two")  # one body may touch the line
+    assert verdict(PAST, "t 3", "c 1 0 9/2", RIGHT, "none").startswith("no two")
+
+
+@pytest.mark.parametrize(
+    ("lines", "why"),
+    [
+        (["none"], "line 4: a node is missing"),
+        (["c 0 1 1", "none"], "a node is missing"),  # it touches both sorts of sides
+        (["c 1 0 4", "none"], "a node is missing"),  # apart at first only
+        (["c 0 1 5/2", "none"], "a node is missing"),
+        (["c 0 0 1", "none"], "a line without a direction"),
+        (["c 0 0 0 1", "none"], "a line without a direction"),
+        ([RIGHT, RIGHT, "none"], "more nodes than are needed"),
+        (["t 8", RIGHT, RIGHT, "none"], "8 is not between 0 and 8"),
+        (["t 0", RIGHT, RIGHT, "none"], "0 is not between 0 and 8"),
+        (["t 9", RIGHT, RIGHT, "none"], "9 is not between 0 and 8"),
+        (["t 4", RIGHT, "none"], "a node is missing"),  # a half without nodes
+        (["t 4", "c 1 0 9/2", "c 1 0 5", "none"], "a node is missing"),
+        (["s 0 2", RIGHT, "none"], "a node is missing"),
+        (["s 2 2", RIGHT, RIGHT, "none"], "not a number from 0 to 1: 2"),
+        (["between 0 0", RIGHT, "none"], "a body is there twice"),
+        (["between 0 2", RIGHT, "none"], "not a number from 0 to 1: 2"),
+        (["ignoring 0 1", "ignoring 0 1", "none"], "a body is there twice"),
+        (["distance 3", RIGHT, "none"], "a node is missing"),
+        (["distance 1", RIGHT, "none"], "a node is missing"),
+        (["distance -1", RIGHT, "none"], "a distance below 0"),
+        ([RIGHT, "meet 9 0 4"], "a time outside of the span"),
+        ([RIGHT, "meet 8 0 4"], "these are not near each other then"),
+        ([RIGHT, "meet 8 0 9"], "not a number from 0 to 7: 9"),
+        ([RIGHT, "inside 8 0 1"], "it is not inside then"),
+        ([RIGHT, "cross 0 8 0 4"], "it stays on one side"),
+    ],
+)
+def test_wrong_ones(lines, why):
+    words = verdict(PAST, *lines)
+    assert words.startswith("rejected: line "), words
+    assert why in words
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["c 1 0 1", "meet 8 0 8"],
+        ["t 1/0", RIGHT, RIGHT, "none"],
+        ["c 1 0", "none"],
+        ["c 1/2 0 1", "none"],
+        ["none", RIGHT],
+        [RIGHT],
+        ["distance 1", "between 0 1", RIGHT, "none"],
+        ["ignoring 0", RIGHT, "none"],
+        [f"c 0 1 {'9' * 10_001}", "none"],
+    ][1:],
+)
+def test_not_in_the_format(lines):
+    assert verdict(PAST, *lines).startswith("no proof: ")
+
+
+def test_spans():
+    for start, until in ((-1, 8), (0, 9), (5, 4)):
+        assert "not a span" in verdict(PAST, RIGHT, "none", start=start, until=until)
+    low = verdict(TWO, "c 1 0 9/2", "meet 4 1 7", until=Fraction(7, 2))
+    assert low.startswith("rejected: line 5: a node is missing")  # one touches the line at the end
+    right = verdict(TWO, "c 1 0 5", "meet 4 1 7", until=Fraction(7, 2))
+    assert right.startswith("first contact of two bodies in (7/2, 4]: b0.1 and b1.3 at t = 4")
+    assert "a contact before the end" in verdict(TWO, "c 1 0 5", "meet 4 1 7", until=4)
+    assert "at the start" in verdict(TWO, "c 1 0 5", "meet 4 1 7", start=4, until=5)
+    assert verdict(TWO, "meet 4 1 7", start=4, until=4).startswith("two bodies share a point at")
+
+
+def test_nested_bodies_are_not_apart():
+    # A point in a box, and a box in a frame: no edges meet, and no line is between the insides.
+    outer = {"name": "a", "vertices": [[0, 0], [9, 0], [9, 9], [0, 9]]}
+    inner = {"name": "b", "vertices": [[4, 4], [5, 4], [5, 5], [4, 5]]}
+    around = ["s 0 2", "s 0 1", *["c 0 1 2"], "c 1 0 7", "s 0 3", "c 0 1 7", "c 1 0 2", "none"]
+    words = verdict(scene_file(outer, inner), *around)
+    assert "b1 has a ring inside b0 at the start" in words
+    words = verdict(scene_file(inner, outer), *[w.replace("s 0", "s 1") for w in around])
+    assert "b0 has a ring inside b1 at the start" in words
+    open_one = {**outer, "closed": False}
+    lines = ["s 0 1", "c 0 1 2", "s 0 2", "c 1 0 7", "c 0 1 7", "none"]
+    assert verdict(scene_file(open_one, inner), *lines).startswith("no two bodies")
+    frame = {**outer, "holes": [[[1, 1], [8, 1], [8, 8], [1, 8]]]}
+    corners = ["c 0 1 2", "c 1 0 2", "c 1 0 7", "c 0 1 7", "none"]
+    words = verdict(scene_file(frame, inner), *corners)
+    assert words == "no two bodies share a point in [0, 8], the whole span"
+
+
+def test_all_rings_are_looked_at():
+    """A body of two parts, the second of them inside another body."""
+    parts = [{"vertices": moved(BOX, 20, 0)}, {"vertices": moved(BOX, 4, 4)}]
+    two = {"name": "b", "parts": parts}
+    outer = {"name": "a", "vertices": [[0, 0], [9, 0], [9, 9], [0, 9]]}
+    around = ["c 0 1 2", "c 0 1 7", "c 1 0 7", "c 1 0 2", "c 1 0 15", "none"]
+    words = verdict(scene_file(outer, two), *around)
+    assert words.startswith("rejected: ")
+    assert "b1 has a ring inside b0" in words
+
+
+def test_every_edge_is_an_item_also_that_which_closes_a_ring():
+    triangle = {"name": "a", "vertices": [[0, 0], [4, 0], [4, 4]]}
+    through = {"name": "b", "vertices": [[1, 3], [3, 1]]}  # it meets the last edge alone
+    assert "a node is missing" in verdict(
+        scene_file(triangle, through), "s 0 2", "c 0 1 1/2", "none"
+    )
+
+
+def test_lines_across_breakpoints():
+    """A body that jumps ahead between two times, by pieces: both ends are on one side."""
+    pieces = {
+        "pieces": [
+            {"until": 2, "motion": {"x": [0, 3]}},
+            {"until": 4, "motion": {"x": [12, -3]}},
+            {"motion": {}},
+        ]
+    }
+    there = {"name": "a", "vertices": [[0, 0]], "motion": pieces}
+    wall = {"name": "b", "vertices": [[4, -1], [4, 1]]}
+    file = scene_file(there, wall)
+    assert "a node is missing" in verdict(file, "c 1 0 3", "none")
+    assert verdict(file, "c 1 0 3", "meet 2 0 1", until=1).startswith("rejected: line 5")
+    low = verdict(file, "t 1/2", "c 1 0 3", "c 0 1 0 0", "none")
+    assert "a node is missing" in low
+
+
+def test_curves_are_in_their_hulls():
+    """A parabola that dips below its ends: (4 - t)^2 + 1/10 at t = 4."""
+    dip = {"name": "a", "vertices": [[0, 0]], "motion": {"y": ["16.1", -8, 1]}}
+    floor = {"name": "b", "vertices": [[-1, 0], [1, 0]]}
+    file = scene_file(dip, floor)
+    assert "a node is missing" in verdict(file, "c 0 1 1/20", "none")  # the hull reaches below
+    halves = ["t", "c 0 1 1/20", "c 0 1 1/20", "none"]
+    assert verdict(file, *halves).startswith("no two bodies")
+    deeper = file.replace(b"16.1", b"15.9")
+    assert "a node is missing" in verdict(deeper, *halves)
+
+
+def test_a_turning_rod_sweeps_more_than_its_ends():
+    rod = Body("a", [(-2, 0), (2, 0)], Rigid([-1, "1/4"]))  # half a turn in [0, 8]
+    scene = Scene([rod, Body("b", [(0, 3)])], time=(0, 8))
+    assert said(exactpt.certify(scene)).startswith("no two bodies")
+    near = Scene([rod, Body("b", [(0, "1.99")])], time=(0, 8))
+    file = exactpt.proof.emit.scene_bytes(near)
+    assert "a node is missing" in verdict(file, "c 0 1 1", "none")
+    assert "a node is missing" in verdict(file, "c 0 1 199/100", "none")
+
+
+def test_a_passage_needs_an_edge_with_a_length_at_that_time():
+    """The edge shrinks to a point at t = 4, far from the vertex: every orientation is 0 then."""
+    edge = {"name": "a", "vertices": [[0, 0], {"x": [4, -1], "y": []}]}
+    far = {"name": "b", "vertices": [[100, 100]]}
+    words = verdict(scene_file(edge, far, time=(0, 5)), "c 1 0 50", "cross 1 5 2 0", until=2)
+    assert words.startswith("rejected: line 5: it may pass beside the edge")
+
+
+def test_a_passage_beside_the_edge():
+    edge = {"name": "a", "vertices": [[0, 0], [0, 1]]}
+    past = {"name": "b", "vertices": [[-3, 2]], "motion": {"x": [0, 1]}}
+    words = verdict(scene_file(edge, past), "c 1 0 -1/2", "cross 2 4 2 0", until=2)
+    assert "it may pass beside the edge" in words
+    through = {**past, "vertices": [[-3, "1/2"]]}
+    words = verdict(scene_file(edge, through), "c 1 0 -1/2", "cross 2 4 2 0", until=2)
+    assert words.startswith("first contact of two bodies in (2, 4]: b1.0 through b0.0 in [2, 4]")
+    words = verdict(scene_file(edge, through), "c 1 0 -1/2", "cross 4 5 2 0", until=2)
+    assert "it stays on one side of the edge" in words
+
+
+def test_radius_counts_on_both_sides():
+    a = {"name": "a", "vertices": [[0, 0]], "radius": 1}
+    b = {"name": "b", "vertices": [[5, 0]], "radius": 2}
+    file = scene_file(a, b)
+    assert verdict(file, "c 1 0 2", "none").startswith("no two bodies")
+    for c in ("1", "1/2", "3", "7/2"):  # 3: the length of (1, 0) is rounded up
+        assert "a node is missing" in verdict(file, f"c 1 0 {c}", "none")
+    assert verdict(file, "distance 19/10", "c 1 0 101/100", "none").startswith("no two bodies are")
+    assert "a node is missing" in verdict(file, "distance 2", "c 1 0 1", "none")
+    tilted = ["c 3 4 0", "c 3 4 5", "c 3 4 10"]
+    assert all("a node is missing" in verdict(file, line, "none") for line in tilted)
+
+
+def test_pairs_that_do_not_count_prove_nothing():
+    file = exactpt.proof.emit.scene_bytes(MANY)
+    assert verdict(file, "between 0 1", RIGHT, "none").startswith("no two bodies share a point in")
+    assert "do not count" in verdict(file, "between 0 1", RIGHT, "meet 5 0 10", until=4)
+    merged = ["ignoring 1 2", "ignoring 1 3", "none"]
+    assert "a body is there twice" in verdict(file, *merged)
+
+
+def test_a_certificate_of_another_scene_is_refused():
+    proof = exactpt.certify(TWO)
+    with pytest.raises(check_apart.NoProofError, match="for a different scene"):
+        check_apart.check(proof.scene + b" ", proof.text)
+    with pytest.raises(AuditError):
+        proof._replace(text=proof.text.replace(b"meet 4", b"meet 5/2")).check()
