@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from exactpt.arrays.contacts import KINDS, Contacts
 from exactpt.kernel.doubles import Floats, Indices
 from exactpt.motion.incidence import Touch
@@ -18,10 +20,13 @@ __all__ = ["record", "record_edges", "record_overlaps"]
 def record_edges(
     contacts: Contacts, pairs: Indices, low: Floats, high: Floats,
     body: Indices | int = 0, vertex: Indices | int = 0, edge: Indices | int = 0,
+    other_vertex: Indices | int = -1,
 ) -> None:  # fmt: skip
-    """Contacts of one vertex with the inside of one edge, found by a filter."""
+    """Contacts of one vertex with the inside of one edge, or with one vertex, found by a filter."""
     contacts.found[pairs] = True
-    contacts.kind[pairs] = KINDS.index("vertex-edge")
+    kinds = np.array([KINDS.index("vertex-vertex"), KINDS.index("vertex-edge")])
+    contacts.kind[pairs] = kinds[np.asarray(other_vertex < 0).astype(np.int64)]
+    contacts.other_vertex[pairs] = other_vertex
     contacts.low[pairs] = low
     contacts.high[pairs] = high
     contacts.body[pairs] = body

@@ -7,11 +7,12 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from exactpt.arrays.answers import record_edges, record_overlaps
-from exactpt.arrays.candidates import Candidates, all_candidates
+from exactpt.arrays.candidates import Candidates, all_candidates, vertex_candidates
 from exactpt.arrays.contacts import Contacts
 from exactpt.arrays.meetings import INFINITY, first_meetings
 from exactpt.arrays.motions import Motions, reaches
 from exactpt.arrays.outlines import Outlines
+from exactpt.arrays.radii import vertex_meetings
 from exactpt.arrays.relative import Coefficient, Relative, orientations, sides
 from exactpt.arrays.sharpening import sharpened
 from exactpt.arrays.spans import Spans
@@ -37,29 +38,31 @@ class Block(NamedTuple):
     Attributes:
         outlines, bodies: all bodies.
         contacts: the answers.
-        first: the number of the first pair.
+        numbers: the numbers of the pairs.
         i, j: the bodies of the pairs.
         spans: their time spans.
         motions: the motions of i relative to j.
+        reach: the sums of the radii, positive and rounded; None if all are 0.
     """
 
     outlines: Outlines
     bodies: BodyArrays
     contacts: Contacts
-    first: int
+    numbers: Indices
     i: Indices
     j: Indices
     spans: Spans
     motions: Motions
+    reach: Floats | None = None
 
     def answer(self) -> None:
         """Record the first contacts."""
         near = self._near()
-        near = near[~self.contacts.refused[near + self.first]]
         o, i, j = self.outlines, self.i[near], self.j[near]
-        overlaps, unclear = at_start(o, i, j, self.motions.take(near))
+        reach = None if self.reach is None else self.reach[near]
+        overlaps, unclear = at_start(o, i, j, self.motions.take(near), reach)
         over = near[overlaps]
-        record_overlaps(self.contacts, over + self.first, self.spans.start[over])
+        record_overlaps(self.contacts, self.numbers[over], self.spans.start[over])
         counts = o.vertex_count[i] * o.edge_count[j] + o.vertex_count[j] * o.edge_count[i]
         for k in near[~overlaps & (counts > LARGEST)].tolist():
             self._search(k)
@@ -80,7 +83,9 @@ class Block(NamedTuple):
         size = np.maximum(np.abs(o.low[i]), np.abs(o.high[i]))
         size += np.maximum(np.abs(o.low[j]), np.abs(o.high[j]))
         size += np.maximum(np.abs(least), np.abs(most))
-        return np.flatnonzero(~(gap > (4.0 * U * size + error) * SLACK).any(axis=1))
+        reach = 0.0 if self.reach is None else self.reach[:, None]
+        apart = gap > (4.0 * U * (size + reach) + error) * SLACK + reach
+        return np.flatnonzero(~apart.any(axis=1))
 
     @np.errstate(all="ignore")
     def _compare(self, k: Indices, unclear: Flags) -> None:
@@ -90,18 +95,30 @@ class Block(NamedTuple):
         other times at which a candidate meets or may meet. All incidences at the time of the
         first contact are of candidates that are left.
         """
-        o, n = self.outlines, len(k)
-        candidates, starts = all_candidates(o, self.i[k], self.j[k])
+        o, n, two, motions = self.outlines, len(k), (self.i[k], self.j[k]), self.motions.take(k)
+        length, reach = self.spans.length.take(k), None if self.reach is None else self.reach[k]
+        candidates, starts = all_candidates(o, *two)
         pair = candidates.pair
-        relative = candidates.relative(o, self.motions.take(k))
-        low, high = first_meetings(relative, self.spans.length.take(k).take(pair))
+        relative = candidates.relative(o, motions)
+        reaches = None if reach is None else reach[pair]
+        low, high = first_meetings(relative, length.take(pair), reaches)
         best = np.minimum.reduceat(high, native(starts)).reshape(2, n).min(axis=0)
         left = np.flatnonzero((low <= best[pair]) & (low < INFINITY))
         left = left[~_beside_until(relative, low, high, best[pair], left)]
+        if reach is not None:
+            corners, starts = vertex_candidates(o, *two)
+            until = np.minimum(best, length.high)
+            lows, highs = vertex_meetings(o, motions, corners, reach, until)
+            highs[highs > length.low[corners.pair]] = INFINITY
+            best = np.minimum(best, np.minimum.reduceat(highs, native(starts)))
+            near = np.flatnonzero((lows <= best[corners.pair]) & (lows < INFINITY))
+            left = np.concatenate((left[low[left] <= best[pair[left]]], near + len(low)))
+            candidates, pair = candidates.joined(corners), np.concatenate((pair, corners.pair))
+            low, high = np.concatenate((low, lows)), np.concatenate((high, highs))
         counts = np.bincount(pair[left], minlength=n)
         open_ = unclear | (counts > 1) | ((counts == 1) & (best == INFINITY))
         hits = left[~open_[pair[left]]]
-        cs = orientations(relative.take(hits))
+        cs = orientations(relative.take(hits)) if reach is None else []
         self._record(k[pair[hits]], candidates.take(hits), cs, low[hits], high[hits])
         left = left[open_[pair[left]]]
         left = left[np.argsort(pair[left], kind="stable")]
@@ -115,16 +132,16 @@ class Block(NamedTuple):
     def _record(
         self, k: Indices, hits: Candidates, cs: list[Coefficient], low: Floats, high: Floats
     ) -> None:
-        """Record one meeting for each of the pairs k."""
+        """Record one meeting for each of the pairs k; ``cs`` if it is a zero of an orientation."""
         o, second = self.outlines, hits.second == 1
         a, b = np.where(second, (self.j[k], self.i[k]), (self.i[k], self.j[k]))
-        if self.is_rounded:
+        if self.is_rounded or not cs:
             low, high = self.spans.at(k).times(low, high)
         else:
             precise = hits.exact(o, self.bodies.coefficients, a, b, len(cs))
             low, high = sharpened(precise, cs, self.spans.start[k], low, high)
-        vertex, edge = hits.vertex - o.first_vertex[a], hits.edge - o.first_edge[b]
-        record_edges(self.contacts, k + self.first, low, high, hits.second, vertex, edge)
+        numbers = hits.numbered(o)
+        record_edges(self.contacts, self.numbers[k], low, high, hits.second, *numbers)
 
     @property
     def is_rounded(self) -> bool:
@@ -134,15 +151,15 @@ class Block(NamedTuple):
     def _search(self, k: int) -> None:
         """Search pair k exactly; if its bodies are rounded, leave it open."""
         if self.is_rounded:
-            self.contacts.exact[self.first + k] = True
+            self.contacts.exact[self.numbers[k]] = True
         else:
-            search(self.contacts, self.first + k)
+            search(self.contacts, int(self.numbers[k]))
 
     def _decide(self, k: int, candidates: list[Candidate], *, unclear: bool) -> None:
         if self.is_rounded or self.motions.degree > 2:
             self._search(k)
         else:
-            decide(self.contacts, self.first + k, candidates, unclear=unclear)
+            decide(self.contacts, int(self.numbers[k]), candidates, unclear=unclear)
 
 
 def _beside_until(

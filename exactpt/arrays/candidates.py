@@ -18,7 +18,7 @@ from exactpt.kernel.rounding import SLACK, U
 from exactpt.motion.incidence import Touch
 from exactpt.pairs.rational import Candidate
 
-__all__ = ["Candidates", "all_candidates", "shifted"]
+__all__ = ["Candidates", "all_candidates", "shifted", "vertex_candidates"]
 
 
 class Candidates(NamedTuple):
@@ -28,12 +28,14 @@ class Candidates(NamedTuple):
         pair: the number of their pair of bodies.
         second: whether the vertex is of the second body, and the edge of the first.
         vertex, edge: their numbers in the arrays of all vertices and edges.
+        corner: -1; or a vertex of the second body instead of an edge.
     """
 
     pair: Indices
     second: Indices
     vertex: Indices
     edge: Indices
+    corner: Indices
 
     def take(self, index: Indices) -> Candidates:
         """The entries at the given places."""
@@ -89,16 +91,24 @@ class Candidates(NamedTuple):
 
     def listed(self, o: Outlines, low: Floats, high: Floats) -> list[Candidate]:
         """Records of them, with bounds of their times; features are numbered in their bodies."""
-        owners = (
-            np.searchsorted(first, numbers, side="right") - 1
-            for first, numbers in ((o.first_vertex, self.vertex), (o.first_edge, self.edge))
-        )
-        of_vertex, of_edge = owners
-        vertices = self.vertex - o.first_vertex[of_vertex]
-        edges = self.edge - o.first_edge[of_edge]
-        columns = (low, high, self.second, vertices, edges)
+        columns = (low, high, self.second, *self.numbered(o))
         rows = zip(*(column.tolist() for column in columns), strict=True)
-        return [Candidate(a, b, Touch(i, v, 1 - i, e, -1)) for a, b, i, v, e in rows]
+        return [Candidate(a, b, Touch(i, v, 1 - i, e, w)) for a, b, i, v, e, w in rows]
+
+    def numbered(self, o: Outlines) -> tuple[Indices, Indices, Indices]:
+        """Vertices, edges and corners by their numbers in their bodies; -1 where there is none."""
+        vertex, edge, corner = (
+            numbers - first[np.searchsorted(first, numbers, side="right") - 1]
+            for first, numbers in (
+                (o.first_vertex, self.vertex), (o.first_edge, self.edge),
+                (o.first_vertex, self.corner),
+            )
+        )  # fmt: skip
+        return vertex, np.where(self.corner < 0, edge, -1), np.where(self.corner < 0, -1, corner)
+
+    def joined(self, other: Candidates) -> Candidates:
+        """These, and then others."""
+        return Candidates(*map(np.concatenate, zip(self, other, strict=True)))
 
 
 def all_candidates(o: Outlines, i: Indices, j: Indices) -> tuple[Candidates, Indices]:
@@ -116,7 +126,20 @@ def all_candidates(o: Outlines, i: Indices, j: Indices) -> tuple[Candidates, Ind
     v += o.first_vertex[a][owner]
     e += o.first_edge[b][owner]
     second = (owner >= len(i)).astype(np.int64)
-    return Candidates(owner - second * len(i), second, v, e), np.cumsum(counts) - counts
+    corner = np.full(len(v), -1)
+    return Candidates(owner - second * len(i), second, v, e, corner), np.cumsum(counts) - counts
+
+
+def vertex_candidates(o: Outlines, i: Indices, j: Indices) -> tuple[Candidates, Indices]:
+    """All vertices of i with all vertices of j, and where those of each pair of bodies start."""
+    counts = o.vertex_count[i] * o.vertex_count[j]
+    owner, position = spread(counts)
+    across = o.vertex_count[j][owner]
+    v = position // across
+    w = position - v * across + o.first_vertex[j][owner]
+    none = np.zeros_like(v)
+    vertex = v + o.first_vertex[i][owner]
+    return Candidates(owner, none, vertex, none, w), np.cumsum(counts) - counts
 
 
 def _differences(p: Iterable[Floats], q: Iterable[Floats]) -> Plane2:

@@ -10,7 +10,7 @@ import numpy as np
 from exactpt.arrays.relative import Coefficient, Relative, orientations, sides
 from exactpt.geometry.ragged import Flags
 from exactpt.kernel.doubles import Floats, Indices
-from exactpt.kernel.rounding import SLACK, TINY
+from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.kernel.vectorized import Answers, linears, quadratics
 
 __all__ = ["Meetings", "Span", "first_meetings"]
@@ -42,15 +42,43 @@ class Meetings(NamedTuple):
 
 
 @np.errstate(all="ignore")
-def first_meetings(r: Relative, span: Span) -> Meetings:
+def first_meetings(r: Relative, span: Span, reach: Floats | None = None) -> Meetings:
     """The first meetings during 0 <= s <= span, the start included.
+
+    Of cores that keep a distance R (``reach``, with a relative error of at most U) and that are
+    farther apart at the start, the first times at which the vertex is at this distance from the
+    edge, its foot on it. A vertex is at that distance from the line where the orientation f is
+    -h or h, h = R |u|. Where f is linear, only the smaller of the two roots may be a first contact
+    (`exactpt.pairs.filters`): that of f + sgn(c1) h; where the sign of c1 is not known, that of
+    the side of the strip -h <= f <= h next to which f is at the start. R, |u| and their product
+    are off by at most 5 U of h, and by `TINY` |u| if R is not normal, the sum with c0 by
+    U (|c0| + h).
+    """
+    cs = orientations(r)
+    if reach is None:
+        return _first_meetings(r, cs, span)
+    (c0, e0), (c1, e1) = cs[:2]
+    ux, uy = r.u[0]
+    h = reach * np.hypot(ux, uy)
+    e0 = e0 + (16.0 * U * h + 2.0 * U * np.abs(c0)) * SLACK + TINY * (1.0 + np.abs(ux) + np.abs(uy))
+    shifts = [h, -h] if len(cs) > 2 else [np.copysign(h, np.where(np.abs(c1) > e1, c1, -c0))]
+    found = [_first_meetings(r, [(c0 + shift, e0), *cs[1:]], span) for shift in shifts]
+    low, high = (np.minimum.reduce(columns) for columns in zip(*found, strict=True))
+    for each in found:
+        high[(each.low <= high) & (each.low < INFINITY) & (each.high == INFINITY)] = INFINITY
+    if r.length is not None:  # points: two vertices
+        low[r.length == 0.0] = high[r.length == 0.0] = INFINITY
+    return Meetings(low, high)
+
+
+def _first_meetings(r: Relative, cs: Sequence[Coefficient], span: Span) -> Meetings:
+    """The first meetings, given the polynomials that vanish while the vertex is on the line.
 
     A vertex is on the line of its edge at the zeros of the orientation. The first zero after the
     start is looked at, and where the vertex surely is beside the edge then, the second. A zero
     at the start is open, unless the vertex surely is beside the edge. At last, what is open is
     closed where the vertex is beside the edge at all times.
     """
-    cs = orientations(r)
     c0, e0 = cs[0]
     starts = (c0 == 0.0) & (e0 == 0.0)
     signs, low, high = _first_zeros(cs, 0.0, 0.0, span.high, starts)

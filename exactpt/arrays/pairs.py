@@ -12,7 +12,6 @@ from exactpt.arrays.contacts import Contacts, Errors, masks
 from exactpt.arrays.motions import relative_motions
 from exactpt.arrays.outlines import outlines_of
 from exactpt.arrays.spans import exact, read_spans
-from exactpt.arrays.undecided import search
 from exactpt.errors import InputError
 from exactpt.kernel.doubles import Indices, first_true, indices
 from exactpt.kernel.numbers import QQ
@@ -61,8 +60,7 @@ def first_contacts(
             in t with these coefficients, constant first. Filters decide where the relative
             motion has degree 1 or 2, or boxes are apart.
         closed: for each body or for all, False for an open chain.
-        radii: for each body or for all, its radius. If one is not 0, each pair is searched by
-            itself: some hundreds a second.
+        radii: for each body or for all, its radius.
         time: the start and the end of the closed time span, or of shape (m, 2) one for each pair.
         errors: "mask" leaves pairs with a body that is not simple without an answer
             (`Contacts.refused`, `Contacts.reasons`); "raise" raises an error for the first one.
@@ -102,17 +100,17 @@ def first_contacts(
     if wrong:
         for m in np.flatnonzero(np.isin(ij, list(wrong)).any(axis=1)).tolist():
             contacts.refuse(m, next(wrong[k] for k in ij[m].tolist() if k in wrong))
-    if bodies.radii.any():
-        for m in np.flatnonzero(~contacts.refused).tolist():
-            search(contacts, m)
-        return contacts
     outlines = outlines_of(bodies)
-    for first in range(0, len(ij), BLOCK):
-        last = min(first + BLOCK, len(ij))
-        i, j = ij[first:last].T
-        part = spans.part(first, last)
-        motions = relative_motions(bodies.coefficients, i, j, part)
-        Block(outlines, bodies, contacts, first, i, j, part, motions).answer()
+    with np.errstate(over="ignore"):
+        reach = bodies.radii[ij].sum(axis=1)
+    for some, of in ((reach == 0.0, None), (reach > 0.0, reach)):
+        rows = np.flatnonzero(some & ~contacts.refused)
+        for first in range(0, len(rows), BLOCK):
+            part = rows[first : first + BLOCK]
+            (i, j), times = ij[part].T, spans.at(part)
+            motions = relative_motions(bodies.coefficients, i, j, times)
+            reaches = None if of is None else of[part]
+            Block(outlines, bodies, contacts, part, i, j, times, motions, reaches).answer()
     return contacts
 
 

@@ -39,7 +39,7 @@ def screened(bodies: BodyArrays, time: Floats, scene: Callable[[int], Scene]) ->
     i, j = np.arange(2 * count).reshape(-1, 2).T
     spans = read_spans(time, count)
     motions = relative_motions(bodies.coefficients, i, j, spans, rounded)
-    Block(outlines, bodies, contacts, 0, i, j, spans, motions).answer()
+    Block(outlines, bodies, contacts, np.arange(count), i, j, spans, motions).answer()
     doubtful = np.array(bodies.doubtful(rounded=rounded), dtype=np.int64) // 2
     contacts.exact[doubtful] = True
     return contacts

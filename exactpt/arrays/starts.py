@@ -9,6 +9,7 @@ import numpy as np
 from exactpt.arrays.candidates import shifted
 from exactpt.arrays.motions import Motions
 from exactpt.arrays.outlines import Outlines
+from exactpt.arrays.radii import core_distances
 from exactpt.geometry.ragged import Flags, ranges, segments_meet, spread
 from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.rounding import SLACK, TINY, U
@@ -20,24 +21,33 @@ CHUNK: Final = 1 << 14
 
 
 @np.errstate(all="ignore")
-def at_start(o: Outlines, i: Indices, j: Indices, motions: Motions) -> tuple[Flags, Flags]:
+def at_start(
+    o: Outlines, i: Indices, j: Indices, motions: Motions, reach: Floats | None = None
+) -> tuple[Flags, Flags]:
     """For each pair of bodies, whether they surely overlap without an incidence, and what is open.
 
-    They overlap if two edges cross or, where no edges meet, one contains a vertex of the other.
-    Bodies whose boxes are apart do not.
+    They overlap if two edges cross or, where no edges meet, one contains a vertex of the other; or
+    if their cores are nearer than a distance (``reach``), if there is one. Bodies whose boxes are
+    apart do not.
     """
     overlaps = np.zeros(len(i), dtype=np.bool_)
     shift, off = motions.coefficients[:, :, 0], motions.off[:, 0]
     gap = np.maximum(o.low[j] - o.high[i] - shift, o.low[i] - o.high[j] + shift)
-    size = np.maximum(np.abs(o.low[i]), np.abs(o.high[i])) + np.abs(shift)
+    limit = np.zeros(len(i)) if reach is None else reach
+    size = limit[:, None] + np.maximum(np.abs(o.low[i]), np.abs(o.high[i])) + np.abs(shift)
     size += np.maximum(np.abs(o.low[j]), np.abs(o.high[j]))
     margin = (4.0 * U * size + off[:, None]) * SLACK
-    unclear: Flags = ~np.any(gap > margin, axis=1, keepdims=False)
+    unclear: Flags = ~np.any(gap > margin + limit[:, None], axis=1, keepdims=False)
     near = np.flatnonzero(unclear)
     counts = o.edge_count[i[near]] * o.edge_count[j[near]]
     for first, last in ranges(counts, CHUNK):
         k = near[first:last]
         overlaps[k], unclear[k] = _meet(o, i[k], j[k], motions.take(k))
+        if reach is not None:
+            k = k[~overlaps[k]]
+            least, most = core_distances(o, i[k], j[k], motions.take(k))
+            overlaps[k] = most < reach[k] * (1.0 - 4.0 * U)
+            unclear[k] = ~overlaps[k] & (unclear[k] | ~(least > reach[k] * (1.0 + 4.0 * U)))
     return overlaps, unclear
 
 

@@ -1,0 +1,187 @@
+"""Bodies with radii in arrays: distances of cores at the start, and vertices at a distance.
+
+Two of which one has a radius touch where the distance of their cores is R, the sum of the radii:
+of a vertex and an edge as in `exactpt.arrays.meetings`; of two vertices, z apart, at the zeros of
+F = |z|^2 - R^2, a polynomial in s that is positive before the first contact. R is the rounded sum
+of two doubles, with a relative error of at most U.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import comb
+from typing import Final
+
+import numpy as np
+
+from exactpt.arrays.candidates import Candidates, all_candidates, shifted
+from exactpt.arrays.meetings import INFINITY, Meetings
+from exactpt.arrays.motions import Motions
+from exactpt.arrays.outlines import Outlines
+from exactpt.arrays.relative import Coefficient
+from exactpt.kernel.doubles import Floats, Indices, native
+from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
+from exactpt.kernel.vectorized import quadratics
+
+__all__ = ["core_distances", "vertex_meetings"]
+
+K: Final = 16.0 * U
+"""Relative bound on the rounding of sums of up to eight terms, and of products of two."""
+DEPTH: Final = 12
+"""Maximum number of times that an interval is halved."""
+STEPS: Final = 6
+"""Number of Newton steps to a zero."""
+
+
+@np.errstate(all="ignore")
+def core_distances(o: Outlines, i: Indices, j: Indices, motions: Motions) -> tuple[Floats, Floats]:
+    """Bounds of the distances of disjoint cores at the start: of the vertices from the edges.
+
+    The distance of a point from a segment changes by at most the displacements of the point and
+    of the ends relative to it: of u and w, U (|u| + |w|) and the absolute error of w. With the
+    foot at an inexact ratio of the ends, the computed distance is too large by at most the
+    displacement of the foot, 6 U |w|: the ratio is off by 6 U |w| / |u|, if |u|^2 is not tiny.
+    Computing it takes 7 U (|u| + |w|) more.
+    """
+    candidates, starts = all_candidates(o, i, j)
+    r = candidates.relative(o, motions)
+    (ux, uy), (wx, wy) = r.u[0], r.w[0]
+    square = ux * ux + uy * uy
+    at = np.clip((ux * wx + uy * wy) / square, 0.0, 1.0)
+    if r.length is not None:
+        at *= r.length
+    far = np.hypot(wx - at * ux, wy - at * uy)
+    error = 2.0 * K * (np.abs(ux) + np.abs(uy) + np.abs(wx) + np.abs(wy))
+    error = (error + (0.0 if r.off_w[0] is None else 2.0 * r.off_w[0])) * SLACK + TINY
+    least = np.where(square > SMALL, far - error, -INFINITY)
+    low, high = (
+        np.minimum.reduceat(f, native(starts)).reshape(2, -1).min(axis=0)
+        for f in (least, far + error)
+    )
+    return low, high
+
+
+@np.errstate(all="ignore")
+def vertex_meetings(
+    o: Outlines, motions: Motions, c: Candidates, reach: Floats, until: Floats
+) -> Meetings:
+    """The first times at which pairs of vertices are at a distance.
+
+    Args:
+        o: the outlines.
+        motions: those of the pairs of bodies, which are farther apart at the start.
+        c: the vertices.
+        reach: the distance of each pair of bodies.
+        until: times after which a meeting does not count.
+    """
+    pair, moved = c.pair, motions.coefficients
+    x, y, off = shifted(
+        o.x[c.vertex] - o.x[c.corner], o.y[c.vertex] - o.y[c.corner],
+        moved[pair, 0, 0], moved[pair, 1, 0], motions.off[pair, 0],
+    )  # fmt: skip
+    z = [(x, y, off)]
+    for k in range(1, motions.degree + 1):
+        z += [(moved[pair, 0, k], moved[pair, 1, k], motions.off[pair, k])]
+    fs, end = _squares(z, reach[pair]), until[pair]
+    if len(fs) > 3:
+        return _first_zeros(fs, end)
+    (c0, e0), (c1, e1), (c2, e2) = fs
+    nothing = np.zeros(len(pair), dtype=np.bool_)
+    signs, low, high = quadratics(c0, c1, c2, e0, e1, e2, 0.0, 0.0, end, nothing)
+    low[signs == 0], high[signs == 0] = 0.0, INFINITY
+    return Meetings(low, high)
+
+
+def _squares(z: Sequence[tuple[Floats, Floats, Floats]], reach: Floats) -> list[Coefficient]:
+    """The coefficients of x^2 + y^2 - R^2, and bounds on their errors.
+
+    A product of coefficients with the absolute errors d, e is off by d e and, for each factor, by
+    its absolute value times the error of the other.
+    """
+    found: list[Coefficient] = []
+    for k in range(2 * len(z) - 1):
+        value, error = np.zeros_like(reach), np.zeros_like(reach)
+        for a in range(max(0, k - len(z) + 1), min(k, len(z) - 1) + 1):
+            (x, y, d), (u, v, e) = z[a], z[k - a]
+            p, q = x * u, y * v
+            value = value + (p + q)
+            error = error + (np.abs(x) + np.abs(y)) * e + (np.abs(u) + np.abs(v)) * d
+            error = error + 2.0 * d * e + len(z) * K * (np.abs(p) + np.abs(q))
+        found.append((value, error * SLACK + TINY))
+    square = reach * reach
+    value, error = found[0]
+    found[0] = value - square, error + K * (square + np.abs(value))
+    return found
+
+
+def _first_zeros(fs: Sequence[Coefficient], until: Floats) -> Meetings:
+    """The first zeros in [0, until] of polynomials that are positive at 0.
+
+    A polynomial on an interval is between the least and the greatest of its Bernstein coefficients
+    b_0, ..., b_n there, and so is its derivative between those of the n (b_k+1 - b_k), over the
+    length. Intervals in which it is surely positive are left out, the others are halved, until it
+    surely falls from a positive to a negative number: there it has one zero.
+
+    The b_k are sums of shares of the terms c_k t^k, whose errors add up to at most ``off``; a
+    halving adds at most n U times the largest b_k of the whole interval.
+    """
+    n = len(fs) - 1
+    terms, size, off, power = [], np.zeros_like(until), np.zeros_like(until), np.ones_like(until)
+    for c, e in fs:
+        terms.append(c * power)
+        size, off, power = size + np.abs(terms[-1]), off + e * power, power * until
+    b = np.array([
+        sum(comb(k, m) / comb(n, m) * terms[m] for m in range(k + 1)) for k in range(n + 1)
+    ])  # fmt: skip
+    off = (off + (8 + 4 * n + n * DEPTH) * U * size) * SLACK + TINY
+    low, high = np.full(len(until), INFINITY), np.full(len(until), INFINITY)
+    row, begin, width = np.arange(len(until)), np.zeros(len(until)), 1.0
+    for _ in range(DEPTH):
+        may = ~(b.min(axis=0) > off[row]) & ~(begin * until[row] > high[row])
+        b, row, begin = b[:, may], row[may], begin[may]
+        if not len(row):
+            break
+        e, fall = off[row], -np.diff(b, axis=0).max(axis=0)
+        alone = (fall > 2.0 * e) & (b[0] > e) & (b[-1] < -e)
+        if alone.any():
+            some = row[alone]
+            start, length = begin[alone] * until[some], width * until[some]
+            slope = n * (fall - 2.0 * e)[alone] / length
+            zero, error = _zero([(c[some], e[some]) for c, e in fs], start, start + length, slope)
+            np.minimum.at(low, some, zero - error)
+            np.minimum.at(high, some, zero + error)
+        b, row, begin = b[:, ~alone], row[~alone], begin[~alone]
+        left, right = [b[0]], [b[-1]]
+        for _ in range(n):
+            b = 0.5 * (b[:-1] + b[1:])
+            left.append(b[0])
+            right.append(b[-1])
+        width *= 0.5
+        b = np.concatenate((left, right[::-1]), axis=1)
+        row, begin = np.tile(row, 2), np.concatenate((begin, begin + width))
+    open_ = ~(begin * until[row] > high[row]) & ~(b.min(axis=0) > off[row])
+    np.minimum.at(low, row[open_], begin[open_] * until[row[open_]] * (1.0 - 4.0 * U))
+    high[row[open_]] = INFINITY
+    return Meetings(low, high)
+
+
+def _zero(
+    fs: Sequence[Coefficient], low: Floats, high: Floats, slope: Floats
+) -> tuple[Floats, Floats]:
+    """The zero in [low, high] of polynomials that fall there, and a bound on its error.
+
+    By the mean value theorem it is at most (|f| + the error of f) / slope off, where f is the value
+    at a number in the interval, and the slope at least ``slope``.
+    """
+    t = 0.5 * (low + high)
+    for _ in range(STEPS):
+        value, derivative = np.zeros_like(t), np.zeros_like(t)
+        for c, _e in reversed(fs):
+            derivative = derivative * t + value
+            value = value * t + c
+        t = np.clip(t - value / derivative, low, high)
+    value, error, size = np.zeros_like(t), np.zeros_like(t), np.zeros_like(t)
+    for c, e in reversed(fs):
+        value, error, size = value * t + c, error * t + e, size * t + np.abs(c)
+    error = error + 4.0 * len(fs) * U * size
+    return t, ((np.abs(value) + error) / slope + 4.0 * U * t) * SLACK + TINY
