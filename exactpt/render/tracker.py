@@ -86,7 +86,7 @@ class Tracker:
     def __init__(self, kinetic: Tiling, node: list[int]) -> None:
         self._kinetic = kinetic
         self._node = node
-        self._seen: list[Sequence[object]] = [[], [], [], []]
+        self._seen: list[tuple[object, ...] | None] = []
         self._labels: list[frozenset[int]] = []
         self._tile_of: list[int] = []
         self._tiles: dict[int, _Tile] = {}
@@ -112,22 +112,29 @@ class Tracker:
         ]
 
     def update(self, step: int) -> None:
-        """Record the changes since the last call; the present state holds from ``step`` on."""
+        """Record the changes since the last call; the present state holds from ``step`` on.
+
+        A mark, the region of a half-edge or whether its angle is a corner, changes only where the
+        half-edge has another origin or predecessor. Labels change anywhere.
+        """
         mesh = self._kinetic.mesh_after()
-        now: list[Sequence[object]] = [
-            list(mesh.map.origin),
-            list(mesh.map.following),
-            list(mesh.region),
-            list(map(int, mesh.corner)),
-        ]
+        m, known = mesh.map, self._kinetic.changes()
+        more = len(m.origin) - len(self._tile_of)
+        self._tile_of += [-1] * more
+        self._seen += [None] * more
+        some = set(range(len(self._seen))) if known is None else set(map(int, known))
+        some.update([int(m.following[h]) for h in some if _origin(m, h) >= 0])
         changed: set[int] = set()
-        for old, new in zip(self._seen, now, strict=True):
-            changed.update(_differences(old, new))
-        self._seen = now
+        for h in some:
+            now = None
+            if h < len(m.origin):
+                now = m.origin[h], m.following[h], mesh.region[h], mesh.corner[h]
+            if self._seen[h] != now:
+                self._seen[h] = now
+                changed.add(h)
         labels = list(mesh.labelling())  # a label places the tiles on both sides of its edge
         changed.update(h ^ side for h in _differences(self._labels, labels) for side in (0, 1))
         self._labels = labels
-        self._tile_of += [-1] * (len(now[0]) - len(self._tile_of))
         ordered = sorted(changed)
         self._update_tiles(ordered, step)
         self._update_edges(ordered, step)
