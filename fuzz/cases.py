@@ -29,7 +29,7 @@ __all__ = ["QUESTION", "Case", "Failure", "Scenes", "failure_of", "run_case", "s
 QUESTION: Final = "questions/"
 """What the family of a case begins with if it is no scene, but one of `fuzz.questions`."""
 
-SEVERAL, LONG = 8, ("runs", "spin")
+SEVERAL, LONG = 8, ("runs", "spin", "path")
 """Number of questions in a case, and those that are long enough one by one."""
 
 

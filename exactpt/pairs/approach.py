@@ -96,6 +96,9 @@ def first_within(
     >>> first_within(scene, distance=1, norm="euclidean")
     Approach(time=AlgebraicNumber('7/2'), pairs=(('ball', 'wall'),))
 
+    A `Spin` or a `PosePath` counts as its pieces: docs/howto/motions.md has the bounds for the
+    true motion.
+
     Args:
         scene: the bodies and the time span.
         a: the name of a body.

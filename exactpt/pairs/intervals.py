@@ -90,7 +90,8 @@ def contacts(
 ) -> list[ContactInterval]:
     """Return the intervals in which any two bodies meet, in the order of their starts, then names.
 
-    Contacts of a deforming body with itself are not included.
+    Contacts of a deforming body with itself are not included. A `Spin` or a `PosePath` counts as
+    its pieces: docs/howto/motions.md has the bounds for the true motion.
 
     Args:
         scene: the bodies and the time span.

@@ -167,6 +167,9 @@ def clearance(scene: Scene, a: str, b: str | None = None) -> Clearance | Surroun
     >>> [(i.b, float(i.start), float(i.end)) for i in around.below(1)]
     [('box', 9.0, 11.0)]
 
+    A `Spin` or a `PosePath` counts as its pieces: docs/howto/motions.md has the bounds for the
+    true motion.
+
     Args:
         scene: the bodies and the time span.
         a: the name of a body.

@@ -35,7 +35,7 @@ from fuzz.questions.renewal import first_new_contact
 from fuzz.questions.rounded import rounded_pair, wrong_answer
 from fuzz.questions.scenes import crowded_scene, distant_scene, meeting_scene
 from fuzz.questions.space import small_query, wrong_in_space
-from fuzz.questions.spinning import case_of, spinning_scene
+from fuzz.questions.spinning import case_of, path_scene, spinning_scene
 from fuzz.questions.tiny import touching_scene
 from fuzz.small_scope.look import looks
 from fuzz.small_scope.scope import planned, sizes
@@ -273,6 +273,12 @@ def _spin(random: Random) -> Checked:
     return Checked(scene, *case_of(scene))
 
 
+def _path(random: Random) -> Checked:
+    """first_contact_enclosed of bodies that move on paths of poses."""
+    scene = path_scene(random)
+    return Checked(scene, *case_of(scene))
+
+
 def _space(random: Random) -> Checked:
     """Compare first contacts in space, one by one and in an array."""
     query = small_query(random)
@@ -346,5 +352,6 @@ QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "runs": _runs,
     "filters": _filters,
     "small-scope": _scope,
+    "path": _path,
 }
 """A function from random choices to a case, by question."""

@@ -1,9 +1,10 @@
-"""Bounds of the first contact of bodies that turn at a constant rate, against its true time.
+"""Bounds of the first contact of bodies that turn, or move on paths, against its true time.
 
 The width is compared with what error and speed allow. Let E be the sum of the errors of the two
 bodies that meet: a point may be out of place by its distance from the pivot times the error of
-the angle. Let v be the least speed, between the bounds, at which they approach: that of a vertex
-to the line of the edge to which it comes, or to another vertex. So long as bodies are within E
+the angle, and the place error of a path. Let v be the least speed, between the bounds, at which
+they approach: that of a vertex to the line of the edge to which it comes, or to another vertex. So
+long as bodies are within E
 they may be in contact, and that lasts E / v before the contact; the width may be 4 E / v. Bodies
 *may graze* if they are within E at the start, if the vertex does not approach all the time (v <=
 0), if an end of the edge is within 2 E of the foot, or if other vertices and edges are within E,
@@ -13,6 +14,7 @@ until 4 E / v after the lower bound.
 
 from __future__ import annotations
 
+from fractions import Fraction
 from itertools import combinations, pairwise
 from random import Random
 from typing import Any, Final, NamedTuple
@@ -21,12 +23,15 @@ import mpmath
 
 from exactpt.collision.enclosed import EnclosedContact, first_contact_enclosed
 from exactpt.motion.body import Body
+from exactpt.motion.local_time import Velocity
+from exactpt.motion.motions import Translation
+from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
 from exactpt.scene.generate import SPINNING
 from exactpt.scene.scene import Scene
 from fuzz.questions.true_turns import DIGITS, Approach, Real, Truth, UndecidedError, real
 
-__all__ = ["Case", "case_of", "spinning_scene"]
+__all__ = ["Case", "case_of", "path_scene", "spinning_scene"]
 
 SAMPLES: Final = 16
 MOST: Final = 4
@@ -43,6 +48,54 @@ class Case(NamedTuple):
 def spinning_scene(random: Random) -> Scene:
     """A scene of gears, mills or orbits."""
     return SPINNING[random.choice(sorted(SPINNING))](random)
+
+
+def path_scene(random: Random) -> Scene:
+    """Robots that turn along paths of one to three pieces, among obstacles at rest or in flight.
+
+    The pieces of x and y are linear, cubic or, with a place error, quintic.
+    """
+    end = Fraction(random.randint(1, 4))
+    bodies = [_robot(random, f"robot {i}", end) for i in range(random.choice([1, 1, 2]))]
+    for i in range(random.randint(2, 5)):
+        x, y = (Fraction(random.randint(-30, 30), 8) for _ in range(2))
+        size = Fraction(random.randint(1, 8), 8)
+        shape = [(x, y), (x + size, y), (x + size, y + size), (x, y + size)]
+        fly = random.choice([Translation(), Velocity(*(_number(random) for _ in range(2)))])
+        radius = Fraction(random.choice([0, 0, 1]), 5)
+        corners = random.choice([1, 2, 3, 4])
+        bodies.append(Body(f"b{i}", shape[:corners], fly, radius=radius))
+    return Scene(bodies, time=(0, end))
+
+
+def _robot(random: Random, name: str, end: Fraction) -> Body:
+    """A rectangle, an angle or a rounded segment on a path whose angle may make whole turns."""
+    cuts = sorted(Fraction(random.randint(1, 15), 16) * end for _ in range(random.randint(0, 2)))
+    times = sorted({Fraction(0), *cuts, end})
+    degree = random.choice([1, 3, 3, 5])
+    at = [Fraction(random.randint(-24, 24), 8), Fraction(random.randint(-24, 24), 8), Fraction(0)]
+    poses = []
+    for begin, until in pairwise(times):
+        tops = degree, degree, min(degree, 3)
+        pose = [
+            [at[k], *(2 * _number(random) / (j * j) for j in range(1, tops[k] + 1))]
+            for k in range(3)
+        ]
+        at = [sum((c * (until - begin) ** j for j, c in enumerate(f)), Fraction(0)) for f in pose]
+        poses.append(pose)
+    error = random.choice(["1/50", "1/1000", "1e-6", "1e-6", "1e-9"])
+    path = PosePath(times, poses, error=error, place_error=error if degree > 3 else 0)
+    w, h = Fraction(random.randint(2, 8), 8), Fraction(random.randint(1, 4), 8)
+    shapes: list[Body] = [
+        Body(name, [(-w, -h), (w, -h), (w, h), (-w, h)], path),
+        Body(name, [(w, 0), (0, 0), (0, 2 * h)], path, closed=False),
+        Body(name, [(0, 0), (2 * w, 0)], path, radius=h / 2),
+    ]
+    return shapes[random.randrange(3)]
+
+
+def _number(random: Random) -> Fraction:
+    return Fraction(random.randint(-512, 512), 512)
 
 
 def case_of(scene: Scene) -> Case:
@@ -118,16 +171,17 @@ def _times(begin: Real, end: Real) -> list[Real]:
 def _error(body: Body) -> Real:
     """A bound on how far points of a body are out of place."""
     motion = body.motion
-    if not isinstance(motion, Spin):
+    if not isinstance(motion, (Spin, PosePath)):
         return mpmath.mpf(0)
     turn: Any = motion.motions[0]
-    pivot = mpmath.mpc(*map(real, turn.pivot))
+    pivot = mpmath.mpc(*map(real, turn.pivot)) if isinstance(motion, Spin) else mpmath.mpc(0)
+    off = real(motion.place_error) if isinstance(motion, PosePath) else mpmath.mpf(0)
     arms = [
         sum(abs(mpmath.mpc(*(real(f.coefficients[k]) if k <= f.degree else 0 for f in v))
                 - (0 if k else pivot)) * 2**k for k in range(max(f.degree for f in v) + 1))
         for v in body.vertices
     ]  # fmt: skip
-    return max(arms) * real(motion.error)
+    return max(arms) * real(motion.error) + off
 
 
 def _near(truth: Truth, errors: list[Real], t: float) -> set[Approach]:

@@ -1,4 +1,4 @@
-"""Bodies that turn by exactly omega t: their first contact, to 200 digits.
+"""Bodies that turn by exactly omega t, or on paths of poses: their first contact, to 200 digits.
 
 `exactpt` serves to read the scene only, and no polynomial takes part: positions are complex
 numbers, by the cosine and sine of the angle. Up to a distance of `NEAR` time advances by
@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from itertools import combinations, product
+from itertools import combinations, pairwise, product
 from typing import Any, Final, NamedTuple, TypeAlias, final
 
 import mpmath
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
+from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
 from exactpt.scene.scene import Scene
 
@@ -55,43 +56,80 @@ def real(value: Real) -> Real:
     return mpmath.mpf(int(value.numerator)) / int(value.denominator)
 
 
+class _Piece(NamedTuple):
+    """Coefficients of the translation and the angle, by the time since the piece began."""
+
+    begin: Real
+    path: list[Any]
+    angle: list[Any]
+
+
 @final
 class _Turning:
-    """A body by its definition; the motion is a `Spin` or a translation."""
+    """A body by its definition; the motion is a `Spin`, a `PosePath` or a translation."""
 
     def __init__(self, body: Body, end: float) -> None:
-        motion = body.motion
+        motion: Any = body.motion
         self.radius = real(body.radius)
         self.edges = body.edges or [(0, 0)]
         self.has_interior = body.has_interior
-        self.omega = self.pivot = mpmath.mpf(0)
-        path: Any = motion
+        self.pivot = zero = mpmath.mpf(0)
+        self.span = (-mpmath.inf, mpmath.inf)  # before and after, the body rests
+        long = end
         if isinstance(motion, Spin):
-            path = motion.motions[0]
-            self.omega, self.pivot = real(motion.omega), mpmath.mpc(*map(real, path.pivot))
-        elif not isinstance(motion, Translation):
+            turn: Any = motion.motions[0]
+            self.pivot = mpmath.mpc(*map(real, turn.pivot))
+            self.pieces = [_Piece(zero, _coefficients(turn.x, turn.y), [zero, real(motion.omega)])]
+        elif isinstance(motion, PosePath):
+            times = list(map(real, motion.times))
+            self.span = times[0], times[-1]
+            self.pieces = [
+                _Piece(begin, _coefficients(x, y), [c.real for c in _coefficients(angle, angle)])
+                for begin, (x, y, angle) in zip(times, motion._poses, strict=False)
+            ]
+            long = float(max(b - a for a, b in pairwise(times)))
+        elif isinstance(motion, Translation):
+            self.pieces = [_Piece(zero, _coefficients(motion.x, motion.y), [zero])]
+        else:
             raise TypeError(f"a motion without a truth: {motion!r}")
-        self.path = _coefficients(path.x, path.y)
         self.rest = [_coefficients(x, y) for x, y in body.vertices]
-        self._doubles = [np.array(c, np.complex128) for c in (self.path, *self.rest)]
+        self._rest = [np.array(c, np.complex128) for c in self.rest]
         arms = [sum(abs(c) * max(1, end**k) for k, c in enumerate(v)) for v in self.rest]
-        own = [sum(k * abs(c) * end ** (k - 1) for k, c in enumerate(v) if k) for v in self.rest]
-        along = sum(k * abs(c) * end ** (k - 1) for k, c in enumerate(self.path) if k)
-        self.speed = float(abs(self.omega) * (max(arms) + abs(self.pivot)) + max(own) + along)
+        arm = max(arms) + abs(self.pivot)
+        own = max(_rate(v, end) for v in self.rest)
+        self.speed = float(
+            own + max(_rate(p.path, long) + arm * _rate(p.angle, long) for p in self.pieces)
+        )
+
+    def _piece(self, t: Real) -> tuple[_Piece, Real]:
+        """The piece at a time, and the time since it began."""
+        t = min(max(t, self.span[0]), self.span[1])
+        piece = next((p for p in self.pieces[:0:-1] if p.begin <= t), self.pieces[0])
+        return piece, t - piece.begin
 
     def places(self, t: Real) -> list[Any]:
         """The vertices at a time."""
-        turn = mpmath.expj(self.omega * t)
-        by = mpmath.polyval(self.path[::-1], t) + self.pivot
+        piece, since = self._piece(t)
+        turn = mpmath.expj(mpmath.polyval(piece.angle[::-1], since))
+        by = mpmath.polyval(piece.path[::-1], since) + self.pivot
         return [by + turn * (mpmath.polyval(v[::-1], t) - self.pivot) for v in self.rest]
 
     def doubles(self, t: float) -> Places:
         """The vertices at a time, as complex doubles."""
-        by, *rest = (np.polynomial.polynomial.polyval(t, c) for c in self._doubles)
+        piece, since = self._piece(t)
+        by, angle = (
+            np.polynomial.polynomial.polyval(float(since), np.array(c, np.complex128))
+            for c in (piece.path, piece.angle)
+        )
+        rest = np.array([np.polynomial.polynomial.polyval(t, c) for c in self._rest])
         pivot = complex(self.pivot)
-        turn = np.exp(1j * float(self.omega) * t)
-        places: Places = by + pivot + turn * (np.array(rest) - pivot)
+        places: Places = by + pivot + np.exp(1j * angle.real) * (rest - pivot)
         return places
+
+
+def _rate(coefficients: list[Any], end: float) -> Real:
+    """A bound on the speed along a polynomial, for times of at most this size."""
+    return sum(k * abs(c) * end ** (k - 1) for k, c in enumerate(coefficients) if k)
 
 
 def _coefficients(x: Polynomial, y: Polynomial) -> list[Any]:

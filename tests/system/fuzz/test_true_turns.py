@@ -3,7 +3,7 @@
 import mpmath
 import pytest
 
-from exactpt import AlgebraicNumber, Body, Scene, Spin, Translation
+from exactpt import AlgebraicNumber, Body, PosePath, Scene, Spin, Translation
 from fuzz.questions import spinning
 from fuzz.questions.spinning import case_of
 from fuzz.questions.true_turns import DIGITS, Truth
@@ -38,6 +38,27 @@ def test_true_times_to_200_digits():
         along = turn.conjugate() * centre
         nearest = abs(along.imag) if along.real <= 2 else abs(centre - turn * 2)
         assert abs(nearest - mpmath.mpf(1) / 3) < mpmath.mpf(10) ** -DIGITS
+
+
+def test_true_times_on_paths():
+    """The blade turns by t, also in two pieces, and is carried up by t^2 / 4 in the second test."""
+    turns = PosePath([0, "1/2", 3], [(0, 0, [0, 1]), (0, 0, ["1/2", 1])])
+    rises = PosePath([0, 3], [(0, [0, 0, "1/4"], [0, 1])])
+    ends = BLADE.vertices
+
+    assert is_near(true_time(Body("b", ends, turns), WALL), lambda: mpmath.pi / 4)
+    t = true_time(Body("b", ends, rises), Body("wall", [(-9, 1), (9, 1)]))
+    with mpmath.workdps(DIGITS + 20):
+        assert abs(2 * mpmath.sin(t) + t * t / 4 - 1) < mpmath.mpf(10) ** -DIGITS
+
+
+def test_wrong_bounds_on_paths_are_found(monkeypatch):
+    path = PosePath([0, 3], [(0, 0, [0, 1])], error="1/1000")
+    scene = Scene([Body("b", BLADE.vertices, path), Body("post", [(0, 1)])], time=(0, 3))
+
+    assert case_of(scene) == ("certain", None)
+    monkeypatch.setattr(spinning, "first_contact_enclosed", moved(low=0.01, high=0.02))
+    assert case_of(scene).kind == "too late"
 
 
 def test_true_contacts_at_the_start_and_none():
