@@ -92,8 +92,14 @@ class PredicatesAt(Predicates):
         """The exact unperturbed position of a vertex."""
         found = self._exact.get(v)
         if found is None:
-            vertex = self.vertices.all[v]
-            found = self._exact[v] = vertex.piece.position(vertex.index, self.time)
+            x, y = self._x[v], self._y[v]
+            is_exact = self._d == 0.0 and self.vertices.frame.is_identity
+            if is_exact and not isnan(x):
+                found = QQ(*x.as_integer_ratio()), QQ(*y.as_integer_ratio())
+            else:
+                vertex = self.vertices.all[v]
+                found = vertex.piece.position(vertex.index, self.time)
+            self._exact[v] = found
         return found
 
     def sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
@@ -155,7 +161,8 @@ class PredicatesAt(Predicates):
         is_zero = s == 0 and not are_copies
         self._count(u, v, w, is_zero=is_zero)
         if not are_copies:
-            together = u.image.motion == v.image.motion == w.image.motion >= 0
+            motion = self.vertices.motion_of
+            together = motion(a) == motion(b) == motion(c) >= 0
             if s or together or not self.after:
                 return s
         elif s := self._sign_of_copies(u, v, w):

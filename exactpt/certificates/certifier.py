@@ -83,7 +83,7 @@ class Certifier:
         self.now: EventTime = EventTime(low, high, -1, -1, -1, AlgebraicNumber(start))
         self.now_low: float = low
         self.now_high: float = high
-        self.positions: Positions = Positions(self.errors)
+        self.positions: Positions = Positions(vertices)
         self.positions.move_to(low, high)
 
     def move_to(self, time: EventTime, roots: list[EventTime]) -> None:
@@ -134,6 +134,10 @@ class Certifier:
 
     def keeps_x_order(self, a: VertexId, b: VertexId) -> bool:
         """Whether two vertices keep the difference of their x coordinates for ever."""
+        places = self._vertices.places
+        m, n = places[WIDTH * a + MOTION], places[WIDTH * b + MOTION]
+        if OTHER_MOTION not in (m, n):
+            return m == n and m >= 0.0
         return keeps_x_order(self._vertices.bodies, self.all[a], self.all[b])
 
     def orientation(self, a: VertexId, b: VertexId, c: VertexId) -> tuple[int, EventTime | None]:
@@ -204,17 +208,45 @@ class Certifier:
         horizon = self._horizon(va, vb)
         if vc.horizon < horizon:  # noqa: PLR1730 - `min` is a call in plain Python
             horizon = vc.horizon
-        answer = coefficients.orientation(
-            va.image,
-            vb.image,
-            vc.image,
-            self.errors,
-            self.now_low,
-            self.now_high,
-            horizon,
-            self.vanishes_now(a, b, c),
-        )
+        answer = self.filter_orientation(a, b, c, horizon, self.vanishes_now(a, b, c))
         return answer if answer[1] <= horizon else (answer[0], INFINITY, INFINITY)
+
+    def filter_orientation(
+        self,
+        a: VertexId,
+        b: VertexId,
+        c: VertexId,
+        horizon: float,
+        vanishes: bool,  # noqa: FBT001 - positional for speed
+    ) -> Answer:
+        """Return the filter's answer for three vertices, no copies of one another."""
+        places, i, j, k = self._vertices.places, WIDTH * a, WIDTH * b, WIDTH * c
+        low, high, errors = self.now_low, self.now_high, self.errors
+        if (
+            places[i + MOTION] == OTHER_MOTION
+            or places[j + MOTION] == OTHER_MOTION
+            or places[k + MOTION] == OTHER_MOTION
+        ):
+            u, v, w = self.all[a].image, self.all[b].image, self.all[c].image
+            return coefficients.orientation(u, v, w, errors, low, high, horizon, vanishes)
+        return coefficients.linear_orientation(
+            places, i, j, k, errors, low, high, horizon, vanishes
+        )
+
+    def filter_x_difference(
+        self,
+        a: VertexId,
+        b: VertexId,
+        horizon: float,
+        vanishes: bool,  # noqa: FBT001 - positional for speed
+    ) -> Answer:
+        """Return the filter's answer for x(b) - x(a) of two vertices, no copies of one."""
+        places, i, j = self._vertices.places, WIDTH * a, WIDTH * b
+        low, high, errors = self.now_low, self.now_high, self.errors
+        if places[i + MOTION] == OTHER_MOTION or places[j + MOTION] == OTHER_MOTION:
+            u, v = self.all[a].image, self.all[b].image
+            return coefficients.x_difference(u, v, errors, low, high, horizon, vanishes)
+        return coefficients.linear_x_difference(places, i, j, errors, low, high, horizon, vanishes)
 
     def orientations(self, ids: Indices) -> Answers:
         """The answers of `filtered_orientation` for rows of three ids, in numpy.
@@ -343,20 +375,11 @@ class Certifier:
     def filtered_x_order(self, a: VertexId, b: VertexId) -> Answer:
         """Count a certificate, and return the filter's answer, as `filtered_orientation`."""
         self.made += 1
-        places, i, j = self._vertices.places, WIDTH * a, WIDTH * b
         va, vb = self.all[a], self.all[b]
         if self.exact_only or va.is_copy_of(vb):
             return UNSURE
-        horizon, vanishes = self._horizon(va, vb), self.vanishes_now(a, b, X_ORDER)
-        now_low, now_high = self.now_low, self.now_high
-        if places[i + MOTION] == OTHER_MOTION or places[j + MOTION] == OTHER_MOTION:
-            s, low, high = coefficients.x_difference(
-                va.image, vb.image, self.errors, now_low, now_high, horizon, vanishes
-            )
-        else:
-            s, low, high = coefficients.linear_x_difference(
-                places, i, j, self.errors, now_low, now_high, horizon, vanishes
-            )
+        horizon = self._horizon(va, vb)
+        s, low, high = self.filter_x_difference(a, b, horizon, self.vanishes_now(a, b, X_ORDER))
         if s != 0:
             self.counters.filtered += 1
         return (s, low, high) if low <= horizon else (s, INFINITY, INFINITY)

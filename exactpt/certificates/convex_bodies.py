@@ -15,7 +15,8 @@ def all_stay_convex(instant: PredicatesAt) -> bool:
     """
     v, bodies = instant.vertices.all, instant.vertices.bodies
     if any(
-        b.is_tiled or b.body.has_rings or (b.body.size > 2 and not b.body.closed) for b in bodies
+        b.is_tiled or not (b.is_polygon or (b.body.size < 3 and not b.body.has_rings))
+        for b in bodies
     ):
         return False
     triples = [(v[p].ahead, p, v[p].behind) for body in bodies for p in body.ring]

@@ -12,7 +12,7 @@ from typing import final
 from exactpt.certificates.coefficients import K
 from exactpt.indices import VertexId
 from exactpt.kernel.error_free import NOT_EXACT, exact_turn, is_exact_product, is_exact_sum
-from exactpt.motion.vertices import Vertices
+from exactpt.motion.vertices import WIDTH, Vertices
 
 __all__ = ["ExactPlaces"]
 
@@ -69,11 +69,12 @@ class ExactPlaces:
         if not self._are_exact or self._x[a] != self._x[b]:
             return 0
         if self._after:
-            u, v = self._vertices.all[a].image, self._vertices.all[b].image
-            slope, off = v.x1 - u.x1, 2.0 * self._vertices.enclosures.errors[1]
+            places, off = self._vertices.places, 2.0 * self._vertices.enclosures.errors[1]
+            slope = places[WIDTH * b + 2] - places[WIDTH * a + 2]
             if abs(slope) > off + K * abs(slope):
                 return 1 if slope > 0.0 else -1
-            if off and not u.motion == v.motion >= 0:
+            motion = self._vertices.motion_of
+            if off and not motion(a) == motion(b) >= 0:
                 return 0
         height = self._y[a] - self._y[b]
         return 1 if height > 0.0 else -1 if height < 0.0 else 0

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, final
 
-from exactpt.certificates import coefficients
 from exactpt.certificates.certifier import X_ORDER
 from exactpt.certificates.coincidence import nearer, nearer_copy
 from exactpt.certificates.perturbation import cross, orientation, x_order
@@ -53,16 +52,7 @@ class OneSided(Predicates):
         vanishes = certifier.vanishes_now(a, b, c)
         if vanishes and self._before:
             return 0
-        s, _, _ = coefficients.orientation(
-            va.image,
-            vb.image,
-            vc.image,
-            certifier.errors,
-            certifier.now_low,
-            certifier.now_high,
-            self._horizon(),
-            vanishes,
-        )
+        s, _, _ = certifier.filter_orientation(a, b, c, self._horizon(), vanishes)
         return s
 
     def left_of(self, a: VertexId, b: VertexId) -> bool:
@@ -77,15 +67,7 @@ class OneSided(Predicates):
         vanishes = certifier.vanishes_now(a, b, X_ORDER)
         copies = va.is_copy_of(vb)
         if not (certifier.exact_only or copies or (vanishes and self._before)):
-            s, _, _ = coefficients.x_difference(
-                va.image,
-                vb.image,
-                certifier.errors,
-                certifier.now_low,
-                certifier.now_high,
-                self._horizon(),
-                vanishes,
-            )
+            s, _, _ = certifier.filter_x_difference(a, b, self._horizon(), vanishes)
             if s:
                 certifier.counters.filtered += 1
                 return s > 0

@@ -39,7 +39,7 @@ def positions_at(vertices: Vertices, low: float, high: float) -> tuple[Floats, F
         x, y = x1 * m + x0, y1 * m + y0
         of_image = errors[0] + errors[1] * reach
         error = (16.0 * U * bound + of_image + r * slope) * SLACK + TINY
-    single = Positions(errors)
+    single = Positions(vertices)
     single.move_to(low, high)
     for k in np.flatnonzero(places[:, MOTION] == OTHER_MOTION).tolist():
         vertex = vertices.all[k]
@@ -56,11 +56,12 @@ class Positions:
     """Normalised positions at the current time, which is given by its enclosure.
 
     Args:
-        errors: bounds on the coefficients, see `exactpt.motion.frame.Frame`.
+        vertices: the vertices.
     """
 
-    def __init__(self, errors: list[float]) -> None:
-        self._errors: list[float] = errors
+    def __init__(self, vertices: Vertices) -> None:
+        self._vertices: Vertices = vertices
+        self._errors: list[float] = vertices.enclosures.errors
         self._middle: float = 0.0
         self._width: float = 0.0
         self._now: object = object()
@@ -77,19 +78,21 @@ class Positions:
         motion at the current time keeps its position, so the cached one stays valid.
         """
         if vertex.seen is not self._now:
-            image = vertex.image
-            if image.degree <= 1 and not image.ws:
-                self._find_linear(vertex, image)
+            places, at = self._vertices.places, WIDTH * vertex.id
+            if places[at + MOTION] == OTHER_MOTION and (vertex.image.degree > 1 or vertex.image.ws):
+                self._find_any(vertex, vertex.image)
             else:
-                self._find_any(vertex, image)
+                vertex.x, vertex.y, vertex.error = linear_position(
+                    places[at],
+                    places[at + 1],
+                    places[at + 2],
+                    places[at + 3],
+                    self._middle,
+                    self._width,
+                    self._errors[0],
+                    self._errors[1],
+                )
             vertex.seen = self._now
-
-    def _find_linear(self, vertex: Vertex, image: Image) -> None:
-        """`_find_any` for degree 1: the formula of `_value`, with one bound for x and y."""
-        m, r, errors = self._middle, self._width, self._errors
-        vertex.x, vertex.y, vertex.error = linear_position(
-            image.x0, image.y0, image.x1, image.y1, m, r, errors[0], errors[1]
-        )
 
     def _find_any(self, vertex: Vertex, image: Image) -> None:
         x, dx = self._value(image.xs)

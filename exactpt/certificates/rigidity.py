@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from exactpt.motion.vertex import Vertex
-from exactpt.motion.vertices import MovingBody
+from exactpt.motion.vertex import MovingBody, Vertex
 
 __all__ = ["keeps_x_order", "rigid"]
 

@@ -58,6 +58,9 @@ def refuse_rounded(bodies: Iterable[Body]) -> None:
     Raises:
         InputError: if one of them is rounded.
     """
+    radii = getattr(bodies, "radii", None)  # of bodies in arrays
+    if radii is not None and not radii.any():
+        return
     for body in bodies:
         if body._radius:
             raise InputError(

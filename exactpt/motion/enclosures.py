@@ -8,6 +8,8 @@ from functools import partial
 from itertools import chain, zip_longest
 from typing import TYPE_CHECKING, Final, NamedTuple, final
 
+import numpy as np
+
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, ZZ, nearest_float, power_of_two
 from exactpt.kernel.polynomial import ONE
@@ -17,6 +19,7 @@ from exactpt.motion.image import LARGEST, SMALLEST, Arm, Image, constant_error, 
 from exactpt.motion.track import Turning
 
 if TYPE_CHECKING:
+    from exactpt.kernel.doubles import Floats, Indices
     from exactpt.motion.course import Piece
     from exactpt.motion.track import Track
 
@@ -66,6 +69,7 @@ class Enclosures:
     def __init__(self, frame: Frame) -> None:
         self._frame = frame
         self._motions: dict[object, int] = {}
+        self._velocities: Floats | None = None  # of the first motions, until `_motions` is needed
         self._named: int = 0
         self._turning: Turning | None = None  # of the last arm, and what it has in common
         self._common: _Common | None = None
@@ -140,9 +144,25 @@ class Enclosures:
         """The number of a rigid motion, as in `Track.motion`; -1 for None."""
         if motion is None:
             return -1
+        if self._velocities is not None:
+            rates, self._velocities = self._velocities.tolist(), None
+            for k, (x, y) in enumerate(rates):
+                self._motions[(x,) if x else (), (y,) if y else ()] = k
         number = self._motions.setdefault(motion, self._named)
         self._named = max(self._named, number + 1)
         return number
+
+    def begin_linear(self, velocities: Floats, error: float) -> Indices:
+        """Number the linear translations with these velocities, the first enclosures of all.
+
+        Args:
+            velocities: shape (n, 2), exact.
+            error: a bound on the errors of all constant coefficients.
+        """
+        self._velocities, numbers = np.unique(velocities, axis=0, return_inverse=True)
+        self._named = len(self._velocities)
+        self.errors[0] = error
+        return numbers.reshape(-1)
 
     def _integer_tails(self, track: Track) -> tuple[list[float], list[float]] | None:
         """All but the constant coefficients of a trajectory, if they are small integers.

@@ -1,4 +1,4 @@
-"""A moving vertex of a ring."""
+"""A moving body and the vertices of its rings."""
 
 from __future__ import annotations
 
@@ -9,19 +9,113 @@ from mypy_extensions import mypyc_attr
 from exactpt.indices import NO_VERTEX, VertexId
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
-from exactpt.motion.course import Piece
 from exactpt.motion.image import Image
-from exactpt.motion.motions import REST
-from exactpt.motion.shape import Shape
+from exactpt.motion.ring_order import rings_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from exactpt.motion.body import Body
+    from exactpt.motion.course import Piece
+    from exactpt.motion.enclosures import Enclosures
     from exactpt.motion.infinitesimal import Direction
     from exactpt.motion.track import Track
 
-__all__ = ["Vertex", "unused"]
+__all__ = ["MovingBody", "Vertex", "unused"]
 
-_NO_PIECE: Final = Piece(Shape([(0, 0)]), QQ(0), REST, None)
+
+@final
+@mypyc_attr(acyclic=True)
+class MovingBody:
+    """A body as a ring of vertices, with its current piece of motion.
+
+    The body, its piece and its enclosures are made when they are first needed.
+
+    Args:
+        bodies: a sequence with the body.
+        number: its position there.
+        name: its name.
+
+    Attributes:
+        name: as given.
+        ring: vertex ids, counter-clockwise; of a body with holes or several parts those of all
+            rings, one after the other, each with the body on its left.
+        until: the next rational time at which its trajectories, or the displacements of
+            its copies, change; None if there is none.
+        deforms: whether distances between its vertices may change, in the current piece.
+        is_polygon: whether it has an interior and one ring.
+        is_tiled: whether its interior is tiled: it deforms at some time, has a diagonal,
+            and is not known to stay convex.
+        since: the rational time at which it entered the piece.
+        enclosures: what makes its enclosures.
+    """
+
+    __slots__ = (
+        "_bodies", "_body", "_images", "_number", "_piece", "deforms", "enclosures", "is_polygon",
+        "is_tiled", "name", "ring", "since", "until",
+    )  # fmt: skip
+
+    def __init__(self, bodies: Sequence[Body], number: int, name: str) -> None:
+        self._bodies: Sequence[Body] = bodies
+        self._number: int = number
+        self.name: str = name
+        self.ring: list[VertexId] = []
+        self.since: QQ = _START
+        self.until: QQ | None = None
+        self.deforms: bool = False
+        self.is_polygon: bool = False
+        self.is_tiled: bool = False
+        self.enclosures: Enclosures | None = None
+        self._body: Body | None = None
+        self._piece: Piece | None = None
+        self._images: list[Image] | None = None
+
+    @property
+    def body(self) -> Body:
+        """The body."""
+        body = self._body
+        if body is None:
+            body = self._body = self._bodies[self._number]
+        return body
+
+    @property
+    def piece(self) -> Piece:
+        """The motion of the body until its next breakpoint."""
+        piece = self._piece
+        if piece is None:
+            piece = self._piece = self.body._piece_after(self.since)
+        return piece
+
+    @property
+    def images(self) -> list[Image]:
+        """The enclosure of each vertex, in the order of the scene."""
+        images = self._images
+        if images is None:
+            if self.enclosures is None:
+                return [_NO_IMAGE]
+            images = self._images = self.enclosures.of_piece(self.piece)
+        return images
+
+    def replace(self, body: Body) -> None:
+        """Be another body of the same name from now on; `enter` must follow."""
+        self._body = body
+
+    def enter(self, t: QQ) -> Piece:
+        """Enter the piece of motion just after a rational time."""
+        self.since, self._images = t, None
+        self._piece = piece = self.body._piece_after(t)
+        self.until = piece.until
+        return piece
+
+    @property
+    def rings(self) -> list[list[VertexId]]:
+        """The vertex ids of each ring, in the order of the body's rings."""
+        return rings_of(self.body, self.ring)
+
+
+_START: Final = QQ(0)
 _NO_IMAGE: Final = Image([0.0], [0.0], [], -1)
+_NO_BODY: Final = MovingBody((), 0, "")
 
 
 @final
@@ -33,9 +127,7 @@ class Vertex:
         id: its position in `Vertices.all`.
         body: the position of its body in the scene; -1 if it is unused.
         index: its vertex in the scene (infinitesimal copies share it).
-        owner: the name of its body; of the last one if it is unused.
-        piece: the motion of its body until the next breakpoint.
-        image: the float enclosure of its trajectory until then.
+        moving: its body; the last one if it is unused.
         offset: the direction of its infinitesimal displacement; None unless the body is
             degenerate.
         horizon: a double at least ``until`` of its body, normalised; infinite if that is None.
@@ -45,20 +137,16 @@ class Vertex:
     """
 
     __slots__ = (
-        "ahead", "behind", "body", "error", "horizon", "id", "image", "index", "offset", "owner",
-        "piece", "seen", "x", "y",
+        "ahead", "behind", "body", "error", "horizon", "id", "index", "moving", "offset", "seen",
+        "x", "y",
     )  # fmt: skip
 
-    def __init__(
-        self, vertex_id: VertexId, body: int, index: int, piece: Piece, image: Image
-    ) -> None:
+    def __init__(self, vertex_id: VertexId, body: int, index: int, moving: MovingBody) -> None:
         self.id: VertexId = vertex_id
-        self.piece: Piece = piece
-        self.image: Image = image
         self.horizon: float = INFINITY
         self.body: int = body
         self.index: int = index
-        self.owner: str = ""
+        self.moving: MovingBody = moving
         self.offset: Direction | None = None
         self.ahead: VertexId = NO_VERTEX
         self.behind: VertexId = NO_VERTEX
@@ -68,14 +156,24 @@ class Vertex:
         self.seen: object = None
 
     @property
+    def piece(self) -> Piece:
+        """The motion of its body until the next breakpoint."""
+        return self.moving.piece
+
+    @property
+    def image(self) -> Image:
+        """The float enclosure of its trajectory until then."""
+        return _NO_IMAGE if self.body < 0 else self.moving.images[self.index]
+
+    @property
     def track(self) -> Track:
         """Its trajectory until the body's next breakpoint."""
-        return self.piece.track(self.index)
+        return self.moving.piece.track(self.index)
 
     @property
     def name(self) -> str:
         """Its name in event logs: ``"body:vertex"``."""
-        return f"{self.owner}:{self.index}"
+        return f"{self.moving.name}:{self.index}"
 
     def is_copy_of(self, other: Vertex) -> bool:
         """Whether both are one vertex of the scene, or infinitesimal copies of one."""
@@ -84,4 +182,4 @@ class Vertex:
 
 def unused(vertex_id: VertexId) -> Vertex:
     """A vertex that belongs to no body."""
-    return Vertex(vertex_id, -1, -1, _NO_PIECE, _NO_IMAGE)
+    return Vertex(vertex_id, -1, -1, _NO_BODY)

@@ -11,10 +11,12 @@ from collections.abc import Sequence
 from itertools import accumulate, count
 from typing import TYPE_CHECKING, Final, final
 
+import numpy as np
 from librt.vecs import append, vec
 from mypy_extensions import i64
 
 from exactpt.indices import VertexId
+from exactpt.kernel.budget import ask
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ
 from exactpt.kernel.rounding import INFINITY
@@ -23,14 +25,19 @@ from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.image import Image
 from exactpt.motion.infinitesimal import displacements
-from exactpt.motion.ring_order import ring_indices, rings_of
-from exactpt.motion.vertex import Vertex, unused
+from exactpt.motion.linear_rows import LinearRows, linear_rows
+from exactpt.motion.ring_order import ring_indices
+from exactpt.motion.vertex import MovingBody, Vertex, unused
 
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
 
 __all__ = ["HORIZON", "MOTION", "OTHER_MOTION", "WIDTH", "MovingBody", "Vertices"]
 
+MANY: Final = 20
+"""Number of bodies from which on their vertices are made in numpy, if they allow it."""
+FEW: Final = 64
+"""Number of bodies from one look at the budget to the next."""
 WIDTH: Final[i64] = 8
 """Number of doubles of a vertex in `Vertices.places`: a line of a processor's cache."""
 HORIZON: Final[i64] = 4
@@ -40,37 +47,6 @@ OTHER_MOTION: Final[float] = -2.0
 """Number of the motion of all vertices that `Vertices.places` does not describe."""
 UNUSED: Final = (0.0, 0.0, 0.0, 0.0, 0.0, OTHER_MOTION, 0.0, 0.0)
 """The doubles of a vertex that no body has."""
-
-
-@final
-class MovingBody:
-    """A body as a ring of vertices, with its current piece of motion.
-
-    Attributes:
-        ring: vertex ids, counter-clockwise; of a body with holes or several parts those of all
-            rings, one after the other, each with the body on its left.
-        until: the next rational time at which its trajectories, or the displacements of
-            its copies, change; None if there is none.
-        deforms: whether distances between its vertices may change, in the current piece.
-        is_tiled: whether its interior is tiled: it deforms at some time, has a diagonal,
-            and is not known to stay convex.
-        since: the rational time at which it entered the piece.
-    """
-
-    __slots__ = ("body", "deforms", "is_tiled", "ring", "since", "until")
-
-    def __init__(self, body: Body) -> None:
-        self.body = body
-        self.ring: list[VertexId] = []
-        self.since: QQ = QQ(0)
-        self.until: QQ | None = None
-        self.deforms: bool = False
-        self.is_tiled: bool = False
-
-    @property
-    def rings(self) -> list[list[VertexId]]:
-        """The vertex ids of each ring, in the order of the body's rings."""
-        return rings_of(self.body, self.ring)
 
 
 @final
@@ -122,8 +98,8 @@ class Vertices:
         self.places: vec[float] = vec[float](UNUSED * len(self.all))
         self.bodies: list[MovingBody] = []
         self._free: list[VertexId] = list(free)
-        for body, ring, t in zip(bodies, rings, since, strict=True):
-            self._add(body, ring, t)
+        for k, (ring, t) in enumerate(zip(rings, since, strict=True)):
+            self._add(bodies, k, ring, t)
 
     @classmethod
     def of(cls, bodies: Sequence[Body], start: QQ, end: QQ, *, plain: bool = False) -> Vertices:
@@ -132,6 +108,9 @@ class Vertices:
         With ``plain`` they are the vertices of the scene as they are, without infinitesimal
         copies, and no interior is tiled.
         """
+        rows = None if plain or len(bodies) < MANY else linear_rows(bodies, start, end)
+        if rows is not None:
+            return cls._of_rows(bodies, rows, start, end)
         ids = count()
         rings = [
             [(VertexId(next(ids)), index) for index in ring_indices(body, start, plain=plain)]
@@ -142,6 +121,38 @@ class Vertices:
         self = cls(bodies, rings, [start] * len(bodies), frame, end, plain=plain)
         for i, moving in enumerate(self.bodies):
             moving.is_tiled = not plain and self._may_pinch(i, start, end)
+        return self
+
+    @classmethod
+    def _of_rows(cls, bodies: Sequence[Body], rows: LinearRows, start: QQ, end: QQ) -> Vertices:
+        """The rings of polygons in linear translation, from their coefficients in numpy."""
+        frame = frame_for([(QQ(0), QQ(0)), (QQ(1), QQ(1))], start, end)
+        self = cls([], [], [], frame, end)
+        self.changes = len(bodies)
+        motions = self.enclosures.begin_linear(rows.velocities, rows.error)
+        counts = np.diff(rows.offsets)
+        places = np.zeros((len(rows.indices), int(WIDTH)))
+        places[:, :4] = rows.coefficients
+        places[:, HORIZON], places[:, MOTION] = INFINITY, np.repeat(motions, counts)
+        self.places = vec[float](places.ravel())
+        name_of = getattr(bodies, "name", None)
+        indices: list[int] = rows.indices.tolist()
+        first: i64 = 0
+        for i, size in enumerate(counts.tolist()):
+            if i % FEW == 0:
+                ask()
+            name = bodies[i].name if name_of is None else name_of(i)
+            moving = MovingBody(bodies, i, name)
+            moving.since, moving.is_polygon, moving.enclosures = start, True, self.enclosures
+            self.bodies.append(moving)
+            last: i64 = first + size - 1
+            for v in range(first, last + 1):
+                vertex = Vertex(VertexId(v), i, indices[v], moving)
+                vertex.ahead = VertexId(v + 1 if v < last else first)
+                vertex.behind = VertexId(v - 1 if v > first else last)
+                self.all.append(vertex)
+                moving.ring.append(vertex.id)
+            first = last + 1
         return self
 
     def add(self, body: Body, t: QQ) -> int:
@@ -156,7 +167,7 @@ class Vertices:
         ring = [(self._free.pop(), index) for index in indices]
         for v, _ in ring:
             self.all[v] = unused(v)
-        self._add(body, ring, t)
+        self._add([body], 0, ring, t)
         self.bodies[i].is_tiled = self._may_pinch(i, t, self._end)
         return i
 
@@ -168,7 +179,7 @@ class Vertices:
         self.changes += 1
         for v in reversed(self.bodies[i].ring):
             removed, self.all[v] = self.all[v], unused(v)
-            self.all[v].owner, self.all[v].index = removed.owner, removed.index
+            self.all[v].moving, self.all[v].index = removed.moving, removed.index
             self._set_place(v)
             self._free.append(v)
         last = self.bodies.pop()
@@ -177,12 +188,18 @@ class Vertices:
             for v in last.ring:
                 self.all[v].body = i
 
-    def _add(self, body: Body, ring: Sequence[tuple[VertexId, int]], t: QQ) -> None:
-        i, moving = len(self.bodies), MovingBody(body)
+    def _add(
+        self, bodies: Sequence[Body], k: int, ring: Sequence[tuple[VertexId, int]], t: QQ
+    ) -> None:
+        """Add body k of a sequence as the last one."""
+        i, body = len(self.bodies), bodies[k]
+        moving = MovingBody(bodies, k, body.name)
+        moving.is_polygon = body.has_interior and not body.has_rings
+        moving.enclosures = self.enclosures
         self.bodies.append(moving)
         for vertex_id, index in ring:
             vertex = self.all[vertex_id]
-            vertex.body, vertex.index, vertex.owner = i, index, body.name
+            vertex.body, vertex.index, vertex.moving = i, index, moving
             moving.ring.append(vertex_id)
         for part in moving.rings:
             for behind, here in zip(part, [*part[1:], part[0]], strict=True):
@@ -243,15 +260,8 @@ class Vertices:
         """Give the vertices of a body the trajectories valid just after a rational time."""
         self.changes += 1
         moving = self.bodies[i]
-        piece = moving.body._piece_after(t)
-        moving.since = t
-        moving.until = piece.until
-        images = self.enclosures.of_piece(piece)
-        moving.deforms = _deforms(images)
-        for vertex_id in moving.ring:
-            vertex = self.all[vertex_id]
-            vertex.piece = piece
-            vertex.image = images[vertex.index]
+        piece = moving.enter(t)
+        moving.deforms = _deforms(moving.images)
         if not self._plain and not moving.body.has_interior and len(moving.ring) > 1:
             end = self._end if piece.until is None else min(piece.until, self._end)
             moved = displacements(piece.tracks, t, end)
@@ -286,12 +296,17 @@ class Vertices:
             Whether its interior has to be tiled from now on, and is not yet.
         """
         moving = self.bodies[i]
-        moving.body = body
+        moving.replace(body)
         self.enter_piece(i, t)
         tiled, moving.is_tiled = moving.is_tiled, moving.is_tiled or self._may_pinch(i, t, end)
         if self.enclosures.motion_count > 2 * len(self.all) + 64:
-            self.enclosures.forget_motions({v.image.motion for v in self.all})
+            self.enclosures.forget_motions({self.motion_of(v.id) for v in self.all})
         return moving.is_tiled and not tiled
+
+    def motion_of(self, v: VertexId) -> int:
+        """Return the number of the motion of a vertex, see `Image.motion`."""
+        motion = self.places[WIDTH * v + MOTION]
+        return self.all[v].image.motion if motion == OTHER_MOTION else int(motion)
 
     def name(self, vertex_id: VertexId) -> str:
         """The name of a vertex in event logs, see `Vertex.name`."""

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from exactpt.certificates.positions import positions_at
 from exactpt.errors import InputError
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
 from exactpt.geometry.polygon import segments_meet
@@ -15,8 +17,10 @@ from exactpt.geometry.predicates import Point, between, side
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
+from exactpt.kernel.rounding import INFINITY
 from exactpt.motion.incidence import Touch, renumbered
 from exactpt.motion.inside import one_is_inside
+from exactpt.motion.vertices import Vertices
 from exactpt.pairs.distance import squared_distance
 from exactpt.pairs.features import feature_pairs
 from exactpt.pairs.incidences import tracks_just_before
@@ -29,6 +33,7 @@ __all__ = [
     "incidences",
     "initial_touches",
     "near_at_start",
+    "near_pairs",
     "touches_at_distance",
     "within_at_start",
 ]
@@ -84,6 +89,34 @@ def initial_touches(
                 pairs.add((i, j))
                 _check_count(pairs)
     return sorted(touches), sorted(pairs)
+
+
+def near_pairs(vertices: Vertices, start: QQ) -> list[tuple[int, int]] | None:
+    """The pairs i < j of bodies whose boxes intersect at a time, by doubles; None if too many.
+
+    Bodies of other pairs are certainly disjoint.
+    """
+    x, y, error = positions_at(vertices, *vertices.frame.time(start))
+    rings = [moving.ring for moving in vertices.bodies]
+    if not rings:
+        return []
+    ids = np.fromiter(chain.from_iterable(rings), np.int64)
+    firsts = np.cumsum([0, *map(len, rings[:-1])])
+    boxes = np.empty((len(rings), 4))
+    for k, values in enumerate((x[ids], y[ids])):
+        boxes[:, 2 * k] = np.minimum.reduceat(values, firsts) - error
+        boxes[:, 2 * k + 1] = np.maximum.reduceat(values, firsts) + error
+    low, high = boxes[:, ::2], boxes[:, 1::2]
+    unknown = np.isnan(boxes).any(axis=1)
+    low[unknown], high[unknown] = -INFINITY, INFINITY
+    np.nextafter(low, -INFINITY, out=low)
+    np.nextafter(high, INFINITY, out=high)
+    near: list[tuple[int, int]] = []
+    for first, second in overlapping_pairs(boxes):
+        near += zip(first.tolist(), second.tolist(), strict=True)
+        if len(near) > MOST_PAIRS:
+            return None
+    return near
 
 
 def _with_radii(

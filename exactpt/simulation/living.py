@@ -53,13 +53,24 @@ class LivingScene:
         self._end = scene
         self._scene: Scene | None = scene
         self._since = scene._start
-        self._bodies: list[Body] = []
-        self._number: dict[str, int] = {}
-        self._set_bodies(scene.bodies)
+        self._given: Sequence[Body] = scene.bodies
+        self._copied: list[Body] | None = None  # of the bodies given, when they are first needed
+        self._numbered: dict[str, int] | None = None
 
     def _set_bodies(self, bodies: Sequence[Body]) -> None:
-        self._bodies = list(bodies)
-        self._number = {body.name: i for i, body in enumerate(bodies)}
+        self._given, self._copied, self._numbered = bodies, None, None
+
+    @property
+    def _bodies(self) -> list[Body]:
+        if self._copied is None:
+            self._copied = list(self._given)
+        return self._copied
+
+    @property
+    def _number(self) -> dict[str, int]:
+        if self._numbered is None:
+            self._numbered = {body.name: i for i, body in enumerate(self._bodies)}
+        return self._numbered
 
     @property
     def tiling(self) -> Tiling | None:

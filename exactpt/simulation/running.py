@@ -15,7 +15,7 @@ from exactpt.kernel.budget import Budget
 from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
 from exactpt.kernel.rounding import check_rounding
 from exactpt.pairs.contact import Contact, contact_of
-from exactpt.pairs.start import initial_touches
+from exactpt.pairs.start import initial_touches, near_pairs
 from exactpt.scene.scene import Scene
 from exactpt.simulation.contexts import Guard, OneThread
 from exactpt.simulation.event import Event
@@ -309,7 +309,8 @@ def begin(
     with carrying(lambda: scene), budget.held():
         plan = plan_tiling(scene, tiling, scene._start)
         choice = Choice(tiling, plan.name, exact_only)
-        touches, overlaps = initial_touches(scene)
+        near = None if exact_only else near_pairs(plan.vertices, scene._start)
+        touches, overlaps = initial_touches(scene, near)
         if overlaps:
             run = Run(LivingScene(scene, None, choice), budget)
             run.log = log

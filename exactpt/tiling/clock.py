@@ -13,7 +13,7 @@ from exactpt.indices import CertificateId
 from exactpt.kernel.algebraic import AlgebraicNumber, multiple_before, rational_between
 from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.motion.frame import Frame
-from exactpt.motion.vertices import MovingBody
+from exactpt.motion.vertex import MovingBody
 
 __all__ = ["Clock"]
 

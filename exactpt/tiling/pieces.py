@@ -5,7 +5,7 @@ from __future__ import annotations
 from exactpt.certificates.certificate import MOTION, SHRINK, pack
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
-from exactpt.motion.vertices import MovingBody
+from exactpt.motion.vertex import MovingBody
 from exactpt.tiling.clock import Clock
 
 __all__ = ["certify_piece"]

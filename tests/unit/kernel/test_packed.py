@@ -7,13 +7,12 @@ from hypothesis import strategies as st
 
 from exactpt.certificates.perturbation import copy_orientation, cross
 from exactpt.kernel.integer_polynomial import add, multiply, negate, subtract, trimmed
-from exactpt.kernel.numbers import QQ, ZZ
+from exactpt.kernel.numbers import ZZ
 from exactpt.kernel.packed import coefficient_bits, pack, unpack, width_for
 from exactpt.motion.body import Body
-from exactpt.motion.image import Image
 from exactpt.motion.incidence import orientation
 from exactpt.motion.track import Track
-from exactpt.motion.vertex import Vertex
+from exactpt.motion.vertex import MovingBody, Vertex
 
 numbers = st.one_of(
     st.integers(-3, 3),
@@ -54,19 +53,18 @@ def test_determinants_of_tracks(a, b, c, d):
     assert cross(a, b, c, d) == cross_of(towards(a, b), towards(c, d))
 
 
-def piece_with(track):
-    """A piece of motion whose vertex 0 has this trajectory."""
-    piece = Body("point", [(0, 0)])._piece_after(QQ(0))
-    piece._made[0] = track
-    return piece
+def body_with(track):
+    """A body whose vertex 0 has this trajectory."""
+    moving = MovingBody([Body("point", [(0, 0)])], 0, "point")
+    moving.piece._made[0] = track
+    return moving
 
 
 @pytest.mark.long
 @given(a=tracks, c=tracks, offsets=st.tuples(*[polynomials] * 4))
 def test_the_orientation_of_copies(a, c, offsets):
-    place = Image([0.0], [0.0], [], -1)
-    copies = [Vertex(i, 0, 0, piece_with(a), place) for i in (0, 1)]
-    other = Vertex(2, 1, 0, piece_with(c), place)
+    copies = [Vertex(i, 0, 0, body_with(a)) for i in (0, 1)]
+    other = Vertex(2, 1, 0, body_with(c))
     copies[0].offset, copies[1].offset = offsets[:2], offsets[2:]
     turned = subtract(offsets[2], offsets[0]), subtract(offsets[3], offsets[1])
     expected = cross_of(turned, towards(a, c))

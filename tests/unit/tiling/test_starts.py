@@ -2,13 +2,16 @@
 
 from random import Random
 
+import numpy as np
 import pytest
-from exactpt.collision.tilings import start_tiling, tilings_for
 
 from benchmarks.shapes import crowd
-from exactpt.pairs.start import initial_touches
+from exactpt import Body, Scene, Simulation, Translation
+from exactpt.motion import vertices as moving_vertices
+from exactpt.pairs.start import initial_touches, near_pairs
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.tiling import angles
+from exactpt.tiling.start import plan_tiling, start_tiling, tilings_for
 
 pytestmark = pytest.mark.plain
 
@@ -24,7 +27,10 @@ def state_after_start(scene, tiling):
     kinetic = start_tiling(scene, tiling, scene._start)
     queue, counters = kinetic.queue, kinetic.vertices.counters
     pending = [(slot, queue.pending(slot)) for slot in queue.slots()]
+    vertices = kinetic.vertices
     return [end for _, t in pending for end in (t.low, t.high)], (
+        [(v.body, v.index, v.ahead, v.behind, v.horizon, v.name) for v in vertices.all],
+        [(m.ring, m.until, m.deforms, m.is_tiled, m.is_polygon) for m in vertices.bodies],
         kinetic.state(),
         kinetic.vertices.enclosures.errors,
         [(slot, t.a, t.b, t.c, t.crossing, t.exact) for slot, t in pending],
@@ -43,10 +49,84 @@ def compared(scene, monkeypatch):
         states = []
         for least in (FEW, 0):
             monkeypatch.setattr(angles, "MANY", least)
+            monkeypatch.setattr(moving_vertices, "MANY", least)
             states.append(state_after_start(scene, tiling))
         (one_by_one, state), (at_once, other) = states
         assert state == other
         assert at_once == pytest.approx(one_by_one, rel=1e-9)
+
+
+def arrays_of(bodies, time):
+    """The scene of the same bodies, polygons of doubles, in arrays."""
+    doubles = [body._shape.near for body in bodies]
+    offsets = np.cumsum([0, *(len(near.xs) for near in doubles)])
+    corners = [point for near in doubles for point in zip(near.xs, near.ys, strict=True)]
+    paths = [
+        [[float(c) for c in (*f._coefficients, 0, 0)[:2]] for f in (body.motion.x, body.motion.y)]
+        for body in bodies
+    ]
+    names = [body.name for body in bodies]
+    return Scene.from_arrays(corners, offsets, coefficients=paths, names=names, time=time)
+
+
+def doubled(seed, k=25):
+    """Triangles of doubles of either orientation, with an upright side, some at rest."""
+    rng = Random(f"doubled {seed}")
+    bodies = []
+    for i in range(k):
+        x, y = 40.0 * (i % 5) + rng.uniform(-9, 9), 40.0 * (i // 5) + rng.uniform(-9, 9)
+        shift = rng.choice([0, rng.uniform(-1, 1), 2.0**-30 + 3])
+        ring = [
+            (x - shift, y),
+            (x - shift + rng.uniform(1, 5), y),
+            (x - shift, y + 3.5),
+        ]
+        if rng.random() < 0.5:
+            ring.reverse()
+        speed = rng.choice([[], [shift], [shift, 0.25], [shift, rng.uniform(-1, 1)]])
+        motion = Translation(speed or [shift], rng.choice([[], [0, -0.5]]))
+        bodies.append(Body(f"b{i}", ring, motion))
+    return Scene(bodies, (rng.choice([0, "1/3"]), 1))
+
+
+def boxes_in_doubles(scene):
+    vertices = plan_tiling(scene, "lazy", scene._start).vertices
+    return near_pairs(vertices, scene._start)
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_pairs_that_are_not_near_are_disjoint_at_the_start(family):
+    """Contacts at the start among the scenes: the same incidences as from all pairs."""
+    for seed in range(6):
+        scene = generate(family, seed)
+        if not scene.is_rounded:
+            near = boxes_in_doubles(scene)
+            assert initial_touches(scene, near) == initial_touches(scene)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_starts_of_bodies_of_doubles(seed, monkeypatch):
+    compared(doubled(seed), monkeypatch)
+
+
+@pytest.mark.parametrize("tiling", ["lazy", "greedy"])
+@pytest.mark.parametrize("seed", range(3))
+def test_starts_from_arrays_make_no_bodies(seed, tiling):
+    """A few may be made where equal slopes or abscissas are decided exactly."""
+    scene = crowded(40, seed)
+    arrays = arrays_of(scene.bodies, (scene.start, scene.end))
+
+    of_arrays = state_after_start(arrays, tiling)
+
+    assert len(arrays.bodies._made) < 10
+    assert of_arrays == state_after_start(scene, tiling)
+    simulation = Simulation(arrays, tiling=tiling)
+    assert simulation.contact is None
+    assert len(arrays.bodies._made) < 10
+    runs = [
+        [event.to_json() for event in Simulation(s, tiling=tiling).run()] for s in (scene, arrays)
+    ]
+    assert runs[0] == runs[1]
 
 
 @pytest.mark.parametrize("family", FAMILIES)

@@ -1,0 +1,183 @@
+"""The coefficients of many polygons in linear translation at once, in numpy.
+
+What is computed here is bit for bit what `exactpt.motion.enclosures`, `exactpt.motion.frame` and
+`exactpt.motion.ring_order` compute body by body. It is left to them if any body is of another
+kind, or a number is out of range or close to a bound.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Final, NamedTuple, cast
+
+import numpy as np
+
+from exactpt.geometry.ragged import Flags, spread
+from exactpt.kernel.budget import ask
+from exactpt.kernel.doubles import Floats, Indices
+from exactpt.kernel.numbers import QQ, nearest_float
+from exactpt.kernel.rounding import TINY, U
+from exactpt.motion.frame import frame_for
+from exactpt.motion.image import LARGEST, SMALLEST
+from exactpt.motion.motions import Translation
+from exactpt.motion.ring_order import turns_left
+
+if TYPE_CHECKING:
+    from exactpt.motion.body import Body
+
+__all__ = ["LinearRows", "linear_rows"]
+
+LEAST: Final = 2.0**-18
+"""Least extent of a scene that certainly needs no scale, see `exactpt.motion.frame`."""
+MOST: Final = 2.0**18
+"""Its largest one."""
+FAR: Final = 8.0
+"""Number of extents from the origin up to which a scene certainly needs no shift."""
+K: Final = 8.0 * U
+"""Relative bound on the rounding of a 2 x 2 determinant of differences of doubles."""
+
+
+_ZEROS: Final = (QQ(0), QQ(0))
+
+
+class LinearRows(NamedTuple):
+    """The vertices of bodies, each body counter-clockwise, in a frame that changes nothing.
+
+    Attributes:
+        offsets: body k has the rows ``offsets[k]`` to ``offsets[k + 1]`` - 1.
+        indices: of each row, its vertex in the body.
+        coefficients: shape (N, 4): x0, y0, x1, y1.
+        velocities: shape (n, 2), of each body.
+        error: the bound on the errors of x0 and y0; those of x1 and y1 are exact.
+    """
+
+    offsets: Indices
+    indices: Indices
+    coefficients: Floats
+    velocities: Floats
+    error: float
+
+
+class _Given(NamedTuple):
+    """Bodies in arrays: rest positions, offsets, and the shift and velocity of each body."""
+
+    vertices: Floats
+    offsets: Indices
+    shifts: Floats
+    velocities: Floats
+
+
+class _Arrays(Sequence["Body"]):
+    """What `exactpt.scene.body_arrays.BodyArrays` has."""
+
+    vertices: Floats
+    offsets: Indices
+    coefficients: Floats
+    closed: Flags
+    radii: Floats
+
+
+def linear_rows(bodies: Sequence[Body], start: QQ, end: QQ) -> LinearRows | None:
+    """The rows of bodies from a time on; None if not all are polygons in linear translation."""
+    given = _from_arrays(cast("_Arrays", bodies)) if hasattr(bodies, "offsets") else _read(bodies)
+    if given is None or not frame_for([(QQ(0), QQ(0)), (QQ(1), QQ(1))], start, end).is_identity:
+        return None
+    counts = np.diff(given.offsets)
+    owner, number = spread(counts)
+    shifts, rates = given.shifts[owner], given.velocities[owner]
+    with np.errstate(all="ignore"):
+        places = given.vertices + shifts
+        near = places + rates * float(start)
+    if not (_needs_no_frame(near) and _in_range(places) and _in_range(given.velocities)):
+        return None
+    first = given.offsets[:-1]
+    if (given.vertices[first] == given.vertices[given.offsets[1:] - 1]).all(axis=1).any():
+        return None  # `Shape` drops a last vertex that repeats the first
+    of_shift = places - given.vertices
+    lost = (given.vertices - (places - of_shift)) + (shifts - of_shift)  # TwoSum
+    largest = float(np.max(np.abs(places), where=lost != 0.0, initial=0.0))
+    turns = _turns(given.vertices, given.offsets, owner)
+    for k in np.flatnonzero(turns == 0).tolist():
+        turns[k] = 1 if turns_left(bodies[k], range(int(counts[k])), start) else -1
+    indices = np.where(turns[owner] > 0, number, counts[owner] - 1 - number)
+    rows = first[owner] + indices
+    coefficients = np.concatenate((places[rows], rates), axis=1)
+    velocities = given.velocities + 0.0  # never -0.0
+    return LinearRows(given.offsets, indices, coefficients, velocities, 2.0 * U * largest)
+
+
+def _from_arrays(bodies: _Arrays) -> _Given | None:
+    given = bodies.coefficients
+    if (
+        not bodies.closed.all()
+        or bodies.radii.any()
+        or np.diff(bodies.offsets).min(initial=3) < 3
+        or given[:, :, 2:].any()
+    ):
+        return None
+    rates = given[:, :, 1] if given.shape[2] > 1 else np.zeros_like(given[:, :, 0])
+    return _Given(bodies.vertices, bodies.offsets, given[:, :, 0], rates)
+
+
+def _read(bodies: Sequence[Body]) -> _Given | None:
+    """The arrays of bodies whose numbers are all doubles."""
+    xs: list[float] = []
+    ys: list[float] = []
+    offsets = [0]
+    paths: list[QQ | float] = []
+    for body in bodies:
+        ask()
+        near, motion = body._shape.near, body.motion
+        if (
+            near is None
+            or not near.is_exact
+            or not body.has_interior
+            or body.has_rings
+            or not isinstance(motion, Translation)
+        ):
+            return None
+        x, y = (f._coefficients if f._doubles is None else f._doubles for f in (motion.x, motion.y))
+        if len(x) > 2 or len(y) > 2:
+            return None
+        for path in (x, y):
+            paths += path if len(path) == 2 else (*path, *_ZEROS)[:2]
+        xs += near.xs
+        ys += near.ys
+        offsets.append(len(xs))
+    rates = [c if isinstance(c, float) else nearest_float(c) for c in paths]
+    if rates != paths:
+        return None
+    moves = np.array(rates).reshape(-1, 2, 2)
+    return _Given(np.array([xs, ys]).T, np.array(offsets), moves[:, :, 0], moves[:, :, 1])
+
+
+def _needs_no_frame(near: Floats) -> bool:
+    """Whether `frame_for` certainly neither shifts nor scales, given rounded positions.
+
+    Their errors are below 2^-30 of the extents that are accepted.
+    """
+    low, high = near.min(axis=0), near.max(axis=0)
+    extent = high - low
+    far = np.maximum(abs(low), abs(high))
+    return bool(((extent >= LEAST) & (extent <= MOST) & (far <= FAR * extent)).all())
+
+
+def _in_range(values: Floats) -> bool:
+    size = np.abs(values)
+    return bool(((values == 0.0) | ((size >= SMALLEST) & (size <= LARGEST))).all())
+
+
+def _turns(vertices: Floats, offsets: Indices, owner: Indices) -> Indices:
+    """1 for each simple polygon that is counter-clockwise, -1 if clockwise, 0 if not certain.
+
+    By the turn at its leftmost vertex, the lowest of several, as `turn_of_doubles`.
+    """
+    x, y = vertices.T
+    first, last = offsets[:-1], offsets[1:] - 1
+    at = np.lexsort((y, x, owner))[first]
+    before, after = np.where(at == first, last, at - 1), np.where(at == last, first, at + 1)
+    with np.errstate(all="ignore"):
+        (ux, uy), (vx, vy) = (vertices[at] - vertices[before]).T, (vertices[after] - vertices[at]).T
+        p, q = ux * vy, uy * vx
+        det, bound = p - q, K * (abs(p) + abs(q)) + TINY
+    return np.where(det > bound, 1, np.where(det < -bound, -1, 0))
