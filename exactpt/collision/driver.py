@@ -16,7 +16,7 @@ from exactpt.kernel.budget import Budget
 from exactpt.kernel.collection import collector_at_rest
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.pairs.contact import Contact, contact_of
-from exactpt.pairs.start import initial_touches
+from exactpt.pairs.start import initial_touches, near_pairs
 from exactpt.tiling.events import ContactFound, TilingEvent
 from exactpt.tiling.start import TilingPlan, plan_tiling
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
 
-__all__ = ["CHANGES", "EVENTS", "MANY", "NOTHING", "TIMES", "Driver", "Observer"]
+__all__ = ["CHANGES", "EVENTS", "NOTHING", "TIMES", "Driver", "Observer"]
 
 NOTHING: Final = 0
 """Listen only to the start, the end, and changes of motions."""
@@ -102,6 +102,7 @@ class Driver:
         touches: the incidences of the contact that ended the last `start` or `advance`; None
             without one.
         overlaps: the pairs of bodies in contact at the start, as in `initial_touches`.
+        is_broken: whether the tiling was left in the middle of an event; set by the caller.
     """
 
     def __init__(
@@ -119,6 +120,7 @@ class Driver:
         self.since: QQ | None = None if tiling is None else scene()._start
         self.touches: Sequence[Touch] | None = None
         self.overlaps: Sequence[tuple[int, int]] = ()
+        self.is_broken = False
 
     @property
     def kinetic(self) -> Tiling:
@@ -140,7 +142,10 @@ class Driver:
         """
         scene = self._scene()
         start = scene._start
-        touches, overlaps = initial_touches(scene)
+        near = None
+        if isinstance(tiling, TilingPlan) and not exact_only:
+            near = near_pairs(tiling.vertices, start)
+        touches, overlaps = initial_touches(scene, near)
         if overlaps:
             self.touches, self.overlaps = touches, overlaps
             for observer in self.observers:
@@ -194,6 +199,12 @@ class Driver:
         """The contact that `advance` has found."""
         return contact_of(self._scene(), self.kinetic.now, self.touches or ())
 
+    def change(self, tiling: Tiling, t: QQ) -> None:
+        """Continue after a change of motions or bodies at a rational time without a contact."""
+        self.tiling, self.since = tiling, t
+        for observer in self.observers:
+            observer.change(t)
+
     def count(self, events: int) -> None:
         """Count events.
 
@@ -212,8 +223,13 @@ class Driver:
         if self.budget.is_late():
             raise BudgetExceeded("the time is used up", self.reached())
 
-    def reached(self) -> Fraction:
-        """Return a rational time, at most now, up to which there is no contact; between events."""
+    def reached(self) -> Fraction | None:
+        """Return a rational time, at most now, up to which there is no contact.
+
+        As `passed`, but between two events without a contact the time now, if it is rational.
+        """
+        if self.is_broken:
+            return self.passed()
         now = self.kinetic.now
         return now.low if now.is_rational else now.canonical_interval()[0]
 

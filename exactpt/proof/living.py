@@ -14,6 +14,7 @@ from pathlib import Path
 from tempfile import TemporaryFile
 from typing import TYPE_CHECKING, Final, final
 
+from exactpt.collision.driver import CHANGES, Observer
 from exactpt.errors import InputError
 from exactpt.files import write_atomically, writing
 from exactpt.proof.degrees import refuse_degrees
@@ -22,6 +23,7 @@ from exactpt.proof.lines import Lines, header
 from exactpt.proof.nodes import Nodes, rigid_until
 
 if TYPE_CHECKING:
+    from exactpt.indices import HalfEdge
     from exactpt.kernel.numbers import QQ
     from exactpt.motion.incidence import Touch
     from exactpt.scene.scene import Scene
@@ -34,8 +36,8 @@ CHAIN: Final = "exactpt-chain 1"
 
 
 @final
-class ProofFolder:
-    """A `Recorder` that writes ``1.proof``, ``2.proof``, ... and ``1.scene.json``, ... to a folder.
+class ProofFolder(Observer):
+    """An observer that writes ``1.proof``, ``2.proof``, ... and ``1.scene.json``, ... to a folder.
 
     ``run.chain`` has a line for each part as soon as it is written (docs/proofs.md).
 
@@ -45,6 +47,8 @@ class ProofFolder:
     Raises:
         InputError: if it cannot be made, or contains proofs.
     """
+
+    listens_to: int = CHANGES
 
     def __init__(self, folder: str | Path) -> None:
         self._folder = Path(folder)
@@ -61,41 +65,39 @@ class ProofFolder:
         self._part: Part | None = None
 
     def touching(self, scene: Scene) -> None:
-        """See `Recorder.touching`."""
+        """See `Observer.touching`."""
         file = scene_bytes(scene)
         self._write(file, ProofRun(scene, scene_file=file).lines())
 
-    def begin(self, scene: Scene, kinetic: Tiling) -> None:
-        """See `Recorder.begin`."""
-        if self._part is None and kinetic.now.compare_rational(scene._end) < 0:
+    def before(self, scene: Scene, tiling: Tiling) -> None:
+        """See `Observer.before`."""
+        if self._part is None and tiling.now.compare_rational(scene._end) < 0:
             refuse_degrees(scene.bodies)
-            self._begin(scene.going_on(scene.bodies, kinetic.now._low), kinetic)
+            self._begin(scene.going_on(scene.bodies, tiling.now._low), tiling)
 
-    def advanced(self) -> None:
-        """See `Recorder.advanced`."""
-        part = self._part
-        if part is not None:
-            kinetic = part.watch.kinetic
-            part.changed(kinetic, kinetic.changes())
-            if kinetic.now.compare_rational(self._end) >= 0:
+    def changed(self, tiling: Tiling, changed: set[HalfEdge] | None) -> None:
+        """See `Observer.changed`."""
+        if self._part is not None:
+            self._part.changed(tiling, changed)
+            if tiling.now.compare_rational(self._end) >= 0:
                 self.change(self._end)
 
     def change(self, t: QQ) -> None:
-        """See `Recorder.change`."""
+        """See `Observer.change`."""
         part, self._part = self._part, None
         if part is not None and t > self._scene._start:
             part.none(t)
             self._keep(t)
 
-    def met(self, touches: Sequence[Touch]) -> None:
-        """See `Recorder.met`."""
+    def met(self, tiling: Tiling, touches: Sequence[Touch]) -> None:
+        """See `Observer.met`."""
         part, self._part = self._part, None
         if part is not None:
-            part.met(part.watch.kinetic, touches)
+            part.met(tiling, touches)
             self._keep(self._end)
 
     def finish(self) -> None:
-        """See `Recorder.finish`."""
+        """See `Observer.finish`."""
         if self._part is not None:
             self.change(self._part.before_now())
 

@@ -49,7 +49,9 @@ class LivingScene:
     ) -> None:
         self.choice = choice
         self.changes = changes
-        self._teller = None if tiling is None else Teller(tiling)
+        self._teller: Teller | None = None
+        if tiling is not None:
+            self.start(tiling)
         self._end = scene
         self._scene: Scene | None = scene
         self._since = scene._start
@@ -71,6 +73,10 @@ class LivingScene:
         if self._numbered is None:
             self._numbered = {body.name: i for i, body in enumerate(self._bodies)}
         return self._numbered
+
+    def start(self, tiling: Tiling) -> None:
+        """Begin to keep a tiling of the scene."""
+        self._teller = Teller(tiling)
 
     @property
     def tiling(self) -> Tiling | None:

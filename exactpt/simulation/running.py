@@ -3,28 +3,23 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import TypeAlias, final
 
-from exactpt.collision.driver import MANY
+from exactpt.collision.driver import Driver, Observer
 from exactpt.errors import AuditError, BudgetExceeded, InputError, carry, carrying
-from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import Budget
 from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
 from exactpt.kernel.rounding import check_rounding
-from exactpt.pairs.contact import Contact, contact_of
-from exactpt.pairs.start import initial_touches, near_pairs
+from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
 from exactpt.simulation.contexts import Guard, OneThread
 from exactpt.simulation.event import Event
 from exactpt.simulation.history import Log
 from exactpt.simulation.living import Choice, LivingScene
 from exactpt.simulation.met import Met, met
-from exactpt.simulation.recording import Recorder
-from exactpt.tiling.events import ContactFound, TilingEvent
-from exactpt.tiling.start import plan_tiling, proved_until
+from exactpt.tiling.start import plan_tiling
 
 __all__ = ["Response", "Run", "begin"]
 
@@ -43,24 +38,26 @@ class Run:
         contact: the contact that has ended the run, or None.
         contacts: number of contacts so far.
         met: the last contact with a response.
-        recorder: what records the run, or None.
+        driver: drives the tiling; its observers record the run.
         log: what remembers the run, or None.
         alone: the context in which a thread uses the run.
     """
 
-    def __init__(self, living: LivingScene, budget: Budget) -> None:
+    def __init__(
+        self, living: LivingScene, budget: Budget, observers: Sequence[Observer] = ()
+    ) -> None:
         self.living = living
+        self.driver = Driver(
+            lambda: living.scene, living.tiling, observers=observers, budget=budget
+        )
         self.margin = _margin_of(living.scene)
         self.pending: deque[Event] = deque()
         self.contact: Contact | None = None
         self.contacts = 0
         self.met: Met | None = None
-        self.recorder: Recorder | None = None
         self.log: Log | None = None
         self.alone = OneThread()
         self._budget = budget
-        self._is_broken = False
-        self._proved: QQ = living.scene._start
 
     # Time
 
@@ -85,7 +82,7 @@ class Run:
         with self.alone:
             while True:
                 if is_bounded and self.contact is None:
-                    self._check_time()
+                    self.driver.check_time()
                 if pending:
                     if is_bounded:
                         self._count(1)
@@ -97,7 +94,7 @@ class Run:
         """The events of the next time at which there are any, see `Simulation.step`."""
         with self.alone:
             while not self.pending and self.contact is None:
-                self._check_time()
+                self.driver.check_time()
                 if not self._advance(self.living.scene._end, None, self.margin):
                     break
             self._count(len(self.pending))
@@ -110,53 +107,32 @@ class Run:
         with self.alone:
             if self.contact is None:
                 self.check_whole()
-                self._pass_to_contact(self.living.scene._end)
+                with self._guarded():
+                    contact = self.driver.run(self.living.scene._end)
+                    if contact is not None:
+                        self.end_with(contact)
             return self.contact
-
-    def _pass_to_contact(self, end: QQ) -> None:
-        with self._guarded():
-            try:
-                if self.recorder is None and not self._budget.limits_events:
-                    while self.living.kinetic.advance_many(end, MANY):
-                        self._check_time()
-                else:
-                    while (events := self._pass(end)) is not None:
-                        self._count(len(events))
-                        self._check_time()
-            except ContactFound as found:
-                self._end_with(found)
 
     def _advance(self, end: QQ, respond: Response | None, grid: QQ) -> bool:
         """Advance to the next time with events; False if there is none up to the end."""
         self.check_whole()
         try:
             with self._budget.held():
-                events = self._pass(end)
-                if events is None:
-                    return False
-                self.pending.extend(self.living.teller.told(events))
-                return True
-        except ContactFound as contact:
-            found = contact.with_traceback(None)  # whose frames would keep it, and all else
+                events = self.driver.advance(end)
+                if events is not None:
+                    self.pending.extend(self.living.teller.told(events))
+                    return True
         except BaseException as error:
             self._failed(error)
             raise
+        if self.driver.touches is None:
+            return False
         if respond is None:
             with self._guarded():
-                self._end_with(found)
+                self.end_with(self.driver.meet())
         else:
-            self._answer(found, respond, grid)
+            self._answer(respond, grid)
         return True
-
-    def _pass(self, end: QQ) -> list[TilingEvent] | None:
-        """Advance the tiling to its next event up to a time, see `Tiling.advance`."""
-        recorder, kinetic = self.recorder, self.living.kinetic
-        if recorder is None:
-            return kinetic.advance(end)
-        recorder.begin(self.living.scene, kinetic)
-        events = kinetic.advance(end)
-        recorder.advanced()
-        return events
 
     def _guarded(self) -> Guard:
         """A context in which the budget holds, and a broken invariant carries the scene."""
@@ -172,10 +148,10 @@ class Run:
             carry(error, self._scene)
         elif isinstance(error, BudgetExceeded):
             if error.reached is None:  # not between two events
-                self._is_broken = True
+                self.driver.is_broken = True
                 error.reached = self.passed()
         elif not isinstance(error, InputError):  # Ctrl-C, no memory, an error of the user's code
-            self._is_broken = True
+            self.driver.is_broken = True
 
     def check_whole(self) -> None:
         """Check that the run has not been interrupted in the middle of an event.
@@ -185,40 +161,28 @@ class Run:
             RoundingError: see `check_rounding`.
         """
         check_rounding()
-        if self._is_broken:
+        if self.driver.is_broken:
             raise InputError("the run was interrupted in the middle of an event: it cannot go on")
 
     # Contacts
-
-    def _contact(self, found: ContactFound) -> Contact:
-        return contact_of(self.living.scene, self.living.now, found.touches)
 
     def end_with(self, contact: Contact) -> None:
         """End with a contact, the last event."""
         self.contact = contact
         self._report(contact)
 
-    def _end_with(self, found: ContactFound) -> None:
-        """End with a contact of the tiling, which is there now."""
-        self._record(found)
-        self.end_with(self._contact(found))
-
-    def _record(self, found: ContactFound) -> None:
-        if self.recorder is not None:
-            self.recorder.met(found.touches)
-
-    def _answer(self, found: ContactFound, respond: Response, grid: QQ) -> None:
+    def _answer(self, respond: Response, grid: QQ) -> None:
         """Respond just before a contact; unless something is changed, it takes place."""
-        living, kinetic = self.living, self.living.kinetic
+        living, driver = self.living, self.driver
         with self._guarded():
-            contact = self._contact(found)
+            contact = driver.contact_ahead()
         ahead = met(contact, living)
         if self.met is not None and ahead.is_again(self.met):
-            self._record(found)
+            driver.meet()
             self.contact = contact
             return
         with self._guarded():
-            kinetic.retreat(grid)
+            driver.kinetic.retreat(grid)
         self._report(contact)
         self.met = ahead
         changes = living.changes
@@ -226,17 +190,18 @@ class Run:
         check_rounding()
         if living.changes == changes:
             self.contact = contact
-            with self._guarded(), suppress(ContactFound):
-                kinetic.advance(living.scene._end)
-            self._record(found)
+            with self._guarded():
+                driver.advance(living.scene._end)
+            driver.meet()
 
     def end_record(self) -> None:
         """Record nothing else, see `Simulation.end_proof`."""
         with self.alone:
-            recorder, self.recorder = self.recorder, None
-            if recorder is not None:
+            observers, self.driver.observers = self.driver.observers, []
+            if observers:
                 self.check_whole()
-                recorder.finish()
+            for observer in observers:
+                observer.finish()
 
     def _report(self, contact: Contact) -> None:
         self.contacts += 1
@@ -261,26 +226,21 @@ class Run:
             self.check_whole()
             with self._guarded():
                 self.pending.extend(how(self.living))
-            self._proved = self.living.now._low
+            t = self.living.now._low
             if self.log is not None:
-                self.log.changed(self._proved, self.living.bodies)
-            if self.recorder is not None:
-                self.recorder.change(self._proved)
+                self.log.changed(t, self.living.bodies)
+            self.driver.change(self.living.kinetic, t)
 
     def _scene(self) -> Scene:
         return self.living.scene
 
     def reached(self) -> Fraction | None:
         """See `Simulation.reached`."""
-        if self.contact is not None or self._is_broken:
-            return self.passed()
-        now = self.living.now
-        return now.low if now.is_rational else now.canonical_interval()[0]
+        return self.passed() if self.contact is not None else self.driver.reached()
 
     def passed(self) -> Fraction | None:
         """See `Search.passed`."""
-        tiling = self.living.tiling
-        return None if tiling is None else proved_until(tiling, self._proved)
+        return self.driver.passed()
 
     def rest(self) -> tuple[int | None, float | None, int | None]:
         """The events, seconds and memory that are left, None for no limit."""
@@ -288,12 +248,8 @@ class Run:
 
     def _count(self, events: int) -> None:
         """Count events that are to be reported; a contact is reported in any case."""
-        if not self._budget.spend(events) and self.contact is None:
-            raise BudgetExceeded("the number of events is used up", self.reached())
-
-    def _check_time(self) -> None:
-        if self._budget.is_late():
-            raise BudgetExceeded("the time is used up", self.reached())
+        if self.contact is None:
+            self.driver.count(events)
 
 
 def begin(
@@ -302,29 +258,20 @@ def begin(
     budget: Budget,
     *,
     exact_only: bool,
-    recorder: Recorder | None = None,
+    observers: Sequence[Observer] = (),
     log: Log | None = None,
 ) -> Run:
     """The run of a scene from its start, see `exactpt.Simulation`."""
     with carrying(lambda: scene), budget.held():
         plan = plan_tiling(scene, tiling, scene._start)
-        choice = Choice(tiling, plan.name, exact_only)
-        near = None if exact_only else near_pairs(plan.vertices, scene._start)
-        touches, overlaps = initial_touches(scene, near)
-        if overlaps:
-            run = Run(LivingScene(scene, None, choice), budget)
-            run.log = log
-            run.end_with(contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps))
-            if recorder is not None:
-                recorder.touching(scene)
-            return run
-        try:
-            kinetic = plan.start(scene._start, exact_only=exact_only)
-        except BudgetExceeded as spent:
-            spent.reached = scene.start
-            raise
-        run = Run(LivingScene(scene, kinetic, choice), budget)
-        run.recorder, run.log = recorder, log
+        living = LivingScene(scene, None, Choice(tiling, plan.name, exact_only))
+        run = Run(living, budget, observers)
+        run.log = log
+        contact = run.driver.start(plan, exact_only=exact_only)
+        if contact is None:
+            living.start(run.driver.kinetic)
+        else:
+            run.end_with(contact)
         return run
 
 

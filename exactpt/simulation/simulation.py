@@ -21,7 +21,6 @@ from exactpt.scene.scene import Scene, a_scene
 from exactpt.scene.written import to_json as scene_to_json
 from exactpt.simulation.event import Event
 from exactpt.simulation.history import History, Log
-from exactpt.simulation.recording import Recorder
 from exactpt.simulation.running import begin
 from exactpt.simulation.spaces import SpaceCache
 from exactpt.tiling.catalogue import AUTO
@@ -94,11 +93,11 @@ class Simulation:
     ) -> None:
         a_scene(scene)
         budget = Budget(max_events, max_seconds, max_memory)
-        recorder: Recorder | None = None
-        if proof is not None:
-            recorder = extension("proofs of a simulation")(proof)
+        observers = [] if proof is None else [extension("proofs of a simulation")(proof)]
         log = Log(scene) if record else None
-        self._run = begin(scene, tiling, budget, exact_only=exact_only, recorder=recorder, log=log)
+        self._run = begin(
+            scene, tiling, budget, exact_only=exact_only, observers=observers, log=log
+        )
         self._spaces = SpaceCache()
 
     @property

@@ -174,7 +174,7 @@ def test_a_path_crosses_few_diagonals_and_may_be_a_detour():
 def test_the_command_line_saves_the_scene_of_a_broken_invariant(tmp_path, monkeypatch, capsys):
     scene = ROOT / "exactpt" / "data" / "demo.json"
 
-    def broken(_):
+    def broken(*_):
         raise AuditError("broken on purpose")
 
     monkeypatch.setattr("exactpt.collision.driver.initial_touches", broken)
@@ -216,7 +216,7 @@ def test_the_library_saves_nothing(tmp_path, monkeypatch):
     """It raises; the scene is the caller's."""
     scene = Scene.load(ROOT / "exactpt" / "data" / "demo.json")
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    monkeypatch.setattr("exactpt.simulation.running.initial_touches", lambda _: 1 // 0)
+    monkeypatch.setattr("exactpt.collision.driver.initial_touches", lambda *_: 1 // 0)
 
     with pytest.raises(ZeroDivisionError):
         Simulation(scene)

@@ -102,6 +102,14 @@ def test_a_response_that_changes_nothing(tmp_path):
     assert "accepted: first contact at T = " in line
 
 
+def test_bug_the_contact_after_a_change_of_no_motion_had_no_proof(tmp_path):
+    simulation = Simulation(generate("stars", 6), proof=tmp_path)
+    list(simulation.run(on_contact=lambda run, _: run.set_motions({})))
+    before, line = all_accepted(tmp_path)
+    assert "accepted: no contact in " in before
+    assert "accepted: first contact at T = " in line
+
+
 @pytest.mark.long("python-keyframed")
 @pytest.mark.parametrize("family", ["stars", "deforming", "keyframed", "pieces", "clamps", "row"])
 def test_the_last_part_ends_with_the_contact(family, tmp_path):

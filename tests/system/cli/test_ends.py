@@ -59,7 +59,7 @@ def test_a_full_disk_is_told_in_one_line(scene, monkeypatch, unbuffered):
 
 
 def test_what_nobody_thought_of_is_a_bug_and_its_scene_is_kept(scene, monkeypatch, capsys):
-    def breaks(_):
+    def breaks(*_):
         raise ZeroDivisionError("nobody thought of this")
 
     monkeypatch.setattr("exactpt.collision.driver.initial_touches", breaks)
@@ -79,7 +79,7 @@ def test_what_nobody_thought_of_is_a_bug_and_its_scene_is_kept(scene, monkeypatc
 def test_the_scene_is_kept_not_what_is_written(scene, monkeypatch, capsys):
     old = scene.with_name("old.json")
     old.write_text("{}")
-    monkeypatch.setattr("exactpt.simulation.running.initial_touches", lambda _: 1 // 0)
+    monkeypatch.setattr("exactpt.collision.driver.initial_touches", lambda *_: 1 // 0)
 
     assert code_of("tile", "-o", old, scene) == 3
 
