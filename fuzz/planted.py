@@ -159,8 +159,8 @@ def _wrong_diagonal(right: Function) -> Function:
 def _first_body_only(right: Function) -> Function:
     """At the start only vertices and edges are tested, not containment."""
 
-    def wrong(scene: Any) -> Any:
-        touches, _ = right(scene)
+    def wrong(*args: Any) -> Any:
+        touches, _ = right(*args)
         return touches, sorted({(min(t.body, t.other), max(t.body, t.other)) for t in touches})
 
     return wrong
