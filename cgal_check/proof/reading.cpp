@@ -430,8 +430,8 @@ Body read_body(const Json& json, int first, const Rational& start) {
   const Json* closed = json.find("closed");
   if (closed && closed->kind != Json::Kind::boolean)
     throw NoProof("the scene has a body that is neither closed nor open");
-  if (const Json* radius = json.find("radius"))
-    if (exact_number(radius) != 0) throw NoProof("the scene has a radius: no proof is possible");
+  if (const Json* radius = json.find("radius")) body.radius = exact_number(radius);
+  if (sign(body.radius) < 0) throw NoProof("the scene has a radius below 0");
   const Pieces<Shape> shape = shapes(json);
   if (shape.all.front().empty()) throw NoProof("the scene has a body without vertices");
   std::size_t highest = json.find("keyframes") ? 1 : 0;

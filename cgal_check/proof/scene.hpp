@@ -37,6 +37,7 @@ struct Ring {
 
 struct Body {
   std::string name;
+  Rational radius = 0;
   int first = 0;  // the number of its first vertex in the scene
   int size = 0;
   bool is_polygon = false;

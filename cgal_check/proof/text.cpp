@@ -69,6 +69,12 @@ class Words {
     return fraction(text);
   }
 
+  Integer integer() {
+    const std::string_view text = look();
+    if (!is_integer(text)) fault("not an integer: " + shown(text));
+    return rational().get_num();
+  }
+
   int index() {
     const std::string_view text = word();
     if (text.size() > 9 || text.front() == '-' || !is_integer(text))
@@ -194,6 +200,75 @@ void expect(Words& words, std::initializer_list<std::string_view> expected) {
 }
 
 }  // namespace
+
+bool is_certificate(const std::string& bytes) {
+  const std::vector<Words> all = lines(bytes);
+  return !all.empty() && all[0].look() == "exactpt-apart";
+}
+
+ApartText parse_certificate(const std::string& bytes) {
+  std::vector<Words> all = lines(bytes);
+  if (!is_utf8(bytes)) throw NoProof("the file is not UTF-8");
+  if (all.size() < 4) throw NoProof("the certificate is not complete");
+  ApartText text;
+  expect(all[0], {"exactpt-apart", "1"});
+  expect(all[1], {"scene", "sha256"});
+  text.hash = all[1].word();
+  expect(all[2], {"span"});
+  text.span_line = all[2].number();
+  text.start = all[2].rational();
+  text.end = all[2].rational();
+  int stage = 0;  // lines are in this order: between, ignoring, distance, nodes
+  const auto reach = [&](Words& words, int next) {
+    if (stage > next || (stage == next && next == 2)) words.fault("a line is not in its place");
+    stage = next;
+  };
+  for (std::size_t i = 3; i + 1 < all.size(); ++i) {
+    Words& words = all[i];
+    const std::string kind(words.word());
+    if (kind == "between" || kind == "ignoring") {
+      reach(words, kind == "between" ? 0 : 1);
+      ChoiceText choice{words.number(), kind == "ignoring", {words.index(), words.index()}};
+      while (choice.is_group && !words.at_end()) choice.bodies.push_back(words.index());
+      text.choices.push_back(std::move(choice));
+    } else if (kind == "distance") {
+      reach(words, 2);
+      text.distance_line = words.number();
+      text.distance = words.rational();
+    } else if (kind == "c" || kind == "t" || kind == "s") {
+      reach(words, 3);
+      NodeText node{words.number(), kind[0], 0, 0, 0, 0};
+      if (kind == "c") {
+        node.x = words.integer();
+        node.y = words.integer();
+        node.c = words.rational();
+        if (!words.at_end()) node.v = words.rational();
+      } else if (kind == "s") {
+        node.body = words.index();
+        node.item = words.index();
+      } else if (!words.at_end()) {
+        node.has_time = true;
+        node.c = words.rational();
+      }
+      text.nodes.push_back(std::move(node));
+    } else {
+      words.fault("not a line of a certificate: " + shown(kind));
+    }
+  }
+  Words& last = all.back();
+  text.last_line = last.number();
+  text.kind = std::string(last.word());
+  if (text.kind == "meet" || text.kind == "inside" || text.kind == "cross") {
+    text.times.push_back(last.rational());
+    if (text.kind == "cross") text.times.push_back(last.rational());
+    text.first = last.index();
+    text.second = last.index();
+  } else if (text.kind != "none") {
+    last.fault("the last line is neither a contact nor 'none'");
+  }
+  for (const Words& words : all) words.end();
+  return text;
+}
 
 ProofText parse_proof(const std::string& bytes) {
   std::vector<Words> all = lines(bytes);

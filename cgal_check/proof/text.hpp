@@ -52,7 +52,38 @@ struct ProofText {
   std::optional<ContactText> contact;  // or "none"
 };
 
-// Throws NoProof, with the number of the line, if it is not in the format.
+// A certificate that bodies stay apart.
+struct ChoiceText {
+  std::size_t line;
+  bool is_group;  // "ignoring", else "between"
+  std::vector<int> bodies;
+};
+
+struct NodeText {
+  std::size_t line;
+  char kind;          // of a line, a time or items: c, t or s
+  Integer x, y;       // the direction of a line
+  Rational c, v;      // the place and speed of a line; the time
+  bool has_time = false;
+  int body = -1, item = -1;
+};
+
+struct ApartText {
+  std::string hash;
+  Rational start, end, distance;
+  std::size_t span_line = 0, distance_line = 0, last_line = 0;
+  std::vector<ChoiceText> choices;
+  std::vector<NodeText> nodes;
+  std::string kind;             // of the last line
+  std::vector<Rational> times;  // of a contact: one, or two
+  int first = -1, second = -1;
+};
+
+// Whether a file begins as a certificate does.
+bool is_certificate(const std::string& bytes);
+
+// Throw NoProof, with the number of the line, if it is not in the format.
+ApartText parse_certificate(const std::string& bytes);
 ProofText parse_proof(const std::string& bytes);
 
 }  // namespace proof

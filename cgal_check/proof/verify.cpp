@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "apart.hpp"
 #include "chain.hpp"
 #include "checker.hpp"
 #include "faults.hpp"
@@ -208,13 +209,37 @@ int answer_too_short(const ProofText& text) {
   return answer("rejected: proved up to " + text.end.get_str() + " only (see --until, --partial)", 1);
 }
 
+// Scenes with a radius have certificates, and no proofs.
+void refuse_radii(const Scene& scene) {
+  for (const Body& body : scene.bodies())
+    if (body.radius != 0) throw NoProof("the scene has a radius: no proof is possible");
+}
+
+int verify_certificate(const Call& call, const std::string& scene_bytes, const std::string& bytes) {
+  if (!call.expected.empty() || call.jobs != 1) throw NoProof(usage);
+  const ApartText text = parse_certificate(bytes);
+  const std::string hash = sha256(scene_bytes);
+  if (text.hash != hash)
+    throw NoProof("the certificate was made for a different scene: the hashes differ");
+  const Scene scene(scene_bytes);
+  const Statement found = check_apart(scene, text);
+  const bool is_enough = found.is_whole || call.is_partial ||
+                         (call.until && found.is_of_all && *call.until <= found.until);
+  if (!is_enough)
+    return answer("rejected: proved is only a part (see --until, --partial): accepted: " +
+                      hash.substr(0, 16) + " " + found.text, 1);
+  return answer("accepted: " + hash.substr(0, 16) + " " + found.text, 0);
+}
+
 int verify_pair(const Call& call) {
-  const std::string scene_bytes = bytes_of(call.paths[0]);
-  const ProofText text = parse_proof(bytes_of(call.paths[1]));
+  const std::string scene_bytes = bytes_of(call.paths[0]), bytes = bytes_of(call.paths[1]);
+  if (is_certificate(bytes)) return verify_certificate(call, scene_bytes, bytes);
+  const ProofText text = parse_proof(bytes);
   const std::string hash = sha256(scene_bytes);
   if (text.hash != hash)
     throw NoProof("the proof is of another scene: the hash of its file is another one");
   Scene scene(scene_bytes);
+  refuse_radii(scene);
   const std::string expected = call.expected.empty() ? "" : bytes_of(call.expected);
   const std::string* wanted = call.expected.empty() ? nullptr : &expected;
   const Verdict found = call.jobs == 1 ? verdict(scene, text, wanted, 0, 1)
@@ -236,6 +261,7 @@ int verify_folder(const Call& call) {
     const ProofText text = parse_proof(proof_bytes);
     if (text.hash != sha256(scene_bytes)) throw NoProof("the proof is of another scene" + where);
     Scene scene(scene_bytes);
+    refuse_radii(scene);
     const Verdict found = call.jobs == 1 ? verdict(scene, text, nullptr, 0, 1)
                                          : by_processes(scene, text, nullptr, call.jobs);
     if (found.code != 0) return answer_failure(found, where);
@@ -260,7 +286,8 @@ int guarded(const std::function<int()>& verification) {
   } catch (const NoProof& fault) {
     return answer(std::string("no proof: ") + fault.what(), 2);
   } catch (const Rejected& fault) {
-    return answer(std::string("rejected: ") + fault.what(), 1);
+    const std::string where = fault.line ? "line " + std::to_string(fault.line) + ": " : "";
+    return answer("rejected: " + where + fault.what(), 1);
   } catch (const Exhausted& fault) {
     return answer(std::string("not decided: ") + fault.what(), 4);
   } catch (const std::exception& fault) {

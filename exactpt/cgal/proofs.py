@@ -16,7 +16,10 @@ _ACCEPTED: Final = 0
 _REJECTED: Final = 1
 _NO_PROOF: Final = 2
 _NOT_DECIDED: Final = 4
-_PARTIAL: Final = re.compile(r"no contact in \[\S+ (\S+)\]; the span of the scene is ")
+_UNTIL: Final = re.compile(
+    r"no (?:contact|two bodies .*?) in \[\S+ (\S+)\]; the span of the scene is "
+)
+_PARTIAL: Final = re.compile("; (the span of the scene is|between b|ignoring b)")
 
 
 class ProofVerdict(NamedTuple):
@@ -38,12 +41,12 @@ class ProofVerdict(NamedTuple):
     @property
     def whole(self) -> bool:
         """True if the proof holds, and answers for the whole time span of the scene."""
-        return self.accepted and self.until is None
+        return self.accepted and not _PARTIAL.search(self.line)
 
     @property
     def until(self) -> str | None:
         """The rational end of the span without contact, if it is before that of the scene."""
-        found = _PARTIAL.search(self.line) if self.accepted else None
+        found = _UNTIL.search(self.line) if self.accepted else None
         return found[1] if found else None
 
 
@@ -55,7 +58,7 @@ def check_proof(
     program: str | Path | None = None,
     max_seconds: float | None = None,
 ) -> ProofVerdict:
-    """Have cgal_check verify a proof, which may end before the scene: see `ProofVerdict.whole`.
+    """Have cgal_check verify a proof or certificate, of a part too: see `ProofVerdict.whole`.
 
     Args:
         scene: the path of the scene's file.

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from exactpt import InputError, Scene, proof_check
+from exactpt import InputError, Scene, check_apart, proof_check
 
 DOCUMENTS = {
     f"{path.stem}: {document['name']}": document
@@ -41,7 +41,8 @@ def test_there_are_documents_of_each_class():
 
 @pytest.mark.parametrize("document", DOCUMENTS.values(), ids=DOCUMENTS)
 def test_the_checker_in_python(document, tmp_path, capsys):
-    assert proof_check.main(written(document, tmp_path)) == document["expected"]
+    checker = check_apart if document["proof"].startswith("exactpt-apart") else proof_check
+    assert checker.main(written(document, tmp_path)) == document["expected"]
     said = capsys.readouterr()
     if "says" in document:
         assert said.out == line_of(document)
