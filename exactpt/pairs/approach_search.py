@@ -51,16 +51,20 @@ class ApproachSearch:
         squared: the squares of the distances.
         reach: a number for each body; no two bodies keep a distance larger than their sum.
         apart: which pairs keep a distance; by default all of different bodies.
+        swept: the boxes of the vertices, if these are known.
     """
 
     def __init__(
-        self, scene: Scene, squared: Limit, reach: Sequence[QQ], apart: Apart = np.not_equal
+        self,
+        scene: Scene,
+        squared: Limit,
+        reach: Sequence[QQ],
+        apart: Apart = np.not_equal,
+        swept: SweptEdges | None = None,
     ) -> None:
-        self._scene = scene
         self._squared = squared
-        self._reach = reach
         self._apart = apart
-        self._swept = SweptEdges(scene.bodies, scene._start, scene._end)
+        self._swept = swept or SweptEdges(scene.bodies, scene._start, scene._end)
         frame = self._swept.vertices.frame
         # Units of both axes, relative to the smaller one: powers of two.
         unit = min(frame.scale)
@@ -71,11 +75,12 @@ class ApproachSearch:
 
     def run(self) -> Meeting | None:
         """The first approach, if no two bodies are within their distance at the start."""
-        for now, later, near in self._swept.slabs(self._near):
-            found = self._search(now, later, self._left(now, later, near), DEPTH)
-            if found is not None:
-                return found
-        return None
+        found = (self.first(*slab) for slab in self._swept.slabs(self.near))
+        return next((meeting for meeting in found if meeting is not None), None)
+
+    def first(self, now: QQ, later: QQ, near: Near) -> Meeting | None:
+        """The first approach in (now, later] of the candidates of this slab."""
+        return self._search(now, later, self._left(now, later, near), DEPTH)
 
     def _boxes(self, now: QQ, later: QQ) -> Boxes:
         """The boxes of the vertices in the smaller unit; the products are exact.
@@ -91,7 +96,7 @@ class ApproachSearch:
                 sides[:] = -np.inf, np.inf
         return boxes
 
-    def _near(self, now: QQ, later: QQ) -> Near:
+    def near(self, now: QQ, later: QQ) -> Near:
         """The numbers of vertices and of edges of other bodies that may be near in a slab."""
         boxes = self._boxes(now, later)
         of_edges = self._swept.around(boxes)

@@ -33,9 +33,11 @@ from exactpt.kernel.budget import ask, searching
 from exactpt.kernel.counters import Counters
 from exactpt.kernel.doubles import Indices
 from exactpt.kernel.numbers import QQ, fraction
+from exactpt.motion.incidence import Touch
 from exactpt.motion.swept_edges import Near, SweptEdges
+from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.contact import Contact, contact_of
-from exactpt.pairs.radius import first_with_radii
+from exactpt.pairs.rational import Earliest, Meeting
 from exactpt.pairs.selection import groups_of
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
@@ -49,6 +51,9 @@ FEW: Final = 64
 @final
 class PairsSearch:
     """A search for the first contact.
+
+    Two bodies of which one has a radius touch where the distance of their cores is the sum of the
+    radii (`ApproachSearch`); a body with a radius does not touch itself.
 
     Args:
         scene: the bodies, their motions and the time span.
@@ -77,8 +82,9 @@ class PairsSearch:
         self._exact_only = exact_only
         self._deadline = None if max_seconds is None else clock.monotonic() + max_seconds
         self._counters = Counters()
-        self._ignoring = list(ignoring), ignoring_self
-        self._group: Indices = np.array(groups_of(scene, self._ignoring[0]), dtype=np.int64)
+        self._group: Indices = np.array(groups_of(scene, ignoring), dtype=np.int64)
+        has_radius = [body._radius > 0 for body in scene.bodies]
+        self._has_radius: NDArray[np.bool_] = np.array(has_radius, dtype=np.bool_)
         alone = [body.name in ignoring_self for body in scene.bodies]
         self._ignores_self: NDArray[np.bool_] = np.array(alone, dtype=np.bool_)
         self.certificates = 0
@@ -133,31 +139,7 @@ class PairsSearch:
         if overlaps:
             seen = [touch for touch in initial if not self._ignores(touch.body, touch.other)]
             return contact_of(scene, AlgebraicNumber(scene._start), seen, overlaps)
-        if not scene.bodies:
-            return None
-        if not scene.is_rounded:
-            return self._run()
-        self._passed = scene._start
-        try:
-            return first_with_radii(scene, self._group, self._without_radius())
-        except BudgetExceeded as spent:
-            spent.reached = self.passed()  # what is known of some bodies is not known of all
-            raise
-
-    def _without_radius(self) -> Contact | None:
-        """Return the first contact of the bodies without radius."""
-        bodies = [body for body in self._scene.bodies if not body._radius]
-        names = {body.name for body in bodies}
-        groups, alone = self._ignoring
-        search = PairsSearch(
-            self._scene.going_on(bodies, self._scene._start),
-            exact_only=self._exact_only,
-            ignoring=[[name for name in group if name in names] for group in groups],
-            ignoring_self=names.intersection(alone),
-        )
-        contact = search.run_to_contact()
-        self.certificates, self._counters = search.certificates, search._counters
-        return contact
+        return self._run() if scene.bodies else None
 
     @cached_property
     def _swept(self) -> SweptEdges:
@@ -170,14 +152,49 @@ class PairsSearch:
     def _run(self) -> Contact | None:
         """Search slab by slab."""
         self._passed = self._scene._start
+        approaches = self._approaches
         for now, later, near in self._swept.slabs(self._near):
             if self._deadline is not None and clock.monotonic() > self._deadline:
                 raise BudgetExceeded("the time is used up", fraction(now))
-            contact = self._search(now, later, near)
-            if contact is not None:
-                return contact
+            sharp, rounded = self._split(near)
+            best: Earliest[Touch] = Earliest()
+            for found in (
+                self._search(now, later, sharp),
+                approaches and approaches.first(now, later, rounded),
+            ):
+                if found is not None:
+                    best.add(*found)
+            if best.number is not None:
+                return contact_of(self._scene, best.number, best.found)
             self._passed = later
         return None
+
+    @cached_property
+    def _approaches(self) -> ApproachSearch | None:
+        """The search for contacts of bodies with a radius; None if none has one."""
+        scene = self._scene
+        if not scene.is_rounded:
+            return None
+        radii = [body._radius for body in scene.bodies]
+
+        def squared(i: int, j: int) -> QQ:
+            return (radii[i] + radii[j]) ** 2
+
+        def apart(i: Indices, j: Indices) -> NDArray[np.bool_]:
+            watched: NDArray[np.bool_] = (self._has_radius[i] | self._has_radius[j]) & (i != j)
+            watched &= self._group[i] != self._group[j]
+            return watched
+
+        return ApproachSearch(scene, squared, radii, apart, self._swept)
+
+    def _split(self, near: Near) -> tuple[Near, Near]:
+        """Pairs of a vertex and an edge of bodies without radius, and all others."""
+        v, e = near
+        if self._approaches is None:
+            return near, (v[:0], e[:0])
+        swept = self._swept
+        rounded = self._has_radius[swept.body[v]] | self._has_radius[swept.body[swept.ends[e, 0]]]
+        return (v[~rounded], e[~rounded]), (v[rounded], e[rounded])
 
     def _near(self, now: QQ, later: QQ) -> Near:
         """Candidate pairs in a slab: numbers of vertices and of edges whose swept boxes meet."""
@@ -187,6 +204,10 @@ class PairsSearch:
             may = self._may_touch(v, e, boxes)
             vs.append(v[may])
             es.append(e[may])
+        if self._approaches is not None:
+            v, e = self._approaches.near(now, later)
+            vs.append(v)
+            es.append(e)
         return np.concatenate(vs), np.concatenate(es)
 
     def _may_touch(self, v: Indices, e: Indices, boxes: NDArray[np.float64]) -> NDArray[np.bool_]:
@@ -206,14 +227,17 @@ class PairsSearch:
         meet = (np.maximum(p, q)[:, ::2] <= np.minimum(p, q)[:, 1::2]).all(axis=1)
         lasts = (v == b) | ((v == a) & ~meet)
         ignored = (self._group[i] == self._group[j]) & ((i != j) | self._ignores_self[i])
-        may: NDArray[np.bool_] = ~(together | rigid | ignored | lasts)
+        rounded = self._has_radius[i] | self._has_radius[j]
+        may: NDArray[np.bool_] = ~(together | rigid | ignored | lasts | rounded)
         return may
 
     def _ignores(self, i: int, j: int) -> bool:
         return bool(self._group[i] == self._group[j] and (i != j or self._ignores_self[i]))
 
-    def _search(self, now: QQ, later: QQ, near: Near) -> Contact | None:
-        """The first contact in (now, later]."""
+    def _search(self, now: QQ, later: QQ, near: Near) -> Meeting | None:
+        """The first contact in (now, later] of bodies without radius."""
+        if not len(near[0]):
+            return None
         vertices, ids, ends = self._swept.vertices, self._swept.ids, self._swept.ends
         certifier = Certifier(vertices, now, later, exact_only=self._exact_only)
         a, b = ends[near[1]].T
@@ -250,6 +274,4 @@ class PairsSearch:
         # `_may_touch` cannot start to touch.
         features = sorted({*near[0].tolist(), *ends[near[1]].ravel().tolist()})
         found = touches(certifier, vertices, [ids[i] for i in features])
-        return contact_of(
-            self._scene, best, [t for t in found if not self._ignores(t.body, t.other)]
-        )
+        return Meeting(best, [t for t in found if not self._ignores(t.body, t.other)])
