@@ -257,6 +257,23 @@ class PosePath(Pieces):
         """The largest error of the translation."""
         return fraction(self._place_error)
 
+    def with_place_error(self, more: Rational) -> PosePath:
+        """Return the same pieces for a true path that is known less well.
+
+        Args:
+            more: the largest distance, >= 0, between the translation of the true path and that of
+                this one. It is added to the `place_error`. So a joint of an arm, whose path is no
+                polynomial, is followed by a fitted one (examples/robot_arm.py).
+
+        Raises:
+            InputError: if it is negative.
+        """
+        further = rational(more)
+        if further < 0:
+            raise InputError(f"a place_error is not negative: {show(further)}")
+        total = self._place_error + further
+        return PosePath.of_pieces(self.pieces, self._times, self._poses, self._error, total)
+
     def pose(self, t: Rational) -> tuple[Fraction, Fraction, Fraction]:
         """Return x, y and the angle of the path itself at a time."""
         x, y, angle = fractions(self._pose(rational(t)))

@@ -309,3 +309,21 @@ def test_a_path_excludes_a_spin():
         Scene.from_json(data)
     with pytest.raises(proof_check.NoProofError, match="both a spin and a path"):
         proof_check.Scene(json.dumps(data))
+
+
+def test_a_path_that_is_known_less_well_has_wider_bounds():
+    path = PosePath([0, 2], [([0, 1], 0, [0, 1])], error="1/1000")
+    wide = path.with_place_error("1/100")
+    wall = Body("wall", [(2, -9), (2, 9)])
+    low, far = (
+        first_contact_enclosed(Scene([Body("b", [(0, 0), (1, 0)], p), wall], time=(0, 2))).low
+        for p in (path, wide)
+    )
+
+    assert (wide.place_error, wide.error, wide.pieces) == (
+        Fraction(1, 100), path.error, path.pieces,
+    )  # fmt: skip
+    assert wide.with_place_error("1/100").place_error == Fraction(1, 50)
+    assert low > far
+    with pytest.raises(InputError, match="a place_error is not negative: -1"):
+        path.with_place_error(-1)

@@ -71,6 +71,7 @@ ARGUMENTS = {
     "sign_of": ((-1, 1),),
     "until": (8.75,),
     "velocity_at": ("1/3",),
+    "with_place_error": ("1/3",),
     "with_radius": ("1/3",),
     "with_motion": (Translation([0, "1/3"]),),
 }
