@@ -18,7 +18,7 @@ from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.kernel.rounding import SLACK, TINY
 from exactpt.motion.body import Body
 from exactpt.motion.outline import Outline
-from exactpt.pairs.oriented import K, OrientedBoxes, times_between
+from exactpt.pairs.oriented import CHUNK, K, OrientedBoxes, times_between
 
 if TYPE_CHECKING:
     from exactpt.pairs.pieces import MotionPiece
@@ -151,20 +151,31 @@ class PieceBoxes:
         The bounds of `exactpt.pairs.filters.window`; the first is larger than the second
         if they do not meet.
         """
-        first = np.maximum(np.maximum(self._start[i], self._start[j]), low)
-        last = np.minimum(np.minimum(self._end[i], self._end[j]), high)
-        reach = np.maximum(np.abs(first), np.abs(last))
-        c, w = self._c[i] - self._c[j], self._v[i] - self._v[j]
-        off = self._c_error[i] + self._c_error[j] + (self._v_error[i] + self._v_error[j]) * reach
-        off = (off[:, None] + K * (np.abs(c) + np.abs(w) * reach[:, None])) * SLACK + TINY
-        least, most = self._low[j] - self._high[i], self._high[j] - self._low[i]
-        margin = 2.0 * off + K * (np.abs(c) + np.abs(least) + np.abs(most))
-        begin, end = least - margin - c, most + margin - c
-        enter, leave = times_between(begin, end, w)
-        # fmax and fmin take the other number instead of a NaN, which excludes no time.
-        first = np.fmax(first, np.fmax(enter[:, 0], enter[:, 1]))
-        last = np.fmin(last, np.fmin(leave[:, 0], leave[:, 1]))
+        n = len(i)
+        first, last = np.full(n, low), np.full(n, high)
+        for k in range(0, n, CHUNK):
+            some = slice(k, k + CHUNK)
+            self._narrow(i[some], j[some], first[some], last[some])
         return first, last
+
+    def _narrow(self, i: Indices, j: Indices, low: Floats, high: Floats) -> None:
+        """Narrow times to those at which the boxes of two pieces meet, in place."""
+        # fmax and fmin take the other number instead of a NaN, which excludes no time.
+        for start, end in ((self._start[i], self._end[i]), (self._start[j], self._end[j])):
+            np.fmax(low, start, out=low)
+            np.fmin(high, end, out=high)
+        reach = np.maximum(np.abs(low), np.abs(high))
+        off = self._c_error[i] + self._c_error[j] + (self._v_error[i] + self._v_error[j]) * reach
+        bounds = zip(self._c.T, self._v.T, self._low.T, self._high.T, strict=True)
+        for c, v, least, most in bounds:
+            z, w = c[i] - c[j], v[i] - v[j]
+            begin, end = least[j] - most[i], most[j] - least[i]
+            size = np.abs(z)
+            margin = 2.0 * ((off + K * (size + np.abs(w) * reach)) * SLACK + TINY)
+            margin += K * (size + np.abs(begin) + np.abs(end))
+            enter, leave = times_between(begin - margin - z, end + margin - z, w)
+            np.fmax(low, enter, out=low)
+            np.fmin(high, leave, out=high)
 
     def narrow(self, i: Indices, j: Indices, low: Floats, high: Floats) -> None:
         """Narrow bounds of the times at which two pieces meet by oriented boxes, in place."""
@@ -245,8 +256,7 @@ def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[flo
             if (i, j) not in seen:
                 seen.add((i, j))
                 yield time, i, j
-        if len(first) < many:
-            step *= 4
+        step *= min(4.0, max(1.0, many / (len(first) + 1)))  # as if each time had as many pairs
         if not later > now:
             later = float(np.nextafter(now, np.inf))
         now = later

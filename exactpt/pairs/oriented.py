@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.motion.outline import Outline
 
-__all__ = ["K", "OrientedBoxes", "times_between"]
+__all__ = ["CHUNK", "K", "OrientedBoxes", "times_between"]
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
@@ -121,11 +121,16 @@ def _across(a: Floats, b: Floats, low: Floats, high: Floats) -> None:
 
 
 def times_between(begin: Floats, end: Floats, w: Floats) -> tuple[Floats, Floats]:
-    """Bounds of the times t with begin <= w t <= end; the first is infinite if there is none."""
-    enter = np.where(w > 0.0, begin, end) / w
-    leave = np.where(w > 0.0, end, begin) / w
+    """Return bounds of the times t with begin <= w t <= end, where begin <= end.
+
+    The first bound is infinite if there is no such time, as w is 0. NaN stands for no bound.
+    """
+    enter, leave = begin / w, end / w
+    enter, leave = np.minimum(enter, leave), np.maximum(enter, leave)
+    enter -= U4 * np.abs(enter) + TINY
+    leave += U4 * np.abs(leave) + TINY
     still = w == 0.0
-    beside = still & ((begin > 0.0) | (end < 0.0))
-    enter = np.where(still, -np.inf, enter - U4 * np.abs(enter) - TINY)
-    leave = np.where(still, np.inf, leave + U4 * np.abs(leave) + TINY)
-    return np.where(beside, np.inf, enter), leave
+    if still.any():
+        enter[still], leave[still] = -np.inf, np.inf
+        enter[still & ((begin > 0.0) | (end < 0.0))] = np.inf
+    return enter, leave
