@@ -31,11 +31,11 @@ __all__ = ["CHANGES", "EVENTS", "NOTHING", "TIMES", "Driver", "Observer"]
 NOTHING: Final = 0
 """Listen only to the start, the end, and changes of motions."""
 TIMES: Final = 1
-"""Listen to event times (`Observer.passed`); events are not recorded."""
+"""Listen to event times too (`Observer.passed`); events are not recorded."""
 EVENTS: Final = 2
-"""Listen to the events of each event time (`Observer.happened`)."""
+"""Listen to the events of each event time too (`Observer.happened`)."""
 CHANGES: Final = 3
-"""Listen to the half-edges changed at each event time (`Observer.changed`)."""
+"""Listen to the changed half-edges too (`Observer.changed`)."""
 
 MANY: Final = 64
 """Number of event times between two checks of the budget, if nothing listens."""
@@ -56,19 +56,18 @@ class Observer:
     def before(self, scene: Scene, tiling: Tiling) -> None:
         """Time is about to pass; the scene is that since the last change of motions."""
 
-    def passed(self, tiling: Tiling) -> None:
-        """An event time has been processed, which is now."""
+    def changed(self, changed: set[HalfEdge] | None) -> None:
+        """An event time has been processed, or none was left up to a time, which is now.
+
+        Args:
+            changed: see `Tiling.changes`.
+        """
 
     def happened(self, tiling: Tiling, events: Sequence[TilingEvent]) -> None:
         """An event time has been processed, which is now, with these events."""
 
-    def changed(self, tiling: Tiling, changed: set[HalfEdge] | None) -> None:
-        """An event time has been processed, or none was left up to a time, which is now.
-
-        Args:
-            tiling: the tiling just after it.
-            changed: see `Tiling.changes`.
-        """
+    def passed(self, tiling: Tiling) -> None:
+        """An event time has been processed, which is now."""
 
     def reached(self, tiling: Tiling) -> None:
         """No event was left up to a time, which is now."""
@@ -185,8 +184,7 @@ class Driver:
             self._advance_unobserved(until)
         else:
             while (events := self._advance(until, level)) is not None:
-                self.count(len(events))
-                self.check_time()
+                self.spend(len(events))
         return None if self.touches is None else self.meet()
 
     def meet(self) -> Contact:
@@ -213,6 +211,11 @@ class Driver:
         """
         if not self.budget.spend(events):
             raise BudgetExceeded("the number of events is used up", self.reached())
+
+    def spend(self, events: int) -> None:
+        """Count events, and check the time limit, see `count` and `check_time`."""
+        self.count(events)
+        self.check_time()
 
     def check_time(self) -> None:
         """Check the time limit of the budget; between two events, so that the run can go on.
@@ -278,11 +281,12 @@ class Driver:
         levels = [observer.listens_to for observer in self.observers]
         changed = tiling.changes() if CHANGES in levels else None
         for level, observer in zip(levels, self.observers, strict=True):
-            if level == CHANGES:
-                observer.changed(tiling, changed)
-            elif events is None:
+            if level >= CHANGES:
+                observer.changed(changed)
+            if events is None:
                 observer.reached(tiling)
-            elif level == TIMES:
-                observer.passed(tiling)
-            elif level == EVENTS:
+                continue
+            if level >= EVENTS:
                 observer.happened(tiling, events)
+            if level >= TIMES:
+                observer.passed(tiling)

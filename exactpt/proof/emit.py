@@ -88,7 +88,7 @@ class ProofRun:
         part = Part(driver.kinetic, self.nodes, self.maker, made.extend)
         driver.observers.append(part)
         while (events := driver.advance(scene._end)) is not None:
-            driver.count(len(events))
+            driver.spend(len(events))
             yield from made
             made.clear()
         if driver.touches is None:
@@ -125,9 +125,9 @@ class Part(Observer):
         self._last = AlgebraicNumber(nodes.scene._start)
         self._put(self._maker.faces(self.watch.first()))
 
-    def changed(self, tiling: Tiling, changed: set[HalfEdge] | None) -> None:
+    def changed(self, changed: set[HalfEdge] | None) -> None:
         """See `Observer.changed`."""
-        if self._held is None or self._held.time.compare(tiling.now) < 0:
+        if self._held is None or self._held.time.compare(self.watch.now) < 0:
             self._release()
             self._held = self.watch.step(changed)
 

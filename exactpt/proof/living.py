@@ -75,11 +75,11 @@ class ProofFolder(Observer):
             refuse_degrees(scene.bodies)
             self._begin(scene.going_on(scene.bodies, tiling.now._low), tiling)
 
-    def changed(self, tiling: Tiling, changed: set[HalfEdge] | None) -> None:
+    def changed(self, changed: set[HalfEdge] | None) -> None:
         """See `Observer.changed`."""
         if self._part is not None:
-            self._part.changed(tiling, changed)
-            if tiling.now.compare_rational(self._end) >= 0:
+            self._part.changed(changed)
+            if self._part.watch.now.compare_rational(self._end) >= 0:
                 self.change(self._end)
 
     def change(self, t: QQ) -> None:

@@ -6,19 +6,21 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, final
 
 from exactpt.collision.detector import first_contact
-from exactpt.indices import VertexId
+from exactpt.collision.driver import Driver
+from exactpt.errors import carrying
 from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.budget import Budget, searching
 from exactpt.render.tracker import EdgeSpan, TileSpan, Tracker
-from exactpt.simulation.simulation import Simulation
+from exactpt.tiling.start import plan_tiling
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from exactpt.certificates.queue import EventTime
     from exactpt.kernel.numbers import QQ
     from exactpt.pairs.contact import Contact
     from exactpt.scene.scene import Scene
-    from exactpt.simulation.event import Event
+    from exactpt.tiling.events import TilingEvent
+    from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Change", "Film", "Step", "film_of"]
 
@@ -111,36 +113,32 @@ def film_of(
         return _without_tiling(
             scene, "no", first_contact(scene, tiling=tiling, max_seconds=max_seconds)
         )
-    simulation = Simulation(scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
-    kinetic = simulation.kinetic
-    if kinetic is None:
-        return _without_tiling(scene, simulation.name, simulation.contact)
-    node = kinetic.vertices.nodes()
-    node_of = {kinetic.vertices.name(VertexId(v)): n for v, n in enumerate(node)}
-    tracker = Tracker(kinetic, node)
-    taken: list[Step] = []
-    latest: EventTime | None = None
-    for event in simulation.run():
-        now = kinetic.certifier.now
-        change = _change(event, node_of)
-        if now is latest:
-            taken[-1].changes.append(change)
-            continue
-        latest = now
-        if reached is not None:
-            reached(event.time)
-        certificate = tuple(node[v] for v in (now.a, now.b, now.c) if v >= 0)
-        taken.append(Step(event.time, [change], certificate))
-        if simulation.contact is None:
-            tracker.update(len(taken))
-    return Film(
-        scene,
-        simulation.name,
-        tuple(taken),
-        tuple(tracker.edges),
-        tuple(tracker.tiles),
-        simulation.contact,
-    )
+    budget = Budget(max_events, max_seconds)
+    driver = Driver(lambda: scene, budget=budget)
+    with carrying(lambda: scene), searching(None, driver.passed), budget.held():
+        plan = plan_tiling(scene, tiling, scene._start)
+        contact = driver.start(plan)
+        if contact is not None:
+            return _without_tiling(scene, plan.name, contact)
+        node = driver.kinetic.vertices.nodes()
+        tracker = Tracker(driver.kinetic, node)
+        driver.observers.append(tracker)
+        steps: list[Step] = []
+        while (events := driver.advance(scene._end)) is not None:
+            if events:
+                changes = [_change(event, node) for event in events]
+                steps.append(_step(driver.kinetic, node, changes))
+                tracker.update(len(steps))
+                if reached is not None:
+                    reached(steps[-1].time)
+            driver.spend(len(events))
+        if driver.touches is not None:
+            contact = driver.meet()
+            steps.append(_step(driver.kinetic, node, [Change("contact", (), ())]))
+            if reached is not None:
+                reached(contact.time)
+    edges, tiles = tuple(tracker.edges), tuple(tracker.tiles)
+    return Film(scene, plan.name, tuple(steps), edges, tiles, contact)
 
 
 def _without_tiling(scene: Scene, name: str, contact: Contact | None) -> Film:
@@ -151,8 +149,15 @@ def _without_tiling(scene: Scene, name: str, contact: Contact | None) -> Film:
     return Film(scene, name, steps, (), (), contact)
 
 
-def _change(event: Event, node_of: dict[str, int]) -> Change:
+def _step(kinetic: Tiling, node: list[int], changes: list[Change]) -> Step:
+    """The step of the event time that is now."""
+    now = kinetic.certifier.now
+    certificate = tuple(node[v] for v in (now.a, now.b, now.c) if v >= 0)
+    return Step(kinetic.now, changes, certificate)
+
+
+def _change(event: TilingEvent, node: list[int]) -> Change:
     removed, added = (
-        tuple((node_of[u], node_of[v]) for u, v in pairs) for pairs in (event.removed, event.added)
+        tuple((node[u], node[v]) for u, v in edges) for edges in (event.removed, event.added)
     )
     return Change(event.kind, removed, added)

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Final, NamedTuple, final
 
+from exactpt.collision.driver import CHANGES, Observer
 from exactpt.indices import HalfEdge
 from exactpt.pseudotriangulation.mesh import F2, FREE, INSIDE, OUTER, SOLID, Tile
 from exactpt.render.palette import TINTS
@@ -75,13 +76,15 @@ class _Tile:
 
 
 @final
-class Tracker:
+class Tracker(Observer):
     """Observes the mesh of a kinetic tiling.
 
     Args:
-        kinetic: the tiling; to be reported by `update` after each step.
+        kinetic: the tiling, which `update` reads after each step.
         node: for every moving vertex, the vertex of the scene that it is or copies.
     """
+
+    listens_to: int = CHANGES
 
     def __init__(self, kinetic: Tiling, node: list[int]) -> None:
         self._kinetic = kinetic
@@ -96,6 +99,8 @@ class Tracker:
         self._edges: dict[tuple[int, int], tuple[str, int]] = {}
         self._gone_tiles: list[TileSpan] = []
         self._gone_edges: list[EdgeSpan] = []
+        self._known: set[HalfEdge] | None = None
+        kinetic.changes()  # those before the first step
         self.update(0)
 
     @property
@@ -111,6 +116,13 @@ class Tracker:
             EdgeSpan(*key, kind, since, None) for key, (kind, since) in self._edges.items()
         ]
 
+    def changed(self, changed: set[HalfEdge] | None) -> None:
+        """See `Observer.changed`; the half-edges are for the next update."""
+        if changed is None or self._known is None:
+            self._known = None
+        else:
+            self._known |= changed
+
     def update(self, step: int) -> None:
         """Record the changes since the last call; the present state holds from ``step`` on.
 
@@ -118,7 +130,7 @@ class Tracker:
         half-edge has another origin or predecessor. Labels change anywhere.
         """
         mesh = self._kinetic.mesh_after()
-        m, known = mesh.map, self._kinetic.changes()
+        m, known, self._known = mesh.map, self._known, set()
         more = len(m.origin) - len(self._tile_of)
         self._tile_of += [-1] * more
         self._seen += [None] * more
