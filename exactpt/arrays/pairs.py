@@ -13,7 +13,7 @@ from exactpt.arrays.motions import relative_motions
 from exactpt.arrays.outlines import outlines_of
 from exactpt.arrays.spans import exact, read_spans
 from exactpt.errors import InputError
-from exactpt.kernel.doubles import Indices, first_true, indices
+from exactpt.kernel.doubles import Indices, finite_rows, first_true, indices
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene, scene_of
@@ -62,27 +62,42 @@ def first_contacts(
         closed: for each body or for all, False for an open chain.
         radii: for each body or for all, its radius.
         time: the start and the end of the closed time span, or of shape (m, 2) one for each pair.
-        errors: "mask" leaves pairs with a body that is not simple without an answer
-            (`Contacts.refused`, `Contacts.reasons`); "raise" raises an error for the first one.
+        errors: "mask" leaves pairs with a body that is not simple, or has a number that is not
+            finite, without an answer (`Contacts.refused`, `Contacts.reasons`); "raise" raises an
+            error for the first one.
 
     Raises:
-        InputError: if the shapes do not match, a value is not a finite double, a span is empty,
-            or, unless errors are masked, a body of a pair is not simple.
+        InputError: if the shapes do not match, a span is empty, or, unless errors are masked, a
+            value is not a finite double or a body of a pair is not simple.
     """
     masked = masks(errors)
+    faults: dict[str, dict[int, str]] = {}
+
+    def read(values: ArrayLike, what: str) -> ArrayLike:
+        if not masked:
+            return values
+        array, faults[what] = finite_rows(values, what)
+        return array
+
     bodies = BodyArrays(
-        vertices,
+        read(vertices, "vertices"),
         offsets,
-        velocities=velocities,
-        coefficients=coefficients,
+        velocities=None if velocities is None else read(velocities, "velocities"),
+        coefficients=None if coefficients is None else read(coefficients, "coefficients"),
         closed=closed,
-        radii=radii,
+        radii=read(radii, "radii"),
     )
+    wrong: dict[int, str] = {}
+    for what, found in faults.items():
+        for row, why in found.items():
+            is_vertex = what == "vertices"
+            k = int(np.searchsorted(bodies.offsets, row, "right")) - 1 if is_vertex else row
+            wrong.setdefault(k, why)
     ij = _pairs(pairs, len(bodies))
     spans = read_spans(time, len(ij))
     used = np.zeros(len(bodies), dtype=np.bool_)
     used[ij.ravel()] = True
-    wrong: dict[int, str] = {}
+    used[list(wrong)] = False
     for k in bodies.doubtful(np.flatnonzero(used)):
         try:
             check_simple(bodies.make(k), QQ(0))
@@ -100,17 +115,19 @@ def first_contacts(
     if wrong:
         for m in np.flatnonzero(np.isin(ij, list(wrong)).any(axis=1)).tolist():
             contacts.refuse(m, next(wrong[k] for k in ij[m].tolist() if k in wrong))
-    outlines = outlines_of(bodies)
     with np.errstate(over="ignore"):
         reach = bodies.radii[ij].sum(axis=1)
     for some, of in ((reach == 0.0, None), (reach > 0.0, reach)):
         rows = np.flatnonzero(some & ~contacts.refused)
         for first in range(0, len(rows), BLOCK):
             part = rows[first : first + BLOCK]
-            (i, j), times = ij[part].T, spans.at(part)
-            motions = relative_motions(bodies.coefficients, i, j, times)
+            numbers, local = np.unique(ij[part], return_inverse=True)
+            here, times = bodies.take(numbers), spans.at(part)
+            i, j = local.reshape(-1, 2).T
+            motions = relative_motions(here.coefficients, i, j, times)
             reaches = None if of is None else of[part]
-            Block(outlines, bodies, contacts, part, i, j, times, motions, reaches).answer()
+            outlines = outlines_of(here)
+            Block(outlines, here, contacts, part, i, j, times, motions, reaches).answer()
     return contacts
 
 

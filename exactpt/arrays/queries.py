@@ -18,7 +18,7 @@ from exactpt.errors import InputError
 from exactpt.geometry.ragged import Flags
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.double_double import exact_difference
-from exactpt.kernel.doubles import Floats, Indices, doubles
+from exactpt.kernel.doubles import Floats, Indices, doubles, finite_rows
 from exactpt.kernel.numbers import QQ, show
 from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.motion.body import Body
@@ -32,6 +32,8 @@ __all__ = ["point_segment_contacts"]
 
 CHUNK: Final = 1 << 14
 """Number of queries at a time: their arrays fit a cache."""
+APART: Final = np.array([0.0, 1.0, 0.0, 0.0, 1.0, 0.0, *([0.0] * 6)])
+"""A query without a contact, instead of one that is refused."""
 
 
 def point_segment_contacts(
@@ -61,18 +63,20 @@ def point_segment_contacts(
         velocities: those of the points, the firsts and the lasts, each of shape (m, 2), or None
             for vertices at rest.
         time: the start and the end of the closed time span, or of shape (m, 2) one for each.
-        errors: "mask" leaves queries whose segment is a point at the start without an answer
-            (`Contacts.refused`, `Contacts.reasons`); "raise" raises an error for the first one.
+        errors: "mask" leaves queries whose segment is a point at the start, or with a number that
+            is not finite, without an answer (`Contacts.refused`, `Contacts.reasons`); "raise"
+            raises an error for the first one.
 
     Raises:
-        InputError: if the shapes do not match, a value is not a finite double, a span is empty,
-            or, unless errors are masked, a segment is a point at the start.
+        InputError: if the shapes do not match, a span is empty, or, unless errors are masked, a
+            value is not a finite double or a segment is a point at the start.
     """
     masked = masks(errors)
-    given = _read(points, firsts, lasts, velocities)
+    given, faults = _read(points, firsts, lasts, velocities, masked=masked)
     m = given.shape[1]
     spans = read_spans(time, m)
     contacts = Contacts(m, lambda i: _scene(given[:, i], spans, i))
+    given[:, list(faults)] = APART[:, None]
     for first in range(0, m, CHUNK):
         last = min(first + CHUNK, m)
         hits, low, high, unsure = _filtered(given[:, first:last], spans.part(first, last))
@@ -84,18 +88,37 @@ def point_segment_contacts(
                 if not masked:
                     raise
                 contacts.refuse(i, str(error))
+    for i, why in faults.items():
+        contacts.refuse(i, why)
     return contacts
 
 
 def _read(
-    points: ArrayLike, firsts: ArrayLike, lasts: ArrayLike, velocities: Sequence[ArrayLike | None]
-) -> Floats:
-    """Twelve rows: x and y of the point and of the segment's ends, then of their velocities."""
+    points: ArrayLike,
+    firsts: ArrayLike,
+    lasts: ArrayLike,
+    velocities: Sequence[ArrayLike | None],
+    *,
+    masked: bool,
+) -> tuple[Floats, dict[int, str]]:
+    """Return twelve rows: x and y of the point and the segment's ends, and of their velocities.
+
+    The second value has the queries with numbers that are not finite, if they are masked.
+    """
     if len(velocities) != 3:
         raise InputError(f"velocities: three arrays are needed, not {len(velocities)}")
     names = ("points", "firsts", "lasts", *(f"velocities[{k}]" for k in range(3)))
     arrays = (points, firsts, lasts, *velocities)
-    read = [None if a is None else doubles(a, n) for a, n in zip(arrays, names, strict=True)]
+    faults: dict[int, str] = {}
+
+    def rows(array: ArrayLike, name: str) -> Floats:
+        if not masked:
+            return doubles(array, name)
+        read, wrong = finite_rows(array, name)
+        faults.update({k: why for k, why in wrong.items() if k not in faults})
+        return read
+
+    read = [None if a is None else rows(a, n) for a, n in zip(arrays, names, strict=True)]
     m = len(read[0]) if read[0] is not None and read[0].ndim else 0
     given = np.zeros((12, m))
     for k, (array, name) in enumerate(zip(read, names, strict=True)):
@@ -105,7 +128,7 @@ def _read(
             given[2 * k : 2 * k + 2] = array.T
         elif k < 3:
             raise InputError(f"{name}: shape ({m}, 2) is needed, not None")
-    return given
+    return given, faults
 
 
 @np.errstate(all="ignore")

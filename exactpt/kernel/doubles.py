@@ -11,7 +11,17 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import shorten
 from exactpt.kernel.rounding import check_rounding
 
-__all__ = ["Floats", "Indices", "doubles", "first_true", "indices", "middles", "native", "view"]
+__all__ = [
+    "Floats",
+    "Indices",
+    "doubles",
+    "finite_rows",
+    "first_true",
+    "indices",
+    "middles",
+    "native",
+    "view",
+]
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
@@ -20,12 +30,13 @@ INTEGERS: Final = 2.0**53
 """All integers of at most this absolute value are doubles."""
 
 
-def doubles(values: ArrayLike, what: str) -> Floats:
+def doubles(values: ArrayLike, what: str, *, finite: bool = True) -> Floats:
     """Return the values as float64, all of them finite.
 
     Args:
         values: floats of at most 64 bits, or integers that are doubles.
         what: their name in the message.
+        finite: False for an array that may contain infinities and NaN.
 
     Raises:
         InputError: if a value is not a number, not finite, or not a double.
@@ -46,9 +57,28 @@ def doubles(values: ArrayLike, what: str) -> Floats:
         large[large] = ~exact.astype(bool)
         _refuse(large, given, what, "not a double")
     elif given.dtype.itemsize > 8:
-        _refuse(result.astype(given.dtype) != given, given, what, "not a double")
-    _refuse(~np.isfinite(result), given, what, "not a finite number")
+        lost = result.astype(given.dtype) != given
+        _refuse(lost & (given == given), given, what, "not a double")  # noqa: PLR0124 - not NaN
+    if finite:
+        _refuse(~np.isfinite(result), given, what, "not a finite number")
     return result
+
+
+def finite_rows(values: ArrayLike, what: str) -> tuple[Floats, dict[int, str]]:
+    """Return the values as `doubles`, 0 instead of those not finite, and the rows of these.
+
+    Returns:
+        The array, and by the number of a row, the first index, why it has no finite numbers.
+    """
+    array = doubles(values, what, finite=False)
+    good = np.isfinite(array)
+    if not array.ndim or good.all():
+        return (array if array.ndim else doubles(values, what)), {}
+    faults: dict[int, str] = {}
+    for at in np.argwhere(~good).tolist():
+        value = array[tuple(at)]
+        faults.setdefault(at[0], f"{what}{at}: not a finite number: {value!s}")
+    return np.where(good, array, 0.0), faults
 
 
 def indices(values: ArrayLike, what: str) -> Indices:

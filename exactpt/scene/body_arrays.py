@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, TypeVar, cast, final, overload
+from typing import TYPE_CHECKING, Final, TypeVar, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from exactpt.motion.motions import Motion
 
 __all__ = ["BodyArrays"]
+
+BLOCK: Final = 1 << 15
+"""Number of bodies that are tested at a time."""
 
 Array = TypeVar("Array", bound="np.ndarray[tuple[int, ...], np.dtype[np.generic]]")
 
@@ -105,21 +108,31 @@ class BodyArrays(Sequence[Body]):
         """The number of vertices of all bodies."""
         return len(self.vertices)
 
+    def take(self, some: Indices) -> BodyArrays:
+        """Return some bodies, without names."""
+        sizes = np.diff(self.offsets)[some]
+        ends = np.concatenate(([0], np.cumsum(sizes)))
+        at = np.arange(ends[-1]) + np.repeat(self.offsets[some] - ends[:-1], native(sizes))
+        taken = BodyArrays.__new__(BodyArrays)
+        taken.vertices, taken.offsets = self.vertices[at], ends
+        taken.coefficients, taken.closed = self.coefficients[some], self.closed[some]
+        taken.radii, taken._names, taken._made = self.radii[some], None, {}  # noqa: SLF001
+        return taken
+
     def doubtful(self, some: Indices | None = None, rounded: Floats | None = None) -> list[int]:
         """Return the bodies, all or of some, that the filter does not find simple.
 
         If coordinates are the doubles nearest to the exact ones, ``rounded`` bounds the errors of
         each body.
         """
-        if some is None:
-            simple = surely_simple(self.vertices, self.offsets, self.closed, rounded)
-            return np.flatnonzero(~simple).tolist()
-        sizes = np.diff(self.offsets)[some]
-        ends = np.concatenate(([0], np.cumsum(sizes)))
-        at = np.arange(ends[-1]) + np.repeat(self.offsets[some] - ends[:-1], native(sizes))
-        off = None if rounded is None else rounded[some]
-        simple = surely_simple(self.vertices[at], ends, self.closed[some], off)
-        return cast("list[int]", some[~simple].tolist())
+        numbers = np.arange(len(self)) if some is None else some
+        found: list[int] = []
+        for first in range(0, len(numbers), BLOCK):  # in blocks: temporary arrays stay small
+            part = numbers[first : first + BLOCK]
+            of = self.take(part)
+            off = None if rounded is None else rounded[part]
+            found += part[~surely_simple(of.vertices, of.offsets, of.closed, off)].tolist()
+        return found
 
     def __iter__(self) -> Iterator[Body]:
         return (self[k] for k in range(len(self)))

@@ -1,5 +1,10 @@
 """Bad arrays are refused by one line that says which value."""
 
+import re
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 from folding import every
@@ -143,3 +148,84 @@ def test_errors_are_raised_or_masked():
         pairs_of(errors="ignore")
     with pytest.raises(InputError, match=line):
         point_segment_contacts([(0, 0)], [(1, 1)], [(2, 2)], errors="ignore")
+
+
+TRIANGLES = [(0, 0), (2, 0), (0, 2), (5, 1), (7, 0), (7, 3), (9, 0), (11, 0), (9, 2)]
+OUTLINES = (0, 3, 6, 9)
+
+
+@every(
+    "name, at, why",
+    [
+        ("vertices", (4, 1), "vertices[4, 1]: not a finite number: nan"),
+        ("velocities", (1, 0), "velocities[1, 0]: not a finite number: nan"),
+        ("radii", (1,), "radii[1]: not a finite number: nan"),
+    ],
+)
+def test_pairs_with_numbers_that_are_not_finite_are_masked(name, at, why):
+    """Bug: one NaN refused all pairs."""
+    given = {
+        "vertices": np.array(TRIANGLES, float),
+        "velocities": np.array([(1.0, 0), (-2, 0), (-1, 0)]),
+        "radii": np.zeros(3),
+    }
+    whole = first_contacts(offsets=OUTLINES, pairs=[(0, 1), (0, 2)], time=(0, 9), **given)
+    given[name][at] = np.nan
+
+    with pytest.raises(InputError, match=re.escape(why)):
+        first_contacts(offsets=OUTLINES, pairs=[(0, 1)], **given)
+    masked = first_contacts(
+        offsets=OUTLINES, pairs=[(0, 1), (0, 2)], time=(0, 9), errors="mask", **given
+    )
+
+    assert masked.reasons() == [(0, why)]
+    assert masked.refused.tolist() == [True, False]
+    assert masked.found.tolist() == [False, True]
+    assert masked.low[1] == whole.low[1]
+
+
+def test_queries_with_numbers_that_are_not_finite_are_masked():
+    points, firsts, lasts = np.array([(0.0, 1)] * 3), np.array([(2.0, 0)] * 3), [(2.0, 4)] * 3
+    velocities = np.array([(1.0, 0)] * 3), None, None
+    firsts[1, 1], velocities[0][2, 0] = np.inf, np.nan
+
+    masked = point_segment_contacts(
+        points, firsts, lasts, velocities=velocities, time=(0, 9), errors="mask"
+    )
+
+    assert masked.reasons() == [
+        (1, "firsts[1, 1]: not a finite number: inf"),
+        (2, "velocities[0][2, 0]: not a finite number: nan"),
+    ]
+    assert masked.found.tolist() == [True, False, False]
+    assert masked.low[0] <= 2.0 <= masked.high[0]
+    assert np.isnan(masked.low[1:]).all()
+
+
+MEMORY = """
+import numpy as np
+from exactpt.arrays import first_contacts
+n = {count}
+rng = np.random.default_rng(1)
+angles = np.sort(rng.uniform(0, 2 * np.pi, (2 * n, 3)), axis=1)
+shapes = np.stack([np.cos(angles), np.sin(angles)], axis=-1) + rng.uniform(-5, 5, (2 * n, 1, 2))
+shapes, offsets = shapes.reshape(-1, 2), np.arange(0, 6 * n + 1, 3)
+pairs, velocities = np.arange(2 * n).reshape(-1, 2), rng.uniform(-2, 2, (2 * n, 2))
+first_contacts(shapes[:6], offsets[:3], pairs[:1], velocities=velocities[:2])
+def status(key):
+    lines = open("/proc/self/status").read().splitlines()
+    return next(int(line.split()[1]) for line in lines if line.startswith(key)) // 1024
+before = status("VmRSS")
+open("/proc/self/clear_refs", "w").write("5")
+first_contacts(shapes, offsets, pairs, velocities=velocities, time=(0.0, 4.0))
+print(status("VmHWM") - before)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc/self/clear_refs").exists(), reason="needs Linux")
+def test_a_million_pairs_of_triangles_need_less_than_500_megabytes():
+    code = MEMORY.format(count=1_000_000)
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+
+    assert int(run.stdout) < 500
