@@ -27,6 +27,7 @@ from exactpt.indices import Triple, VertexId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.budget import ask
 from exactpt.kernel.counters import Counters
+from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.error_free import NOT_EXACT
 from exactpt.kernel.integer_polynomial import IntPoly, evaluate, sign_at
 from exactpt.kernel.numbers import QQ, nearest_float, power_of_two, sign
@@ -88,6 +89,11 @@ class PredicatesAt(Predicates):
         if exact_only:
             self._largest_bound = INFINITY
 
+    @property
+    def coordinates(self) -> tuple[Floats, Floats]:
+        """The rounded coordinates x and y of all vertices, normalised; NaN without a bound."""
+        return self._xs, self._ys
+
     def position(self, v: VertexId) -> Point:
         """The exact unperturbed position of a vertex."""
         found = self._exact.get(v)
@@ -124,13 +130,18 @@ class PredicatesAt(Predicates):
                 return s
         return self._exact_sign(a, b, c)
 
-    @np.errstate(all="ignore")
     def signs(self, triples: Sequence[Triple]) -> list[int]:
         """The `sign` of each triple, in numpy."""
         if not triples:
             return []
-        count = 3 * len(triples)
-        a, b, c = np.fromiter(chain.from_iterable(triples), np.int64, count).reshape(-1, 3).T
+        ids = np.fromiter(chain.from_iterable(triples), np.int64, 3 * len(triples))
+        found: list[int] = self.signs_of(ids.reshape(-1, 3)).tolist()
+        return found
+
+    @np.errstate(all="ignore")
+    def signs_of(self, ids: Indices) -> Indices:
+        """The `sign` of each row of three ids, in numpy."""
+        a, b, c = ids.T
         ux, uy = self._xs[b] - self._xs[a], self._ys[b] - self._ys[a]
         vx, vy = self._xs[c] - self._xs[a], self._ys[c] - self._ys[a]
         p, q = ux * vy, uy * vx
@@ -138,14 +149,13 @@ class PredicatesAt(Predicates):
         bound = (
             K * (abs(p) + abs(q)) + d * (abs(ux) + abs(uy) + abs(vx) + abs(vy) + 2.0 * d)
         ) * SLACK + TINY
-        certain = np.where(det > bound, 1, np.where(det < -bound, -1, 0))
+        signs = np.where(det > bound, 1, np.where(det < -bound, -1, 0))
         if self._exact_only:
-            certain[:] = 0
-        signs: list[int] = certain.tolist()
-        unsure = np.flatnonzero(certain == 0).tolist()
-        self._counters.filtered += len(signs) - len(unsure)
-        for k in unsure:
-            signs[k] = self._exact_sign(*triples[k])
+            signs[:] = 0
+        unsure = np.flatnonzero(signs == 0)
+        self._counters.filtered += len(ids) - len(unsure)
+        for k, triple in zip(unsure.tolist(), ids[unsure].tolist(), strict=True):
+            signs[k] = self._exact_sign(*triple)
         return signs
 
     def _exact_sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:

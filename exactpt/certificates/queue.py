@@ -138,7 +138,9 @@ class EventQueue(Calendar):
         n = int(parts[-1]) + 1
         spans, keys = np.full((n, 2), INFINITY), np.zeros((n, 3), np.int32)
         spans[parts, 0], spans[parts, 1], keys[parts] = lows, highs, ids
-        self._spans[kind], self._keys[kind] = vec[float](spans.ravel()), vec[i32](keys.ravel())
+        ends: list[float] = spans.ravel().tolist()
+        numbers: list[i32] = keys.ravel().tolist()
+        self._spans[kind], self._keys[kind] = vec[float](ends), vec[i32](numbers)
         self._count += len(parts)
         self._make_calendar()
 

@@ -45,7 +45,7 @@ MOTION: Final[i64] = 5
 """Place of the number of the motion among them, see `Image.motion`."""
 OTHER_MOTION: Final[float] = -2.0
 """Number of the motion of all vertices that `Vertices.places` does not describe."""
-UNUSED: Final = (0.0, 0.0, 0.0, 0.0, 0.0, OTHER_MOTION, 0.0, 0.0)
+UNUSED: Final[list[float]] = [0.0, 0.0, 0.0, 0.0, 0.0, OTHER_MOTION, 0.0, 0.0]
 """The doubles of a vertex that no body has."""
 
 
@@ -95,7 +95,8 @@ class Vertices:
         self.all: list[Vertex] = [
             unused(VertexId(v)) for v in range(sum(map(len, rings)) + len(free))
         ]
-        self.places: vec[float] = vec[float](UNUSED * len(self.all))
+        empty = UNUSED * len(self.all)
+        self.places: vec[float] = vec[float](empty)
         self.bodies: list[MovingBody] = []
         self._free: list[VertexId] = list(free)
         for k, (ring, t) in enumerate(zip(rings, since, strict=True)):
@@ -134,7 +135,8 @@ class Vertices:
         places = np.zeros((len(rows.indices), int(WIDTH)))
         places[:, :4] = rows.coefficients
         places[:, HORIZON], places[:, MOTION] = INFINITY, np.repeat(motions, counts)
-        self.places = vec[float](places.ravel())
+        flat: list[float] = places.ravel().tolist()
+        self.places = vec[float](flat)
         name_of = getattr(bodies, "name", None)
         indices: list[int] = rows.indices.tolist()
         first: i64 = 0

@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import cmp_to_key
-from typing import TypeAlias, final
+from typing import Final, TypeAlias, final
+
+import numpy as np
+from librt.vecs import vec
+from mypy_extensions import u8
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.certificates.predicates import Predicates
 from exactpt.errors import AuditError
-from exactpt.indices import HalfEdge, Triple, VertexId
+from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId, half_edge_vec, vertex_vec
 from exactpt.kernel.budget import ask
+from exactpt.kernel.doubles import view
 from exactpt.planar.halfedge import PlanarMap, twin
-from exactpt.pseudotriangulation.mesh import INSIDE, OUTER, SOLID, Diagonal, Mesh
+from exactpt.pseudotriangulation.mesh import FREE, INSIDE, OUTER, SOLID, Diagonal, Mesh
+from exactpt.pseudotriangulation.stars import follow_stars
 
 __all__ = ["build_mesh", "star_order"]
+
+MANY: Final = 300
+"""Number of vertices from which on a mesh of free space is built in numpy."""
 
 Stars: TypeAlias = dict[VertexId, list[HalfEdge]]
 
@@ -36,6 +45,16 @@ def build_mesh(
     vertices = instant.vertices.all
     if mesh is None:
         mesh = Mesh(len(vertices))
+        diagonals = list(diagonals)
+        is_free = all(d.region == FREE for d in diagonals)
+        if (
+            len(vertices) >= MANY
+            and is_free
+            and not any(body.is_tiled for body in instant.vertices.bodies)
+        ):
+            _fill(instant, mesh, diagonals)
+            _mark_angles(instant, mesh)
+            return mesh
     _add_rings(instant, mesh)
     outside, inside = _add_diagonals(mesh, diagonals)
     link = mesh.map.link
@@ -54,6 +73,35 @@ def build_mesh(
         link(twin(ahead), before)
     _mark_angles(instant, mesh)
     return mesh
+
+
+def _fill(instant: PredicatesAt, mesh: Mesh, diagonals: Sequence[Diagonal]) -> None:
+    """Fill a mesh with the edges of all rings and with diagonals in free space, in numpy."""
+    ring = instant.vertices.ids()
+    ahead = np.array([v.ahead for v in instant.vertices.all])
+    ids = np.array(ring)
+    ends = np.array([(d.u, d.v) for d in diagonals], np.int64).reshape(-1, 2)
+    origin = np.concatenate((np.stack((ids, ahead[ids]), axis=1), ends)).ravel()
+    region, boundary = np.full(len(origin), FREE), np.zeros(len(origin) // 2, np.bool_)
+    region[: 2 * len(ring) : 2], boundary[: len(ring)] = SOLID, True
+    of_rings = np.full(len(ahead), NO_HALF_EDGE)
+    of_rings[ids] = 2 * np.arange(len(ring))
+    origins: list[VertexId] = origin.tolist()
+    ring_edges: list[HalfEdge] = of_rings.tolist()
+    regions: list[u8] = region.tolist()
+    boundaries: list[bool] = boundary.tolist()
+    corners = [False] * len(origin)
+    mesh.region, mesh.boundary = vec[u8](regions), vec[bool](boundaries)
+    mesh.corner, mesh.ring_edge = vec[bool](corners), half_edge_vec(ring_edges)
+    mesh.map.origin = vertex_vec(origins)  # for the predicates of a star
+
+    def sort(v: VertexId, reference: HalfEdge, star: list[HalfEdge]) -> list[HalfEdge]:
+        return _sorted_star(instant, mesh, v, reference, star)
+
+    following = follow_stars(instant, origin, ring, ahead, sort)
+    previous = np.empty_like(following)
+    previous[following] = np.arange(len(following))
+    mesh.map = PlanarMap.of(origins, following.tolist(), previous.tolist(), [])
 
 
 def _add_rings(instant: PredicatesAt, mesh: Mesh) -> None:
@@ -127,18 +175,15 @@ class _Around:
 
 def _mark_angles(instant: PredicatesAt, mesh: Mesh) -> None:
     m = mesh.map
-    angles: list[HalfEdge] = []
-    triples: list[Triple] = []
-    for h in m.half_edges():
-        if mesh.region[h] != SOLID:
-            a, b = m.origin[m.previous[h]], m.target(h)
-            if a == b:
-                mesh.corner[h] = True
-            else:
-                angles.append(h)
-                triples.append((a, m.origin[h], b))
-    for h, s in zip(angles, instant.signs(triples), strict=True):
-        mesh.corner[h] = s > 0
+    origin = view(m.origin)
+    angles = np.flatnonzero((origin >= 0) & (view(mesh.region) != SOLID))
+    ids = np.stack((origin[view(m.previous)[angles]], origin[angles], origin[angles ^ 1]), axis=1)
+    is_corner = ids[:, 0] == ids[:, 2]
+    is_corner[~is_corner] = instant.signs_of(ids[~is_corner]) > 0
+    flags = np.zeros(len(origin), np.bool_)
+    flags[angles] = is_corner
+    corners: list[bool] = flags.tolist()
+    mesh.corner = vec[bool](corners)
     seen = [False] * len(m.origin)
     for h in m.half_edges():
         if not seen[h] and mesh.region[h] != SOLID:

@@ -9,6 +9,7 @@ from benchmarks.shapes import crowd
 from exactpt import Body, Scene, Simulation, Translation
 from exactpt.motion import vertices as moving_vertices
 from exactpt.pairs.start import initial_touches, near_pairs
+from exactpt.pseudotriangulation import build, stars
 from exactpt.scene.generate import FAMILIES, generate
 from exactpt.tiling import angles
 from exactpt.tiling.start import plan_tiling, start_tiling, tilings_for
@@ -23,21 +24,24 @@ def crowded(k, seed=0):
 
 
 def state_after_start(scene, tiling):
-    """All that a start has made and counted."""
+    """The enclosures of a start; the rest that it has made; and its counts of decisions."""
     kinetic = start_tiling(scene, tiling, scene._start)
     queue, counters = kinetic.queue, kinetic.vertices.counters
     pending = [(slot, queue.pending(slot)) for slot in queue.slots()]
     vertices = kinetic.vertices
-    return [end for _, t in pending for end in (t.low, t.high)], (
-        [(v.body, v.index, v.ahead, v.behind, v.horizon, v.name) for v in vertices.all],
-        [(m.ring, m.until, m.deforms, m.is_tiled, m.is_polygon) for m in vertices.bodies],
-        kinetic.state(),
-        kinetic.vertices.enclosures.errors,
-        [(slot, t.a, t.b, t.c, t.crossing, t.exact) for slot, t in pending],
-        kinetic.table.violated,
-        (kinetic.certifier.made, kinetic.certifier.skipped, kinetic.certifier.zeros),
+    return (
+        [end for _, t in pending for end in (t.low, t.high)],
+        (
+            [(v.body, v.index, v.ahead, v.behind, v.horizon, v.name) for v in vertices.all],
+            [(m.ring, m.until, m.deforms, m.is_tiled, m.is_polygon) for m in vertices.bodies],
+            kinetic.state(),
+            kinetic.vertices.enclosures.errors,
+            [(slot, t.a, t.b, t.c, t.crossing, t.exact) for slot, t in pending],
+            kinetic.table.violated,
+            (kinetic.certifier.made, kinetic.certifier.skipped, kinetic.certifier.zeros),
+            queue._count,
+        ),
         counters.now(),
-        queue._count,
     )
 
 
@@ -47,12 +51,14 @@ def compared(scene, monkeypatch):
         return
     for tiling in tilings_for(scene):
         states = []
-        for least in (FEW, 0):
+        for least, of_mesh in ((FEW, FEW), (0, FEW), (0, 0)):
             monkeypatch.setattr(angles, "MANY", least)
             monkeypatch.setattr(moving_vertices, "MANY", least)
+            monkeypatch.setattr(build, "MANY", of_mesh)
             states.append(state_after_start(scene, tiling))
-        (one_by_one, state), (at_once, other) = states
-        assert state == other
+        (one_by_one, state, counts), (at_once, other, its_counts), (_, last, _) = states
+        assert state == other == last
+        assert counts == its_counts  # a mesh in numpy takes fewer signs
         assert at_once == pytest.approx(one_by_one, rel=1e-9)
 
 
@@ -102,6 +108,25 @@ def test_pairs_that_are_not_near_are_disjoint_at_the_start(family):
         if not scene.is_rounded:
             near = boxes_in_doubles(scene)
             assert initial_touches(scene, near) == initial_touches(scene)
+
+
+def test_stars_that_doubles_sort_wrongly_are_sorted_by_predicates(monkeypatch):
+    """Planted: all angles are taken for 0, so edges are in the order of the sweep."""
+    scene, sorted_again = crowded(30), []
+    monkeypatch.setattr(build, "MANY", 0)
+    _, right, _ = state_after_start(scene, "lazy")
+    monkeypatch.setattr(stars, "_turn", lambda _instant, v, *_ends: np.zeros(len(v)))
+    exactly = build._sorted_star
+
+    def noted(*args):
+        sorted_again.append(args)
+        return exactly(*args)
+
+    monkeypatch.setattr(build, "_sorted_star", noted)
+    _, planted, _ = state_after_start(scene, "lazy")
+
+    assert planted == right
+    assert sorted_again
 
 
 @pytest.mark.parametrize("seed", range(4))
