@@ -19,8 +19,8 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import (
     IntPoly,
     add,
+    greatest_common_divisor,
     multiply,
-    negate,
     scale,
     subtract,
 )
@@ -30,7 +30,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, difference, orientation, vertex_touch
 from exactpt.motion.track import Track
 
-__all__ = ["Feature", "FeaturePair", "excess", "feature_pair", "feature_pairs"]
+__all__ = ["Feature", "FeaturePair", "feature_pair", "feature_pairs"]
 
 
 class Feature(NamedTuple):
@@ -75,40 +75,50 @@ class FeaturePair:
     @cached_property
     def squared(self) -> tuple[IntPoly, IntPoly]:
         """Numerator and denominator, neither ever negative, of the squared distance."""
-        return _squared(self.v, self.ends)
+        v, end = self.v, self.ends[0]
+        if not self.is_of_edge:
+            w = multiply(end.w, v.w)
+            return _squared_length(_vector(end, v)), multiply(w, w)
+        d = self.at_distance(QQ(0))
+        return multiply(d, d), multiply(multiply(v.w, v.w), _squared_length(self._along))
 
     @cached_property
     def limits(self) -> tuple[IntPoly, ...]:
         """Polynomials that are not negative where the foot is on the edge; none of a vertex."""
-        if not self.is_of_edge:
-            return ()
-        a, b = self.ends
-        along, to_a, to_b = self._along, _vector(self.v, a), _vector(b, self.v)
-        return negate(_dot(along, to_a)), negate(_dot(along, to_b))
+        return tuple(self._each_limit())
+
+    def _each_limit(self) -> Iterator[IntPoly]:
+        if self.is_of_edge:
+            a, b = self.ends
+            yield _dot(self._along, _vector(a, self.v))
+            yield _dot(self._along, _vector(self.v, b))
 
     @cached_property
     def _along(self) -> tuple[IntPoly, IntPoly]:
         """The vector of the edge, times a positive factor."""
         return _vector(*self.ends)
 
-    def _has_length(self) -> IntPoly:
-        """A polynomial that is positive where the edge has a length, 0 where it has none."""
-        return _dot(self._along, self._along)
-
     def at_distance(self, squared: QQ) -> IntPoly:
         """A polynomial that is positive where the squared distance is larger, 0 where equal.
 
-        Of a vertex and an edge at distance 0, it has the sign of the side of the vertex instead.
+        That of the line, of an edge. If the distance is 0, a polynomial that is 0 there alone, of
+        any sign elsewhere: the orientation, or a common factor of the differences in x and in y.
         """
-        if self.is_of_edge and not squared:
+        if squared:
+            n, d = self.squared
+            return subtract(scale(n, ZZ(squared.denominator)), scale(d, ZZ(squared.numerator)))
+        if self.is_of_edge:
             a, b = self.ends
             return orientation(a, b, self.v)
-        return _excess(self.squared, squared)
+        dx, dy = _vector(self.v, self.ends[0])
+        if len(dx) == len(dy) == 2 and dx[0] * dy[1] != dx[1] * dy[0]:
+            return (ZZ(1),)
+        return greatest_common_divisor(dx, dy) if dx and dy else dx or dy
 
     def holds(self, t: AlgebraicNumber) -> bool:
         """Whether the foot of the perpendicular is on the edge, which has a length."""
-        return all(t.sign_of(f) >= 0 for f in self.limits) and (
-            not self.is_of_edge or t.sign_of(self._has_length()) > 0
+        return all(t.sign_of(f) >= 0 for f in self._each_limit()) and (
+            not self.is_of_edge or t.sign_of(_squared_length(self._along)) > 0
         )
 
     def first_time(self, squared: QQ, begin: AlgebraicNumber, until: QQ) -> AlgebraicNumber | None:
@@ -148,34 +158,8 @@ class FeaturePair:
     def holds_after(self, t: AlgebraicNumber) -> bool:
         """Whether it is so just after a time."""
         return all(t.sign_after(f) >= 0 for f in self.limits) and (
-            not self.is_of_edge or t.sign_after(self._has_length()) > 0
+            not self.is_of_edge or t.sign_after(_squared_length(self._along)) > 0
         )
-
-
-def excess(v: Track, ends: tuple[Track, ...], squared: QQ) -> IntPoly:
-    """A polynomial that is positive where a vertex is farther away than a distance.
-
-    Args:
-        v: the trajectory of the vertex.
-        ends: that of another vertex, or those of the ends of an edge, of whose line it is.
-        squared: the square of the distance.
-    """
-    return _excess(_squared(v, ends), squared)
-
-
-def _excess(ratio: tuple[IntPoly, IntPoly], squared: QQ) -> IntPoly:
-    n, d = ratio
-    return subtract(scale(n, ZZ(squared.denominator)), scale(d, ZZ(squared.numerator)))
-
-
-def _squared(v: Track, ends: tuple[Track, ...]) -> tuple[IntPoly, IntPoly]:
-    """Numerator and denominator of the squared distance."""
-    if len(ends) == 1:
-        w = multiply(ends[0].w, v.w)
-        return _norm(ends[0], v), multiply(w, w)
-    a, b = ends
-    d = orientation(a, b, v)
-    return multiply(d, d), multiply(multiply(v.w, v.w), _norm(a, b))
 
 
 def feature_pairs(
@@ -202,12 +186,6 @@ def feature_pair(
     return FeaturePair(Touch(0, i, 1, e, -1), p[i], (q[k], q[l]))
 
 
-def _norm(a: Track, b: Track) -> IntPoly:
-    """The squared distance of two vertices times (w_a w_b)^2."""
-    u = _vector(a, b)
-    return _dot(u, u)
-
-
 def _vector(a: Track, b: Track) -> tuple[IntPoly, IntPoly]:
     """The vector from a to b, times a positive factor."""
     return difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
@@ -215,3 +193,7 @@ def _vector(a: Track, b: Track) -> tuple[IntPoly, IntPoly]:
 
 def _dot(u: tuple[IntPoly, IntPoly], v: tuple[IntPoly, IntPoly]) -> IntPoly:
     return add(multiply(u[0], v[0]), multiply(u[1], v[1]))
+
+
+def _squared_length(u: tuple[IntPoly, IntPoly]) -> IntPoly:
+    return _dot(u, u)

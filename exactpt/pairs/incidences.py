@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import final
 
 from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.integer_polynomial import IntPoly, greatest_common_divisor, multiply, scale
+from exactpt.kernel.integer_polynomial import multiply, scale
 from exactpt.kernel.numbers import QQ, ZZ, finite
 from exactpt.kernel.quotients import exponent, nearest_quotient
 from exactpt.motion.body import Body
@@ -122,14 +122,9 @@ def _as_root(
     touch = touches[0]
     v, other = pieces[touch.body].track(touch.vertex), pieces[touch.other]
     reach = scene.bodies[touch.body]._radius + scene.bodies[touch.other]._radius
-    if reach:
-        from exactpt.pairs.features import excess
+    from exactpt.pairs.features import FeaturePair
 
-        f = excess(v, _ends(scene, touch, other), reach * reach)
-    elif touch.edge >= 0:
-        f = orientation(v, *_ends(scene, touch, other))
-    else:
-        f = _coincidence(v, other.track(touch.other_vertex))
+    f = FeaturePair(touch, v, _ends(scene, touch, other)).at_distance(reach * reach)
     return time._as_root_of(f) if f else time
 
 
@@ -139,12 +134,6 @@ def _ends(scene: Scene, touch: Touch, other: Piece) -> tuple[Track] | tuple[Trac
         return (other.track(touch.other_vertex),)
     end = scene.bodies[touch.other].end_of_edge(touch.edge)
     return other.track(touch.edge), other.track(end)
-
-
-def _coincidence(v: Track, w: Track) -> IntPoly:
-    """A polynomial that vanishes at each time at which two vertices coincide."""
-    dx, dy = difference(v.x, v.w, w.x, w.w), difference(v.y, v.w, w.y, w.w)
-    return greatest_common_divisor(dx, dy) if dx and dy else dx or dy
 
 
 def _pair(

@@ -11,21 +11,21 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key
-from itertools import chain, product
+from itertools import chain
 from typing import final
 
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
-from exactpt.kernel.roots import common_roots, roots_after
+from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import difference, lies_on, orientation
+from exactpt.motion.outline import is_rigid
 from exactpt.motion.track import Track
-from exactpt.pairs.features import feature_pairs
+from exactpt.pairs.features import FeaturePair, feature_pair, feature_pairs
 from exactpt.pairs.near import pairs_that_come_near
 from exactpt.pairs.overlap import bodies_meet
 from exactpt.pairs.selection import Selection
-from exactpt.pairs.stretches import Stretch, segments_of, stretches, two_bodies
+from exactpt.pairs.stretches import Stretch, stretches, two_bodies
 from exactpt.scene.scene import Scene, a_scene
 
 __all__ = ["ContactInterval", "contact_intervals", "contacts", "incidence_times", "intervals"]
@@ -146,11 +146,8 @@ def incidence_times(a: Body, b: Body, start: QQ, end: QQ) -> list[AlgebraicNumbe
     which it passes an end of the edge, and that at which the motion ends, if it is on the edge.
     Of rounded bodies, likewise the times at which features come to the sum of the radii.
     """
-    of_stretch = _approaches if a._radius or b._radius else _incidences
-    found = chain.from_iterable(
-        of_stretch(a, b, stretch) for stretch in stretches(a, b, start, end)
-    )
-    return _distinct(found)
+    found = (_times(a, b, stretch) for stretch in stretches(a, b, start, end))
+    return _distinct(chain.from_iterable(found))
 
 
 def _distinct(times: Iterable[AlgebraicNumber]) -> list[AlgebraicNumber]:
@@ -161,42 +158,37 @@ def _distinct(times: Iterable[AlgebraicNumber]) -> list[AlgebraicNumber]:
     return distinct
 
 
-def _incidences(a: Body, b: Body, stretch: Stretch) -> Iterator[AlgebraicNumber]:
-    p, q = stretch.first, stretch.second
-    triples = chain(
-        ((v, q[i], q[j]) for v, (i, j) in product(p, segments_of(b))),
-        ((v, p[i], p[j]) for v, (i, j) in product(q, segments_of(a))),
-    )
-    begin = AlgebraicNumber(stretch.begin)
-    for v, u, w in triples:
-        ask()
-        f = orientation(u, w, v)
-        if f:
-            times = (root.time for root in roots_after(f, begin, stretch.end))
-            yield from (time for time in times if lies_on(v, u, w, time))
-        else:
-            yield from _coincidences(v, u, begin, stretch.end)
-            yield from _coincidences(v, w, begin, stretch.end)
-            end = AlgebraicNumber(stretch.end)
-            if lies_on(v, u, w, end):
-                yield end  # it may leave the line there
-
-
-def _approaches(a: Body, b: Body, stretch: Stretch) -> Iterator[AlgebraicNumber]:
-    """The times at which features of two rounded bodies are at the sum of the radii.
+def _times(a: Body, b: Body, stretch: Stretch) -> Iterator[AlgebraicNumber]:
+    """The times at which features of two bodies are at the sum of the radii.
 
     Where they stay at it, that at which the motion ends. (A foot that leaves its edge does so at
     a vertex, which is then at that distance.)
     """
     squared = (a._radius + b._radius) ** 2
     begin, end = AlgebraicNumber(stretch.begin), AlgebraicNumber(stretch.end)
-    for pair in feature_pairs(a, b, stretch.first, stretch.second):
+    two = a, b, stretch.first, stretch.second
+    # Two vertices also lie on edges, unless there are none, or one has no length for a moment; they
+    # have times of their own where a vertex moves along an edge.
+    apart = not (a.edges or b.edges) or not (is_rigid(a) and is_rigid(b))
+    for pair in feature_pairs(*two) if squared else _edges_first(*two):
         ask()
+        if not (squared or apart or pair.is_of_edge):
+            return
         f = pair.at_distance(squared)
+        apart |= not f
         times = (root.time for root in roots_after(f, begin, stretch.end)) if f else (end,)
         yield from (time for time in times if pair.holds(time))
 
 
-def _coincidences(v: Track, u: Track, begin: AlgebraicNumber, end: QQ) -> Iterator[AlgebraicNumber]:
-    dx, dy = difference(u.x, u.w, v.x, v.w), difference(u.y, u.w, v.y, v.w)
-    return (root.time for root in common_roots(dx, dy, begin, end))
+def _edges_first(
+    a: Body, b: Body, p: tuple[Track, ...], q: tuple[Track, ...]
+) -> Iterator[FeaturePair]:
+    """All pairs of features: for each vertex its edges. Equal times take the first one's form."""
+    n, m = len(p), len(q)
+    of_a, of_b = (len(a.edges), len(b.edges))
+    order = chain(
+        range((n + of_a) * m, (n + of_a) * m + n * of_b),
+        ((n + e) * m + j for j in range(m) for e in range(of_a)),
+        range(n * m),
+    )
+    return (feature_pair(a, b, p, q, k) for k in order)

@@ -47,7 +47,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch
 from exactpt.motion.inside import covers
 from exactpt.pairs.distance import squared_distance
-from exactpt.pairs.features import FeaturePair, excess
+from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.stretches import segments_of, stretches
 
 __all__ = ["surely_meet", "surely_passed"]
@@ -101,7 +101,8 @@ def surely_passed(point: Body, other: Body, edge: int, begin: QQ, end: QQ, error
         return False
     for stretch in stretches(point, other, begin, end):
         track, over = stretch.first[0], (stretch.second[ends[0]], stretch.second[ends[1]])
-        positive = [excess(track, (end_of_edge,), margin * margin) for end_of_edge in over]
+        ends_apart = (FeaturePair(Touch(0, 0, 1, -1, k), track, (over[k],)) for k in (0, 1))
+        positive = [pair.at_distance(margin * margin) for pair in ends_apart]
         positive += FeaturePair(Touch(0, 0, 1, edge, -1), track, over).limits
         if not all(_is_positive(f, stretch.begin, stretch.end) for f in positive):
             return False
