@@ -19,7 +19,7 @@ from fuzz.cases import QUESTION, Scenes
 from fuzz.hostile.run import hostile_files
 from fuzz.options import FAILED, HELP, INTERRUPTED, Options, conduct, options, require_cgal
 from fuzz.pair_record import pair_record
-from fuzz.proofs.command import proof_both, proof_mutants
+from fuzz.proofs.command import certificates, proof_both, proof_mutants
 from fuzz.questions.checks import QUESTIONS
 from fuzz.questions.command import questions
 from fuzz.record import differences, record
@@ -185,6 +185,7 @@ COMMANDS = {
     "space-queries": public_queries,
     "battery": run_battery,
     "planted": find_planted,
+    "certificates": certificates,
     "proof-both": proof_both,
     "proof-mutants": proof_mutants,
     "small-scope": small_scope,

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.pairs.contact import Contact
 
-__all__ = ["CertifiedSearch", "certify"]
+__all__ = ["CertifiedSearch", "certificate_of", "certify"]
 
 NEAR: Final = 22
 """A contact is enclosed in a part 2^-20 of the time span: L is about 2^-22 of it before."""
@@ -100,6 +100,13 @@ def certify(
     file = scene_bytes(scene)
     made = _Certificate(part, file, Selection(scene, named, groups), fraction(d))
     return Proof(contact, file, made.text(contact or approach, *span))
+
+
+def certificate_of(scene: Scene, contact: Contact | None, file: bytes | None = None) -> Proof:
+    """The certificate of a first contact that is known. Raises: as `certify`."""
+    content = scene_bytes(scene) if file is None else file
+    made = _Certificate(scene, content, Selection(scene), Fraction(0))
+    return Proof(contact, content, made.text(contact, made.start, made.end))
 
 
 @final

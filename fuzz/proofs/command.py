@@ -8,10 +8,11 @@ from pathlib import Path
 import click
 
 from fuzz.options import HELP, Options, conduct, options, require_cgal
+from fuzz.proofs.apart import Apart
 from fuzz.proofs.both import Both
 from fuzz.proofs.run import KINDS, Mutants
 
-__all__ = ["proof_both", "proof_mutants"]
+__all__ = ["certificates", "proof_both", "proof_mutants"]
 
 
 @click.command("proof-mutants", context_settings=HELP)
@@ -53,3 +54,18 @@ def proof_both(chosen: Options, keep: Path) -> None:
     require_cgal("another command")
     check = Both(chosen.count or 0, chosen.seed, keep)
     conduct(check, replace(chosen, count=None), again=f"--seed {chosen.seed}")
+
+
+@click.command("certificates", context_settings=HELP)
+@click.option(
+    "--keep", type=click.Path(file_okay=False, path_type=Path), default=Path("apart-found")
+)
+@options(1000, seed=1)
+def certificates(chosen: Options, keep: Path) -> None:
+    """Have certificates verified, of all families in turn, and ten wrong ones of each.
+
+    Both checkers must have the same answer, accept the right ones, and of the wrong ones those
+    alone that are true by a search over all pairs.
+    """
+    require_cgal("another command")
+    conduct(Apart(chosen.seed, keep), chosen, again=f"--seed {chosen.seed}")
