@@ -430,14 +430,26 @@ class Interval:
 
     def __init__(self, start: Fraction, end: Fraction) -> None:
         self.start, self.end, self.hulls = start, end, dict[int, Hull]()
+        self.grid = on_grid(start, end)
 
     def hull(self, scene: Scene, v: int) -> Hull:
         """The points of `hull` of all pieces of a vertex's path."""
         if v not in self.hulls:
-            inside = [q for q in scene.of(v).breaks if self.start < q < self.end]
-            times = pairwise([self.start, *inside, self.end])
-            self.hulls[v] = [p for s, e in times for p in hull(scene.track(v, s), s, e)]
+            breaks = scene.of(v).breaks
+            inside = [q for q in breaks if self.start < q < self.end] if breaks else []
+            if inside:
+                times = pairwise([self.start, *inside, self.end])
+                pieces = [hull(scene.track(v, s), *on_grid(s, e)) for s, e in times]
+                self.hulls[v] = [p for points in pieces for p in points]
+            else:
+                self.hulls[v] = hull(scene.track(v, self.start), *self.grid)
         return self.hulls[v]
+
+
+def on_grid(s: Fraction, e: Fraction) -> tuple[int, int, int]:
+    """Return integers a, b, m with s = a / m and e = b / m."""
+    m = lcm(s.denominator, e.denominator)
+    return int(s * m), int(e * m), m
 
 
 def spread(f: Poly, d: int, a: int, b: int, m: int) -> list[int]:
@@ -446,7 +458,9 @@ def spread(f: Poly, d: int, a: int, b: int, m: int) -> list[int]:
     They are those of (1 - u)^(d - k) u^k in m^d f(t), t = (a (1 - u) + b u) / m, by Horner's rule.
     """
     c = [*f, *[0] * (d + 1 - len(f))]
-    WORK.spend(8 + d * d * (words(max(map(abs, c))) + d * max(words(a), words(b), words(m))))
+    if d < 2:
+        return [c[0] * m + c[1] * a, c[0] * m + c[1] * b] if d else c
+    WORK.spend(d * d * (words(max(map(abs, c))) + d * max(words(a), words(b), words(m))))
     g, power = [c[d]], 1
     for j in range(1, d + 1):
         power *= m
@@ -455,21 +469,22 @@ def spread(f: Poly, d: int, a: int, b: int, m: int) -> list[int]:
     return g
 
 
-def hull(track: Track, s: Fraction, e: Fraction) -> Hull:
-    """Return (w x, w y, w t, w) of points (x, y, t) whose convex hull has a path between two times.
+def hull(track: Track, a: int, b: int, m: int) -> Hull:
+    """Return (w x, w y, w t, w) of points (x, y, t) whose convex hull has a path in [a / m, b / m].
 
     For each linear f, the values w f(x, y, t) are positive multiples of the coefficients in the
-    Bernstein basis of [s, e] of a polynomial: of f along the path, times its denominator. Its
-    degree is that of the track plus 1. (Where a w is not positive there is no such point, but
+    Bernstein basis of the interval of a polynomial: of f along the path, times its denominator.
+    Its degree is that of the track plus 1. (Where a w is not positive there is no such point, but
     these multiples have that meaning.)
     """
-    d, m = max(map(len, track)) - 1, lcm(s.denominator, e.denominator)
-    a, b = int(s * m), int(e * m)
+    d = max(map(len, track)) - 1
+    WORK.spend(8 + words(a) + words(b) + words(m))
     x, y, w = (spread(f, d, a, b, m) for f in track)
-    ends = (zip([*g, 0], [0, *g], strict=True) for g in (x, y, w))
     return [
-        (m * (x + p), m * (y + q), a * w + b * r, m * (w + r))
-        for (x, p), (y, q), (w, r) in zip(*ends, strict=True)
+        (m * (p + q), m * (r + s), a * t + b * u, m * (t + u))
+        for p, q, r, s, t, u in zip(
+            [*x, 0], [0, *x], [*y, 0], [0, *y], [*w, 0], [0, *w], strict=True
+        )
     ]
 
 
@@ -514,10 +529,10 @@ def require_passage(tracks: Sequence[Track], s: Fraction, t: Fraction) -> None:
     it is between the ends, strictly, excludes an edge without a length.
     """
     v, a, b = tracks
-    f, m = turn(v, a, b), lcm(s.denominator, t.denominator)
+    f = turn(v, a, b)
     require(f.scaled(s)[0] * f.scaled(t)[0] <= 0, "it stays on one side of the edge")
     for g in (dot_of(v, a, b), dot_of(v, b, a)):
-        beside = spread(g, max(len(g) - 1, 0), int(s * m), int(t * m), m)
+        beside = spread(g, max(len(g) - 1, 0), *on_grid(s, t))
         require(min(beside) > 0, "it may pass beside the edge")
 
 

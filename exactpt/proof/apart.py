@@ -29,6 +29,8 @@ Floats: TypeAlias = "np.ndarray[Any, np.dtype[np.float64]]"
 DIRECTIONS: Final = np.array([(1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (1, 2), (2, -1), (1, -2)])
 CLEAR: Final = 1e-11
 """Smallest gap that a line is put into, relative to the extent of all items."""
+FEW, CLOSE = 8, 1e-15
+"""Of so few items, gaps down to the second number are tried: the exact test decides."""
 ERROR: Final = 1e-12
 """Bound of the error of a float test, relative to the largest term.
 
@@ -206,7 +208,7 @@ class Separation:
             BudgetExceeded: if bodies are too near to each other, or there are too many nodes.
         """
         items = np.arange(len(self._body), dtype=np.intp)
-        self._span, most = end - start, 400 + 24 * len(items)
+        self._span, most = end - start, 1000 + 50 * len(items)
         todo: list[tuple[Items, Frame | tuple[Fraction, Fraction], int]] = [
             (items, (start, end), 0)
         ]
@@ -279,7 +281,7 @@ class Separation:
             else []
         )
         for cut in sorted(crossing, reverse=True)[:3]:
-            found = self._made(frame, items, rows, cut, 1.35 if depth < 8 else 1.97)
+            found = self._made(frame, items, rows, cut, 1.7)
             if found is not None:
                 return found
         return None
@@ -302,7 +304,7 @@ class Separation:
         alone += np.logical_and.accumulate(group[::-1] == group[-1], axis=0)[::-1][1:]
         k = np.arange(1, count)[:, None]
         worth = np.minimum(k, count - k) / count + 0.5 * alone + 0.3 * np.minimum(clear, 0.3)
-        worth[~(clear > CLEAR)] = -1.0
+        worth[~(clear > (CLEAR if count > FEW else CLOSE))] = -1.0
         best, found = worth.argmax(axis=0), []
         for j, k in enumerate(best.tolist()):
             if worth[k, j] > 0:
@@ -320,9 +322,9 @@ class Separation:
         wide = self._wide[items][:, None] * norm
         low, high = low - wide, high + wide + self._extra * norm
         size = high.max(axis=(0, 1)) - low.min(axis=(0, 1)) + 1e-300
-        middle = np.median(low + high, axis=1) / 2
+        places = np.quantile((low + high) / 2, (0.2, 0.35, 0.5, 0.65, 0.8), axis=1)
         found: list[Cut] = []
-        for at in (middle, np.broadcast_to(middle.mean(axis=0), middle.shape)):
+        for at in (*places, np.broadcast_to(places[2].mean(axis=0), places[2].shape)):
             below = (high < at[:, None] - 1e-6 * size).all(axis=0).sum(axis=0)
             above = (low > at[:, None] + 1e-6 * size).all(axis=0).sum(axis=0)
             for j in range(len(directions)):
@@ -386,7 +388,7 @@ class Separation:
         raw = np.concatenate(found)
         size = np.abs(raw).max(axis=1, keepdims=True)
         raw = raw[(size[:, 0] > 0) & np.isfinite(size[:, 0])]
-        grid = 1e9 if len(items) <= 6 and depth > 6 else 1e3
+        grid = 1e3 if len(items) > FEW or depth < 6 else 1e6 if depth < 12 else 2.0**50
         turned = np.rint(raw / np.abs(raw).max(axis=1, keepdims=True) * grid) if len(raw) else raw
         return np.unique(turned, axis=0)
 

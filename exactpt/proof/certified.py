@@ -218,7 +218,8 @@ class _Certificate:
         low, high = self._bounds(found.time, self.end - start)
         if high == start:
             return [self._meeting(pairs, start)], start
-        near = min((self.end - start) / 2**NEAR, (low - start) / 4)
+        near = (self.end - start) / 2**NEAR * (3 if low == high else 1)
+        near = min(near, (low - start) / 4)
         until = short(low - near, float(near) / 4)
         later = (short(high + near * k / 4, float(near) / 8) for k in (1, 4, 7))
         times = [high] * (low == high) + [min(t, self.end) for t in later]
