@@ -8,7 +8,7 @@ features, without a tiling, must find the same contact.
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -16,16 +16,15 @@ from typing import final
 
 from exactpt.cgal import BodyShape, CgalCheck, IsolatedRoot, ProofVerdict, check_proof
 from exactpt.collision.comparison import contrast, in_words
+from exactpt.collision.driver import EVENTS, Driver, Observer
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs.contact import Contact, contact_of
 from exactpt.pairs.features_sweep import PairsSearch
-from exactpt.pairs.start import initial_touches
 from exactpt.proof.emit import ProofRun, scene_bytes
 from exactpt.pseudotriangulation.snapshot import snapshot
 from exactpt.scene.scene import Scene
-from exactpt.tiling.events import ContactFound
+from exactpt.tiling.events import TilingEvent
 from exactpt.tiling.start import plan_tiling
 from exactpt.tiling.tiling import Tiling
 
@@ -154,14 +153,14 @@ def check_run(
     report = Report(plan.name)
     deadline = None if max_seconds is None else clock.monotonic() + max_seconds
     with CgalCheck() as cgal:
-        witness = _Witness(scene, cgal, report)
-        touches, overlaps = initial_touches(scene)
-        contact: Contact | None
-        if overlaps:
-            contact = contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)
+        witness = _Witness(scene, cgal, report, max_events, deadline, reached)
+        driver = Driver(lambda: scene, observers=[witness])
+        contact = driver.start(plan)
+        if contact is None:
+            witness.tiling(driver.kinetic, scene._start)
+            contact = driver.run(scene._end)
+        if contact is not None:
             witness.time(contact.time)
-        else:
-            contact = _watch(plan.start(scene._start), witness, max_events, deadline, reached)
     report.contact = None if contact is None else contact.time.to_json()
     expected = PairsSearch(scene, max_seconds=_left(deadline)).run_to_contact()
     difference = contrast(expected, contact)
@@ -194,72 +193,73 @@ def _verdict(proof: ProofRun, scene_file: bytes, deadline: float | None) -> Proo
         return check_proof(scene_path, path, max_seconds=_left(deadline))
 
 
-def _watch(
-    kinetic: Tiling,
-    witness: _Witness,
-    max_events: int | None,
-    deadline: float | None,
-    reached: Callable[[AlgebraicNumber], None] | None,
-) -> Contact | None:
-    """Run to the first contact, and have all tilings and event times verified."""
-    scene, report = witness.scene, witness.report
-    try:
-        witness.tiling(kinetic, scene._start)
-        while True:
-            witness.between(kinetic)
-            events = kinetic.advance(scene._end)
-            if events is None:
-                break
-            report.events += len(events)
-            witness.time(kinetic.now)
-            if reached is not None:
-                reached(kinetic.now)
-            if (max_events is not None and report.events > max_events) or (
-                deadline is not None and clock.monotonic() > deadline
-            ):
-                low = kinetic.now.canonical_interval()[0]
-                raise BudgetExceeded("the budget of the check is used up", low)
-        witness.tiling(kinetic, scene._end)
-    except ContactFound as found:
-        witness.time(kinetic.now)
-        return contact_of(scene, kinetic.now, found.touches)
-    return None
-
-
 @final
-class _Witness:
-    """Has CGAL check the tilings and event times of a run, and collects the verdicts."""
+class _Witness(Observer):
+    """Asks CGAL about the tilings and event times of a run, and collects the verdicts."""
 
-    def __init__(self, scene: Scene, cgal: CgalCheck, report: Report) -> None:
-        self.scene = scene
-        self.report = report
+    listens_to: int = EVENTS
+
+    def __init__(
+        self,
+        scene: Scene,
+        cgal: CgalCheck,
+        report: Report,
+        max_events: int | None,
+        deadline: float | None,
+        progress: Callable[[AlgebraicNumber], None] | None,
+    ) -> None:
+        self._end = scene._end
+        self._report = report
         self._shapes = BodyShape.of_scene(scene)
         self._cgal = cgal
+        self._bounds = max_events, deadline
+        self._progress = progress
         self._before: IsolatedRoot | None = None
 
-    def between(self, kinetic: Tiling) -> None:
+    def before(self, scene: Scene, tiling: Tiling) -> None:  # noqa: ARG002 - as in `Observer`
         """Verify the tiling between now and the next event, unless they are simultaneous."""
-        following = kinetic.next_number()
-        if following is not None and kinetic.now.compare(following) < 0:
-            self.tiling(kinetic, rational_between(kinetic.now, following))
+        following = tiling.next_number()
+        if following is not None and tiling.now.compare(following) < 0:
+            self.tiling(tiling, rational_between(tiling.now, following))
+
+    def happened(self, tiling: Tiling, events: Sequence[TilingEvent]) -> None:
+        """Verify an event time.
+
+        Raises:
+            BudgetExceeded: if the budget is used up.
+        """
+        self._report.events += len(events)
+        self.time(tiling.now)
+        if self._progress is not None:
+            self._progress(tiling.now)
+        most, deadline = self._bounds
+        if (most is not None and self._report.events > most) or (
+            deadline is not None and clock.monotonic() > deadline
+        ):
+            low = tiling.now.canonical_interval()[0]
+            raise BudgetExceeded("the budget of the check is used up", low)
+
+    def reached(self, tiling: Tiling) -> None:
+        """Verify the tiling at the end."""
+        self.tiling(tiling, self._end)
 
     def tiling(self, kinetic: Tiling, at: QQ) -> None:
         """Verify the tiling at a rational time before the next event."""
         mesh = kinetic.mesh_now(at)
-        tile = snapshot(kinetic.vertices, mesh, self.report.tiling, at).to_json()
+        tile = snapshot(kinetic.vertices, mesh, self._report.tiling, at).to_json()
         verdict = self._cgal.check_tiling(tile, self._shapes)
-        self.report.tilings += 1
+        self._report.tilings += 1
         if not verdict.ok:
-            self.report.failures.append(f"tiling at t = {at}: {verdict.reason}")
+            self._report.failures.append(f"tiling at t = {at}: {verdict.reason}")
 
     def time(self, time: AlgebraicNumber) -> None:
         """Verify an event time, and that it is not before the previous one."""
         number = time.simplified()
         root = IsolatedRoot(number._polynomial, *number._canonical_interval())
         verdict = self._cgal.check_root(*root)
-        self.report.times += 1
+        self._report.times += 1
         if not verdict.ok:
-            self.report.failures.append(f"event time {time!r}: {verdict.reason}")
+            self._report.failures.append(f"event time {time!r}: {verdict.reason}")
         elif self._before is not None and self._cgal.compare_roots(self._before, root) > 0:
-            self.report.failures.append(f"event time {time!r} is before the one before it")
+            self._report.failures.append(f"event time {time!r} is before the one before it")
         self._before = root

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, final
 
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.collision.driver import Driver, Observer
 from exactpt.errors import AuditError
 from exactpt.indices import Ends
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.vertices import WIDTH, Vertices
-from exactpt.pairs.start import initial_touches
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.scene.scene import Scene
-from exactpt.tiling.events import ContactFound
-from exactpt.tiling.start import start_tiling
 from exactpt.tiling.tiling import Tiling
 
 __all__ = ["Audited", "audit_at", "audit_now", "audit_places", "run_and_audit"]
@@ -50,28 +48,40 @@ def run_and_audit(
         AuditError: at the first fault.
         InputError: if the tiling does not support the scene.
     """
-    if initial_touches(scene)[1]:
+    audits = _Audits(middle=middle)
+    driver = Driver(lambda: scene, observers=[audits])
+    if driver.start(tiling, exact_only=exact_only) is not None:
         return None
-    kinetic = start_tiling(scene, tiling, scene.start, exact_only=exact_only)
-    audit_places(kinetic.vertices)
-    gaps = 0
+    audit_places(driver.kinetic.vertices)
     try:
-        while True:
-            end = kinetic.next_number() or AlgebraicNumber(scene.end)
-            if kinetic.now.compare(end) < 0:
-                at = rational_between(kinetic.now, end)
-                audit_at(kinetic, at)
-                if middle:
-                    audit_at(kinetic, rational_between(kinetic.now, AlgebraicNumber(at)))
-                gaps += 1
-            if kinetic.advance(scene.end) is None:
-                return Audited(kinetic, contact=False, gaps=gaps)
-            if kinetic.now.simplified().is_rational:
-                audit_now(kinetic)
-    except ContactFound:
-        return Audited(kinetic, contact=True, gaps=gaps)
+        contact = driver.run(scene._end)
     finally:
-        audit_places(kinetic.vertices)
+        audit_places(driver.kinetic.vertices)
+    return Audited(driver.kinetic, contact=contact is not None, gaps=audits.gaps)
+
+
+@final
+class _Audits(Observer):
+    """Audits a run, see `run_and_audit`."""
+
+    def __init__(self, *, middle: bool) -> None:
+        self._middle = middle
+        self.gaps = 0
+
+    def before(self, scene: Scene, tiling: Tiling) -> None:
+        """Audit the tiling between now and the next event."""
+        end = tiling.next_number() or AlgebraicNumber(scene._end)
+        if tiling.now.compare(end) < 0:
+            at = rational_between(tiling.now, end)
+            audit_at(tiling, at)
+            if self._middle:
+                audit_at(tiling, rational_between(tiling.now, AlgebraicNumber(at)))
+            self.gaps += 1
+
+    def passed(self, tiling: Tiling) -> None:
+        """Audit the tiling at an event time, if that is rational."""
+        if tiling.now.simplified().is_rational:
+            audit_now(tiling)
 
 
 def audit_places(vertices: Vertices) -> None:
