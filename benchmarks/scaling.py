@@ -18,10 +18,10 @@ from benchmarks.output import Output, Row
 from benchmarks.plots import series_of
 from benchmarks.shapes import TANGLES, TangleFamily, crowd, tangle
 from benchmarks.timing import exponent, memory_of, per_event, resident, timed
+from exactpt.collision.driver import Driver
 from exactpt.kernel.numbers import QQ
 from exactpt.scene.scene import Scene
 from exactpt.simulation.simulation import Simulation
-from exactpt.tiling.events import ContactFound
 from exactpt.tiling.start import TILINGS, start_tiling
 from exactpt.tiling.tiling import Tiling
 
@@ -156,7 +156,7 @@ def measure(scene: Scene, tiling: str, sizes: Sizes) -> Measured:
 def _run_once(scene: Scene, tiling: str, events: int) -> Measured:
     kinetic, start = timed(lambda: start_tiling(scene, tiling, scene._start))
     certificates, pending = kinetic.certifier.made, len(kinetic.queue)
-    _, seconds = timed(lambda: _pass(kinetic, kinetic.run(), events))
+    _, seconds = timed(lambda: _pass(kinetic, _events(scene, kinetic), events))
     happened = kinetic.stats.total
     exact, filtered, _ = kinetic.vertices.counters.now()
     return Measured(
@@ -179,19 +179,21 @@ def _alone_and_told(scene: Scene, tiling: str, events: int) -> tuple[float, floa
     other = simulation.kinetic
     if other is None or events == 0:
         return 0.0, 0.0
-    _, alone = timed(lambda: _pass(kinetic, kinetic.run(), events))
+    _, alone = timed(lambda: _pass(kinetic, _events(scene, kinetic), events))
     _, told = timed(lambda: _pass(other, simulation.run(), events))
     return alone, told
 
 
+def _events(scene: Scene, kinetic: Tiling) -> Iterable[object]:
+    """The events of a tiling up to the first contact."""
+    return Driver(lambda: scene, kinetic).events(scene._end)
+
+
 def _pass(kinetic: Tiling, run: Iterable[object], events: int) -> None:
     """Process events up to a contact or a maximum number."""
-    try:
-        for _ in run:
-            if kinetic.stats.total >= events:
-                return
-    except ContactFound:
-        return
+    for _ in run:
+        if kinetic.stats.total >= events:
+            return
 
 
 def _large(bodies: int, tiling: str, events: int, seed: int, kept: list[Tiling]) -> Row:
@@ -205,7 +207,7 @@ def _large(bodies: int, tiling: str, events: int, seed: int, kept: list[Tiling])
     kinetic, start = timed(lambda: start_tiling(scene, tiling, scene._start))
     with_tiling = resident()
     kept.append(kinetic)
-    _, seconds = timed(lambda: _pass(kinetic, kinetic.run(), events))
+    _, seconds = timed(lambda: _pass(kinetic, _events(scene, kinetic), events))
     return {
         "tiling": tiling,
         "size": bodies,

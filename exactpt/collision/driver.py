@@ -6,7 +6,7 @@ Nothing else calls `Tiling.advance` or `Tiling.advance_many`. Whoever follows a 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final, final
 
@@ -169,6 +169,11 @@ class Driver:
             incidences, and observers are notified by `meet`.
         """
         return self._advance(until, EVENTS)
+
+    def events(self, until: QQ) -> Iterator[TilingEvent]:
+        """Yield the events up to a time, or to a contact (`touches`)."""
+        while (events := self.advance(until)) is not None:
+            yield from events
 
     def run(self, until: QQ) -> Contact | None:
         """Return the first contact up to a time, or None; events are not returned.

@@ -6,7 +6,7 @@ Simulations, queries, pictures and the fuzzer use a tiling only through this int
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from exactpt.certificates.certifier import Certifier
@@ -174,16 +174,6 @@ class Tiling(ABC):
     def next_number(self) -> AlgebraicNumber | None:
         """The exact time of the next failure; None if there is none."""
         return self.clock.next_number()
-
-    def run(self, until: QQ | None = None) -> Iterator[TilingEvent]:
-        """Process all events up to and including a time (default: the end of the span).
-
-        Raises:
-            ContactFound: at the first contact.
-        """
-        end = self.certifier.end if until is None else min(until, self.certifier.end)
-        while (events := self.advance(end)) is not None:
-            yield from events
 
     def advance(self, until: QQ) -> list[TilingEvent] | None:
         """Process the events of the next event time, if it is not after ``until``.

@@ -5,6 +5,7 @@ from random import Random
 
 from benchmarks.floor import CERTIFICATES, floor
 from benchmarks.shapes import crowd
+from exactpt.collision.driver import Driver
 from exactpt.tiling.start import start_tiling
 
 
@@ -16,8 +17,8 @@ def test_a_tiling_goes_on_unchanged():
 
     assert measured.queue.slots() == other.queue.slots()
     events = [
-        [(e.kind, e.removed, e.added, e.time.low) for e in islice(kinetic.run(), 50)]
-        for kinetic in (measured, other)
+        [(e.kind, e.removed, e.added, e.time.low) for e in islice(driver.events(scene.end), 50)]
+        for driver in (Driver(lambda: scene, kinetic) for kinetic in (measured, other))
     ]
     assert len(events[0]) == 50
     assert events[0] == events[1]

@@ -6,13 +6,13 @@ import pytest
 
 from benchmarks.shapes import crowd
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.collision.driver import Driver
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.vertices import Vertices
 from exactpt.planar.halfedge import edge_key
 from exactpt.pseudotriangulation.build import build_mesh
 from exactpt.pseudotriangulation.flip import flip_until_greedy
-from exactpt.tiling.events import ContactFound
 from exactpt.tiling.greedy.sweep import greedy_diagonals
 from exactpt.tiling.greedy.vertical import VerticalDecomposition
 from exactpt.tiling.start import start_tiling
@@ -91,13 +91,11 @@ def test_two_bitangents_on_one_line_are_told():
 
 def test_the_diagonal_of_a_bitangent_that_becomes_vertical_is_found():
     """Also one that starts where the bitangent does; else the tiling is built anew."""
-    kinetic = start_tiling(crowd(40, Random(1), radius=60, end=100), "greedy", QQ(0))
-    try:
-        for _ in kinetic.run():
-            if kinetic.stats.total >= 300:
-                break
-    except ContactFound:
-        pass
+    scene = crowd(40, Random(1), radius=60, end=100)
+    kinetic = start_tiling(scene, "greedy", QQ(0))
+    for _ in Driver(lambda: scene, kinetic).events(scene.end):
+        if kinetic.stats.total >= 300:
+            break
 
     assert kinetic.stats.flips + kinetic.stats.total >= 200
     assert kinetic.stats.rebuilds == 0

@@ -10,6 +10,7 @@ from point_audits import points_at, run_and_audit, started, structure_of, tangen
 
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.collision.detector import first_contact
+from exactpt.collision.driver import Driver
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
@@ -130,8 +131,7 @@ def test_long_chains_are_searched():
     steps, ends = {}, set()
     for chains in ("linked", "searchable", "auto"):
         kinetic = started(scene, chains=chains)
-        for _ in kinetic.run():
-            pass
+        Driver(lambda scene=scene: scene, kinetic).run(scene.end)
         trees = kinetic.structure.trees
         ends.add(str(structure_of(kinetic.structure)))
         assert kinetic.stats.events["x-order"] == swaps
@@ -321,7 +321,7 @@ def changes_of_tangents(scene):
     kinetic = start_tiling(scene, "incremental", scene.start)
     before = [tree.parent[:] for tree in kinetic.structure.trees]
     counts = [[0] * len(parents) for parents in before]
-    for _ in kinetic.run():
+    for _ in Driver(lambda: scene, kinetic).events(scene.end):
         for tree, parents, count in zip(kinetic.structure.trees, before, counts, strict=True):
             for p, z in enumerate(tree.parent):
                 if z != parents[p]:
@@ -383,8 +383,7 @@ def test_theorem_3_4():
     for seed in range(3):
         scene = spread(40, seed)
         kinetic = started(scene, fan=True)
-        for _ in kinetic.run():
-            pass
+        Driver(lambda scene=scene: scene, kinetic).run(scene.end)
         assert kinetic.stats.total < kinetic.fan.changes < 40 ** (7 / 3)
 
 
