@@ -23,13 +23,7 @@ from exactpt.pairs.oriented import CHUNK, K, OrientedBoxes, times_between
 if TYPE_CHECKING:
     from exactpt.pairs.pieces import MotionPiece
 
-__all__ = [
-    "PieceBoxes",
-    "candidate_pairs",
-    "candidate_pieces",
-    "pairs_at",
-    "radius_above",
-]
+__all__ = ["PieceBoxes", "candidate_pairs", "pairs_at", "radius_above"]
 
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
@@ -214,19 +208,11 @@ def pairs_at(boxes: PieceBoxes, time: QQ) -> list[tuple[int, int]]:
     return [(i, j) for i, j in pairs.tolist()]
 
 
-def candidate_pieces(
-    rows: Sequence[MotionPiece], start: QQ, end: QQ, margin: float = 0.0
-) -> Iterator[tuple[float, int, int]]:
-    """The pairs of pieces of different bodies that come near each other, once each.
-
-    Each comes with a time at or before which it does, in increasing order of these times. Their
-    boxes are grown by a margin.
-    """
-    return candidate_pairs(PieceBoxes(rows, margin), start, end)
-
-
 def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[float, int, int]]:
-    """As `candidate_pieces`, of pieces by number."""
+    """The pairs of pieces of different bodies that come near each other, by number, once each.
+
+    Each comes with a time at or before which it does, in increasing order of these times.
+    """
     now, last = enclosing_floats(start)[0], enclosing_floats(end)[1]
     span = last - now
     least = SHORTEST * span

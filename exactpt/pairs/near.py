@@ -10,8 +10,8 @@ import numpy as np
 from exactpt.geometry.boxes import grown, overlapping_pairs
 from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
 from exactpt.motion.swept_edges import SweptEdges
-from exactpt.pairs.boxes import candidate_pieces
-from exactpt.pairs.pieces import linear_pieces
+from exactpt.pairs.boxes import PieceBoxes
+from exactpt.pairs.pieces import ScenePieces, linear_pieces
 from exactpt.scene.scene import Scene
 
 __all__ = ["pairs_that_come_near"]
@@ -32,9 +32,9 @@ def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
         return list(combinations(range(len(scene.bodies)), 2))
     rows = linear_pieces(scene)
     if rows is not None:
-        near = candidate_pieces(rows, scene._start, scene._end, enclosing_floats(reach / 2)[1])
-        bodies = (sorted((rows[k].body, rows[l].body)) for _, k, l in near)
-        return sorted({(i, j) for i, j in bodies})
+        grown_boxes = PieceBoxes(rows, enclosing_floats(reach / 2)[1])
+        near = ScenePieces(rows, scene._start, scene._end, grown_boxes).near()
+        return sorted({(min(a.body, b.body), max(a.body, b.body)) for _, a, b in near})
     swept = SweptEdges(scene.bodies, scene._start, scene._end)
     units = [power_of_two(-scale) for scale in swept.vertices.frame.scale]
     halves = [reach / 2 + body._radius for body in scene.bodies]

@@ -6,9 +6,10 @@ A body has a piece for each piece of its motion, if all are linear and it is not
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+import operator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations
-from typing import Final, NamedTuple, TypeAlias, final
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias, final
 
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, enclosing_floats
@@ -17,17 +18,25 @@ from exactpt.pairs.filters import window
 from exactpt.pairs.two_pieces import ContactDistance
 from exactpt.scene.scene import Scene
 
+if TYPE_CHECKING:
+    from typing import Self
+
+    from exactpt.pairs.boxes import PieceBoxes
+
 __all__ = [
+    "FEW",
     "MOST_VERTICES",
     "Distance",
-    "FewPieces",
     "MotionPiece",
+    "ScenePieces",
     "contact_distance",
     "linear_pieces",
     "pieces_during",
     "window_of",
 ]
 
+FEW: Final = 10
+"""Maximum number of pieces of which all pairs are compared without numpy."""
 MOST_VERTICES: Final = 64
 """Maximum number of vertices of a body for which comparing two bodies vertex by vertex pays."""
 
@@ -65,40 +74,75 @@ def window_of(a: MotionPiece, b: MotionPiece, low: float, high: float) -> tuple[
 
 
 @final
-class FewPieces:
-    """The pieces of a scene of which all pairs are compared, without numpy.
+class ScenePieces:
+    """Motion pieces of bodies, of which pairs are compared.
 
     Args:
-        rows: the pieces.
-        start: the start of the scene.
+        rows: the pieces, by number.
+        start, end: a time span.
+        boxes: their boxes; None if all pairs are compared, without numpy.
     """
 
-    def __init__(self, rows: Sequence[MotionPiece], start: QQ) -> None:
+    def __init__(
+        self,
+        rows: Sequence[MotionPiece] | Mapping[int, MotionPiece],
+        start: QQ,
+        end: QQ,
+        boxes: PieceBoxes | None = None,
+    ) -> None:
         self._rows = rows
-        self._start = start
+        self._start, self._end = start, end
+        self._boxes = boxes
+
+    @classmethod
+    def of(
+        cls,
+        rows: Sequence[MotionPiece],
+        start: QQ,
+        end: QQ,
+        margin: float = 0.0,
+    ) -> Self:
+        """The given pieces; if they are more than a few, with boxes grown by a margin."""
+        if len(rows) <= FEW:
+            return cls(rows, start, end)
+        from exactpt.pairs.boxes import PieceBoxes
+
+        return cls(rows, start, end, PieceBoxes(rows, margin))
 
     def near_at_start(self) -> list[tuple[int, int]]:
         """The pairs i < j of bodies whose boxes meet at the start."""
+        if self._boxes is not None:
+            from exactpt.pairs.boxes import pairs_at
+
+            return sorted(set(pairs_at(self._boxes, self._start)))
         low, high = enclosing_floats(self._start)
-        near: list[tuple[int, int]] = []
-        for a, b in combinations([row for row in self._rows if row.start == self._start], 2):
-            enter, leave = window_of(a, b, low, high)
-            if not enter > leave:
-                near.append((a.body, b.body))
-        return near
+        begin = [self._rows[k] for k in range(len(self._rows))]
+        begin = [row for row in begin if row.start == self._start]
+        windows = ((a.body, b.body, window_of(a, b, low, high)) for a, b in combinations(begin, 2))
+        return [(i, j) for i, j, (enter, leave) in windows if not enter > leave]
 
-    def near(self) -> Iterator[tuple[float, int, int]]:
-        """All pairs of pieces of two bodies, each with a time before which they do not touch."""
-        for i, j in combinations(range(len(self._rows)), 2):
-            if self.body(i) != self.body(j):
-                yield -math.inf, i, j
+    def near(
+        self, counts: Callable[[int, int], bool] = operator.ne
+    ) -> Iterator[tuple[float, MotionPiece, MotionPiece]]:
+        """The pairs of pieces of two bodies that come near each other, once each.
 
-    def body(self, k: int) -> int:
-        """The body of a piece."""
-        return self._rows[k].body
+        Each comes with a time at or before which it does, in increasing order of these times.
 
-    def __getitem__(self, k: int) -> MotionPiece:
-        return self._rows[k]
+        Args:
+            counts: whether contacts of two bodies, by number, count.
+        """
+        rows, boxes = self._rows, self._boxes
+        if boxes is None:
+            for i, j in combinations(range(len(rows)), 2):
+                if rows[i].body != rows[j].body and counts(rows[i].body, rows[j].body):
+                    yield -math.inf, rows[i], rows[j]
+            return
+        from exactpt.pairs.boxes import candidate_pairs
+
+        body = boxes.body.tolist()
+        for enter, i, j in candidate_pairs(boxes, self._start, self._end):
+            if counts(body[i], body[j]):
+                yield enter, rows[i], rows[j]
 
 
 def linear_pieces(scene: Scene) -> list[MotionPiece] | None:

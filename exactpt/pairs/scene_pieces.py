@@ -7,91 +7,54 @@ body is grown.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TypeAlias, final
+from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from exactpt.kernel.budget import ask
 from exactpt.kernel.doubles import native
-from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
-from exactpt.motion.outline import Outline, Straight, far_origin, rest_outline, straight_pieces
-from exactpt.pairs.boxes import PieceBoxes, candidate_pairs, pairs_at, radius_above
-from exactpt.pairs.pieces import MOST_VERTICES, MotionPiece, pieces_during
+from exactpt.motion.outline import Outline, rest_outline, straight_pieces
+from exactpt.pairs.boxes import PieceBoxes, radius_above
+from exactpt.pairs.pieces import MOST_VERTICES, MotionPiece, ScenePieces
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene
 
-__all__ = ["ScenePieces", "boxed", "boxed_pieces_of"]
+__all__ = ["pieces_on_demand"]
 
 Floats: TypeAlias = NDArray[np.float64]
 
 
-@final
-class ScenePieces:
-    """The pieces of all bodies of a scene.
+class _OnDemand(dict[int, MotionPiece]):
+    """The piece of each body of a scene, in its single piece of motion."""
 
-    Args:
-        scene: the scene.
-        boxes: the boxes of the pieces.
-        rows: the pieces; those of a body's single piece of motion are made on demand, if None.
-    """
-
-    def __init__(self, scene: Scene, boxes: PieceBoxes, rows: list[MotionPiece] | None) -> None:
+    def __init__(self, scene: Scene) -> None:
+        super().__init__()
         self._scene = scene
-        self._boxes = boxes
-        self._rows: dict[int, MotionPiece] = dict(enumerate(rows or ()))
 
-    def near_at_start(self) -> list[tuple[int, int]]:
-        """The pairs i < j of bodies whose boxes meet at the start."""
-        return sorted({(i, j) for i, j in pairs_at(self._boxes, self._scene._start) if i != j})
-
-    def near(self) -> Iterator[tuple[float, int, int]]:
-        """The pairs of pieces that come near each other; see `candidate_pieces`."""
-        return candidate_pairs(self._boxes, self._scene._start, self._scene._end)
-
-    def body(self, k: int) -> int:
-        """The body of a piece."""
-        return int(self._boxes.body[k])
-
-    def __getitem__(self, k: int) -> MotionPiece:
-        row = self._rows.get(k)
-        if row is None:
-            pieces = _pieces(self._scene.bodies[k])
-            start, end = self._scene._start, self._scene._end
-            row = self._rows[k] = MotionPiece(k, (pieces or [])[0][0], start, end)
-        return row
+    def __missing__(self, k: int) -> MotionPiece:
+        ((straight, _),) = straight_pieces(self._scene.bodies[k]) or []
+        piece = self[k] = MotionPiece(k, straight, self._scene._start, self._scene._end)
+        return piece
 
 
-def boxed_pieces_of(scene: Scene) -> ScenePieces | None:
-    """The pieces of a scene; None unless all bodies move straight and none is large."""
-    bodies = scene.bodies
+def pieces_on_demand(scene: Scene) -> ScenePieces | None:
+    """The pieces of a scene; None unless all bodies have one, are not large, doubles exact."""
+    bodies, start, end = scene.bodies, scene._start, scene._end
     numbers = _of_arrays(bodies) if isinstance(bodies, BodyArrays) else _of_bodies(bodies)
-    if numbers is not None:
+    if numbers is None:
+        return None
 
-        def outline(k: int) -> Outline:
-            shape = rest_outline(bodies[k])
-            assert shape is not None  # noqa: S101 - its numbers are doubles
-            return shape
+    def outline(k: int) -> Outline:
+        shape = rest_outline(bodies[k])
+        assert shape is not None  # noqa: S101 - its numbers are doubles
+        return shape
 
-        boxes = PieceBoxes.of_doubles(numbers, scene._start, scene._end, outline)
-        return ScenePieces(scene, boxes, None)
-    rows: list[MotionPiece] = []
-    origin = far_origin(scene.bodies)
-    for i, body in enumerate(scene.bodies):
-        ask()
-        pieces = _pieces(body, origin)
-        if pieces is None:
-            return None
-        rows += pieces_during(i, pieces, scene._start, scene._end)
-    return boxed(scene, rows)
-
-
-def boxed(scene: Scene, rows: list[MotionPiece]) -> ScenePieces:
-    """The given pieces of a scene."""
-    return ScenePieces(scene, PieceBoxes(rows), rows)
+    boxes = PieceBoxes.of_doubles(numbers, start, end, outline)
+    return ScenePieces(_OnDemand(scene), start, end, boxes)
 
 
 @np.errstate(all="ignore")
@@ -133,10 +96,3 @@ def _doubles_of(body: Body) -> tuple[float, ...] | None:
     (low_x, high_x), (low_y, high_y) = ((min(f), max(f)) for f in doubles)
     (cx, vx, *_), (cy, vy, *_) = (*x, 0.0, 0.0), (*y, 0.0, 0.0)
     return (low_x, high_x, low_y, high_y, cx, cy, vx, vy, radius_above(body))
-
-
-def _pieces(
-    body: Body, origin: tuple[QQ, QQ] | None = None
-) -> list[tuple[Straight, QQ | None]] | None:
-    """Return the linear motions of a body that is not large; None of another one."""
-    return None if body.size > MOST_VERTICES else straight_pieces(body, origin=origin)

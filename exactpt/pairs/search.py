@@ -10,8 +10,7 @@ import math
 import time as clock
 from collections.abc import Collection, Iterable, Sequence
 from fractions import Fraction
-from itertools import combinations
-from typing import TYPE_CHECKING, Final, final
+from typing import TYPE_CHECKING, final
 
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -20,7 +19,14 @@ from exactpt.kernel.counters import Counters
 from exactpt.kernel.numbers import QQ, fraction
 from exactpt.motion.incidence import Touch, renumbered
 from exactpt.pairs.contact import Contact, contact_of
-from exactpt.pairs.pieces import Distance, FewPieces, MotionPiece, contact_distance, linear_pieces
+from exactpt.pairs.pieces import (
+    FEW,
+    Distance,
+    MotionPiece,
+    ScenePieces,
+    contact_distance,
+    linear_pieces,
+)
 from exactpt.pairs.rational import Earliest, Meeting, Span, span_of
 from exactpt.pairs.selection import groups_of
 from exactpt.pairs.two_pieces import first_meeting
@@ -28,7 +34,6 @@ from exactpt.scene.scene import Scene
 
 if TYPE_CHECKING:
     from exactpt.pairs.features_sweep import PairsSearch
-    from exactpt.pairs.scene_pieces import ScenePieces
 
 __all__ = [
     "LinearSearch",
@@ -37,9 +42,6 @@ __all__ = [
     "pair_search",
     "scene_pieces_if_linear",
 ]
-
-FEW: Final = 10
-"""Maximum number of pieces of which all pairs are compared without numpy."""
 
 
 @final
@@ -62,7 +64,7 @@ class LinearSearch:
     def __init__(
         self,
         scene: Scene,
-        rows: FewPieces | ScenePieces,
+        rows: ScenePieces,
         ignoring: Iterable[Collection[str]] = (),
         max_seconds: float | None = None,
     ) -> None:
@@ -108,8 +110,8 @@ class LinearSearch:
             return self._first_contact()
 
     def _first_contact(self) -> Contact | None:
-        scene, rows = self._scene, self._rows
-        near = [(i, j) for i, j in rows.near_at_start() if self._counts(i, j)]
+        scene = self._scene
+        near = [(i, j) for i, j in self._rows.near_at_start() if self._counts(i, j)]
         if near:
             from exactpt.pairs.start import initial_touches
 
@@ -117,11 +119,7 @@ class LinearSearch:
             if overlaps:
                 return contact_of(scene, AlgebraicNumber(scene._start), touches, overlaps)
         self._is_apart = True
-        found = self._search.run(
-            (enter, rows[k], rows[l])
-            for enter, k, l in rows.near()
-            if self._counts(rows.body(k), rows.body(l))
-        )
+        found = self._search.run(self._rows.near(self._counts))
         return None if found is None else contact_of(scene, found.number, found.touches)
 
     def _counts(self, i: int, j: int) -> bool:
@@ -144,20 +142,16 @@ def pair_search(
     return PairsSearch(scene, exact_only=exact_only, max_seconds=max_seconds, ignoring=ignoring)
 
 
-def scene_pieces_if_linear(scene: Scene) -> FewPieces | ScenePieces | None:
+def scene_pieces_if_linear(scene: Scene) -> ScenePieces | None:
     """The pieces of all bodies; None unless all of them move straight and are not large."""
     if len(scene.bodies) > FEW:
-        from exactpt.pairs.scene_pieces import boxed_pieces_of
+        from exactpt.pairs.scene_pieces import pieces_on_demand
 
-        return boxed_pieces_of(scene)
+        pieces = pieces_on_demand(scene)
+        if pieces is not None:
+            return pieces
     rows = linear_pieces(scene)
-    if rows is None:
-        return None
-    if len(rows) > FEW:
-        from exactpt.pairs.scene_pieces import boxed
-
-        return boxed(scene, rows)
-    return FewPieces(rows, scene._start)
+    return None if rows is None else ScenePieces.of(rows, scene._start, scene._end)
 
 
 def first_among_pieces(
@@ -176,17 +170,7 @@ def first_among_pieces(
         distance: the distance of the cores at which bodies touch.
         margin: at least half of what the distance is more than the sum of the radii.
     """
-    if len(rows) <= FEW:
-        pairs = ((-math.inf, a, b) for a, b in combinations(rows, 2))
-    else:
-        from exactpt.pairs.boxes import candidate_pieces
-
-        pairs = (
-            (enter, rows[i], rows[j]) for enter, i, j in candidate_pieces(rows, start, end, margin)
-        )
-    return first_among_candidates(
-        ((enter, a, b) for enter, a, b in pairs if a.body != b.body), distance
-    )
+    return first_among_candidates(ScenePieces.of(rows, start, end, margin).near(), distance)
 
 
 def first_among_candidates(

@@ -12,7 +12,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.motions import Pieces, Rigid, Translation
 from exactpt.motion.outline import far_origin
 from exactpt.pairs import boxes as row_boxes
-from exactpt.pairs import incidences
+from exactpt.pairs import incidences, pieces
 from exactpt.pairs import search as straight_search
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.features_sweep import PairsSearch
@@ -31,7 +31,8 @@ def told(contact):
 @pytest.mark.parametrize("few", [0, 10**6], ids=["boxes", "all pairs of rows"])
 @pytest.mark.parametrize("family", sorted({**FAMILIES, **POINTS}))
 def test_families(family, few, monkeypatch):
-    monkeypatch.setattr(straight_search, "FEW", few)
+    for module in (pieces, straight_search):
+        monkeypatch.setattr(module, "FEW", few)
     for seed in range(3):
         scene = generate(family, seed)
         if linear_pieces(scene) is not None:
@@ -92,7 +93,8 @@ def scenes(count, name):
 @pytest.mark.parametrize("few", [0, 10**6])
 @pytest.mark.parametrize("count", [150, pytest.param(5000, marks=pytest.mark.slow)])
 def test_close_to_degeneracy(few, count, monkeypatch):
-    monkeypatch.setattr(straight_search, "FEW", few)
+    for module in (pieces, straight_search):
+        monkeypatch.setattr(module, "FEW", few)
     kinds = set()
     for scene in scenes(count, f"close {few}"):
         assert linear_pieces(scene) is not None
@@ -165,7 +167,8 @@ def touching_at_ends(rng, *, in_doubles, far):
 @pytest.mark.parametrize("few", [0, 10**6])
 def test_rounding_misses_no_end_that_is_touched(in_doubles, far, few, monkeypatch):
     """At the end of an edge, or between two points, a filter without bounds misses contacts."""
-    monkeypatch.setattr(straight_search, "FEW", few)
+    for module in (pieces, straight_search):
+        monkeypatch.setattr(module, "FEW", few)
     rng = Random(f"ends {in_doubles} {far}")
     asked = 0
     while asked < 250:

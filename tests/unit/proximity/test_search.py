@@ -10,8 +10,7 @@ import pytest
 from benchmarks.shapes import crowd
 from exactpt import Approach, Body, InputError, Rigid, Scene, Translation, first_within
 from exactpt.kernel.numbers import QQ
-from exactpt.pairs import near
-from exactpt.pairs import search as pair_search
+from exactpt.pairs import near, pieces
 from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.pairs.start import near_at_start, within_at_start
 from exactpt.scene.generate import FAMILIES, generate
@@ -139,7 +138,7 @@ def test_first_approach_with_and_without_boxes_of_pieces(few, monkeypatch):
     far = [Body(f"far{i}", [(9000 + 50 * i, y)]) for i in range(3) for y in (0,)]
     close = [Body(f"near{i}", [(9000 + 50 * i, 40)], Translation([0], [0, -300])) for i in range(3)]
     both = Scene([*scene.bodies, *far, *close], (0, 4))
-    monkeypatch.setattr(pair_search, "FEW", few)
+    monkeypatch.setattr(pieces, "FEW", few)
 
     found = first_within(both, distance=10, norm="euclidean")
 
