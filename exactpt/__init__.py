@@ -26,7 +26,9 @@ if TYPE_CHECKING:
         InputError,
         UnreachableError,
     )
+    from exactpt.exchange.features import to_features
     from exactpt.exchange.files import read_shapes, write_shapes
+    from exactpt.exchange.instants import from_datetime, to_datetime
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.polynomial import Polynomial
     from exactpt.motion.body import Body
@@ -98,12 +100,15 @@ __all__ = [
     "first_contact",
     "first_contact_enclosed",
     "first_within",
+    "from_datetime",
     "in_local_time",
     "onward",
     "prove",
     "read_shapes",
     "spline",
     "stop",
+    "to_datetime",
+    "to_features",
     "write_shapes",
 ]
 
@@ -128,6 +133,11 @@ _ROOMS: Final = {
         "ExactPTError",
         "InputError",
         "UnreachableError",
+    ),
+    "exactpt.exchange.features": ("to_features",),
+    "exactpt.exchange.instants": (
+        "from_datetime",
+        "to_datetime",
     ),
     "exactpt.exchange.files": (
         "read_shapes",

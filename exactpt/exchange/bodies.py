@@ -137,9 +137,10 @@ def body_of(
     rings = [_rings_of(part, fill=holes == "fill") for part in shape.parts]
     if len(rings) == len(rings[0]) == 1:
         points, is_polygon = _ring_of(shape, shape.points)
-        return Body(name, points, motion, closed=is_polygon or len(points) < 3, radius=radius)
+        closed, more = is_polygon or len(points) < 3, shape.properties
+        return Body(name, points, motion, closed=closed, radius=radius, properties=more)
     made = [{"vertices": outline, "holes": inner} for outline, *inner in rings]
-    return Body(name, motion=motion, parts=made, radius=radius)
+    return Body(name, motion=motion, parts=made, radius=radius, properties=shape.properties)
 
 
 def _rings_of(part: Shape, *, fill: bool) -> list[list[Point]]:

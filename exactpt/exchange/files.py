@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from exactpt.errors import InputError
 from exactpt.exchange import geojson, mfjson, svg, wkt
 from exactpt.exchange.bodies import Holes, Parts, Repair, scene_of
+from exactpt.exchange.instants import from_datetime
 from exactpt.exchange.shapes import Shape, shapes_at
 from exactpt.files import read_text, write_atomically
-from exactpt.kernel.numbers import rational
 from exactpt.scene.format import loads
 from exactpt.scene.json_values import parse_json
 from exactpt.scene.written import save
 
 if TYPE_CHECKING:
+    from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.numbers import Rational
     from exactpt.scene.scene import Scene
 
@@ -37,7 +39,7 @@ ENDINGS: Final[dict[str, Format]] = {
 def read_shapes(
     path: str | Path,
     *,
-    time: Sequence[Rational] | None = None,
+    time: Sequence[Rational | datetime] | None = None,
     tolerance: float = 0.1,
     holes: Holes = "keep",
     parts: Parts = "keep",
@@ -58,7 +60,7 @@ def read_shapes(
     Args:
         path: a file with a suffix in `ENDINGS`. A scene file is loaded unchanged.
         time: the start and the end of the time span; by default that of moving features, or from
-            0 to 1.
+            0 to 1. They may be datetimes (`from_datetime`).
         tolerance: maximum distance of a chord from its curve, in units of the SVG drawing.
         holes: "keep" the holes of polygons, "refuse" such polygons, or "fill" the holes.
         parts: "keep" the parts of a MultiPolygon together as one body, or "split" them.
@@ -75,6 +77,7 @@ def read_shapes(
         raise InputError(f"holes: either keep, refuse or fill: {holes!r}")
     if parts not in ("keep", "split"):
         raise InputError(f"parts: either keep or split: {parts!r}")
+    span = None if time is None else [_seconds(t) for t in time]
     file = Path(path)
     kind, text = _format(file), read_text(file, max_bytes)
 
@@ -87,11 +90,11 @@ def read_shapes(
             return loads(text)
         if kind == "mfjson":
             told = telling(skipped)
-            return mfjson.scene_of_features(text, time=time, holes=holes, skipped=told)
+            return mfjson.scene_of_features(text, time=span, holes=holes, skipped=told)
         shapes = _shapes_of(kind, text, tolerance)
         return scene_of(
             shapes,
-            time=time or (0, 1),
+            time=span or (0, 1),
             holes=holes,
             parts=parts,
             repair=_repair(telling(repaired)),
@@ -99,6 +102,10 @@ def read_shapes(
         )
     except InputError as error:
         raise InputError(f"{file}: {error}") from None
+
+
+def _seconds(at: Rational | datetime) -> Rational:
+    return from_datetime(at) if isinstance(at, datetime) else at
 
 
 def _repair(told: Callable[[str], None] | None) -> Repair | None:
@@ -151,7 +158,7 @@ def _shapes_of(kind: Format, text: str, tolerance: float) -> Iterator[Shape]:
 def write_shapes(
     scene: Scene,
     path: str | Path,
-    at: Rational | None = None,
+    at: Rational | AlgebraicNumber | None = None,
     *,
     tolerance: float | None = None,
 ) -> None:
@@ -165,7 +172,7 @@ def write_shapes(
     Args:
         scene: the bodies.
         path: a file with a suffix in `ENDINGS`; it is complete or not there.
-        at: the time; by default the start.
+        at: the time, which may be irrational; by default the start.
         tolerance: maximum distance of a chord from its arc; by default a hundredth of the radius.
 
     Raises:
@@ -183,7 +190,7 @@ def write_shapes(
             raise InputError(f"{file}: moving features have all times: leave the time away")
         write_atomically(file, mfjson.mfjson_of(scene))
         return
-    shapes = shapes_at(scene, scene._start if at is None else rational(at))
+    shapes = shapes_at(scene, scene._start if at is None else at)
     if scene.is_rounded:
         from exactpt.exchange.shapely_adapter import outlined
 

@@ -7,7 +7,7 @@ The format is parsed here: a library would return coordinates as floats. A third
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from exactpt.errors import InputError
@@ -23,10 +23,13 @@ __all__ = [
     "TYPES",
     "coordinates_of",
     "geojson_of",
+    "geometry_of",
     "geometry_shapes",
     "is_type",
     "name_of",
+    "named",
     "part",
+    "properties_of",
     "shapes_of",
 ]
 
@@ -41,6 +44,8 @@ TYPES: Final = {
     *(f"Multi{kind}" for kind in _PARTS),
 }
 """Possible values of the key "type" of a GeoJSON object."""
+LONGEST: Final = 4000
+"""Number of digits from which on an integer is read as a double, as Python reads no longer ones."""
 _TYPE_OF: Final = {kind: name for name, kind in _PARTS.items()}
 
 
@@ -89,7 +94,34 @@ def _of_feature(data: Json, where: str) -> Iterator[Shape]:
     if data.get("geometry") is None:
         yield Shape(where, name, "point", ())
         return
-    yield from geometry_shapes(data["geometry"], where, name)
+    properties = properties_of(data)
+    for shape in geometry_shapes(data["geometry"], where, name):
+        parts = [part._replace(properties=properties) for part in shape.more]
+        yield shape._replace(properties=properties, more=parts)
+
+
+def properties_of(feature: dict[str, Json]) -> dict[str, object] | None:
+    """Return the properties of a feature with numbers of Python; None if it has none."""
+    properties = feature.get("properties")
+    found = _plain(properties) if isinstance(properties, dict) else None
+    return found if isinstance(found, dict) else None
+
+
+def _plain(data: Json) -> object:
+    if isinstance(data, Number):
+        digits = data.removeprefix("-")
+        return int(data) if digits.isdigit() and len(digits) < LONGEST else float(data)
+    if isinstance(data, dict):
+        return {key: _plain(value) for key, value in data.items()}
+    return [_plain(value) for value in data] if isinstance(data, list) else data
+
+
+def named(name: str, properties: Mapping[str, object] | None) -> dict[str, object]:
+    """Return the properties to write for a body: they name it as `shapes_of` names it."""
+    found = dict(properties or {})
+    if name_of({"properties": found}) == name:  # type: ignore[dict-item]
+        return found
+    return {"name": name, **{key: v for key, v in found.items() if key != "name"}}
 
 
 def name_of(feature: dict[str, Json]) -> str:
@@ -161,15 +193,18 @@ def geojson_of(shapes: Iterable[Shape]) -> str:
     features = [
         {
             "type": "Feature",
-            "properties": {"name": shape.name},
-            "geometry": {
-                "type": "MultiPolygon" if shape.more else _TYPE_OF[shape.kind],
-                "coordinates": coordinates_of(shape),
-            },
+            "properties": named(shape.name, shape.properties),
+            "geometry": geometry_of(shape),
         }
         for shape in shapes
     ]
     return json.dumps({"type": "FeatureCollection", "features": features}, indent=1) + "\n"
+
+
+def geometry_of(shape: Shape) -> dict[str, object]:
+    """Return the geometry of a shape, coordinates as the nearest doubles."""
+    kind = "MultiPolygon" if shape.more else _TYPE_OF[shape.kind]
+    return {"type": kind, "coordinates": coordinates_of(shape)}
 
 
 def coordinates_of(shape: Shape) -> object:

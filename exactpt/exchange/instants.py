@@ -1,16 +1,18 @@
-"""Dates with times (RFC 3339) as exact seconds since 1970-01-01T00:00:00Z, without leap seconds."""
+"""Dates with times (RFC 3339), and exact seconds since 1970-01-01T00:00:00Z without leap ones."""
 
 from __future__ import annotations
 
 import re
-from datetime import date, datetime, time, timedelta
+from datetime import UTC, date, datetime, time, timedelta
+from fractions import Fraction
 from typing import Final
 
 from exactpt.errors import InputError
-from exactpt.kernel.numbers import QQ, floor, parse_rational, shorten, show
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import QQ, Rational, floor, fraction, parse_rational, shorten, show
 from exactpt.scene.json_values import Json, Number, exact_number, shown
 
-__all__ = ["instant_of", "seconds_of"]
+__all__ = ["from_datetime", "instant_of", "seconds_of", "to_datetime"]
 
 _TEXT: Final = re.compile(
     r"(\d{4}-\d\d-\d\d)[Tt ](\d\d:\d\d:\d\d)(\.\d+)?(?:([Zz])|([+-])(\d\d)(?::?(\d\d))?)?", re.ASCII
@@ -44,6 +46,43 @@ def seconds_of(data: Json, where: str) -> QQ:
     whole = days * _DAY + at.hour * 3600 + at.minute * 60 + at.second
     zone = (offset[0] * 3600 + offset[1] * 60) * (-1 if sign == "-" else 1)
     return QQ(whole - zone) + (parse_rational(f"0{decimals}") if decimals else 0)
+
+
+def from_datetime(at: datetime | str) -> Fraction:
+    """Return the exact seconds since 1970-01-01T00:00:00Z, as scenes of moving features have them.
+
+    >>> from_datetime("2026-09-01T12:00:00.5Z") - from_datetime("2026-09-01T12:00:00Z")
+    Fraction(1, 2)
+
+    Args:
+        at: a datetime, or a text as in RFC 3339; without a time zone it is in UTC.
+
+    Raises:
+        InputError: if it is neither.
+    """
+    if not isinstance(at, datetime):
+        return fraction(seconds_of(at, "datetime"))
+    since = (at if at.tzinfo else at.replace(tzinfo=UTC)) - datetime(1970, 1, 1, tzinfo=UTC)
+    return Fraction(since // timedelta(microseconds=1), 10**6)
+
+
+def to_datetime(time: Rational | AlgebraicNumber) -> datetime:
+    """Return the datetime in UTC of seconds since 1970-01-01T00:00:00Z.
+
+    It is rounded to the nearest microsecond, of two to an even one.
+
+    >>> to_datetime(from_datetime("2026-09-01T12:00:00.5Z")).isoformat()
+    '2026-09-01T12:00:00.500000+00:00'
+
+    Raises:
+        InputError: if its year is not from 1 to 9999.
+    """
+    exact = time if isinstance(time, AlgebraicNumber) else AlgebraicNumber(time)
+    try:
+        since = timedelta(microseconds=int(round(exact, 6) * 10**6))
+        return datetime(1970, 1, 1, tzinfo=UTC) + since
+    except OverflowError:
+        raise InputError(f"a date has a year from 1 to 9999: t = {shorten(str(time))}") from None
 
 
 def instant_of(seconds: QQ) -> str:

@@ -46,12 +46,14 @@ class _Path(NamedTuple):
         name: the wanted name of the body.
         times: increasing, in seconds.
         shapes: as many.
+        properties: those of its feature.
     """
 
     where: str
     name: str
     times: Sequence[QQ]
     shapes: Sequence[Shape]
+    properties: dict[str, object] | None
 
 
 def is_moving(data: Json) -> bool:
@@ -156,7 +158,9 @@ def _path(feature: Json, where: str) -> _Path:
     shapes = _shapes(geometry, str(kind), where, name)
     if len(shapes) != len(times):
         raise InputError(f"{where}: {len(times)} datetimes for {len(shapes)} positions")
-    return _Path(where, name, times, shapes)
+    properties = geojson.properties_of(feature)
+    shapes = [shape._replace(properties=properties) for shape in shapes]
+    return _Path(where, name, times, shapes, properties)
 
 
 def _sequence(geometry: dict[str, Json], where: str) -> dict[str, Json]:
@@ -233,7 +237,7 @@ def _body(path: _Path, name: str, holes: Holes) -> Body:
             f"{path.where}: a polygon with holes that changes its shape: fill them (--holes fill)"
         )
     keyframes = list(zip(path.times, frames, strict=True))
-    return Body(name, keyframes=keyframes, closed=first.closed)
+    return Body(name, keyframes=keyframes, closed=first.closed, properties=path.properties)
 
 
 def _translation(a: Sequence[Point], b: Sequence[Point]) -> Point | None:
@@ -263,7 +267,7 @@ def mfjson_of(scene: Scene) -> str:
     features = [
         {
             "type": "Feature",
-            "properties": {"name": body.name},
+            "properties": geojson.named(body.name, body.properties),
             "temporalGeometry": _moving(scene, i, f"body {shorten(body.name)}"),
         }
         for i, body in enumerate(scene.bodies)

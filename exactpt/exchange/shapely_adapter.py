@@ -27,7 +27,8 @@ except ImportError:
 
 if TYPE_CHECKING:
     from exactpt.geometry.predicates import Point
-    from exactpt.kernel.numbers import QQ, Rational
+    from exactpt.kernel.algebraic import AlgebraicNumber
+    from exactpt.kernel.numbers import Rational
     from exactpt.motion.body import Body
     from exactpt.motion.motions import Motion
     from exactpt.scene.scene import Scene
@@ -204,7 +205,9 @@ def _size(geometry: BaseGeometry) -> str:
     return f"{parts} polygon{'s' * (parts > 1)} of {count} vertices"
 
 
-def geometries_of(scene: Scene, at: QQ, tolerance: float | None) -> dict[str, BaseGeometry]:
+def geometries_of(
+    scene: Scene, at: Rational | AlgebraicNumber, tolerance: float | None
+) -> dict[str, BaseGeometry]:
     """Return the bodies at a time, by name, see `Scene.to_shapely`."""
     return {shape.name: _geometry(shape, tolerance) for shape in shapes_at(scene, at)}
 

@@ -7,7 +7,7 @@ may have holes, and not every shape is a valid body.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
@@ -16,11 +16,12 @@ import numpy as np
 from exactpt.errors import InputError
 from exactpt.geometry.boxes import Boxes, Indices, boxes_of_points, overlapping_pairs
 from exactpt.geometry.polygon import contains
-from exactpt.kernel.numbers import nearest_float, shorten, show
+from exactpt.kernel.algebraic import AlgebraicNumber
+from exactpt.kernel.numbers import nearest_float, rational, shorten, show
 
 if TYPE_CHECKING:
     from exactpt.geometry.predicates import Point
-    from exactpt.kernel.numbers import QQ
+    from exactpt.kernel.numbers import QQ, Rational
     from exactpt.motion.body import Body
     from exactpt.scene.scene import Scene
 
@@ -31,6 +32,7 @@ __all__ = [
     "nested",
     "rounded",
     "rounded_rings",
+    "shape_at",
     "shapes_at",
     "together",
 ]
@@ -42,6 +44,9 @@ _MOST_NESTED: Final = 10_000_000
 """Maximum number of pairs of rings of one outline with one box inside the other."""
 
 Kind: TypeAlias = Literal["point", "line", "polygon"]
+
+DIGITS: Final = 24
+"""Number of significant digits of coordinates at an irrational time: more than doubles have."""
 
 _NONE: Final[Indices] = np.empty(0, dtype=np.int64)
 
@@ -57,6 +62,7 @@ class Shape(NamedTuple):
         holes: rings inside a polygon that bound its holes.
         radius: all points within it belong to the shape: only of shapes to be written.
         more: further polygons of the same shape, which have none themselves.
+        properties: further data; None if there are none.
     """
 
     where: str
@@ -66,6 +72,7 @@ class Shape(NamedTuple):
     holes: Sequence[Sequence[Point]] = ()
     radius: QQ | int = 0
     more: Sequence[Shape] = ()
+    properties: Mapping[str, object] | None = None
 
     @property
     def parts(self) -> tuple[Shape, ...]:
@@ -85,21 +92,29 @@ def together(parts: Sequence[Shape]) -> list[Shape]:
     return list(parts)
 
 
-def shapes_at(scene: Scene, at: QQ) -> list[Shape]:
+def shapes_at(scene: Scene, time: Rational | AlgebraicNumber) -> list[Shape]:
     """Return the bodies of a scene at a time, as shapes.
+
+    At an irrational time coordinates are rounded to `DIGITS` significant digits.
 
     Raises:
         InputError: if the time is outside the time span.
     """
-    if not scene._start <= at <= scene._end:
+    at = time if isinstance(time, AlgebraicNumber) else AlgebraicNumber(time)
+    if at.compare_rational(scene._start) < 0 or at.compare_rational(scene._end) > 0:
         span = f"from {show(scene._start)} to {show(scene._end)}"
-        raise InputError(f"t = {show(at)} is outside the time span {span}")
-    return [shape for body in scene.bodies for shape in together(_parts_at(body, at))]
+        when = show(at._low) if at.is_rational else repr(float(at))
+        raise InputError(f"t = {when} is outside the time span {span}")
+    return [shape_at(body, at) for body in scene.bodies]
 
 
-def _parts_at(body: Body, at: QQ) -> list[Shape]:
-    points = body._at(at)
-    return [
+def shape_at(body: Body, at: AlgebraicNumber) -> Shape:
+    """Return a body at a time as a shape, see `shapes_at`."""
+    if at.is_rational:
+        points = body._at(at._low)
+    else:
+        points = [(rational(x), rational(y)) for x, y in body.at(at, DIGITS)]
+    parts = [
         Shape(
             f"body {shorten(body.name)}",
             body.name,
@@ -107,9 +122,11 @@ def _parts_at(body: Body, at: QQ) -> list[Shape]:
             points[outline.start : outline.stop],
             [points[hole.start : hole.stop] for hole in holes],
             body._radius,
+            properties=body.properties or None,
         )
         for outline, *holes in body.parts
     ]
+    return parts[0]._replace(more=parts[1:])
 
 
 def _kind(body: Body) -> Kind:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final, Literal, final, overload
@@ -99,12 +99,13 @@ class Body:
         parts: instead of vertices, the disjoint parts of the body: outlines, or mappings with
             "vertices" and "holes".
         radius: a number >= 0.
+        properties: further data, such as those of a GeoJSON feature, see `properties`.
 
     Raises:
         InputError: if the arguments do not describe a body, or the motion jumps.
     """
 
-    __slots__ = ("_course", "_parts", "_radius", "_shape", "closed", "name")
+    __slots__ = ("_course", "_parts", "_properties", "_radius", "_shape", "closed", "name")
 
     def __init__(
         self,
@@ -117,6 +118,7 @@ class Body:
         holes: Iterable[Outline] = _NO_HOLES,
         parts: Iterable[PartLike] | None = None,
         radius: Rational = 0,
+        properties: Mapping[str, object] | None = None,
     ) -> None:
         if not is_text(name):
             raise InputError(f"a body's name is a text that is not empty: {shorten(name)}")
@@ -128,6 +130,7 @@ class Body:
         self.closed = closed
         self._radius = _read_radius(name, radius)
         self._parts: Parts | None = None
+        self._properties = dict(properties) if properties else None
         try:
             if plain:
                 self._shape = Shape(vertices, keyframes, ring=closed)
@@ -218,10 +221,7 @@ class Body:
             InputError: if it is no motion, or jumps.
         """
         _check_motion(self.name, motion)
-        other = Body.__new__(Body)
-        other.name, other.closed = self.name, self.closed
-        other._shape, other._radius = self._shape, self._radius
-        other._parts = self._parts  # noqa: SLF001
+        other = self._copied()
         try:
             other._course = Course(self._shape, motion)  # noqa: SLF001
         except InputError as error:
@@ -232,9 +232,12 @@ class Body:
         """A body of the same name and kind at rest, as this one is at a rational time."""
         points = self._at(rational(t))
         if self._parts is None:
-            return Body(self.name, points, closed=self.closed, radius=str(self._radius))
-        given = parts_given(self._parts, points)
-        return Body(self.name, radius=str(self._radius), **given)  # type: ignore[arg-type]
+            body = Body(self.name, points, closed=self.closed, radius=str(self._radius))
+        else:
+            given = parts_given(self._parts, points)
+            body = Body(self.name, radius=str(self._radius), **given)  # type: ignore[arg-type]
+        body._properties = self._properties
+        return body
 
     def with_radius(self, radius: Rational) -> Body:
         """A body of the same name, shape and motion with another radius.
@@ -242,12 +245,24 @@ class Body:
         Raises:
             InputError: if it is no number >= 0.
         """
-        other = Body.__new__(Body)
-        other.name, other.closed = self.name, self.closed
-        other._shape, other._course = self._shape, self._course  # noqa: SLF001
+        other = self._copied()
         other._radius = _read_radius(self.name, radius)
-        other._parts = self._parts  # noqa: SLF001
         return other
+
+    def _copied(self) -> Body:
+        other = Body.__new__(Body)
+        for name in Body.__slots__:
+            setattr(other, name, getattr(self, name))
+        return other
+
+    @property
+    def properties(self) -> dict[str, object]:
+        """A copy of the data that come with the body and its copies of another motion or radius.
+
+        `read_shapes` keeps those of GeoJSON and MF-JSON features, and `write_shapes` writes them.
+        They have no part in equality, and are in no scene file.
+        """
+        return dict(self._properties or {})
 
     @property
     def motion(self) -> Motion:
@@ -379,6 +394,8 @@ class Body:
         options: dict[str, object] = {"motion": self.motion, "closed": self.closed}
         if self._radius:
             options["radius"] = str(self._radius)
+        if self._properties:
+            options["properties"] = self._properties
         given = self._shape.given()
         if self._parts is not None:
             options |= parts_given(self._parts, given["vertices"])

@@ -254,8 +254,10 @@ class Scene:
         scene: Scene = extension("scene from shapely")(geometries, time, holes, parts, radius)
         return scene
 
-    def to_shapely(self, t: Rational, *, tolerance: float | None = None) -> dict[str, BaseGeometry]:
-        """Return the bodies at a rational time as shapely geometries, by name.
+    def to_shapely(
+        self, t: Rational | AlgebraicNumber, *, tolerance: float | None = None
+    ) -> dict[str, BaseGeometry]:
+        """Return the bodies at a time as shapely geometries, by name.
 
         Coordinates are the nearest doubles. A rounded body becomes a polygon of chords, by
         shapely's buffer, which also fills dents shallower than a hundredth of the radius.
@@ -269,7 +271,7 @@ class Scene:
             InputError: if the time is outside the time span, or the tolerance is not positive.
         """
         convert = extension("scene to shapely")
-        geometries: dict[str, BaseGeometry] = convert(self, rational(t), tolerance)
+        geometries: dict[str, BaseGeometry] = convert(self, t, tolerance)
         return geometries
 
     def until(self, end: Rational) -> Scene:

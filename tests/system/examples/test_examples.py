@@ -1,5 +1,6 @@
 """The examples of five users run, print what they are about, and are short."""
 
+import json
 import os
 import re
 import subprocess
@@ -9,9 +10,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import exactpt
+
 ROOT = Path(__file__).parents[3]
 EXAMPLES = ROOT / "examples"
-TASKS = ["billiards", "game_engine", "million_pairs", "robot_arm", "robot_cell"]
+TASKS = [
+    "billiards", "game_engine", "million_pairs", "robot_arm", "robot_cell", "ships_and_storms",
+]  # fmt: skip
 
 
 def output(name, *words):
@@ -90,6 +95,38 @@ def test_a_table_of_polygons():
 
     assert re.search(r"t = 2: \d\d+ contacts, energy changed by -?\d\.\de-(1\d|09)", said)
     assert "velocity of p1: 0 1" in said
+
+
+@pytest.mark.long
+def test_ships_in_storms(tmp_path):
+    said = output("ships_and_storms", 60, tmp_path / "found.geojson").splitlines()
+
+    features = json.loads((tmp_path / "found.geojson").read_text())["features"]
+    assert len(features) == len(said) > 10
+    assert re.fullmatch(r"ship \d+ in storm \d from [\d:]{8} to [\d:]{8}", said[0])
+    assert {"a_mmsi", "b_category", "start", "end"} <= set(features[0]["properties"])
+
+
+@pytest.mark.slow
+def test_clients_of_gis_read_the_answers_and_the_moving_features(tmp_path):
+    geopandas = pytest.importorskip("geopandas")
+    output("ships_and_storms", 60, tmp_path / "found.geojson")
+
+    table = geopandas.read_file(tmp_path / "found.geojson")
+    assert set(table.geom_type) == {"Point"}
+    assert table["a_mmsi"].min() >= 211_000_000
+    assert (table["start"] <= table["end"]).all()
+
+
+@pytest.mark.slow
+def test_movingpandas_reads_moving_features(tmp_path):
+    movingpandas = pytest.importorskip("movingpandas")
+    ship = exactpt.Body("ship", [(0, 0)], exactpt.Velocity(1, 0), properties={"mmsi": 7})
+    exactpt.write_shapes(exactpt.Scene([ship], time=(0, 60)), tmp_path / "ship.mfjson")
+
+    found = movingpandas.read_mf_json(str(tmp_path / "ship.mfjson"), traj_id_property="mmsi")
+    trajectory = getattr(found, "trajectories", [found])[0]
+    assert trajectory.get_end_location().x == 60.0
 
 
 @pytest.mark.long

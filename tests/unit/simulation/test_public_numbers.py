@@ -275,7 +275,7 @@ def test_every_public_name_is_walked_through():
     }  # fmt: skip
     without_numbers = {
         "AuditError", "ExactPTError", "InputError", "Proof", "UnreachableError", "certify", "prove",
-        "read_shapes", "stop", "write_shapes",
+        "from_datetime", "read_shapes", "stop", "to_datetime", "to_features", "write_shapes",
     }  # fmt: skip
     assert reached | without_numbers == set(exactpt.__all__)
     assert Snapshot.__module__.startswith("exactpt")
