@@ -737,13 +737,18 @@ def check(scene_file: bytes, certificate: bytes, work: int = Work.usual) -> Prov
             max(len(scene_file), len(certificate)) <= MOST_BYTES,
             "or the certificate: too many bytes",
         )
-        rows, text = read(certificate), scene_file.decode("utf-8-sig")
-        digest = hashlib.sha256(scene_file).hexdigest()
-        if rows[1][1][2] != digest:
+        text, digest = scene_file.decode("utf-8-sig"), hashlib.sha256(scene_file).hexdigest()
+        head = certificate[:100].decode("ascii", "replace").split("\n")
+        many = head[0] == "exactpt-apart-rows 1"
+        rows = [] if many else read(certificate)
+        if (f"scenes sha256 {digest}" != head[1]) if many else (rows[1][1][2] != digest):
             raise NoProofError("the certificate was made for a different scene: the hashes differ")
-        scene, line = Scene(text), rows[2][0]
-        checker = Checker(scene, rows)
-        proved = checker.run()
+        if many:
+            proved = check_rows(text.split("\n")[:-1], certificate.decode().split("\n")[2:-1])
+        else:
+            scene, line = Scene(text), rows[2][0]
+            checker = Checker(scene, rows)
+            proved = checker.run()
         verdict = Proved(f"accepted: {digest[:16]} {proved}")
         verdict.__dict__.update(proved.__dict__)
         return verdict
@@ -754,6 +759,29 @@ def check(scene_file: bytes, certificate: bytes, work: int = Work.usual) -> Prov
     finally:
         sys.set_int_max_str_digits(digits)
         WORK.left = Work.usual
+
+
+def check_rows(scenes: list[str], rows: list[str]) -> Proved:
+    """Check a certificate of many scenes, a line each, with ; between its lines; or only "open"."""
+    need(len(scenes) == len(rows), "the numbers of scenes and of rows differ:", len(rows))
+    found = dict.fromkeys(("no contact", "first contact", "contact at the start", "open"), 0)
+    for k, (scene, row) in enumerate(zip(scenes, rows, strict=True), 1):
+        made = Scene(scene)
+        if row == "open":
+            found["open"] += 1
+            continue
+        try:
+            lines = read(f"exactpt-apart 1\nscene sha256 -\n{row.replace(';', chr(10))}".encode())
+            proved = Checker(made, lines).run()
+        except Rejected as why:
+            raise Rejected(f"row {k}: {why}") from None
+        require(proved.whole, f"row {k}: only a part is proved: {proved}")
+        start = {"no": "no contact", "first": "first contact"}
+        found[start.get(proved.split()[0], "contact at the start")] += 1
+    said = ", ".join(f"{kind} in {n}" for kind, n in found.items() if n)
+    proved = Proved(f"{len(rows)} rows, each of two or more bodies in the whole span: {said}")
+    proved.until, proved.is_of_all, proved.whole = Fraction(0), False, not found["open"]
+    return proved
 
 
 USAGE = "usage: python3 -I check_apart.py SCENE CERTIFICATE [--until T | --partial] [--work N]"

@@ -231,8 +231,58 @@ int verify_certificate(const Call& call, const std::string& scene_bytes, const s
   return answer("accepted: " + hash.substr(0, 16) + " " + found.text, 0);
 }
 
+constexpr const char* head_of_rows = "exactpt-apart-rows 1\n";
+
+std::vector<std::string> lines_of(const std::string& bytes) {
+  std::vector<std::string> result;
+  for (std::size_t i = 0, end; (end = bytes.find('\n', i)) != std::string::npos; i = end + 1)
+    result.push_back(bytes.substr(i, end - i));
+  return result;
+}
+
+// Certificates of many scenes, a line each.
+int verify_rows(const Call& call, const std::string& scene_bytes, const std::string& bytes) {
+  if (!call.expected.empty() || call.jobs != 1) throw NoProof(usage);
+  std::vector<std::string> scenes = lines_of(scene_bytes), rows = lines_of(bytes);
+  const std::string hash = sha256(scene_bytes);
+  if (rows.size() < 2 || rows[1] != "scenes sha256 " + hash)
+    throw NoProof("the certificate was made for a different scene: the hashes differ");
+  if (rows.size() != scenes.size() + 2) throw NoProof("the numbers of scenes and of rows differ");
+  const char* kinds[] = {"no contact", "first contact", "contact at the start", "open"};
+  std::size_t found[4] = {};
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    const Scene scene(scenes[k]);
+    std::string& row = rows[k + 2];
+    if (row == "open") {
+      ++found[3];
+      continue;
+    }
+    std::replace(row.begin(), row.end(), ';', '\n');
+    const ApartText text = parse_certificate("exactpt-apart 1\nscene sha256 -\n" + row);
+    const std::string where = "row " + std::to_string(k + 1) + ": ";
+    try {
+      const Statement one = check_apart(scene, text);
+      if (!one.is_whole) throw Rejected("only a part is proved: " + one.text);
+      const std::string first = one.text.substr(0, one.text.find(' '));
+      ++found[first == "no" ? 0 : first == "first" ? 1 : 2];
+    } catch (const Rejected& fault) {
+      throw Rejected(where + fault.what());
+    }
+  }
+  std::string said;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (found[i])
+      said += (said.empty() ? "" : ", ") + (kinds[i] + (" in " + std::to_string(found[i])));
+  const std::string text = "accepted: " + hash.substr(0, 16) + " " + std::to_string(scenes.size()) +
+                           " rows, each of two or more bodies in the whole span: " + said;
+  if (found[3] && !call.is_partial)
+    return answer("rejected: proved is only a part (see --until, --partial): " + text, 1);
+  return answer(text, 0);
+}
+
 int verify_pair(const Call& call) {
   const std::string scene_bytes = bytes_of(call.paths[0]), bytes = bytes_of(call.paths[1]);
+  if (bytes.compare(0, 21, head_of_rows) == 0) return verify_rows(call, scene_bytes, bytes);
   if (is_certificate(bytes)) return verify_certificate(call, scene_bytes, bytes);
   const ProofText text = parse_proof(bytes);
   const std::string hash = sha256(scene_bytes);

@@ -29,6 +29,8 @@ Floats: TypeAlias = "np.ndarray[Any, np.dtype[np.float64]]"
 DIRECTIONS: Final = np.array([(1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (1, 2), (2, -1), (1, -2)])
 CLEAR: Final = 1e-11
 """Smallest gap that a line is put into, relative to the extent of all items."""
+CROSSING: Final = 1.7
+"""Parts of all items that both children of a node with a line through some of them may have."""
 FEW, CLOSE = 8, 1e-15
 """Of so few items, gaps down to the second number are tried: the exact test decides."""
 ERROR: Final = 1e-12
@@ -222,7 +224,7 @@ class Separation:
             if self.nodes > most:
                 raise BudgetExceeded(f"a certificate of more than {most} nodes is needed", None)
             rows = frame.rows(items)
-            found = self._cut(frame, items, rows, depth)
+            found = self._cut(frame, items, rows)
             if found is not None:
                 plane, below, above = found
                 yield plane.line()
@@ -259,31 +261,23 @@ class Separation:
         body = int(np.bincount(bodies).argmax())
         return body, items[bodies == body]
 
-    def _cut(
-        self, frame: Frame, items: Items, rows: Items, depth: int
-    ) -> tuple[Plane, Any, Any] | None:
+    def _cut(self, frame: Frame, items: Items, rows: Items) -> tuple[Plane, Any, Any] | None:
         """A good moving line, with the items below and above it; None if there is none."""
-        proposed = [(DIRECTIONS, frame.usual(rows))]
-        clean = True
-        for further in (False, True):
-            if further:
-                more = self._directions(frame, items, rows, depth)
-                if len(more):
-                    proposed.append((more, frame.extents(rows, more)))
-            for directions, extents in proposed[-1:] if clean else proposed:
-                cuts = self._clean(items, directions, extents)
-                for cut in sorted(cuts, reverse=True)[:3]:
-                    if (found := self._made(frame, items, rows, cut, 1.97)) is not None:
-                        return found
-        crossing = (
-            [cut for some in proposed for cut in self._crossing(items, *some)]
-            if len(items) > 4
-            else []
-        )
-        for cut in sorted(crossing, reverse=True)[:3]:
-            found = self._made(frame, items, rows, cut, 1.7)
-            if found is not None:
+        usual = DIRECTIONS, frame.usual(rows)
+        for cut in sorted(self._clean(items, *usual), reverse=True)[:3]:
+            if (found := self._made(frame, items, rows, cut, 1.0)) is not None:
                 return found
+        more = self._directions(frame, items, rows)
+        further = more, frame.extents(rows, more)
+        cuts = self._clean(items, *further) if len(more) else []
+        most = 1.0
+        for _ in range(2):
+            for cut in sorted(cuts, reverse=True)[:3]:
+                if (found := self._made(frame, items, rows, cut, most)) is not None:
+                    return found
+            cuts, most = [], CROSSING
+            for some in (usual, further):
+                cuts += self._crossing(items, *some) if len(items) > 4 and len(some[0]) else []
         return None
 
     def _clean(self, items: Items, directions: Floats, extents: tuple[Floats, Floats]) -> list[Cut]:
@@ -304,6 +298,7 @@ class Separation:
         alone += np.logical_and.accumulate(group[::-1] == group[-1], axis=0)[::-1][1:]
         k = np.arange(1, count)[:, None]
         worth = np.minimum(k, count - k) / count + 0.5 * alone + 0.3 * np.minimum(clear, 0.3)
+        worth -= 0.1 * (np.abs(directions).max(axis=1) > 1e6)  # longer numbers
         worth[~(clear > (CLEAR if count > FEW else CLOSE))] = -1.0
         best, found = worth.argmax(axis=0), []
         for j, k in enumerate(best.tolist()):
@@ -371,7 +366,7 @@ class Separation:
             below[k], above[k] = sides == {-1}, sides == {1}
         return below, above
 
-    def _directions(self, frame: Frame, items: Items, rows: Items, depth: int) -> Floats:
+    def _directions(self, frame: Frame, items: Items, rows: Items) -> Floats:
         """Normals of some edges, and directions between nearest vertices of two groups."""
         some = rows if len(rows) <= MANY else rows[:: len(rows) // MANY]
         u, v = frame.ends[:, frame.ends_of[some, 0]], frame.ends[:, frame.ends_of[some, 1]]
@@ -388,9 +383,9 @@ class Separation:
         raw = np.concatenate(found)
         size = np.abs(raw).max(axis=1, keepdims=True)
         raw = raw[(size[:, 0] > 0) & np.isfinite(size[:, 0])]
-        grid = 1e3 if len(items) > FEW or depth < 6 else 1e6 if depth < 12 else 2.0**50
-        turned = np.rint(raw / np.abs(raw).max(axis=1, keepdims=True) * grid) if len(raw) else raw
-        return np.unique(turned, axis=0)
+        raw /= np.abs(raw).max(axis=1, keepdims=True) if len(raw) else 1.0
+        grids = (1e3, 2.0**50) if len(items) <= FEW else (1e3,)
+        return np.concatenate([np.unique(np.rint(raw * grid), axis=0) for grid in grids])
 
 
 def short(x: Fraction, unit: float) -> Fraction:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
@@ -22,14 +23,16 @@ from exactpt.proof.degrees import refuse_degrees
 from exactpt.proof.emit import scene_bytes
 from exactpt.proof.written import Proof, beside
 from exactpt.scene.scene import Scene, a_scene
+from exactpt.scene.written import to_json
 
 if TYPE_CHECKING:
+    from exactpt.arrays.contacts import Contacts
     from exactpt.collision.search import Search
     from exactpt.collision.searches import Question
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.pairs.contact import Contact
 
-__all__ = ["CertifiedSearch", "certificate_of", "certify"]
+__all__ = ["CertifiedSearch", "certificate_of", "certify", "certify_rows"]
 
 NEAR: Final = 22
 """A contact is enclosed in a part 2^-20 of the time span: L is about 2^-22 of it before."""
@@ -107,6 +110,26 @@ def certificate_of(scene: Scene, contact: Contact | None, file: bytes | None = N
     content = scene_bytes(scene) if file is None else file
     made = _Certificate(scene, content, Selection(scene), Fraction(0))
     return Proof(contact, content, made.text(contact, made.start, made.end))
+
+
+def certify_rows(contacts: Contacts) -> Proof:
+    """The certificates of all answers of `exactpt.arrays.first_contacts`, in one file.
+
+    Its scene file has a line for each pair, the scene of its two bodies. A pair that is refused,
+    or whose contact has no certificate, is "open": nothing is shown of it.
+    """
+    scenes, rows = list[str](), list[str]()
+    for k in range(len(contacts)):
+        scene = contacts.scene(k)
+        scenes.append(json.dumps(to_json(scene), separators=(",", ":")))
+        try:
+            text = certificate_of(scene, contacts.contact(k), b"").text.decode()
+            rows.append(";".join(text.splitlines()[2:]))
+        except (InputError, BudgetExceeded):
+            rows.append("open")
+    file = "".join(f"{line}\n" for line in scenes).encode()
+    head = ["exactpt-apart-rows 1", f"scenes sha256 {hashlib.sha256(file).hexdigest()}"]
+    return Proof(None, file, "".join(f"{line}\n" for line in [*head, *rows]).encode())
 
 
 @final

@@ -15,8 +15,9 @@ import exactpt
 from exactpt import Body, Rigid, Scene, Translation, check_apart, proof_check
 from exactpt.cli import cli
 from exactpt.errors import AuditError, BudgetExceeded, InputError
+from exactpt.proof import certify_rows
 from exactpt.proof.apart import Paths
-from exactpt.scene.generate import generate
+from exactpt.scene.generate import FAMILIES, POINTS, RINGS, SPINNING, generate
 
 ROOT = Path(check_apart.__file__).parent.parent
 BOX = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -63,7 +64,7 @@ def test_the_copy_of_the_reader_is_current():
     source = Path(proof_check.__file__).read_text(encoding="utf-8")
     assert copied == copier["reader"](source), "run python .ci/copy_reader.py"
     own = text.replace(copied, "").splitlines()
-    assert sum(bool(line.strip()) for line in own) <= 385
+    assert sum(bool(line.strip()) for line in own) <= 415
 
 
 def test_the_checker_imports_nothing_but_the_standard_library():
@@ -427,3 +428,71 @@ def test_a_certificate_of_another_scene_is_refused():
         check_apart.check(proof.scene + b" ", proof.text)
     with pytest.raises(AuditError):
         proof._replace(text=proof.text.replace(b"meet 4", b"meet 5/2")).check()
+
+
+def test_rows_of_arrays():
+    corners = [(0, 0), (2, 0), (0, 2), (5, 1), (7, 0), (7, 3), (0, 9), (1, 9), (0, 0), (1, 0)]
+    offsets, pairs = [0, 3, 6, 8, 10], [(0, 1), (0, 2), (0, 3)]
+    velocities = [(1, 0), (-2, 0), (0, 0), (0, 0)]
+    found = exactpt.arrays.first_contacts(
+        corners, offsets, pairs, velocities=velocities, closed=[True, True, False, False]
+    )
+    proof = certify_rows(found)
+    words = "3 rows, each of two or more bodies in the whole span: no contact in 2, contact at the"
+    assert said(proof) == f"{words} start in 1"
+    for old, new, why in (
+        (b"span 0 1;", b"span 0 1/2;", "row 1: only a part is proved"),
+        (b"c ", b"c 100000", "row 1: a node is missing"),
+    ):
+        wrong = proof._replace(text=proof.text.replace(old, new, 1))
+        with pytest.raises(AuditError, match=why):
+            wrong.check()
+    lines = proof.text.split(b"\n")
+    wide = proof._replace(text=b"\n".join([*lines[:2], b"open", *lines[3:]]))
+    assert said(wide).endswith("no contact in 1, contact at the start in 1, open in 1")
+    assert not wide.check().whole
+    with pytest.raises(check_apart.NoProofError, match="the numbers of scenes and of rows"):
+        check_apart.check(proof.scene, b"\n".join(lines[:-2]) + b"\n")
+
+
+@pytest.mark.cgal
+def test_rows_in_cpp(program, tmp_path):
+    corners = [(0, 0), (2, 0), (0, 2), (5, 1), (7, 0), (7, 3)]
+    found = exactpt.arrays.first_contacts(
+        corners, [0, 3, 6], [(0, 1)] * 3, velocities=[(1, 0), (-2, 0)], time=(0, 10)
+    )
+    proof = certify_rows(found)
+    proof.save(tmp_path / "x")
+    for text, code in ((proof.text, 0), (proof.text.replace(b"meet", b"meet 0"), 2)):
+        (tmp_path / "x").write_bytes(text)
+        command = [program, "proof", tmp_path / "x.scene.json", tmp_path / "x"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert done.returncode == code
+        assert code or done.stdout == f"{proof.check()}\n"
+
+
+@pytest.mark.slow
+def test_both_kinds_of_proof_agree_on_200_scenes():
+    """A tiling's proof has the exact time T; a certificate has (L, H]: T is in it."""
+    families, done, contacts = [*FAMILIES, *POINTS, *RINGS, *SPINNING], 0, 0
+    for k in range(600):
+        scene = generate(families[k % len(families)], 50 + k // len(families))
+        if done == 200 or scene.vertex_count > 80:
+            continue
+        try:
+            first, other = exactpt.prove(scene), exactpt.certify(scene)
+        except (InputError, BudgetExceeded):  # a contact of a body with itself, or too near
+            continue
+        proved, certified = first.check(), other.check()
+        done += 1
+        if proved.time is None:
+            words = f"in [{scene.start}, {scene.end}], the whole span"
+            assert certified.split(" ", 2)[2] == f"no two bodies share a point {words}"
+            continue
+        contacts += 1
+        rows = [line.split() for line in other.text.decode().splitlines()]
+        high = Fraction(rows[-1][-3])
+        assert proved.time.compare_rational(high) <= 0
+        assert high == scene.start or proved.time.compare_rational(Fraction(rows[2][2])) > 0
+        assert high - Fraction(rows[2][2]) <= (scene.end - scene.start) / 2**20
+    assert (done, contacts > 60) == (200, True)
