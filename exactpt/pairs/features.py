@@ -11,7 +11,7 @@ w > 0, and the determinant d = |a b v| of the rows (x, y, w):
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 from typing import NamedTuple, final
 
@@ -30,7 +30,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, difference, orientation, vertex_touch
 from exactpt.motion.track import Track
 
-__all__ = ["Feature", "FeaturePair", "feature_pair", "feature_pairs"]
+__all__ = ["Feature", "FeaturePair", "feature_pairs"]
 
 
 class Feature(NamedTuple):
@@ -163,27 +163,35 @@ class FeaturePair:
 
 
 def feature_pairs(
-    a: Body, b: Body, p: tuple[Track, ...], q: tuple[Track, ...]
+    a: Body,
+    b: Body,
+    p: tuple[Track, ...],
+    q: tuple[Track, ...],
+    numbers: Iterable[int] | None = None,
 ) -> Iterator[FeaturePair]:
-    """All pairs of a vertex of one body and a vertex or an edge of the other."""
-    count = len(p) * len(q) + len(a.edges) * len(q) + len(p) * len(b.edges)
-    return (feature_pair(a, b, p, q, k) for k in range(count))
+    """Yield all pairs of a vertex of one body and a vertex or an edge of the other.
 
-
-def feature_pair(
-    a: Body, b: Body, p: tuple[Track, ...], q: tuple[Track, ...], number: int
-) -> FeaturePair:
-    """The pair of this number: pairs of vertices, then edges of the first body, of the second."""
-    i, j = divmod(number, len(q))
-    if i < len(p):
-        return FeaturePair(Touch(0, i, 1, -1, j), p[i], (q[j],))
-    e = i - len(p)
-    if e < len(a.edges):
-        k, l = a.edges[e]
-        return FeaturePair(Touch(1, j, 0, e, -1), q[j], (p[k], p[l]))
-    i, e = divmod(number - (len(p) + len(a.edges)) * len(q), len(b.edges))
-    k, l = b.edges[e]
-    return FeaturePair(Touch(0, i, 1, e, -1), p[i], (q[k], q[l]))
+    Args:
+        a: a body.
+        b: the other body.
+        p: the trajectories of the vertices of the first body.
+        q: those of the other one.
+        numbers: the numbers of the pairs to yield, if not all: those of vertices come first, then
+            those of edges of the first body, then of the second.
+    """
+    edges, others, n, m = a.edges, b.edges, len(p), len(q)
+    everything = range(n * m + len(edges) * m + n * len(others))
+    for number in everything if numbers is None else numbers:
+        i, j = divmod(number, m)
+        if i < n:
+            yield FeaturePair(Touch(0, i, 1, -1, j), p[i], (q[j],))
+        elif (e := i - n) < len(edges):
+            k, l = edges[e]
+            yield FeaturePair(Touch(1, j, 0, e, -1), q[j], (p[k], p[l]))
+        else:
+            i, e = divmod(number - (n + len(edges)) * m, len(others))
+            k, l = others[e]
+            yield FeaturePair(Touch(0, i, 1, e, -1), p[i], (q[k], q[l]))
 
 
 def _vector(a: Track, b: Track) -> tuple[IntPoly, IntPoly]:

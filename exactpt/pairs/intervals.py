@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import chain
-from typing import final
+from typing import Final, final
 
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
 from exactpt.kernel.budget import ask
@@ -20,15 +20,18 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.outline import is_rigid
-from exactpt.motion.track import Track
-from exactpt.pairs.features import FeaturePair, feature_pair, feature_pairs
+from exactpt.pairs.features import feature_pairs
 from exactpt.pairs.near import pairs_that_come_near
+from exactpt.pairs.near_features import NearFeatures
 from exactpt.pairs.overlap import bodies_meet
 from exactpt.pairs.selection import Selection
 from exactpt.pairs.stretches import Stretch, stretches, two_bodies
 from exactpt.scene.scene import Scene, a_scene
 
 __all__ = ["ContactInterval", "contact_intervals", "contacts", "incidence_times", "intervals"]
+
+FEW: Final = 100
+"""Maximum number of pairs of vertices of two bodies whose features are compared exactly at once."""
 
 
 @final
@@ -166,11 +169,10 @@ def _times(a: Body, b: Body, stretch: Stretch) -> Iterator[AlgebraicNumber]:
     """
     squared = (a._radius + b._radius) ** 2
     begin, end = AlgebraicNumber(stretch.begin), AlgebraicNumber(stretch.end)
-    two = a, b, stretch.first, stretch.second
     # Two vertices also lie on edges, unless there are none, or one has no length for a moment; they
     # have times of their own where a vertex moves along an edge.
     apart = not (a.edges or b.edges) or not (is_rigid(a) and is_rigid(b))
-    for pair in feature_pairs(*two) if squared else _edges_first(*two):
+    for pair in feature_pairs(a, b, stretch.first, stretch.second, _near_pairs(a, b, stretch)):
         ask()
         if not (squared or apart or pair.is_of_edge):
             return
@@ -180,15 +182,21 @@ def _times(a: Body, b: Body, stretch: Stretch) -> Iterator[AlgebraicNumber]:
         yield from (time for time in times if pair.holds(time))
 
 
-def _edges_first(
-    a: Body, b: Body, p: tuple[Track, ...], q: tuple[Track, ...]
-) -> Iterator[FeaturePair]:
-    """All pairs of features: for each vertex its edges. Equal times take the first one's form."""
-    n, m = len(p), len(q)
-    of_a, of_b = (len(a.edges), len(b.edges))
-    order = chain(
-        range((n + of_a) * m, (n + of_a) * m + n * of_b),
-        ((n + e) * m + j for j in range(m) for e in range(of_a)),
-        range(n * m),
-    )
-    return (feature_pair(a, b, p, q, k) for k in order)
+def _near_pairs(a: Body, b: Body, stretch: Stretch) -> Iterable[int]:
+    """Return the numbers of the pairs of features that may come to the sum of the radii.
+
+    All if they are few. For each vertex its edges, if that is 0: equal times take the first one's
+    form.
+    """
+    n, m, of_a, of_b = a.size, b.size, len(a.edges), len(b.edges)
+    order: Iterable[int] = range(n * m + of_a * m + n * of_b)
+    if not (a._radius or b._radius):
+        order = chain(
+            range((n + of_a) * m, (n + of_a) * m + n * of_b),
+            ((n + e) * m + j for j in range(m) for e in range(of_a)),
+            range(n * m),
+        )
+    if n * m <= FEW:
+        return order
+    near = set(NearFeatures(a, b, stretch).within(a._radius + b._radius).tolist())
+    return [k for k in order if k in near]

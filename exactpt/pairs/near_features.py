@@ -20,20 +20,21 @@ off by less than 8 U |u| |w|, of which 16 U are taken, and 2^-900 for underflow.
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Final, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from exactpt.geometry.boxes import Boxes, Indices
+from exactpt.geometry.boxes import Boxes, Indices, crossing_pairs, grown
 from exactpt.kernel.budget import ask
-from exactpt.kernel.numbers import QQ
+from exactpt.kernel.numbers import QQ, enclosing_floats, power_of_two
 from exactpt.kernel.rounding import SLACK, U, check_rounding
 from exactpt.motion.body import Body
 from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.swept import SweptBoxes
-from exactpt.pairs.features import FeaturePair, feature_pair
+from exactpt.pairs.features import FeaturePair, feature_pairs
 from exactpt.pairs.stretches import Stretch
 
 __all__ = ["NearFeatures"]
@@ -41,6 +42,8 @@ __all__ = ["NearFeatures"]
 Floats: TypeAlias = NDArray[np.float64]
 
 LARGEST: Final = 2.0**400
+PARTS: Final = 32
+"""Number of parts of a stretch in which boxes are compared."""
 SHORT: Final = 2.0**-300
 """Square of the length below which an edge counts as its end."""
 
@@ -70,11 +73,33 @@ class NearFeatures:
 
     def pairs(self, numbers: Indices) -> list[FeaturePair]:
         """Return the pairs with these numbers, each made once."""
-        made = self._pairs
-        for k in numbers.tolist():
-            if k not in made:
-                made[k] = feature_pair(*self._two, self._stretch.first, self._stretch.second, k)
+        made, new = self._pairs, [k for k in numbers.tolist() if k not in self._pairs]
+        if new:
+            of_new = feature_pairs(*self._two, self._stretch.first, self._stretch.second, new)
+            made.update(zip(new, of_new, strict=True))
         return [made[k] for k in numbers.tolist()]
+
+    def within(self, reach: QQ) -> Indices:
+        """Return the pairs whose features may come within a distance of each other.
+
+        They do only where their boxes do, during one of the parts of the stretch.
+        """
+        by = enclosing_floats(reach * power_of_two(-self._frame.scale[0]))[1]
+        low, high = self._frame.time(self._stretch.begin)[0], self._frame.time(self._stretch.end)[1]
+        n, m = len(self._stretch.first), len(self._stretch.second)
+        (e, e_to), (f, f_to) = (np.array(body.edges, int).reshape(-1, 2).T for body in self._two)
+        found: list[Indices] = []
+        for first, last in pairwise(np.linspace(low, high, PARTS + 1).tolist()):
+            ask()
+            boxes = self._boxes.during(first, last)
+            p, q = grown(boxes[:n], by), boxes[n:]
+            found += [i * m + j for i, j in crossing_pairs(p, q)]
+            edges = _joined(p[e], p[e_to])
+            found += [n * m + i * m + j for i, j in crossing_pairs(edges, q)]
+            edges = _joined(q[f], q[f_to])
+            start = (n + len(e)) * m
+            found += [start + i * len(f) + j for i, j in crossing_pairs(p, edges)]
+        return np.unique(np.concatenate(found))
 
     def nearest(self, numbers: Indices, low: QQ, high: QQ) -> Indices:
         """Return those pairs that may be nearest of these pairs at a time from low to high."""
@@ -82,6 +107,13 @@ class NearFeatures:
         boxes = self._boxes.during(self._frame.time(low)[0], self._frame.time(high)[1])
         ends = self._vertex[numbers], self._from[numbers], self._to[numbers]
         return numbers[_may_be_least(boxes, *ends)]
+
+
+def _joined(some: Boxes, others: Boxes) -> Boxes:
+    """Return for each two boxes the least box that contains both."""
+    boxes = np.maximum(some, others)
+    boxes[:, ::2] = np.minimum(some[:, ::2], others[:, ::2])
+    return boxes
 
 
 @np.errstate(all="ignore")

@@ -8,6 +8,7 @@ import pytest
 
 from exactpt import Body, Rigid, Scene, Translation, clearance
 from exactpt.kernel.numbers import QQ
+from exactpt.pairs import intervals
 from exactpt.pairs.features import feature_pairs
 from exactpt.pairs.near_features import NearFeatures
 from exactpt.pairs.stretches import stretches
@@ -86,3 +87,19 @@ def test_pieces_of_turning_polygons():
     for first, second in pairwise(gap.pieces):
         assert first.end == second.start
         assert first.features != second.features
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("radius", [0, "1/3"])
+def test_incidences_of_near_features_are_those_of_all(radius, monkeypatch):
+    found = 0
+    for seed in range(25):
+        scene = pair_scene(Random(seed))
+        a, b = scene.bodies[0].with_radius(radius), scene.bodies[1]
+        times = []
+        for few in (10**9, -1):
+            monkeypatch.setattr(intervals, "FEW", few)
+            times.append(intervals.incidence_times(a, b, scene._start, scene._end))
+        assert times[0] == times[1]
+        found += len(times[0])
+    assert found > 30
