@@ -28,7 +28,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations
 from typing import Final, final
 
 from exactpt.collision.detector import first_contact
@@ -128,18 +127,14 @@ def first_contact_enclosed(
     with carrying(lambda: scene):
         groups = ignoring if isinstance(ignoring, str) else list(ignoring)
         pairs = None if between is None else list(between)
-        selection = Selection(scene, pairs, groups)
-        return _Search(scene, selection, () if isinstance(groups, str) else groups).run()
+        return _Search(scene, Selection(scene, pairs, groups)).run()
 
 
 @final
 class _Search:
-    def __init__(
-        self, scene: Scene, selection: Selection, ignoring: Sequence[Collection[str]]
-    ) -> None:
+    def __init__(self, scene: Scene, selection: Selection) -> None:
         self._scene = scene
         self._selection = selection
-        self._ignoring = [set(group) for group in ignoring]
         self._number = {body.name: i for i, body in enumerate(scene.bodies)}
         self._start, self._end = scene._start, scene._end
         self._errors = [displacement(body, self._start, self._end) for body in scene.bodies]
@@ -163,20 +158,7 @@ class _Search:
     def _first(self, bodies: Sequence[Body]) -> Contact | None:
         """Return the first contact that counts of bodies with these names."""
         scene = scene_of(bodies, self._start, self._end)
-        if self._selection.named is None:
-            there = {body.name for body in bodies}
-            return first_contact(scene, ignoring=[group & there for group in self._ignoring])
-        named = [(bodies[i].name, bodies[j].name) for i, j in self._among(bodies)]
-        return first_contact(scene, between=named)
-
-    def _among(self, bodies: Sequence[Body]) -> list[tuple[int, int]]:
-        """Return the pairs that count, as indices i < j, of bodies in the order of the scene."""
-        numbers = [self._number[body.name] for body in bodies]
-        here = {number: i for i, number in enumerate(numbers)}
-        named = self._selection.named
-        if named is None:
-            return [(here[i], here[j]) for i, j in self._selection.of(combinations(numbers, 2))]
-        return [(here[i], here[j]) for i, j in named if i in here and j in here]
+        return first_contact(scene, **self._selection.among(bodies))
 
     def _pairs(self, *contacts: Contact) -> tuple[tuple[str, str], ...]:
         """The names of the pairs that meet, in the order of the scene."""
@@ -190,8 +172,10 @@ class _Search:
         found = zip(self._scene.bodies, self._errors, strict=True)
         known = [b for body, e in found if (b := _unturned(body, self._start) if e else body)]
         names = {body.name for body in known}
-        near = None if self._selection.is_all else self._among(known)
-        meeting = initial_touches(scene_of(known, self._start, self._end), near)[1]
+        scene, near = scene_of(known, self._start, self._end), None
+        if not self._selection.is_all:
+            near = Selection(scene, **self._selection.among(known)).all_pairs()
+        meeting = initial_touches(scene, near)[1]
         met = {(known[i].name, known[j].name) for i, j in meeting}
         pairs = self._pairs(touch) if met else ()
         return tuple(pair for pair in pairs if pair in met or not names.issuperset(pair))

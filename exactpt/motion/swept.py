@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, TypeAlias, final
+from typing import TYPE_CHECKING, Final, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 __all__ = ["SweptBoxes"]
 
 Floats: TypeAlias = NDArray[np.float64]
+
+INSTANT: Final = 2.0**-20
+"""A short time, of a normalised span."""
 
 
 @final
@@ -148,31 +151,14 @@ class SweptBoxes:
         An estimate that only chooses time steps. Infinite if no vertex moves relative to the
         drift; NaN if it is unknown.
         """
-        x, dx = _value_and_slope(self._xs, now)
-        y, dy = _value_and_slope(self._ys, now)
-        if self._turning.any():
-            w, dw = _value_and_slope(self._ws, now)
-            (drift_x, drift_y), slopes = _value_and_slope(self.drift, now)
-            turned = [
-                np.where(self._turning, there, here)
-                for there, here in (
-                    (x / w - drift_x, x),
-                    (y / w - drift_y, y),
-                    ((dx - x / w * dw) / w - slopes[0], dx),
-                    ((dy - y / w * dw) / w - slopes[1], dy),
-                )
-            ]
-            x, y, dx, dy = turned
-        gap = np.hypot(np.ptp(x), np.ptp(y)) / np.sqrt(len(x))
-        return float(gap / np.hypot(dx, dy).mean())
+        here, there = (self._middles(t) for t in (now, now + INSTANT))
+        gap = np.hypot(*np.ptp(here, axis=0)) / np.sqrt(len(here))
+        return float(gap / np.hypot(*(there - here).T).mean() * INSTANT)
 
-
-def _value_and_slope(cs: Floats, t: float) -> tuple[Floats, Floats]:
-    value, slope = np.zeros(len(cs)), np.zeros(len(cs))
-    for c in cs.T[::-1]:
-        slope = slope * t + value
-        value = value * t + c
-    return value, slope
+    def _middles(self, t: float) -> Floats:
+        """The middles of the boxes at a time."""
+        boxes = self.during(t, t)
+        return 0.5 * (boxes[:, ::2] + boxes[:, 1::2])
 
 
 def _difference(

@@ -162,7 +162,7 @@ def _first(scene: Scene, d: QQ, norm: Norm) -> Near | None:
 def _selected(scene: Scene, selection: Selection, d: QQ, norm: Norm) -> Near | None:
     """Return the first approach of the pairs that count."""
     if norm in ("x", "y"):  # a gap on one axis bounds no box
-        return _by_pairs(scene, selection.of(combinations(range(len(scene.bodies)), 2)), d, norm)
+        return _by_pairs(scene, selection.all_pairs(), d, norm)
     reach = root_above(d) if norm == "euclidean" else d
     return _by_pairs(scene, selection.of(pairs_that_come_near(scene, reach)), d, norm)
 

@@ -18,7 +18,7 @@ from exactpt.pairs.features import Feature
 from exactpt.pairs.stretches import meet, two_bodies
 from exactpt.scene.scene import Scene
 
-__all__ = ["Distance", "distance", "squared_distance", "squared_gap"]
+__all__ = ["Distance", "distance", "squared_distance", "squared_from_interior", "squared_gap"]
 
 
 @final
@@ -169,11 +169,11 @@ def _near_features(a: Body, b: Body, t: QQ) -> Iterator[tuple[QQ, tuple[Feature,
     for (i, u), (j, v) in product(enumerate(p), enumerate(q)):
         yield _squared(u, v), (Feature(i, None), Feature(j, None))
     for (e, (k, l)), (j, v) in product(enumerate(a.edges), enumerate(q)):
-        squared = _from_interior(v, p[k], p[l])
+        squared = squared_from_interior(v, p[k], p[l])
         if squared is not None:
             yield squared, (Feature(None, e), Feature(j, None))
     for (i, u), (e, (k, l)) in product(enumerate(p), enumerate(b.edges)):
-        squared = _from_interior(u, q[k], q[l])
+        squared = squared_from_interior(u, q[k], q[l])
         if squared is not None:
             yield squared, (Feature(i, None), Feature(None, e))
 
@@ -182,7 +182,7 @@ def _squared(u: Point, v: Point) -> QQ:
     return (u[0] - v[0]) ** 2 + (u[1] - v[1]) ** 2
 
 
-def _from_interior(v: Point, a: Point, b: Point) -> QQ | None:
+def squared_from_interior(v: Point, a: Point, b: Point) -> QQ | None:
     """The squared distance of v from ab; None if the nearest point is an end."""
     x, y = b[0] - a[0], b[1] - a[1]
     along, length = x * (v[0] - a[0]) + y * (v[1] - a[1]), x * x + y * y

@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from typing import final
+from itertools import combinations
+from typing import TypedDict, final
 
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import shorten
+from exactpt.motion.body import Body
 from exactpt.scene.scene import Scene
 
 __all__ = ["Selection", "groups_of"]
+
+
+class _Names(TypedDict):
+    between: Sequence[Sequence[str]] | None
+    ignoring: Sequence[Collection[str]]
 
 
 @final
@@ -30,7 +37,7 @@ class Selection:
         InputError: if there is no body of a name, or a pair is not one of two bodies.
     """
 
-    __slots__ = ("group", "named")
+    __slots__ = ("_between", "_ignoring", "group", "named")
 
     def __init__(
         self,
@@ -38,15 +45,27 @@ class Selection:
         between: Iterable[Sequence[str]] | None = None,
         ignoring: Iterable[Collection[str]] = (),
     ) -> None:
-        self.group = groups_of(scene, ignoring)
+        self._ignoring = ignoring if isinstance(ignoring, str) else list(ignoring)
+        self._between = None if between is None else list(between)
+        self.group = groups_of(scene, self._ignoring)
         self.named: list[tuple[int, int]] | None = None
-        if between is not None:
-            self.named = self.of(_numbered(scene, between))
+        if self._between is not None:
+            self.named = self.of(_numbered(scene, self._between))
 
     @property
     def is_all(self) -> bool:
         """True if every pair of bodies counts."""
         return self.named is None and self.group == list(range(len(self.group)))
+
+    def all_pairs(self) -> list[tuple[int, int]]:
+        """Return all pairs i < j that count."""
+        return self.of(combinations(range(len(self.group)), 2))
+
+    def among(self, bodies: Sequence[Body]) -> _Names:
+        """Return the arguments of a selection of the same pairs of some of the bodies."""
+        names = {body.name for body in bodies}
+        between = self._between and [pair for pair in self._between if names.issuperset(pair)]
+        return {"between": between, "ignoring": [names.intersection(g) for g in self._ignoring]}
 
     def of(self, pairs: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
         """Return those of some pairs i < j that count, in their order."""

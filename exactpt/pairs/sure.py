@@ -46,7 +46,7 @@ from exactpt.kernel.roots import roots_after
 from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch
 from exactpt.motion.inside import covers
-from exactpt.pairs.distance import squared_distance
+from exactpt.pairs.distance import squared_distance, squared_from_interior
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.stretches import segments_of, stretches
 
@@ -137,8 +137,5 @@ def _cross_far(e: Segment, f: Segment, least: QQ) -> bool:
 
 def _squared(v: Point, segment: Segment) -> QQ:
     """The squared distance of a point from a segment."""
-    a, b = segment
-    x, y, u, w = b[0] - a[0], b[1] - a[1], v[0] - a[0], v[1] - a[1]
-    length = x * x + y * y
-    along = min(max((x * u + y * w) / length, QQ(0)), QQ(1)) if length else QQ(0)
-    return (u - along * x) ** 2 + (w - along * y) ** 2
+    inside = squared_from_interior(v, *segment)
+    return min((v[0] - x) ** 2 + (v[1] - y) ** 2 for x, y in segment) if inside is None else inside
