@@ -45,7 +45,6 @@ ROOMS = [
     "exactpt/planar/halfedge.py",
     "exactpt/pseudotriangulation/*.py",
     "exactpt/simulation/event.py",
-    "exactpt/simulation/telling.py",
     "exactpt/tiling/*.py",
     "exactpt/tiling/*/*.py",
 ]

@@ -210,7 +210,7 @@ for _name, _place in {
     "player of a simulation": "exactpt.render.notebook:simulation_player",
     "drawing of a scene": "exactpt.render.draw:draw",
     "drawing of a simulation": "exactpt.render.draw:draw_run",
-    "search that writes a proof": "exactpt.proof.written:ProvedSearch",
+    "search that writes a proof": "exactpt.proof.emit:ProofRun",
     "search that writes a certificate": "exactpt.proof.certified:CertifiedSearch",
     "proofs of a simulation": "exactpt.proof.living:ProofFolder",
     "table of a contact": "exactpt.render.notebook:contact_html",

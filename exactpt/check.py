@@ -187,15 +187,13 @@ def _verdict(proof: ProofRun, scene_file: bytes, deadline: float | None) -> Proo
             for line in proof.lines():
                 file.write(f"{line}\n")
                 if deadline is not None and clock.monotonic() > deadline:
-                    raise BudgetExceeded(
-                        "the budget of the check is used up", proof.driver.passed()
-                    )
+                    raise BudgetExceeded("the budget of the check is used up", proof.passed())
         return check_proof(scene_path, path, max_seconds=_left(deadline))
 
 
 @final
 class _Witness(Observer):
-    """Asks CGAL about the tilings and event times of a run, and collects the verdicts."""
+    """Has CGAL verify the tilings and event times of a run, and collects the verdicts."""
 
     listens_to: int = EVENTS
 

@@ -138,7 +138,7 @@ def _check_certificate(path: Path, *, quiet: bool) -> int:
     """Check a certificate of the scene beside it."""
     from exactpt import check_apart
     from exactpt.files import read_bytes
-    from exactpt.proof.written import beside
+    from exactpt.proof.emit import beside
 
     try:
         verdict, code = str(check_apart.check(read_bytes(beside(path)), read_bytes(path))), 0

@@ -208,28 +208,16 @@ class Driver:
         for observer in self.observers:
             observer.change(t)
 
-    def count(self, events: int) -> None:
-        """Count events.
-
-        Raises:
-            BudgetExceeded: if the budget permits fewer.
-        """
-        if not self.budget.spend(events):
-            raise BudgetExceeded("the number of events is used up", self.reached())
-
     def spend(self, events: int) -> None:
-        """Count events, and check the time limit, see `count` and `check_time`."""
-        self.count(events)
-        self.check_time()
-
-    def check_time(self) -> None:
-        """Check the time limit of the budget; between two events, so that the run can go on.
+        """Count events; between two event times, so that the run can go on.
 
         Raises:
-            BudgetExceeded: if it is exceeded.
+            BudgetExceeded: if the budget permits fewer, or its time is over.
         """
         if self.budget.is_late():
             raise BudgetExceeded("the time is used up", self.reached())
+        if not self.budget.spend(events):
+            raise BudgetExceeded("the number of events is used up", self.reached())
 
     def reached(self) -> Fraction | None:
         """Return a rational time, at most now, up to which there is no contact.
@@ -258,7 +246,7 @@ class Driver:
         self.touches = None
         try:
             while self.kinetic.advance_many(until, MANY):
-                self.check_time()
+                self.spend(0)
         except ContactFound as found:
             self.touches = found.touches
 

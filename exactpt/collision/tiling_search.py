@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import final
 
 from exactpt.collision.driver import Driver
 from exactpt.kernel.budget import Budget, searching
@@ -16,7 +15,6 @@ from exactpt.tiling.start import tiling_for_contact
 __all__ = ["TilingSearch"]
 
 
-@final
 class TilingSearch:
     """A search for the first contact.
 
@@ -29,6 +27,7 @@ class TilingSearch:
 
     Attributes:
         name: the name of the tiling.
+        driver: drives the tiling.
 
     Raises:
         InputError: if there is no such tiling, or it does not support these bodies.
@@ -48,16 +47,16 @@ class TilingSearch:
         self._scene = scene
         self._exact_only = exact_only
         self._budget = Budget(max_events, max_seconds)
-        self._driver = Driver(lambda: scene, budget=self._budget)
+        self.driver = Driver(lambda: scene, budget=self._budget)
 
     @property
     def stats(self) -> dict[str, object]:
         """The counts of the search so far, see docs/format.md."""
-        return report(self._scene, self._driver.tiling)
+        return report(self._scene, self.driver.tiling)
 
     def passed(self) -> Fraction | None:
         """See `Search.passed`."""
-        return self._driver.passed()
+        return self.driver.passed()
 
     def run_to_contact(self) -> Contact | None:
         """The first contact in the closed time span of the scene; None if there is none.
@@ -66,7 +65,6 @@ class TilingSearch:
             BudgetExceeded: if the events or the time are used up; its ``reached`` is a time up to
                 which there is no contact.
         """
-        driver = self._driver
         with searching(None, self.passed), self._budget.held():
-            contact = driver.start(self.name, exact_only=self._exact_only)
-            return driver.run(self._scene._end) if contact is None else contact
+            contact = self.driver.start(self.name, exact_only=self._exact_only)
+            return self.driver.run(self._scene._end) if contact is None else contact

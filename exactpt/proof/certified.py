@@ -20,8 +20,8 @@ from exactpt.pairs.approach import Approach, first_within
 from exactpt.pairs.selection import Selection
 from exactpt.proof.apart import Floats, Paths, Separation, short
 from exactpt.proof.degrees import refuse_degrees
-from exactpt.proof.emit import scene_bytes
-from exactpt.proof.written import Proof, beside
+from exactpt.proof.emit import beside, scene_bytes
+from exactpt.proof.written import Proof
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.scene.written import to_json
 

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, final
 
-from exactpt.collision.driver import CHANGES, Driver, Observer
+from exactpt.collision.driver import CHANGES, Observer
+from exactpt.collision.tiling_search import TilingSearch
+from exactpt.errors import InputError
+from exactpt.files import write_atomically, writing
 from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.kernel.budget import Budget
-from exactpt.motion.body import refuse_rounded
+from exactpt.kernel.budget import searching
 from exactpt.proof.degrees import refuse_degrees
 from exactpt.proof.lines import Lines, header
 from exactpt.proof.nodes import Nodes
 from exactpt.proof.watch import Step, Watch
 from exactpt.scene.written import to_json
-from exactpt.tiling.start import check_tiling, tiling_for_contact
 
 if TYPE_CHECKING:
     from exactpt.indices import HalfEdge
@@ -25,7 +27,7 @@ if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
 
-__all__ = ["Part", "ProofRun", "scene_bytes"]
+__all__ = ["Part", "ProofRun", "beside", "scene_bytes"]
 
 
 def scene_bytes(scene: Scene) -> bytes:
@@ -33,45 +35,66 @@ def scene_bytes(scene: Scene) -> bytes:
     return (json.dumps(to_json(scene), indent=1) + "\n").encode()
 
 
+def beside(path: Path) -> Path:
+    """The path of the scene of a proof or certificate."""
+    return path.with_name(f"{path.name}.scene.json")
+
+
 @final
-class ProofRun:
-    """A run to the first contact of a scene, which generates the proof line by line.
+class ProofRun(TilingSearch):
+    """A search for the first contact by a tiling, which generates the proof of its answer.
 
     Args:
         scene: the scene.
+        path: the path of the proof, for `run_to_contact`.
         tiling: the name of the tiling, as for `exactpt.first_contact`.
-        scene_file: the bytes of the scene's file; by default those that `Scene.save` writes.
+        scene_file: the bytes of the scene's file; by default those that `Scene.save` writes, and
+            `run_to_contact` writes the scene beside the proof, with ``.scene.json`` appended to
+            its name.
         exact_only: whether the float filters are switched off.
         max_events: the maximum number of events of the tiling; None for no limit.
 
     Attributes:
-        tiling: the name of the tiling.
         nodes: the vertices of the scene.
         maker: what makes the lines.
-        driver: drives the tiling.
         contact: the first contact, or None; known once all lines have been generated.
     """
 
     def __init__(
         self,
         scene: Scene,
+        path: Path | None = None,
         *,
         tiling: str = "auto",
         scene_file: bytes | None = None,
         exact_only: bool = False,
         max_events: int | None = None,
     ) -> None:
-        self._scene = scene
-        refuse_rounded(scene.bodies)
+        super().__init__(scene, tiling, exact_only=exact_only, max_events=max_events)
         refuse_degrees(scene.bodies)
-        check_tiling(tiling)
-        self.tiling: str = tiling_for_contact(scene, tiling)
-        self._exact_only = exact_only
+        self._path, self._beside = path, scene_file is None
         self._file = scene_bytes(scene) if scene_file is None else scene_file
         self.nodes = Nodes(scene)
         self.maker = Lines(self.nodes)
-        self.driver = Driver(lambda: scene, budget=Budget(max_events, None))
         self.contact: Contact | None = None
+
+    def run_to_contact(self) -> Contact | None:
+        """Write the proof, and return the first contact, or None.
+
+        Raises:
+            BudgetExceeded: if there are more than ``max_events`` events, or the time or memory of
+                this thread is used up.
+            InputError: if a file cannot be written.
+        """
+        path = self._path
+        if path is None:
+            raise InputError("path: a proof needs one")
+        if self._beside:
+            write_atomically(beside(path), self._file)
+        with searching(None, self.passed), writing(path) as write:
+            for line in self.lines():
+                write(f"{line}\n")
+        return self.contact
 
     def lines(self) -> Iterator[str]:
         """The lines, without line ends."""
@@ -80,7 +103,7 @@ class ProofRun:
         if not scene.bodies:
             yield "none"
             return
-        self.contact = driver.start(self.tiling, exact_only=self._exact_only)
+        self.contact = driver.start(self.name, exact_only=self._exact_only)
         if self.contact is not None:
             yield self.maker.contact_at_start(driver.touches or (), driver.overlaps)
             return

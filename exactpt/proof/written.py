@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, final
+from typing import TYPE_CHECKING, NamedTuple
 
 from exactpt.errors import AuditError, BudgetExceeded
-from exactpt.files import write_atomically, writing
-from exactpt.kernel.budget import searching
-from exactpt.proof.emit import ProofRun, scene_bytes
+from exactpt.files import write_atomically
+from exactpt.proof.emit import ProofRun, beside, scene_bytes
 from exactpt.scene.scene import Scene, a_scene
-from exactpt.tiling.report import report
 
 if TYPE_CHECKING:
     from exactpt.check_apart import Proved as Certified
     from exactpt.pairs.contact import Contact
     from exactpt.proof_check import Proved
 
-__all__ = ["Proof", "ProvedSearch", "beside", "prove", "write_proof"]
+__all__ = ["Proof", "prove", "write_proof"]
 
 
 class Proof(NamedTuple):
@@ -93,75 +90,6 @@ def prove(
     return Proof(run.contact, file, text.encode())
 
 
-def beside(path: Path) -> Path:
-    """The path of the scene of a proof or certificate."""
-    return path.with_name(f"{path.name}.scene.json")
-
-
-@final
-class ProvedSearch:
-    """A search for the first contact by a tiling, which writes a proof of its answer.
-
-    Args:
-        scene: the scene.
-        path: the path of the proof.
-        tiling: the name of the tiling.
-        scene_file: the bytes of the scene's file; by default the scene is written beside the
-            proof, with ``.scene.json`` appended to its name.
-        exact_only: whether the float filters are switched off.
-        max_events: the maximum number of events of the tiling; None for no limit.
-    """
-
-    def __init__(
-        self,
-        scene: Scene,
-        path: Path,
-        *,
-        tiling: str = "auto",
-        scene_file: bytes | None = None,
-        exact_only: bool = False,
-        max_events: int | None = None,
-    ) -> None:
-        self._scene, self._path, self._beside = scene, path, scene_file is None
-        self._file = scene_bytes(scene) if scene_file is None else scene_file
-        self._proof = ProofRun(
-            scene,
-            tiling=tiling,
-            scene_file=self._file,
-            exact_only=exact_only,
-            max_events=max_events,
-        )
-
-    @property
-    def name(self) -> str:
-        """The name of the tiling."""
-        return self._proof.tiling
-
-    @property
-    def stats(self) -> dict[str, object]:
-        """The counts of the run, see docs/howto/simulation.md."""
-        return report(self._scene, self._proof.driver.tiling)
-
-    def run_to_contact(self) -> Contact | None:
-        """Write the proof, and return the first contact, or None.
-
-        Raises:
-            BudgetExceeded: if there are more than ``max_events`` events, or the time or memory of
-                this thread is used up.
-            InputError: if a file cannot be written.
-        """
-        if self._beside:
-            write_atomically(beside(self._path), self._file)
-        with searching(None, self.passed), writing(self._path) as write:
-            for line in self._proof.lines():
-                write(f"{line}\n")
-        return self._proof.contact
-
-    def passed(self) -> Fraction | None:
-        """See `Search.passed`."""
-        return self._proof.driver.passed()
-
-
 def write_proof(
     scene: Scene,
     path: str | Path,
@@ -172,9 +100,9 @@ def write_proof(
 ) -> Contact | None:
     """The first contact of a scene, or None, by a tiling; the proof is written to a file.
 
-    Args and raises: as `ProvedSearch`.
+    Args and raises: as `ProofRun`.
     """
-    search = ProvedSearch(
+    search = ProofRun(
         scene, Path(path), tiling=tiling, scene_file=scene_file, exact_only=exact_only
     )
     return search.run_to_contact()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import ClassVar, TypeAlias, cast, final
 
 from mypy_extensions import mypyc_attr
@@ -9,8 +10,10 @@ from mypy_extensions import mypyc_attr
 from exactpt.certificates.moment import Moment
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.motion.vertex import Vertex
+from exactpt.tiling.events import Edges, TilingEvent
+from exactpt.tiling.tiling import Tiling
 
-__all__ = ["Event"]
+__all__ = ["Event", "events_of"]
 
 _Names: TypeAlias = tuple[tuple[str, str], ...]
 _Ends: TypeAlias = tuple[tuple[Vertex, Vertex], ...]
@@ -83,6 +86,23 @@ class Event:
 
     def __reduce__(self) -> tuple[object, ...]:
         return Event, (self.time, self.kind, self.removed, self.added)
+
+
+def events_of(tiling: Tiling, events: Sequence[TilingEvent]) -> list[Event]:
+    """The public events of a tiling that have just happened.
+
+    Nothing of an event is computed until it is read, neither its time nor the names of its
+    vertices. It keeps the vertices that have their ids now: ids are used again.
+    """
+    moment, every = tiling.certifier.moment, tiling.vertices.all
+    return [
+        Event(moment(e.time), e.kind, _vertices(every, e.removed), _vertices(every, e.added))
+        for e in events
+    ]
+
+
+def _vertices(every: list[Vertex], edges: Edges) -> _Ends:
+    return tuple([(every[u], every[v]) for u, v in edges])
 
 
 def _named(edges: _Names | _Ends) -> _Names:

@@ -12,9 +12,8 @@ from exactpt.motion.body import Body, refuse_rounded
 from exactpt.motion.motions import Motion
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
-from exactpt.simulation.event import Event
+from exactpt.simulation.event import Event, events_of
 from exactpt.simulation.plans import planned
-from exactpt.simulation.telling import Teller
 from exactpt.tiling.start import plan_tiling
 from exactpt.tiling.tiling import Tiling
 
@@ -42,6 +41,7 @@ class LivingScene:
     Attributes:
         choice: how the tiling was chosen.
         changes: number of new motions, added bodies and removed bodies.
+        tiling: the current tiling; None if bodies touch at the start.
     """
 
     def __init__(
@@ -49,9 +49,7 @@ class LivingScene:
     ) -> None:
         self.choice = choice
         self.changes = changes
-        self._teller: Teller | None = None
-        if tiling is not None:
-            self.start(tiling)
+        self.tiling = tiling
         self._end = scene
         self._scene: Scene | None = scene
         self._since = scene._start
@@ -74,30 +72,16 @@ class LivingScene:
             self._numbered = {body.name: i for i, body in enumerate(self._bodies)}
         return self._numbered
 
-    def start(self, tiling: Tiling) -> None:
-        """Begin to keep a tiling of the scene."""
-        self._teller = Teller(tiling)
-
-    @property
-    def tiling(self) -> Tiling | None:
-        """The current tiling; None if bodies touch at the start."""
-        return None if self._teller is None else self._teller.tiling
-
     @property
     def kinetic(self) -> Tiling:
-        """The current tiling; an `InputError` if bodies touch at the start."""
-        return self.teller.tiling
-
-    @property
-    def teller(self) -> Teller:
-        """The current tiling with its names.
+        """The current tiling.
 
         Raises:
             InputError: if bodies touch at the start.
         """
-        if self._teller is None:
+        if self.tiling is None:
             raise InputError("the bodies touch at the start: there is no tiling")
-        return self._teller
+        return self.tiling
 
     @property
     def name(self) -> str:
@@ -166,7 +150,7 @@ class LivingScene:
             self._bodies[i] = body
         self._since, self._scene = t, None
         self.changes += len(new)
-        return self.teller.told(events)
+        return events_of(self.kinetic, events)
 
     def add(self, body: Body) -> list[Event]:
         """Adds a body, see `Simulation.add`; returns the events caused at once."""
@@ -187,7 +171,7 @@ class LivingScene:
         self._bodies.append(body)
         self._since, self._scene = t, None
         self.changes += 1
-        return self.teller.told(events)
+        return events_of(self.kinetic, events)
 
     def remove(self, name: str) -> list[Event]:
         """Removes a body, see `Simulation.remove`; returns the events caused at once."""
@@ -204,7 +188,7 @@ class LivingScene:
             return self._restart(self._bodies, t, 1)
         self._since, self._scene = t, None
         self.changes += 1
-        return self.teller.told(events)
+        return events_of(self.kinetic, events)
 
     def _restart(self, bodies: Sequence[Body], t: QQ, changes: int) -> list[Event]:
         """Rebuild the tiling for these bodies; a single event lists the difference in edges."""
@@ -215,7 +199,7 @@ class LivingScene:
         kinetic.take_over_counts(self.kinetic)
         kinetic.stats.count("motion")
         kinetic.stats.rebuilds += 1
-        self._teller, self._scene, self._since = Teller(kinetic), scene, t
+        self.tiling, self._scene, self._since = kinetic, scene, t
         self._set_bodies(bodies)
         self.changes += changes
         after = self._diagonals()

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from fractions import Fraction
+from threading import RLock
 from typing import TypeAlias, final
 
 from exactpt.collision.driver import Driver, Observer
@@ -14,8 +16,7 @@ from exactpt.kernel.numbers import QQ, Rational, power_of_two, rational, show
 from exactpt.kernel.rounding import check_rounding
 from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
-from exactpt.simulation.contexts import Guard, OneThread
-from exactpt.simulation.event import Event
+from exactpt.simulation.event import Event, events_of
 from exactpt.simulation.history import Log
 from exactpt.simulation.living import Choice, LivingScene
 from exactpt.simulation.met import Met, met
@@ -25,6 +26,31 @@ __all__ = ["Response", "Run", "begin"]
 
 Response: TypeAlias = "Callable[[Contact], object]"
 """Called just before a contact; it may change motions."""
+
+
+@final
+class OneThread:
+    """A context for one thread at a time, in which that thread may enter it again.
+
+    Another thread is refused, not kept waiting: the order of their events would depend on chance.
+
+    Raises:
+        InputError: on entering, if another thread is inside.
+    """
+
+    __slots__ = ("_lock",)
+
+    def __init__(self) -> None:
+        self._lock = RLock()
+
+    def __enter__(self) -> None:
+        if not self._lock.acquire(blocking=False):
+            raise InputError(
+                "the simulation is in use by another thread: wait for it, or use a copy()"
+            )
+
+    def __exit__(self, *_error: object) -> None:
+        self._lock.release()
 
 
 @final
@@ -81,11 +107,9 @@ class Run:
         pending, is_bounded = self.pending, self._budget.is_bounded
         with self.alone:
             while True:
-                if is_bounded and self.contact is None:
-                    self.driver.check_time()
+                if is_bounded:
+                    self._spend(min(1, len(pending)))
                 if pending:
-                    if is_bounded:
-                        self._count(1)
                     return pending.popleft()
                 if self.contact is not None or not self._advance(end, respond, grid):
                     return None
@@ -94,10 +118,10 @@ class Run:
         """The events of the next time at which there are any, see `Simulation.step`."""
         with self.alone:
             while not self.pending and self.contact is None:
-                self.driver.check_time()
+                self._spend(0)
                 if not self._advance(self.living.scene._end, None, self.margin):
                     break
-            self._count(len(self.pending))
+            self._spend(len(self.pending))
             events = list(self.pending)
             self.pending.clear()
             return events
@@ -120,7 +144,7 @@ class Run:
             with self._budget.held():
                 events = self.driver.advance(end)
                 if events is not None:
-                    self.pending.extend(self.living.teller.told(events))
+                    self.pending.extend(events_of(self.living.kinetic, events))
                     return True
         except BaseException as error:
             self._failed(error)
@@ -134,9 +158,15 @@ class Run:
             self._answer(respond, grid)
         return True
 
-    def _guarded(self) -> Guard:
+    @contextmanager
+    def _guarded(self) -> Iterator[None]:
         """A context in which the budget holds, and a broken invariant carries the scene."""
-        return Guard(self._budget.held(), self._failed)
+        try:
+            with self._budget.held():
+                yield
+        except BaseException as error:
+            self._failed(error)
+            raise
 
     def _failed(self, error: BaseException) -> None:
         """Note an error inside of the tiling.
@@ -149,7 +179,7 @@ class Run:
         elif isinstance(error, BudgetExceeded):
             if error.reached is None:  # not between two events
                 self.driver.is_broken = True
-                error.reached = self.passed()
+                error.reached = self.driver.passed()
         elif not isinstance(error, InputError):  # Ctrl-C, no memory, an error of the user's code
             self.driver.is_broken = True
 
@@ -236,20 +266,16 @@ class Run:
 
     def reached(self) -> Fraction | None:
         """See `Simulation.reached`."""
-        return self.passed() if self.contact is not None else self.driver.reached()
-
-    def passed(self) -> Fraction | None:
-        """See `Search.passed`."""
-        return self.driver.passed()
+        return self.driver.reached() if self.contact is None else self.driver.passed()
 
     def rest(self) -> tuple[int | None, float | None, int | None]:
         """The events, seconds and memory that are left, None for no limit."""
         return self._budget.rest()
 
-    def _count(self, events: int) -> None:
+    def _spend(self, events: int) -> None:
         """Count events that are to be reported; a contact is reported in any case."""
         if self.contact is None:
-            self.driver.count(events)
+            self.driver.spend(events)
 
 
 def begin(
@@ -269,7 +295,7 @@ def begin(
         run.log = log
         contact = run.driver.start(plan, exact_only=exact_only)
         if contact is None:
-            living.start(run.driver.kinetic)
+            living.tiling = run.driver.tiling
         else:
             run.end_with(contact)
         return run

@@ -38,15 +38,6 @@ class Clock:
         self._undo: tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None = None
         self._until: tuple[QQ, float] = (certifier.end, frame.time(certifier.end)[0])
 
-    def next_time(self) -> EventTime | None:
-        """The time of the next failure, which stays in the queue; None if there is none."""
-        popped = self.table.pending.pop()
-        if popped is None:
-            return None
-        time, entries = popped
-        self._put_back(entries)
-        return time
-
     def next_number(self) -> AlgebraicNumber | None:
         """The exact time of the next failure; None if there is none."""
         popped = self.table.pending.pop()

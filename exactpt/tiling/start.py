@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 __all__ = [
     "TILINGS",
     "TilingPlan",
-    "check_tiling",
     "make",
     "plan_tiling",
     "proved_until",
@@ -76,26 +75,20 @@ class TilingPlan(NamedTuple):
         return _mesh_at(self.entry, PredicatesAt(self.vertices, time, after=False))
 
 
-def check_tiling(name: str) -> None:
-    """Check that a tiling of this name, or "auto", exists.
-
-    Raises:
-        InputError: if not.
-    """
-    catalogue.choose(name, points=True, convex=lambda: True)
-
-
 def tilings_for(scene: Scene) -> list[str]:
     """The names of the tilings that are for the bodies of a scene."""
     return catalogue.names(points=_are_points(scene.bodies))
 
 
 def tiling_for_contact(scene: Scene, name: str) -> str:
-    """The given name; instead of "auto", the tiling with the fewest events."""
-    if name != catalogue.AUTO:
-        return name
-    points = _are_points(scene.bodies)
-    return catalogue.choose(name, points=points, convex=lambda: False, fewest_events=True).name
+    """The given name; instead of "auto", the tiling with the fewest events.
+
+    Raises:
+        InputError: if there is no such tiling.
+    """
+    auto = name == catalogue.AUTO
+    points = not auto or _are_points(scene.bodies)
+    return catalogue.choose(name, points=points, convex=lambda: not auto, fewest_events=auto).name
 
 
 def start_tiling(scene: Scene, name: str, start: QQ, *, exact_only: bool = False) -> Tiling:

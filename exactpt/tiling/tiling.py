@@ -167,10 +167,6 @@ class Tiling(ABC):
         """Whether now is after a rational time."""
         return self.clock.is_after(t)
 
-    def next_time(self) -> EventTime | None:
-        """The time of the next failure; None if there is none."""
-        return self.clock.next_time()
-
     def next_number(self) -> AlgebraicNumber | None:
         """The exact time of the next failure; None if there is none."""
         return self.clock.next_number()

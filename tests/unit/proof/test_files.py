@@ -15,7 +15,7 @@ import exactpt
 from exactpt import proof_check
 from exactpt.cli import cli
 from exactpt.errors import InputError
-from exactpt.proof.written import ProvedSearch
+from exactpt.proof.emit import ProofRun
 from exactpt.scene.generate import generate
 
 
@@ -157,7 +157,7 @@ def test_degrees_that_no_checker_takes_are_refused(tmp_path):
 
 
 def test_out_of_budget_nothing_is_left(scene, tmp_path):
-    search = ProvedSearch(scene, tmp_path / "p", scene_file=b"{}", max_events=1)
+    search = ProofRun(scene, tmp_path / "p", scene_file=b"{}", max_events=1)
     with pytest.raises(exactpt.BudgetExceeded) as spent:
         search.run_to_contact()
     assert scene.start <= spent.value.reached <= exactpt.first_contact(scene).time.high

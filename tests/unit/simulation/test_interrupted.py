@@ -152,7 +152,7 @@ def test_bug_interrupted_inside_the_event_of_a_contact_at_3(what, tmp_path, monk
 
 def test_bug_while_the_contact_is_written_a_proof_claimed_its_time():
     run = ProofRun(SCENES["rational"], tiling="lazy")
-    passed = [run.driver.passed() for _ in run.lines()]
+    passed = [run.passed() for _ in run.lines()]
     header, reached = passed[:3], passed[3:]
 
     assert header == [None] * 3  # nothing is proved before the touches at the start are known

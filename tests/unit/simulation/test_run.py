@@ -106,8 +106,7 @@ def test_questions_between_events():
     simulation.step()
     with pytest.raises(InputError, match="next event"):
         simulation.space(scene.end)
-    following = simulation.kinetic.next_time()
-    at = (simulation.kinetic.certifier.resolve(following).low + simulation.now.high) / 2
+    at = (simulation.kinetic.next_number().low + simulation.now.high) / 2
     space = simulation.space(at)
     assert space.at == at
     assert space is simulation.space(at)
