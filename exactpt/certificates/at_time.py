@@ -15,6 +15,7 @@ from math import isinf, isnan
 from typing import Final, final
 
 import numpy as np
+from librt.vecs import vec
 from numpy.typing import NDArray
 
 from exactpt.certificates.exact_places import ExactPlaces
@@ -76,8 +77,10 @@ class PredicatesAt(Predicates):
         self._exact: dict[VertexId, Point] = {}
         # The error of a difference of coordinates is at most d plus its own rounding.
         self._xs, self._ys, error = positions_at(vertices, *vertices.frame.time(time))
-        self._x: list[float] = self._xs.tolist()
-        self._y: list[float] = self._ys.tolist()
+        xs: list[float] = self._xs.tolist()
+        ys: list[float] = self._ys.tolist()
+        self._x: vec[float] = vec[float](xs)
+        self._y: vec[float] = vec[float](ys)
         d = self._d = 2.0 * error
         is_exact = d == 0.0 and not exact_only
         self._places = ExactPlaces(vertices, self._x, self._y, are_exact=is_exact, after=after)
@@ -228,7 +231,7 @@ class PredicatesAt(Predicates):
         certainly left of every vertex after the gap.
         """
         x, d = self._x, self._d
-        order = sorted(ids, key=x.__getitem__)
+        order = sorted(ids, key=self._xs.item)
         if self._exact_only or any(isnan(x[v]) for v in order):
             return _sorted_exactly(self, order)
         first = 0

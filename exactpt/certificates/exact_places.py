@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from typing import final
 
+from librt.vecs import vec
+
 from exactpt.certificates.coefficients import K
 from exactpt.indices import VertexId
 from exactpt.kernel.error_free import NOT_EXACT, exact_turn, is_exact_product, is_exact_sum
@@ -29,11 +31,11 @@ class ExactPlaces:
     """
 
     def __init__(
-        self, vertices: Vertices, x: list[float], y: list[float], *, are_exact: bool, after: bool
+        self, vertices: Vertices, x: vec[float], y: vec[float], *, are_exact: bool, after: bool
     ) -> None:
         self._vertices = vertices
-        self._x: list[float] = x
-        self._y: list[float] = y
+        self._x: vec[float] = x
+        self._y: vec[float] = y
         self._are_exact: bool = are_exact
         self._after: bool = after
 

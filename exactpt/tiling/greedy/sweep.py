@@ -14,6 +14,8 @@ from __future__ import annotations
 import heapq
 from typing import Final, final
 
+from mypy_extensions import i64
+
 from exactpt.certificates.at_time import PredicatesAt
 from exactpt.errors import AuditError
 from exactpt.indices import Ends, VertexId
@@ -27,6 +29,8 @@ from exactpt.tiling.greedy.vertical import NO_ARC, NO_CELL, VerticalDecompositio
 
 __all__ = ["greedy_diagonals"]
 
+FEW: Final = 16
+"""Number of bitangents from one look at the budget to the next."""
 MANY: Final = 48
 """Number of vertices of two bodies from which on their bitangent is searched by bisection."""
 
@@ -67,6 +71,8 @@ class _Sweep:
         self.pushed = 0
         self.tied: set[Ends] = set()
         self._chains: dict[int, tuple[Chain, Chain]] = {}
+        sizes = [len(body.ring) for body in instant.vertices.bodies]
+        self._all_are_small: bool = 2 * max(sizes, default=0) <= MANY
 
     def run(self) -> list[Diagonal]:
         found: list[Diagonal] = []
@@ -74,8 +80,11 @@ class _Sweep:
             self._push(cell)
         previous: Bitangent | None = None
         on_line: dict[QQ, Diagonal] = {}  # of the bitangents parallel to the previous one
+        popped: i64 = 0
         while self.heap:
-            ask()
+            if popped % FEW == 0:
+                ask()
+            popped += 1
             _, s = heapq.heappop(self.heap)
             cells = self.cells
             if (
@@ -126,7 +135,7 @@ class _Sweep:
 
         Those of the arcs, if the bodies have few vertices.
         """
-        if len(self._ring(x)) + len(self._ring(y)) <= MANY:
+        if self._all_are_small or len(self._ring(x)) + len(self._ring(y)) <= MANY:
             return self.cells.vertex[x], self.cells.vertex[y]
         a, b = self._chain(x, side_x), self._chain(y, side_y)
         return near_tangent(self.instant, a, b, side_x, side_y)
