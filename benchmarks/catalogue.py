@@ -22,6 +22,7 @@ BENCHMARKS: Final[dict[str, str]] = {
     "arithmetic": "wrong signs, orders and structures by kind of number",
     "stability": "the same answer, and its cost, for extreme input",
     "scaling": "events, certificates, time and memory against the size of a scene",
+    "changes": "changes of the tilings of convex bodies beside the paper's bounds",
     "living": "bodies that bounce: contacts a second, audits, changes of plans",
     "points": "changes of the tilings of moving points beside the paper's bounds",
     "statics": "the greedy pseudo-triangulation of one instant against the vertices of a body",

@@ -14,6 +14,7 @@ from benchmarks import (
     arithmetic,
     arrays,
     auto,
+    changes,
     cliffs,
     crowds,
     exponents,
@@ -437,6 +438,14 @@ def test_a_proof_that_is_rejected_is_an_error(results, monkeypatch):
 
 
 TINY = living.Sizes((12,), ("lazy", "greedy"), 30, 10, 5)
+
+
+def test_changes(results):
+    changes.run(results.output, changes.QUICK, 0)
+    fits = results.rows("changes-exponents")
+    assert {row["tiling"] for row in fits} == {"greedy", "lazy"}
+    assert all(float(row["p"]) <= float(row["bound"]) + 0.1 for row in fits)
+    assert all(int(row["changes"]) > 0 for row in results.rows("changes"))
 
 
 def test_living(results, alone):
