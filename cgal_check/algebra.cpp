@@ -4,6 +4,7 @@
 
 #include <CGAL/Algebraic_kernel_d_1.h>
 #include <CGAL/CORE_BigInt.h>
+#include <gmpxx.h>
 
 #include "tiling.hpp"
 
@@ -28,7 +29,10 @@ struct Located {
   int multiplicity;
 };
 
-CORE::BigInt big_integer(const std::string& digits) { return CORE::BigInt(digits, 10); }
+// Through GMP: CORE::BigInt is a class of its own or one of Boost, by the version of CGAL.
+CORE::BigInt big_integer(const std::string& digits) {
+  return CORE::BigInt(mpz_class(digits, 10).get_mpz_t());
+}
 
 Polynomial read_polynomial(Reader& in) {
   std::vector<CORE::BigInt> coefficients;

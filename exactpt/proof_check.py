@@ -64,7 +64,11 @@ class Exhausted(Exception):  # noqa: N818 - no verdict
 class Work:
     """The work that is left: products of two words of 64 bits, by estimate."""
 
-    usual = left = 10**11
+    left = 0
+
+    def start(self, work: int | None, files: int) -> None:
+        """Set the budget: by default 10^9, and 1,000 for each byte of the files."""
+        self.left = 10**9 + 1000 * files if work is None else work
 
     def spend(self, products: int) -> None:
         """Count some work."""
@@ -1577,11 +1581,12 @@ def read(proof: bytes) -> list[tuple[int, list[str]]]:
     return rows
 
 
-def check(scene_file: bytes, proof_file: bytes, work: int = Work.usual) -> Proved:
+def check(scene_file: bytes, proof_file: bytes, work: int | None = None) -> Proved:
     """Check a proof; return what it proves. Raises `Rejected`, `NoProofError`, or `Exhausted`."""
     digits = sys.get_int_max_str_digits()
     sys.set_int_max_str_digits(0)  # lengths have bounds of their own
-    WORK.left, checker = work, None
+    WORK.start(work, len(scene_file) + len(proof_file))
+    checker = None
     orientation_of.cache_clear()
     try:
         need(max(len(scene_file), len(proof_file)) <= MOST_BYTES, "or the proof: too many bytes")
@@ -1674,7 +1679,7 @@ def main(arguments: list[str]) -> int:
         if arguments == ["--version"]:
             return say(hashlib.sha256(Path(__file__).read_bytes()).hexdigest(), 0, sys.stdout)
         paths, given = wishes(arguments)
-        work = int(given.get("--work", Work.usual))
+        work = int(given["--work"]) if "--work" in given else None
         if len(paths) == 1:
             proved = check_chain(paths[0], work)
         else:
@@ -1698,7 +1703,7 @@ def file_bytes(path: Path) -> bytes:
 # ---- Chains: proofs one after the other, of the parts of one run.
 
 
-def check_chain(folder: Path, work: int = Work.usual) -> Proved:
+def check_chain(folder: Path, work: int | None = None) -> Proved:
     """Check ``1.proof`` with ``1.scene.json``, and so on; each begins where the last one ends."""
     if not folder.is_dir():
         raise NoProofError(f"{str(folder)!a} is no folder")
@@ -1716,7 +1721,7 @@ def check_chain(folder: Path, work: int = Work.usual) -> Proved:
             proved = check(scene, proof, work)
         except Rejected as verdict:
             raise Rejected(f"{verdict} (part {k})") from None
-        work, here = WORK.left, proved.scene
+        work, here = work and WORK.left, proved.scene
         if last is None:
             start = here.start
         else:

@@ -26,8 +26,9 @@ struct Exhausted : std::runtime_error {
 };
 
 // What may still be done, in products of two words of 64 bits, as they are estimated.
-constexpr double usual_work = 1e11;
-inline double work_left = usual_work;
+inline double work_left = 0;
+
+inline double usual_work(std::size_t bytes) { return 1e9 + 1e3 * static_cast<double>(bytes); }
 
 inline void spend(double products) {
   work_left -= products;

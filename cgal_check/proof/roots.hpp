@@ -1,8 +1,11 @@
-// Real roots by CGAL's univariate algebraic kernel, for what the signs of coefficients leave
-// open.
+// Real roots, for what the signs of coefficients leave open: isolated by halving, compared by
+// CGAL's univariate algebraic kernel.
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "polynomial.hpp"
 
@@ -23,6 +26,13 @@ class Root {
 };
 
 Poly<Integer> square_free(const Poly<Integer>& f);
+
+using Roots = std::vector<std::pair<Rational, Rational>>;
+
+// The roots of a square-free f in [low, high], by intervals with clear ends in which Descartes'
+// rule counts one, or equal ends; nothing if so many halvings do not separate them (-1: no limit).
+std::optional<Roots> isolated(const Poly<Integer>& f, const Rational& low, const Rational& high,
+                              int most_halvings);
 
 // Whether f, not 0, has a root r with low <= r <= high that is more than `after` and less
 // than `before`, if these are given.

@@ -37,36 +37,6 @@ double bisected(const std::vector<double>& f) {
   return low;
 }
 
-// The roots of a square-free f in [low, high], by intervals with clear ends in which Descartes'
-// rule counts one, or equal ends; none if halving does not tell them apart soon.
-std::vector<std::pair<Rational, Rational>> isolated(const Poly<Integer>& f, const Rational& low,
-                                                    const Rational& high) {
-  struct Piece {
-    Rational low, high;
-    int depth;
-  };
-  std::vector<std::pair<Rational, Rational>> found;
-  for (const Rational& q : {low, high})
-    if (sign_at(f, q) == 0) found.emplace_back(q, q);
-  std::vector<Piece> open{{low, high, 0}};
-  while (!open.empty()) {
-    const Piece piece = open.back();
-    open.pop_back();
-    const Poly<Integer> signs = between(f, piece.low, piece.high);
-    const int count = variations(signs);
-    if (count == 1 && sign(signs.front()) != 0 && sign(signs.back()) != 0) {
-      found.emplace_back(piece.low, piece.high);
-    } else if (count > 0) {
-      if (piece.depth == most_halvings) return {};
-      const Rational middle = (piece.low + piece.high) / 2;
-      if (sign_at(f, middle) == 0) found.emplace_back(middle, middle);
-      open.push_back({piece.low, middle, piece.depth + 1});
-      open.push_back({middle, piece.high, piece.depth + 1});
-    }
-  }
-  return found;
-}
-
 // f(low + (high - low) u), times a positive number, as a polynomial in u.
 Poly<Integer> in_unit_interval(const Poly<Integer>& f, const Rational& low, const Rational& high) {
   const Rational width = high - low;
@@ -97,9 +67,9 @@ std::optional<Time> Time::root(const Poly<Integer>& f, const Rational& low, cons
   const auto is_clear = [&] { return sign(signs.front()) != 0 && sign(signs.back()) != 0; };
   if (!is_clear() || variations(signs) != 1) {  // a single variation is a single simple root
     g = square_free(g);
-    const auto found = isolated(g, low, high);
-    if (found.size() != 1) return std::nullopt;
-    const auto& [from, to] = found[0];
+    const auto found = isolated(g, low, high, most_halvings);
+    if (!found || found->size() != 1) return std::nullopt;
+    const auto& [from, to] = found->front();
     return from == to ? Time(from) : Time(g, from, to);
   }
   return Time(g, low, high);

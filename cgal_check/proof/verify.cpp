@@ -38,7 +38,7 @@ struct Call {
   bool is_partial = false;        // whether a proof may end before the span of the scene
   std::optional<Rational> until;  // the time before which it may not end
   std::string expected;           // the path of an answer
-  double work = usual_work;
+  std::optional<double> work;  // for all parts
 };
 
 struct Verdict {
@@ -282,6 +282,7 @@ int verify_rows(const Call& call, const std::string& scene_bytes, const std::str
 
 int verify_pair(const Call& call) {
   const std::string scene_bytes = bytes_of(call.paths[0]), bytes = bytes_of(call.paths[1]);
+  work_left = call.work.value_or(usual_work(scene_bytes.size() + bytes.size()));
   if (bytes.compare(0, 21, head_of_rows) == 0) return verify_rows(call, scene_bytes, bytes);
   if (is_certificate(bytes)) return verify_certificate(call, scene_bytes, bytes);
   const ProofText text = parse_proof(bytes);
@@ -308,6 +309,7 @@ int verify_folder(const Call& call) {
     const std::string scene_bytes = bytes_of(chain.path(k, ".scene.json"));
     const std::string proof_bytes = bytes_of(chain.path(k, ".proof"));
     const std::string where = " (part " + std::to_string(k) + ")";
+    if (!call.work) work_left = usual_work(scene_bytes.size() + proof_bytes.size());
     const ProofText text = parse_proof(proof_bytes);
     if (text.hash != sha256(scene_bytes)) throw NoProof("the proof is of another scene" + where);
     Scene scene(scene_bytes);
@@ -326,7 +328,7 @@ int verify_folder(const Call& call) {
 }
 
 int verify(const Call& call) {
-  work_left = call.work;
+  work_left = call.work.value_or(0);
   return call.paths.size() == 1 ? verify_folder(call) : verify_pair(call);
 }
 

@@ -1,12 +1,13 @@
 """What both checkers say: all incidences at T, and whether an answer is the one that is proved."""
 
+import hashlib
 import json
 import subprocess
 
 import pytest
 from click.testing import CliRunner
 
-from exactpt import first_contact, proof_check, prove
+from exactpt import Body, Scene, first_contact, proof_check, prove
 from exactpt.cli import cli
 from exactpt.scene.generate import FAMILIES, POINTS, RINGS, generate
 
@@ -98,3 +99,18 @@ def test_a_budget_of_work(program, tmp_path, capsys):
         assert done.returncode == proof_check.main([*call, work]) == code, capsys.readouterr()
     with pytest.raises(proof_check.Exhausted):
         proof_check.check(proved.scene, proved.text, 10)
+
+
+def test_bug_isolating_roots_is_counted_as_work(program, tmp_path):
+    """(a t - 1)^2 + t^40, a = 2^60 + 1, has two roots 10^-379 from the real axis."""
+    a = 2**60 + 1
+    y = [1, -2 * a, a * a, *[0] * 37, 1]
+    bodies = [Body("a", [(0, 0)]), Body("b", [(1, 0)]), Body("c", [([], y)])]
+    scene, proof = tmp_path / "s.json", tmp_path / "p"
+    Scene(bodies, (0, "1/2")).save(scene)
+    digest = hashlib.sha256(scene.read_bytes()).hexdigest()
+    lines = ["span 0 1/2", "face 0 1 2", "outer 0 2 1", "none"]
+    proof.write_text("\n".join(["exactpt-proof 1", f"scene sha256 {digest}", *lines]) + "\n")
+    call = [str(scene), str(proof), "--work", "3000000"]
+    done = subprocess.run([program, "proof", *call], capture_output=True, check=False)
+    assert (proof_check.main(call), done.returncode) == (4, 4)
