@@ -49,7 +49,9 @@ class NoProofError(Exception): pass
 class Rejected(Exception): pass
 class Exhausted(Exception): pass
 class Work:
-    usual = left = 10 ** 11
+    usual = left = 10 ** 9
+    def start(self, work: int | None, files: int) -> None:
+        self.left = self.usual + 1000 * files if work is None else work
     def spend(self, products: int) -> None:
         self.left -= products
         if self.left < 0: raise Exhausted('not decided: the budget of work is used up (see --work)')
@@ -727,11 +729,11 @@ class Checker:
         return proved
 
 
-def check(scene_file: bytes, certificate: bytes, work: int = Work.usual) -> Proved:
+def check(scene_file: bytes, certificate: bytes, work: int | None = None) -> Proved:
     """Check a certificate; return its statement. Raises `Rejected`, `NoProofError`, or `Exhausted`."""
     digits, line, checker = sys.get_int_max_str_digits(), 0, None
     sys.set_int_max_str_digits(0)  # lengths have bounds of their own
-    WORK.left = work
+    WORK.start(work, len(scene_file) + len(certificate))
     try:
         need(
             max(len(scene_file), len(certificate)) <= MOST_BYTES,
@@ -798,11 +800,13 @@ def main(arguments: list[str]) -> int:
                 given[word] = "" if word == "--partial" else next(rest, "-")
             else:
                 paths.append(Path(word))
-        until, work = given.get("--until", "0"), given.get("--work", str(Work.usual))
-        fits = is_rational(until) and re.fullmatch("[0-9]{1,18}", work) and len(paths) == 2
+        until, work = given.get("--until", "0"), given.get("--work")
+        fits = is_rational(until) and re.fullmatch("[0-9]{1,18}", work or "0") and len(paths) == 2
         if not fits or {"--partial", "--until"} <= {*given}:
             raise NoProofError(USAGE)
-        proved = check(file_bytes(paths[0]), file_bytes(paths[1]), int(work))
+        proved = check(
+            file_bytes(paths[0]), file_bytes(paths[1]), None if work is None else int(work)
+        )
         is_enough = "--until" in given and proved.is_of_all and Fraction(until) <= proved.until
         is_enough |= proved.whole or "--partial" in given
         require(is_enough, f"rejected: proved is only a part (see --until, --partial): {proved}")

@@ -64,11 +64,11 @@ class Exhausted(Exception):  # noqa: N818 - no verdict
 class Work:
     """The work that is left: products of two words of 64 bits, by estimate."""
 
-    left = 0
+    usual = left = 10**9
 
     def start(self, work: int | None, files: int) -> None:
-        """Set the budget: by default 10^9, and 1,000 for each byte of the files."""
-        self.left = 10**9 + 1000 * files if work is None else work
+        """Set the budget: by default the usual work, and 1,000 for each byte of the files."""
+        self.left = self.usual + 1000 * files if work is None else work
 
     def spend(self, products: int) -> None:
         """Count some work."""
@@ -1164,8 +1164,7 @@ class Checker:
             time = self.read_time(row[1:k]) if k > 1 else Time(self.end)
             require(time.compare_rational(self.end) <= 0, "a time after the time span")
             if cycles:
-                unit = (self.end - start) / 2**APART
-                sample = between(self.now, time, start, unit)
+                sample = between(self.now, time, start, (self.end - start) / 2**APART)
                 self.line = made
                 self.look_at(sample)
                 self.line = line
@@ -1390,8 +1389,8 @@ class Checker:
 
     def direction(self, u: int, v: int, t: Fraction) -> Point:
         """Return the direction from u to v at a rational time."""
-        p, q = self.scene.at(u, t), self.scene.at(v, t)
-        return q[0] - p[0], q[1] - p[1]
+        (a, b), (c, d) = self.scene.at(u, t), self.scene.at(v, t)
+        return c - a, d - b
 
     def end_lives(self, darts: Iterable[Dart], time: Time) -> set[Face]:
         """Check lives that end at a time: step 3. Return the faces with a vanishing angle."""
@@ -1407,14 +1406,13 @@ class Checker:
         shown = f"the {life.kind} angle {life.u} {d[0]} {d[1]} of line {life.line}"
         vanishes = False
         for start, end, tracks in self.scene.pieces(angle, life.since, time):
-            if life.kind in (FLAT, FULL):
-                straight = not orientation_of(*tracks)
-                require(straight, f"{shown} is not straight throughout its life")
+            straight = life.kind in (CONVEX, REFLEX) or not orientation_of(*tracks)
+            require(straight, f"{shown} is not straight throughout its life")
             f = life.form(*tracks)
             require(f, f"{shown} vanishes throughout a piece of its life")
             inside, vanishes = zeros(f, start, end)
-            within = inside or (vanishes and end is not time)
-            require(not within, f"{shown} vanishes during its life")
+            ends = end is time or not vanishes
+            require(ends and not inside, f"{shown} vanishes during its life")
         return vanishes
 
     # Step 6: a contact at a time between intervals. Just before, a short segment from a vertex to
@@ -1514,8 +1512,8 @@ def root_in_words(row: list[str], time: Time, f: Poly) -> str:
     low, high = Fraction(row[0]), Fraction(row[1])
     if low == high:
         return str(low)
-    coefficients = " ".join(map(str, f))
-    return f"{twelve_digits(time)}..., the root of {coefficients} in [{low}, {high}]"
+    root = f"the root of {' '.join(map(str, f))} in [{low}, {high}]"
+    return f"{twelve_digits(time)}..., {root}"
 
 
 # ---- The file.
@@ -1583,10 +1581,9 @@ def read(proof: bytes) -> list[tuple[int, list[str]]]:
 
 def check(scene_file: bytes, proof_file: bytes, work: int | None = None) -> Proved:
     """Check a proof; return what it proves. Raises `Rejected`, `NoProofError`, or `Exhausted`."""
-    digits = sys.get_int_max_str_digits()
+    digits, checker = sys.get_int_max_str_digits(), None
     sys.set_int_max_str_digits(0)  # lengths have bounds of their own
     WORK.start(work, len(scene_file) + len(proof_file))
-    checker = None
     orientation_of.cache_clear()
     try:
         need(max(len(scene_file), len(proof_file)) <= MOST_BYTES, "or the proof: too many bytes")
@@ -1619,9 +1616,8 @@ def wishes(arguments: list[str]) -> tuple[list[Path], dict[str, str]]:
             given[word] = "" if word == "--partial" else next(rest, "-")
         else:
             paths.append(Path(word))
-    ok = is_rational(given.get("--until", "0")) and re.fullmatch(
-        "[0-9]{1,18}", given.get("--work", "0")
-    )
+    is_work = re.fullmatch("[0-9]{1,18}", given.get("--work", "0"))
+    ok = is_work and is_rational(given.get("--until", "0"))
     one = len(given.keys() - {"--work"}) <= 1 and not any(str(p)[:2] == "--" for p in paths)
     if not ok or not one or len(paths) not in (1, 2) or (len(paths) == 1 and "--expect" in given):
         raise NoProofError(USAGE)
