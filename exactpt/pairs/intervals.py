@@ -149,7 +149,10 @@ def incidence_times(a: Body, b: Body, start: QQ, end: QQ) -> list[AlgebraicNumbe
     which it passes an end of the edge, and that at which the motion ends, if it is on the edge.
     Of rounded bodies, likewise the times at which features come to the sum of the radii.
     """
-    found = (_times(a, b, stretch) for stretch in stretches(a, b, start, end))
+    # Two vertices also lie on edges, unless there are none, or one has no length for a moment; they
+    # have times of their own where a vertex moves along an edge.
+    corners = not (a.edges or b.edges) or not (is_rigid(a) and is_rigid(b))
+    found = (_times(a, b, stretch, corners=corners) for stretch in stretches(a, b, start, end))
     return _distinct(chain.from_iterable(found))
 
 
@@ -161,23 +164,21 @@ def _distinct(times: Iterable[AlgebraicNumber]) -> list[AlgebraicNumber]:
     return distinct
 
 
-def _times(a: Body, b: Body, stretch: Stretch) -> Iterator[AlgebraicNumber]:
+def _times(a: Body, b: Body, stretch: Stretch, *, corners: bool) -> Iterator[AlgebraicNumber]:
     """The times at which features of two bodies are at the sum of the radii.
 
     Where they stay at it, that at which the motion ends. (A foot that leaves its edge does so at
-    a vertex, which is then at that distance.)
+    a vertex, which is then at that distance.) If the sum is 0 and ``corners`` is false, those of
+    two vertices where vertices move along edges alone.
     """
     squared = (a._radius + b._radius) ** 2
     begin, end = AlgebraicNumber(stretch.begin), AlgebraicNumber(stretch.end)
-    # Two vertices also lie on edges, unless there are none, or one has no length for a moment; they
-    # have times of their own where a vertex moves along an edge.
-    apart = not (a.edges or b.edges) or not (is_rigid(a) and is_rigid(b))
     for pair in feature_pairs(a, b, stretch.first, stretch.second, _near_pairs(a, b, stretch)):
         ask()
-        if not (squared or apart or pair.is_of_edge):
+        if not (squared or corners or pair.is_of_edge):
             return
         f = pair.at_distance(squared)
-        apart |= not f
+        corners |= not f
         times = (root.time for root in roots_after(f, begin, stretch.end)) if f else (end,)
         yield from (time for time in times if pair.holds(time))
 
