@@ -198,8 +198,8 @@ def radius_above(body: Body) -> float:
 def pairs_at(boxes: PieceBoxes, time: QQ) -> list[tuple[int, int]]:
     """The pairs i < j of bodies, each with one piece, whose boxes meet at a time."""
     low, high = enclosing_floats(time)
-    active, first, second = _meeting(boxes, low, high)
-    if len(first) > _few(active):
+    few, _, first, second = _meeting(boxes, low, high)
+    if len(first) > few:
         lows, highs = np.full(len(first), low), np.full(len(first), high)
         boxes.narrow(first, second, lows, highs)
         near = lows <= highs
@@ -224,14 +224,13 @@ def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[flo
     while now < last:
         ask()
         later = min(now + step, last)
-        active, first, second = _meeting(boxes, now, later)
-        many = _few(active)
+        many, count, first, second = _meeting(boxes, now, later)
         while len(first) > many and step > least and later > now:
             shorter = min(now + step / 4, last)
             fewer = _meeting(boxes, now, shorter)
-            if 2 * len(fewer[1]) > len(first):
+            if 2 * len(fewer[2]) > len(first):
                 break
-            step, later, (active, first, second) = step / 4, shorter, fewer
+            step, later, (_, count, first, second) = step / 4, shorter, fewer
         enter, leave = boxes.windows(first, second, now, later)
         near = enter <= leave
         if near.sum() > many:
@@ -242,28 +241,30 @@ def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[flo
             if (i, j) not in seen:
                 seen.add((i, j))
                 yield time, i, j
-        step *= min(4.0, max(1.0, many / (len(first) + 1)))  # as if each time had as many pairs
+        step *= min(4.0, max(1.0, many / (count + 1)))  # as if each time had as many pairs
         if not later > now:
             later = float(np.nextafter(now, np.inf))
         now = later
 
 
-def _few(active: int) -> int:
-    """Number of pairs of which comparing the boxes costs little, of some pieces: numpy does it."""
-    return 8 * active + 64
+def _meeting(boxes: PieceBoxes, low: float, high: float) -> tuple[int, int, Indices, Indices]:
+    """Return the pairs of pieces of two bodies whose boxes meet during [low, high].
 
-
-def _meeting(boxes: PieceBoxes, low: float, high: float) -> tuple[int, Indices, Indices]:
-    """How many pieces last during [low, high], and the pairs of two bodies whose boxes meet."""
+    Returns:
+        The number of pairs that numpy compares in the time of finding them, that of all pairs
+        whose boxes meet, those of one body included, and the pairs of two bodies.
+    """
     active, places = boxes.during(low, high)
+    few, count = 8 * len(active) + 64, 0
     firsts: list[Indices] = []
     seconds: list[Indices] = []
     for i, j in overlapping_pairs(places):
         i, j = active[i], active[j]  # noqa: PLW2901
         two = boxes.body[i] != boxes.body[j]
+        count += len(i)
         firsts.append(i[two])
         seconds.append(j[two])
     if not firsts:
         none = np.empty(0, dtype=np.int64)
-        return len(active), none, none
-    return len(active), np.concatenate(firsts), np.concatenate(seconds)
+        return few, count, none, none
+    return few, count, np.concatenate(firsts), np.concatenate(seconds)
