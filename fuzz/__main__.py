@@ -32,7 +32,7 @@ from fuzz.witnesses import WITNESSES
 FAMILIES = (*BODIES, *POINTS, *ROUNDED, *RINGS)
 ASKED = tuple(QUESTION + name for name in QUESTIONS)
 MIXED = tuple(name for pair in zip(FAMILIES, cycle(ASKED), strict=False) for name in pair)
-"""A scene and a question in turn; every question is among the first thirty cases."""
+"""A scene and a question in turn."""
 
 
 @click.command("fuzz", context_settings=HELP)

@@ -29,8 +29,9 @@ __all__ = ["QUESTION", "Case", "Failure", "Scenes", "failure_of", "run_case", "s
 QUESTION: Final = "questions/"
 """What the family of a case begins with if it is no scene, but one of `fuzz.questions`."""
 
-SEVERAL, LONG = 8, ("runs", "spin", "path")
-"""Number of questions in a case, and those that are long enough one by one."""
+USUAL: Final = 8
+SEVERAL: Final = {"runs": 1, "spin": 1, "path": 1, "flips": 4, "small-scope": 24}
+"""Number of questions in a case, for about the same time each; `USUAL` of all others."""
 
 
 class Case(NamedTuple):
@@ -178,7 +179,7 @@ def _ask_several(
     case: Case, question: str, counts: Counts, tell: Tell, ends: float | None
 ) -> Result:
     """Have some questions answered and compared with their definitions; nothing is shrunk."""
-    several = 1 if question in LONG else SEVERAL
+    several = SEVERAL.get(question, USUAL)
     found: list[Finding] = []
     began = clock.perf_counter()
     for number in range(several * case.number, several * (case.number + 1)):

@@ -12,9 +12,11 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import lcm
 from random import Random
-from typing import Final, TypeAlias
+from typing import Any, Final, TypeAlias
 
-from exactpt.kernel import filters
+import numpy as np
+
+from exactpt.kernel import filters, vectorized
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.integer_polynomial import IntPoly, primitive, sign_at, trimmed
 from exactpt.kernel.numbers import (
@@ -31,6 +33,7 @@ from exactpt.kernel.sturm import cauchy_bound, count_roots, sturm_sequence
 __all__ = [
     "Case",
     "answer",
+    "answers",
     "as_primitive",
     "asked",
     "certificate",
@@ -95,6 +98,15 @@ def answer(case: Case) -> filters.Answer:
     if len(c) == 3:
         return filters.quadratic(c[0], c[1], c[2], e[0], e[1], e[2], *times, case.at_root)
     return filters.polynomial(list(c), list(e), *times, case.at_root)
+
+
+def answers(cases: Sequence[Case]) -> list[filters.Answer]:
+    """What the filters in arrays say about cases of one degree, 1 or 2."""
+    columns = [np.array(c) for c in zip(*(case.c + case.e for case in cases), strict=True)]
+    times = [np.array([getattr(q, k) for q in cases]) for k in ("now_low", "now_high", "horizon")]
+    ask: Any = vectorized.linears if len(columns) == 4 else vectorized.quadratics
+    said = ask(*columns, *times, np.array([case.at_root for case in cases]))
+    return [tuple(row) for row in zip(*(column.tolist() for column in said), strict=True)]
 
 
 def judge(case: Case, said: filters.Answer) -> str:

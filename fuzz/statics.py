@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple, final
 
 from exactpt.certificates.at_time import PredicatesAt
+from exactpt.certificates.certificate import kind_of, part_of
 from exactpt.collision.driver import Driver, Observer
 from exactpt.errors import AuditError
 from exactpt.indices import Ends
@@ -14,9 +15,17 @@ from exactpt.motion.enclosures import Enclosures
 from exactpt.motion.vertices import WIDTH, Vertices
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 from exactpt.scene.scene import Scene
+from exactpt.tiling.engine import Engine
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["Audited", "audit_at", "audit_now", "audit_places", "run_and_audit"]
+__all__ = [
+    "Audited",
+    "audit_at",
+    "audit_certificates",
+    "audit_now",
+    "audit_places",
+    "run_and_audit",
+]
 
 
 class Audited(NamedTuple):
@@ -76,6 +85,7 @@ class _Audits(Observer):
             audit_at(tiling, at)
             if self._middle:
                 audit_at(tiling, rational_between(tiling.now, AlgebraicNumber(at)))
+            audit_certificates(tiling)
             self.gaps += 1
 
     def passed(self, tiling: Tiling) -> None:
@@ -99,6 +109,30 @@ def audit_places(vertices: Vertices) -> None:
             known = [vertices.places[WIDTH * v + k] for k in range(4)]
             if repr(known) != repr(list(expected)):  # NaN stands for no enclosure
                 raise AuditError(f"the coefficients of vertex {v} are {known}, not {expected}")
+
+
+def audit_certificates(kinetic: Tiling) -> None:
+    """Certify a tiling anew, and compare the pending certificates with those before.
+
+    A certificate that a change has left out, or a stale one, shows here at once; in the run, only
+    if its vertices become collinear before the angle is certified again.
+
+    Raises:
+        AuditError: if a certificate is missing, superfluous, or fails at another time.
+    """
+    if not isinstance(kinetic, Engine):
+        return
+    pending = kinetic.table.pending
+    before = {slot: pending.time_of(slot) for slot in pending.slots()}
+    kinetic.certified.certify_everything()
+    slots = pending.slots()
+    if before.keys() != set(slots):
+        names = [f"{kind_of(c)} of {part_of(c)}" for c in sorted(before.keys() ^ {*slots})]
+        raise AuditError(f"certificates missing or superfluous: {', '.join(names)}")
+    for slot in slots:
+        old, new = before[slot], pending.time_of(slot)
+        if old.low > new.high or new.low > old.high:
+            raise AuditError(f"certificate {kind_of(slot)} of {part_of(slot)}: fails at {new}")
 
 
 def audit_at(kinetic: Tiling, at: QQ) -> None:

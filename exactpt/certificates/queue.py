@@ -142,6 +142,7 @@ class EventQueue(Calendar):
         numbers: list[i32] = keys.ravel().tolist()
         self._spans[kind], self._keys[kind] = vec[float](ends), vec[i32](numbers)
         self._count += len(parts)
+        self._heap_size = 0  # its slots may be beyond the new rows; the calendar has all events
         self._make_calendar()
 
     def cancel(self, slot: CertificateId) -> None:

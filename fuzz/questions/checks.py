@@ -22,11 +22,17 @@ from exactpt.pairs.features import Feature
 from exactpt.pairs.incidences import tracks_just_before
 from exactpt.pairs.intervals import contact_intervals
 from exactpt.pairs.reference import touches_at
+from exactpt.pairs.start import initial_touches
 from exactpt.pairs.surroundings import clearance
+from exactpt.pseudotriangulation.flip import flip
+from exactpt.pseudotriangulation.shadow import shadow
+from exactpt.scene.generate import generate
 from exactpt.scene.scene import Scene
 from exactpt.scene.written import to_json
 from exactpt.simulation.simulation import Simulation
 from exactpt.testing.space.queries import SpaceQuery
+from exactpt.tiling.engine import Engine
+from exactpt.tiling.start import start_tiling
 from fuzz import filter_attacks
 from fuzz.questions import by_cgal, reference
 from fuzz.questions.chosen import wrong_choice
@@ -40,11 +46,14 @@ from fuzz.questions.tiny import touching_scene
 from fuzz.small_scope.look import looks
 from fuzz.small_scope.scope import planned, sizes
 from fuzz.soak import Soak
+from fuzz.statics import audit_certificates
 
 OTHERS: Final[tuple[Norm, ...]] = ("max", "x", "y")
 LIVING: Final = ("greedy", "lazy", "mixed")
 ACTIONS: Final = 40
 HOSTILE: Final = 50
+FLIPPED: Final = ("linear_points", "ballistic_points", "turning_points")
+FLIPS: Final = 30
 DEGREES: Final = (1, 2, 2, 2, 3, 4, 5, 6)
 
 __all__ = ["QUESTIONS", "Checked", "checked"]
@@ -318,12 +327,37 @@ def _filters(random: Random) -> Checked:
     for _ in range(HOSTILE):
         said = filter_attacks.answer(at)
         sure += said[0] != 0
+        if len(at.c) < 4 and filter_attacks.answers([at]) != [said]:
+            return Checked(at, "wrong", f"{said}, but {filter_attacks.answers([at])} in arrays")
         for case in (at, *filter_attacks.variants(random, at, said)):
             if fault := filter_attacks.judge(case, said):
                 return Checked(case, "wrong", f"degree {len(case.c) - 1}, {said}: {fault}")
         make = random.choice([filter_attacks.hostile, filter_attacks.extreme])
         at = make(random, random.choice(DEGREES))
     return Checked(at, f"{10 * round(10 * sure / HOSTILE)} % decided", None)
+
+
+def _flips(random: Random) -> Checked:
+    """Flips of a pseudo-triangulation, after which no certificate is missing or stale."""
+    scene = generate(random.choice(FLIPPED), random.getrandbits(20))
+    if any(initial_touches(scene)):
+        return Checked(scene, "a contact at the start", None)
+    tiling = start_tiling(scene, "lazy", scene.start)
+    assert isinstance(tiling, Engine)  # noqa: S101
+    certified, done = tiling.certified, 0
+    flippable = [*certified.mesh.flippable()]
+    for h in random.choices(flippable, k=FLIPS if flippable else 0):
+        visits = None
+        if certified.mesh.map.origin[h] >= 0 and certified.mesh.is_flippable(h):
+            visits = shadow(certified.mesh, h, certified.after())
+        if visits is not None:
+            certified.recertify(flip(certified.mesh, h, visits, certified.after()))
+            done += 1
+            try:
+                audit_certificates(tiling)
+            except AuditError as error:
+                return Checked(scene, "wrong", f"after {done} flips: {error}")
+    return Checked(scene, f"{10 * (done // 10)} flips", None)
 
 
 def _scope(random: Random) -> Checked:
@@ -353,5 +387,6 @@ QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
     "filters": _filters,
     "small-scope": _scope,
     "path": _path,
+    "flips": _flips,
 }
 """A function from random choices to a case, by question."""

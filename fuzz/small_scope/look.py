@@ -18,6 +18,7 @@ from exactpt.scene.scene import Scene
 from exactpt.simulation.responses import stop
 from exactpt.simulation.simulation import Simulation
 from fuzz.limits import TooSlow, limit
+from fuzz.normals import wrong_normal
 from fuzz.questions.renewal import first_new_contact
 from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.scope import Planned
@@ -37,6 +38,7 @@ RENEWED: Final = 4
 """One in this many scenes is asked for the first new contact, also with edges cut in two."""
 
 AFTER_START: Final = "after start"
+NORMALS: Final = "normals"
 
 PATIENCE: Final = 20.0
 """Seconds of processor time after which a method counts as hanging."""
@@ -46,8 +48,8 @@ class Answer(NamedTuple):
     """The answer of a method about a scene.
 
     Attributes:
-        method: "auto", "pairs", "arrays", "after start", the name of a tiling, or "static" or
-            "going on" and such a name.
+        method: "auto", "pairs", "arrays", "after start", "normals", the name of a tiling, or
+            "static" or "going on" and such a name.
         seconds: processor time.
         fault: what is wrong with the answer; None if it is right.
     """
@@ -109,9 +111,13 @@ def look(planned: Planned) -> Look:
     def audit(name: str) -> None:
         run_and_audit(scene, name, middle=False)
 
+    def judge_normals(_: str) -> str | None:
+        return wrong_normal(scene, expected)
+
     names = tilings_of(scene)
     searches = ("pairs",) if linear_pieces(scene) is None else ("auto", "pairs")
     answers = [_answer(name, compare, name) for name in (*searches, *names)]
+    answers.append(_answer(NORMALS, judge_normals, ""))
     turn, rest = divmod(planned.number, AUDITED)
     name = names[turn % len(names)]
     if rest == 0:

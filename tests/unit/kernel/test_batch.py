@@ -7,20 +7,7 @@ import numpy as np
 import pytest
 
 from exactpt.kernel import vectorized
-from fuzz.filter_attacks import answer, extreme, generic, hostile
-
-
-def answers(cases):
-    """What the batch filter of the cases' degree says, one case a row."""
-    columns = [
-        np.array(column) for column in zip(*(case.c + case.e for case in cases), strict=True)
-    ]
-    times = [
-        np.array([getattr(q, name) for q in cases]) for name in ("now_low", "now_high", "horizon")
-    ]
-    ask = vectorized.linears if len(columns) == 4 else vectorized.quadratics
-    said = ask(*columns, *times, np.array([case.at_root for case in cases]))
-    return [tuple(row) for row in zip(*(column.tolist() for column in said), strict=True)]
+from fuzz.filter_attacks import answer, answers, extreme, generic, hostile
 
 
 @pytest.mark.long("hostile-2")
