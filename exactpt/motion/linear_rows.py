@@ -17,7 +17,7 @@ from exactpt.kernel.budget import ask
 from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.kernel.rounding import TINY, U
-from exactpt.motion.frame import frame_for
+from exactpt.motion.frame import Frame, frame_for
 from exactpt.motion.image import LARGEST, SMALLEST
 from exactpt.motion.motions import Translation
 from exactpt.motion.ring_order import turns_left
@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 
 __all__ = ["LinearRows", "linear_rows"]
 
-LEAST: Final = 2.0**-18
+LEAST: Final = 2.0**-19
 """Least extent of a scene that certainly needs no scale, see `exactpt.motion.frame`."""
-MOST: Final = 2.0**18
+MOST: Final = 2.0**19
 """Its largest one."""
 FAR: Final = 8.0
 """Number of extents from the origin up to which a scene certainly needs no shift."""
@@ -41,16 +41,18 @@ _ZEROS: Final = (QQ(0), QQ(0))
 
 
 class LinearRows(NamedTuple):
-    """The vertices of bodies, each body counter-clockwise, in a frame that changes nothing.
+    """The vertices of bodies, each body counter-clockwise, in a frame that shifts nothing.
 
     Attributes:
+        frame: the frame.
         offsets: body k has the rows ``offsets[k]`` to ``offsets[k + 1]`` - 1.
         indices: of each row, its vertex in the body.
         coefficients: shape (N, 4): x0, y0, x1, y1.
-        velocities: shape (n, 2), of each body.
+        velocities: shape (n, 2), of each body, not normalised.
         error: the bound on the errors of x0 and y0; those of x1 and y1 are exact.
     """
 
+    frame: Frame
     offsets: Indices
     indices: Indices
     coefficients: Floats
@@ -80,30 +82,37 @@ class _Arrays(Sequence["Body"]):
 def linear_rows(bodies: Sequence[Body], start: QQ, end: QQ) -> LinearRows | None:
     """The rows of bodies from a time on; None if not all are polygons in linear translation."""
     given = _from_arrays(cast("_Arrays", bodies)) if hasattr(bodies, "offsets") else _read(bodies)
-    if given is None or not frame_for([(QQ(0), QQ(0)), (QQ(1), QQ(1))], start, end).is_identity:
+    if given is None or not len(bodies):
         return None
     counts = np.diff(given.offsets)
     owner, number = spread(counts)
-    shifts, rates = given.shifts[owner], given.velocities[owner]
+    shifts = given.shifts[owner]
     with np.errstate(all="ignore"):
         places = given.vertices + shifts
-        near = places + rates * float(start)
-    if not (_needs_no_frame(near) and _in_range(places) and _in_range(given.velocities)):
+        of_shift = places - given.vertices
+        lost = (given.vertices - (places - of_shift)) + (shifts - of_shift)  # TwoSum
+        near = places + given.velocities[owner] * float(start)
+    if not (np.isfinite(near).all() and np.isfinite(lost).all()):
+        return None
+    frame = _frame(near, start, end, is_exact=start == 0 and not lost.any())
+    if frame is None:
+        return None
+    units = np.array(frame.scale)
+    scaled, rates = np.ldexp(places, -units), np.ldexp(given.velocities, frame.time_scale - units)
+    if not (_in_range(scaled) and _in_range(rates)):
         return None
     first = given.offsets[:-1]
     if (given.vertices[first] == given.vertices[given.offsets[1:] - 1]).all(axis=1).any():
         return None  # `Shape` drops a last vertex that repeats the first
-    of_shift = places - given.vertices
-    lost = (given.vertices - (places - of_shift)) + (shifts - of_shift)  # TwoSum
-    largest = float(np.max(np.abs(places), where=lost != 0.0, initial=0.0))
+    largest = float(np.max(np.abs(scaled), where=lost != 0.0, initial=0.0))
     turns = _turns(given.vertices, given.offsets, owner)
     for k in np.flatnonzero(turns == 0).tolist():
         turns[k] = 1 if turns_left(bodies[k], range(int(counts[k])), start) else -1
     indices = np.where(turns[owner] > 0, number, counts[owner] - 1 - number)
     rows = first[owner] + indices
-    coefficients = np.concatenate((places[rows], rates), axis=1)
+    coefficients = np.concatenate((scaled[rows], rates[owner]), axis=1)
     velocities = given.velocities + 0.0  # never -0.0
-    return LinearRows(given.offsets, indices, coefficients, velocities, 2.0 * U * largest)
+    return LinearRows(frame, given.offsets, indices, coefficients, velocities, 2.0 * U * largest)
 
 
 def _from_arrays(bodies: _Arrays) -> _Given | None:
@@ -151,15 +160,26 @@ def _read(bodies: Sequence[Body]) -> _Given | None:
     return _Given(np.array([xs, ys]).T, np.array(offsets), moves[:, :, 0], moves[:, :, 1])
 
 
-def _needs_no_frame(near: Floats) -> bool:
-    """Whether `frame_for` certainly neither shifts nor scales, given rounded positions.
+def _frame(near: Floats, start: QQ, end: QQ, *, is_exact: bool) -> Frame | None:
+    """Return the frame of positions at the start; None if it shifts, or is not certain.
 
-    Their errors are below 2^-30 of the extents that are accepted.
+    Rounded positions, whose errors are below 2^-30 of the extents that are accepted, must certainly
+    need neither a shift nor a scale.
     """
     low, high = near.min(axis=0), near.max(axis=0)
-    extent = high - low
-    far = np.maximum(abs(low), abs(high))
-    return bool(((extent >= LEAST) & (extent <= MOST) & (far <= FAR * extent)).all())
+    extent, far = high - low, np.maximum(abs(low), abs(high))
+    if is_exact:
+        least = near[np.abs(near).argmin(axis=0), (0, 1)]
+        points = [
+            (QQ(*x.as_integer_ratio()), QQ(*y.as_integer_ratio()))
+            for x, y in (low.tolist(), high.tolist(), least.tolist())
+        ]
+    elif ((extent >= LEAST) & (extent <= MOST) & (far <= FAR * extent)).all():
+        points = [(QQ(0), QQ(0)), (QQ(1), QQ(1))]
+    else:
+        return None
+    frame = frame_for(points, start, end)
+    return frame if frame.only_scales else None
 
 
 def _in_range(values: Floats) -> bool:

@@ -127,8 +127,7 @@ class Vertices:
     @classmethod
     def _of_rows(cls, bodies: Sequence[Body], rows: LinearRows, start: QQ, end: QQ) -> Vertices:
         """The rings of polygons in linear translation, from their coefficients in numpy."""
-        frame = frame_for([(QQ(0), QQ(0)), (QQ(1), QQ(1))], start, end)
-        self = cls([], [], [], frame, end)
+        self = cls([], [], [], rows.frame, end)
         self.changes = len(bodies)
         motions = self.enclosures.begin_linear(rows.velocities, rows.error)
         counts = np.diff(rows.offsets)

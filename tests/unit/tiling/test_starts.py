@@ -1,5 +1,6 @@
 """Starts in arrays: the same tilings, certificates and counts as one by one."""
 
+from fractions import Fraction
 from random import Random
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from benchmarks.shapes import crowd
 from exactpt import Body, Scene, Simulation, Translation
 from exactpt.motion import vertices as moving_vertices
+from exactpt.motion.linear_rows import linear_rows
 from exactpt.pairs.start import initial_touches, near_pairs
 from exactpt.pseudotriangulation import build, stars
 from exactpt.scene.generate import FAMILIES, generate
@@ -62,7 +64,7 @@ def compared(scene, monkeypatch):
         assert at_once == pytest.approx(one_by_one, rel=1e-9)
 
 
-def arrays_of(bodies, time):
+def arrays_of(bodies, time, unit=1.0):
     """The scene of the same bodies, polygons of doubles, in arrays."""
     doubles = [body._shape.near for body in bodies]
     offsets = np.cumsum([0, *(len(near.xs) for near in doubles)])
@@ -72,10 +74,11 @@ def arrays_of(bodies, time):
         for body in bodies
     ]
     names = [body.name for body in bodies]
+    corners, paths = np.array(corners) * unit, np.array(paths) * unit
     return Scene.from_arrays(corners, offsets, coefficients=paths, names=names, time=time)
 
 
-def doubled(seed, k=25):
+def doubled(seed, k=25, unit=1.0, span=1):
     """Triangles of doubles of either orientation, with an upright side, some at rest."""
     rng = Random(f"doubled {seed}")
     bodies = []
@@ -90,9 +93,11 @@ def doubled(seed, k=25):
         if rng.random() < 0.5:
             ring.reverse()
         speed = rng.choice([[], [shift], [shift, 0.25], [shift, rng.uniform(-1, 1)]])
-        motion = Translation(speed or [shift], rng.choice([[], [0, -0.5]]))
-        bodies.append(Body(f"b{i}", ring, motion))
-    return Scene(bodies, (rng.choice([0, "1/3"]), 1))
+        paths = [speed or [shift], rng.choice([[], [0, -0.5]])]
+        motion = Translation(*([c * unit for c in path] for path in paths))
+        bodies.append(Body(f"b{i}", [(x * unit, y * unit) for x, y in ring], motion))
+    start = rng.choice([0, Fraction(1, 3)])
+    return Scene(bodies, (start, start + Fraction(span)))
 
 
 def boxes_in_doubles(scene):
@@ -129,9 +134,14 @@ def test_stars_that_doubles_sort_wrongly_are_sorted_by_predicates(monkeypatch):
     assert sorted_again
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_starts_of_bodies_of_doubles(seed, monkeypatch):
-    compared(doubled(seed), monkeypatch)
+@pytest.mark.parametrize("unit", [1.0, 2.0**-40, 2.0**40, 2.0**90])
+@pytest.mark.parametrize("end", [1, 2**-20, 2**20])
+def test_starts_of_bodies_of_doubles(unit, end, monkeypatch):
+    """Of any size, for spans of any length: the frame scales."""
+    compared(doubled(0, unit=unit, span=end), monkeypatch)
+    exact = arrays_of(crowded(25).bodies, (0, end), unit=unit)
+    assert linear_rows(exact.bodies, exact._start, exact._end) is not None
+    compared(exact, monkeypatch)
 
 
 @pytest.mark.parametrize("tiling", ["lazy", "greedy"])
