@@ -139,7 +139,7 @@ def first_within(
         if not selection.is_all:
             raise InputError("between and ignoring select among all pairs: name no two bodies then")
         first, second = two_bodies(scene, a, b)
-        return time_within(first, second, scene._start, scene._end, d, norm)
+        return time_within_of_two(first, second, scene._start, scene._end, d, norm)
     found: Near | None = None
     of_cores(d, max((body._radius for body in scene.bodies), default=QQ(0)), norm)  # or refuses it
     if len(scene.bodies) > 1:
@@ -215,6 +215,7 @@ def time_within_of_two(
     a: Body, b: Body, start: QQ, end: QQ, d: QQ, norm: Norm
 ) -> AlgebraicNumber | None:
     """Return the first time in [start, end] at which two bodies are within d."""
+    of_cores(d, a._radius + b._radius, norm)  # or refuses it
     if norm != "euclidean" or start == end:
         return time_within(a, b, start, end, d, norm)
     found = _euclidean(scene_of((a, b), start, end), d)  # filtered by doubles

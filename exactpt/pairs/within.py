@@ -1,7 +1,7 @@
-"""The first time at which two bodies are within a distance, in a norm that is named.
+"""The first time at which two bodies are within a distance, in the maximum norm or on an axis.
 
-In the Euclidean norm, a vertex of one body is then at this distance from a vertex of the other,
-or from an edge, at the foot of the perpendicular; see `exactpt.pairs.features`.
+(In the Euclidean norm, a vertex of one body is then at this distance from a vertex of the other,
+or from an edge, at the foot of the perpendicular: `exactpt.pairs.approach` finds that time.)
 
 In the maximum norm two sets are within distance d if and only if one of them meets the
 Minkowski sum of the other with a square of half-side d. At the first such time either a vertex
@@ -32,7 +32,6 @@ from exactpt.motion.body import Body
 from exactpt.motion.incidence import difference, lies_on, orientation
 from exactpt.motion.track import Track
 from exactpt.pairs.distance import squared_distance
-from exactpt.pairs.features import feature_pairs
 from exactpt.pairs.rational import Earliest
 from exactpt.pairs.stretches import Stretch, meet, segments_of, stretches
 
@@ -49,10 +48,15 @@ Candidate: TypeAlias = "tuple[IntPoly, Callable[[AlgebraicNumber], bool]]"
 def time_within(
     first: Body, second: Body, start: QQ, end: QQ, d: QQ, norm: Norm
 ) -> AlgebraicNumber | None:
-    """The first time in [start, end] at which two bodies are within d; Euclidean: its root."""
+    """The first time in [start, end] at which two bodies are within d.
+
+    In the Euclidean norm d is the square, and the end the start.
+    """
     d = of_cores(d, first._radius + second._radius, norm)
     if _is_within(first, second, start, d, norm):
         return AlgebraicNumber(start)
+    if norm == "euclidean":
+        return None
     for stretch in stretches(first, second, start, end):
         candidates = _candidates(first, second, stretch, d, norm)
         time = _earliest(candidates, AlgebraicNumber(stretch.begin), stretch.end)
@@ -106,11 +110,10 @@ def of_cores(d: QQ, radii: QQ, norm: Norm) -> QQ:
     return (root + radii) ** 2
 
 
-def _candidates(a: Body, b: Body, stretch: Stretch, d: QQ, norm: Norm) -> Iterator[Candidate]:
+def _candidates(
+    a: Body, b: Body, stretch: Stretch, d: QQ, norm: Literal["max", "x", "y"]
+) -> Iterator[Candidate]:
     p, q = stretch.first, stretch.second
-    if norm == "euclidean":
-        pairs = feature_pairs(a, b, p, q)
-        return ((pair.at_distance(d), pair.holds) for pair in pairs)
     if norm == "max":
         return _in_both(a, b, p, q, d)
     return _on_axis(p, q, d, norm)

@@ -12,6 +12,7 @@ from exactpt import Approach, Body, InputError, Rigid, Scene, Translation, first
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs import near, pieces
 from exactpt.pairs.approach_search import ApproachSearch
+from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.start import near_at_start, within_at_start
 from exactpt.scene.generate import FAMILIES, generate
 from fuzz.questions import reference
@@ -253,3 +254,26 @@ def test_numbers_out_of_range_are_not_bisected(monkeypatch):
         near.append(Body(f"orbiter {i}", [(10 * i + 2 + tiny, 0)], turn))
     assert search(Scene(near, (0, 2)), QQ(2)) is None
     assert len(decided) <= 300
+
+
+def test_two_bodies_of_many_vertices_need_few_exact_decisions(monkeypatch):
+    decided = []
+    first_time = FeaturePair.first_time
+    monkeypatch.setattr(
+        FeaturePair,
+        "first_time",
+        lambda self, *given: decided.append(1) or first_time(self, *given),
+    )
+    ring = [(k * k, 4 * k) for k in range(-20, 21)]
+    ball = [(x * 5 + 1, y) for x, y in [(k, k * k) for k in range(-20, 21)]]
+    scene = Scene(
+        [Body("a", ball, Translation([0, 30])), Body("b", ring, Translation([900]))], (0, 90)
+    )
+
+    assert first_within(scene, "a", "b", "1/3", norm="euclidean") is not None
+    assert 1 <= len(decided) <= 12
+    with pytest.raises(InputError, match="square of a rational"):
+        first_within(
+            Scene([Body("p", [(0, 0)], radius=1), Body("q", [(9, 9)])]),
+            "p", "q", distance_squared=2, norm="euclidean",
+        )  # fmt: skip
