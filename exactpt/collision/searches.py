@@ -85,6 +85,8 @@ def _certified(scene: Scene, question: Question) -> Search:
     if question.after_start or question.proof is not None:
         what = "with a proof" if question.proof is not None else "of a new contact after the start"
         raise InputError(f"there is no certificate {what}")
+    if question.between is not None:
+        question = question._replace(between=list(question.between))
     search = search_for(scene, question._replace(certificate=None))
     certified: Search = extension("search that writes a certificate")(search, scene, question)
     return certified

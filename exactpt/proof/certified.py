@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
-from typing import TYPE_CHECKING, Final, final
+from typing import TYPE_CHECKING, Any, Final, final
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from exactpt.files import write_atomically
 from exactpt.kernel.numbers import QQ, Rational, fraction, rational
 from exactpt.pairs.approach import Approach, first_within
 from exactpt.pairs.selection import Selection
-from exactpt.proof.apart import Floats, Paths, Separation, short
+from exactpt.proof.apart import Paths, Separation, short
 from exactpt.proof.degrees import refuse_degrees
 from exactpt.proof.emit import beside, scene_bytes
 from exactpt.proof.written import Proof
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from exactpt.arrays.contacts import Contacts
     from exactpt.collision.search import Search
     from exactpt.collision.searches import Question
-    from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.pairs.contact import Contact
 
 __all__ = ["CertifiedSearch", "certificate_of", "certify", "certify_rows"]
@@ -150,19 +149,8 @@ class CertifiedSearch:
         selection = Selection(scene, question.between, question.ignoring)
         self._made = _Certificate(scene, self._file, selection, Fraction(0))
 
-    @property
-    def name(self) -> str | None:
-        """See `Search.name`."""
-        return self._search.name
-
-    @property
-    def stats(self) -> dict[str, object]:
-        """See `Search.stats`."""
-        return self._search.stats
-
-    def passed(self) -> Fraction | None:
-        """See `Search.passed`."""
-        return self._search.passed()
+    def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - of the search
+        return getattr(self._search, name)
 
     def run_to_contact(self) -> Contact | None:
         """Write the certificate, and return the first contact, or None. Raises: as `certify`."""
@@ -196,6 +184,14 @@ class _Certificate:
 
     def text(self, found: Contact | Approach | None, start: Fraction, end: Fraction) -> bytes:
         """The bytes of the certificate. Raises: as `certify`."""
+        try:
+            return self._text(found, start, end)
+        except OverflowError:
+            raise BudgetExceeded(
+                "no certificate: a number is out of the range of doubles", None
+            ) from None
+
+    def _text(self, found: Contact | Approach | None, start: Fraction, end: Fraction) -> bytes:
         WORK.left = WORK.usual
         last, until = ["none"], end
         if found is not None:
@@ -228,17 +224,14 @@ class _Certificate:
 
     def _last(self, found: Contact | Approach, start: Fraction) -> tuple[list[str], Fraction]:
         """The last line, which shows a contact, and a time up to which there is none."""
-        names = (
-            set(found.pairs)
-            if isinstance(found, Approach)
-            else {*((pair.body, pair.other) for pair in found.pairs), *found.overlaps}
-        )
+        names = set(found.pairs if isinstance(found, Approach) else found.overlaps)
+        features = () if isinstance(found, Approach) else found.pairs
+        names |= {(pair.body, pair.other) for pair in features}
         pairs = [(self._number[a], self._number[b]) for a, b in sorted(names) if a != b]
         if not pairs:
-            raise InputError(
-                "the first contact is one of a body with itself: there is no certificate"
-            )
-        low, high = self._bounds(found.time, self.end - start)
+            raise InputError("there is no certificate of a contact of a body with itself")
+        found.time.refine_to(QQ((self.end - start) / 2 ** (NEAR + 5)))
+        low, high = fraction(found.time._low), fraction(found.time._high)
         if high == start:
             return [self._meeting(pairs, start)], start
         near = (self.end - start) / 2**NEAR * (3 if low == high else 1)
@@ -249,26 +242,19 @@ class _Certificate:
         for t in times:
             with suppress(Rejected):
                 return [self._meeting(pairs, t)], until
-        if not isinstance(found, Approach):
-            for pair in found.pairs:
-                if pair.edge is not None:
-                    v = self._paths.first[self._number[pair.body]] + pair.vertex
-                    item = self._item(self._number[pair.other], pair.edge)
-                    with suppress(Rejected):
-                        return [self._passage(v, item, until, low, high, times[-1])], until
+        for pair in features:
+            if pair.edge is not None:
+                v = self._paths.first[self._number[pair.body]] + pair.vertex
+                item = self._items(self._number[pair.other])[pair.edge]
+                with suppress(Rejected):
+                    return [self._passage(v, item, until, low, high, times[-1])], until
         raise BudgetExceeded(
             "a touch without crossing, at an irrational time, has no certificate", None
         )
 
-    def _bounds(self, time: AlgebraicNumber, span: Fraction) -> tuple[Fraction, Fraction]:
-        """Bounds of a time: near to each other, and equal if it is rational."""
-        time.refine_to(QQ(span / 2 ** (NEAR + 5)))
-        return fraction(time._low), fraction(time._high)
-
-    def _item(self, body: int, edge: int) -> int:
-        """The number of an edge of a body."""
-        first = next(k for k, item in enumerate(self._paths.items) if item[0] == body)
-        return first + edge
+    def _items(self, body: int) -> list[int]:
+        """The numbers of the items of a body."""
+        return [k for k, item in enumerate(self._paths.items) if item[0] == body]
 
     def _meeting(self, pairs: Sequence[tuple[int, int]], t: Fraction) -> str:
         """A last line by two bodies at a time.
@@ -276,29 +262,24 @@ class _Certificate:
         Raises:
             Rejected: if there is none.
         """
+        first, items = self._paths.first, self._paths.items
+        place = {
+            v: (fraction(x), fraction(y))
+            for k in {k for pair in pairs for k in pair}
+            for v, (x, y) in enumerate(self._bodies[k]._at(QQ(t)), first[k])
+        }
         for i, j in pairs:
-            at = [
-                [(fraction(x), fraction(y)) for x, y in self._bodies[k]._at(QQ(t))] for k in (i, j)
-            ]
             far = self._distance + self._bodies[i].radius + self._bodies[j].radius
-            items = [
-                [
-                    (k, u - first, v - first)
-                    for k, (b, u, v) in enumerate(self._paths.items)
-                    if b == body
-                ]
-                for body, first in ((i, self._paths.first[i]), (j, self._paths.first[j]))
-            ]
-            for k, m in _nearest(at, items):
-                ends = [at[0][u] for u in items[0][k][1:]] + [at[1][u] for u in items[1][m][1:]]
-                if are_near(ends, far):
-                    return f"meet {t} {items[0][k][0]} {items[1][m][0]}"
-            for one, other, k in ((i, j, 0), (j, i, 1)):
-                rings = self._bodies[other].rings if self._bodies[other].has_interior else ()
-                for ring in self._bodies[one].rings:
-                    p = at[k][ring[0]]
-                    if sum(surrounds([at[1 - k][v] for v in r], p) for r in rings) % 2:
-                        return f"inside {t} {self._paths.first[one] + ring[0]} {other}"
+            for k, m in _candidates(self._items(i), self._items(j), items, place, float(far)):
+                if are_near([place[v] for v in (*items[k][1:], *items[m][1:])], far):
+                    return f"meet {t} {k} {m}"
+            for one, other in ((i, j), (j, i)):
+                body = self._bodies[other]
+                rings = [[place[first[other] + v] for v in ring] for ring in body.rings]
+                for v in (first[one] + ring[0] for ring in self._bodies[one].rings):
+                    odd = sum(surrounds(ring, place[v]) for ring in rings) % 2
+                    if body.has_interior and odd:
+                        return f"inside {t} {v} {other}"
         raise Rejected("no two bodies share a point")
 
     def _passage(
@@ -318,32 +299,20 @@ class _Certificate:
         return f"cross {until} {end} {v} {item}"
 
 
-def _nearest(
-    at: Sequence[Sequence[tuple[Fraction, Fraction]]], items: Sequence[Sequence[tuple[int, ...]]]
+def _candidates(
+    one: Sequence[int],
+    other: Sequence[int],
+    items: Sequence[tuple[int, int, int]],
+    place: Mapping[int, tuple[Fraction, Fraction]],
+    far: float,
 ) -> list[tuple[int, int]]:
-    """Some pairs of items of two bodies that are near each other, by doubles; the nearest first."""
-    (a, b), (c, d) = (
-        np.array([[[float(x) for x in at[k][u]] for u in item[1:]] for item in items[k]]).swapaxes(
-            0, 1
-        )
-        for k in (0, 1)
-    )
-    a, b, c, d = a[:, None], b[:, None], c[None], d[None]
-
-    def gap(p: Floats, q: Floats, r: Floats) -> Floats:
-        along = r - q
-        square = (along**2).sum(axis=2)
-        k = ((p - q) * along).sum(axis=2) / np.where(square > 0, square, 1.0)
-        away = p - q - np.clip(k, 0, 1)[..., None] * along
-        return np.asarray((away**2).sum(axis=2))
-
-    def turn(p: Floats, q: Floats, r: Floats) -> Floats:
-        u, v = q - p, r - p
-        return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
-
-    gaps = gap(a, c, d), gap(b, c, d), gap(c, a, b), gap(d, a, b)
-    least: Floats = np.minimum.reduce(gaps)
-    crossing = (turn(a, b, c) * turn(a, b, d) < 0) & (turn(c, d, a) * turn(c, d, b) < 0)
-    least = np.where(crossing, -1.0, least)
-    order = np.argsort(least, axis=None)[:6]
-    return [(int(k), int(m)) for k, m in zip(*np.unravel_index(order, least.shape), strict=True)]
+    """Pairs of items whose boxes come near each other, by doubles; the nearest first."""
+    ends = [
+        np.array([[place[v] for v in items[k][1:]] for k in some], float) for some in (one, other)
+    ]
+    low, high = ([e.min(axis=1) for e in ends], [e.max(axis=1) for e in ends])
+    gaps = np.maximum(low[0][:, None] - high[1], low[1] - high[0][:, None]).clip(0)
+    apart = np.hypot(gaps[..., 0], gaps[..., 1])
+    near = apart <= far + 1e-9 * (far + max(float(np.abs(e).max()) for e in ends))
+    order = sorted(np.argwhere(near).tolist(), key=lambda km: float(apart[km[0], km[1]]))
+    return [(one[k], other[m]) for k, m in order]

@@ -430,6 +430,20 @@ def test_a_certificate_of_another_scene_is_refused():
         proof._replace(text=proof.text.replace(b"meet 4", b"meet 5/2")).check()
 
 
+def test_numbers_beyond_doubles_and_far_away():
+    far = 10**400
+    scene = Scene([Body("a", [(far, 0), (far + 1, 0)]), Body("b", [(0, 1)])], time=(0, 1))
+    with pytest.raises(BudgetExceeded, match="out of the range of doubles"):
+        exactpt.certify(scene)
+    near = Scene([Body("a", [(10**20, 0)]), Body("b", [(10**20 + 1, 0)])], time=(10**9, 10**9 + 1))
+    assert said(exactpt.certify(near)).startswith("no two bodies share a point in [1000000000, ")
+
+
+def test_pairs_may_come_from_a_generator(tmp_path):
+    exactpt.first_contact(TWO, between=(p for p in [("a", "b")]), certificate=tmp_path / "x")
+    assert b"\nbetween 0 1\n" in (tmp_path / "x").read_bytes()
+
+
 def test_rows_of_arrays():
     corners = [(0, 0), (2, 0), (0, 2), (5, 1), (7, 0), (7, 3), (0, 9), (1, 9), (0, 0), (1, 0)]
     offsets, pairs = [0, 3, 6, 8, 10], [(0, 1), (0, 2), (0, 3)]
