@@ -6,6 +6,7 @@ else the checker's own exact test decides. So the nodes are those that the check
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from itertools import chain
@@ -95,9 +96,10 @@ class Paths:
     def track(self, v: int, after: Fraction) -> Any:  # noqa: ANN401 - a track of check_apart
         """The path of a vertex just after a time."""
         i = self.body_of[v]
-        piece = self._bodies[i]._piece_after(after)
-        key = v, id(piece)
+        breaks = self.breaks[i].breaks
+        key = v, bisect_right(breaks, after) if breaks else 0
         if key not in self._made:
+            piece = self._bodies[i]._piece_after(after)
             track = piece.track(v - self.first[i])
             self._made[key] = tuple(Poly(map(int, f)) for f in (track.x, track.y, track.w))
         return self._made[key]
@@ -118,10 +120,10 @@ class Frame:
     def __init__(self, paths: Paths, items: Items, start: Fraction, end: Fraction) -> None:
         self.time, self.start, self.length = Interval(start, end), start, float(end - start)
         self._items = items
-        ends = np.array([paths.items[i][1:] for i in items.tolist()])
-        vertices, inverse = np.unique(ends, return_inverse=True)
-        self.ends_of = inverse.reshape(-1, 2)
-        hulls = [self.time.hull(paths, v) for v in vertices.tolist()]  # type: ignore[arg-type]
+        ends = [paths.items[i][1:] for i in items.tolist()]
+        row = {v: k for k, v in enumerate(dict.fromkeys(chain.from_iterable(ends)))}
+        self.ends_of = np.array([(row[u], row[v]) for u, v in ends])
+        hulls = [self.time.hull(paths, v) for v in row]  # type: ignore[arg-type]
         x, y, _, w = hulls[0][0]
         a, b = self.origin = int(x // w), int(y // w)
         n, d = start.numerator, start.denominator
@@ -317,17 +319,22 @@ class Separation:
         wide = self._wide[items][:, None] * norm
         low, high = low - wide, high + wide + self._extra * norm
         size = high.max(axis=(0, 1)) - low.min(axis=(0, 1)) + 1e-300
-        places = np.quantile((low + high) / 2, (0.2, 0.35, 0.5, 0.65, 0.8), axis=1)
+        count, ordered = len(items), np.sort((low + high) / 2, axis=1)
+        between = (ordered[:, 1:] + ordered[:, :-1]) / 2
+        places = [between[:, (count - 1) * part // 100] for part in (20, 35, 50, 65, 80)]
+        at = np.stack([*places, np.broadcast_to(places[2].mean(axis=0), places[2].shape)])
+        below = (high < (at - 1e-6 * size)[:, :, None]).all(axis=1).sum(axis=1)
+        above = (low > (at + 1e-6 * size)[:, :, None]).all(axis=1).sum(axis=1)
+        least = np.minimum(below, above)
         found: list[Cut] = []
-        for at in (*places, np.broadcast_to(places[2].mean(axis=0), places[2].shape)):
-            below = (high < at[:, None] - 1e-6 * size).all(axis=0).sum(axis=0)
-            above = (low > at[:, None] + 1e-6 * size).all(axis=0).sum(axis=0)
-            for j in range(len(directions)):
-                if below[j] and above[j]:
-                    x, y = directions[j].tolist()
-                    c, d = (at[:, j] - self._extra * norm[j]).tolist()
-                    least = float(min(below[j], above[j])) / len(items)
-                    found.append(Cut(least, (int(x), int(y)), (c, d), 1e-3 * float(size[j])))
+        for k, j in zip(
+            *np.unravel_index(np.argsort(-least, axis=None)[:3], least.shape), strict=True
+        ):
+            if least[k, j]:
+                x, y = directions[j].tolist()
+                c, d = (at[k, :, j] - self._extra * norm[j]).tolist()
+                worth = float(least[k, j]) / count
+                found.append(Cut(worth, (int(x), int(y)), (c, d), 1e-3 * float(size[j])))
         return found
 
     def _made(
