@@ -14,16 +14,14 @@ from typing import Final, NamedTuple
 
 from benchmarks.output import Output, Row
 from benchmarks.timing import exponent
+from exactpt.collision.driver import Driver
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Rigid, Translation
 from exactpt.scene.scene import Scene
-from exactpt.tiling.start import start_tiling
 
 __all__ = ["FULL", "QUICK", "Family", "changes", "run"]
 
 RADIUS: Final = 10**6
-MANY: Final = 1000
-"""Number of event times from one look at the tiling to the next."""
 KINDS: Final = ("corner", "reflex", "hull", "diagonal")
 """Kinds of events that change edges."""
 TILINGS: Final = ("greedy", "lazy")
@@ -160,7 +158,7 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
 
 def changes(scene: Scene, tiling: str) -> int:
     """The number of events that change edges, up to the end; the scene has no contact."""
-    kinetic = start_tiling(scene, tiling, scene._start)
-    while kinetic.advance_many(scene._end, MANY):
-        pass
-    return sum(kinetic.stats.events.get(kind, 0) for kind in KINDS)
+    driver = Driver(lambda: scene)
+    driver.start(tiling)
+    driver.run(scene._end)
+    return sum(driver.kinetic.stats.events.get(kind, 0) for kind in KINDS)

@@ -160,15 +160,34 @@ class Driver:
             raise
         return None
 
-    def advance(self, until: QQ) -> list[TilingEvent] | None:
+    def advance(self, until: QQ, level: int = EVENTS) -> list[TilingEvent] | None:
         """Process the events of the next event time, if it is not after ``until``.
+
+        Args:
+            until: the time, rational.
+            level: the highest level that anything listens to. Below `EVENTS` no event is
+                recorded; `NOTHING` permits up to `MANY` event times at once.
 
         Returns:
             The events (none if all are internal). None if no event time was left, and the
             current time is now ``until``; or if there is a contact now: then `touches` has its
             incidences, and observers are notified by `meet`.
         """
-        return self._advance(until, EVENTS)
+        tiling, self.touches = self.kinetic, None
+        for observer in self.observers:
+            observer.before(self._scene(), tiling)
+        events: list[TilingEvent] | None = None
+        try:
+            if level >= EVENTS:
+                events = tiling.advance(until)
+            elif tiling.advance_many(until, MANY if level == NOTHING else 1):
+                events = []
+        except ContactFound as found:
+            self.touches = found.touches
+            return None
+        if self.observers:
+            self._notify(tiling, events)
+        return events
 
     def events(self, until: QQ) -> Iterator[TilingEvent]:
         """Yield the events up to a time, or to a contact (`touches`)."""
@@ -185,11 +204,8 @@ class Driver:
         level = max((observer.listens_to for observer in self.observers), default=NOTHING)
         if self.budget.limits_events:
             level = max(level, EVENTS)
-        if level == NOTHING:
-            self._advance_unobserved(until)
-        else:
-            while (events := self._advance(until, level)) is not None:
-                self.spend(len(events))
+        while (events := self.advance(until, level)) is not None:
+            self.spend(len(events))
         return None if self.touches is None else self.meet()
 
     def meet(self) -> Contact:
@@ -240,34 +256,6 @@ class Driver:
         if tiling is None or tiling.passed is None:
             return fraction(since)
         return fraction(max(since, tiling.vertices.frame.exact_time(tiling.passed.low)))
-
-    def _advance_unobserved(self, until: QQ) -> None:
-        """Advance up to a time or to a contact."""
-        self.touches = None
-        try:
-            while self.kinetic.advance_many(until, MANY):
-                self.spend(0)
-        except ContactFound as found:
-            self.touches = found.touches
-
-    def _advance(self, until: QQ, level: int) -> list[TilingEvent] | None:
-        """Advance to the next event time, see `advance`; below `EVENTS` no event is recorded."""
-        tiling = self.kinetic
-        self.touches = None
-        for observer in self.observers:
-            observer.before(self._scene(), tiling)
-        events: list[TilingEvent] | None = None
-        try:
-            if level >= EVENTS:
-                events = tiling.advance(until)
-            elif tiling.advance_many(until, 1):
-                events = []
-        except ContactFound as found:
-            self.touches = found.touches
-            return None
-        if self.observers:
-            self._notify(tiling, events)
-        return events
 
     def _notify(self, tiling: Tiling, events: Sequence[TilingEvent] | None) -> None:
         """Notify the observers of an event time, or that there is none."""

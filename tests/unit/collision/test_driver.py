@@ -56,7 +56,7 @@ def test_only_the_driver_advances_a_tiling():
     paths = [p for room in ("exactpt", "fuzz", "benchmarks") for p in (ROOT / room).rglob("*.py")]
     others = [(p.name, name) for p in paths if p != DRIVER for name in receivers(p)]
 
-    assert set(receivers(DRIVER)) == {"self", "tiling", "kinetic"}
+    assert set(receivers(DRIVER)) == {"self", "tiling"}
     assert {name for _, name in others} == {"driver"}, others
 
 
