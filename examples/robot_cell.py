@@ -52,7 +52,7 @@ def main() -> None:
     for interval in exactpt.contacts(near, ignoring=[obstacles]):
         print(f"within 5 mm of {interval.b}: {interval.start:.6f} to {interval.end:.6f} s")
     if len(sys.argv) > 1:
-        scene.draw(sys.argv[1], at="contact")
+        scene.draw(sys.argv[1], tiling=None, legend=True, poses=12)
 
 
 if __name__ == "__main__":

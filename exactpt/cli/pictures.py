@@ -12,6 +12,7 @@ from exactpt.cli.naming import two_names
 from exactpt.cli.options import (
     MOMENT,
     QUIET,
+    RATIONAL,
     SCENE,
     TILING,
     budget,
@@ -20,7 +21,7 @@ from exactpt.cli.options import (
     naming_at,
     output,
 )
-from exactpt.cli.progress import progress
+from exactpt.cli.progress import estimating, progress
 from exactpt.cli.terminal import say
 from exactpt.cli.words import answer_in_words
 from exactpt.errors import InputError
@@ -53,8 +54,22 @@ __all__ = ["demo", "draw"]
     help="Two bodies whose distance over time is plotted beside the animation, with its minimum; "
     "a picture is of the plot alone.",
 )
+@click.option("--below", type=RATIONAL, help="A distance that is marked in the plot.")
+@click.option("--legend", is_flag=True, help="Add a scale bar and the names of bodies (pictures).")
+@click.option(
+    "--poses",
+    type=click.IntRange(0, 1000),
+    default=0,
+    help="Add the path of each moving body and so many faint poses (pictures).",
+)
+@click.option("--seconds", type=RATIONAL, default="8", show_default=True, help="Length of a film.")
+@click.option(
+    "--fps", type=click.IntRange(1, 100), default=20, show_default=True,
+    help="Frames of a film in a second.",
+)  # fmt: skip
 @QUIET
 @TILING
+@click.option("--no-tiling", is_flag=True, help="Draw the bodies alone.")
 @budget
 def draw(
     scene: Path,
@@ -62,8 +77,14 @@ def draw(
     at: QQ | Literal["contact"] | None,
     theme: str,
     clearance: str | None,
+    below: QQ | None,
+    legend: bool,
+    poses: int,
+    seconds: QQ,
+    fps: int,
     quiet: bool,
     tiling: str,
+    no_tiling: bool,
     max_events: int | None,
     max_seconds: float | None,
 ) -> int:
@@ -81,6 +102,8 @@ def draw(
       exactpt draw scene.json -o film.html
       exactpt draw scene.json -o film.gif
       exactpt draw scene.json -o film.html --clearance ball,wheel
+      exactpt draw scene.json -o poses.svg --no-tiling --legend --poses 5
+      exactpt draw scene.json -o short.gif --seconds 2 --fps 10
     """
     from exactpt.render.draw import draw as draw_scene
 
@@ -89,14 +112,23 @@ def draw(
         raise InputError("--at: a plot of the clearance is of all times")
     with time_limit(max_seconds, max_memory()), naming_at():
         given = load(scene)
-        with progress(given, "drawing", quiet=quiet) as reached:
+        with (
+            progress(given, "drawing", quiet=quiet) as reached,
+            estimating("frames", quiet=quiet or output.suffix not in (".gif", ".mp4")) as done,
+        ):
             draw_scene(
                 given,
                 output,
                 at=at,
-                tiling=tiling,
+                tiling=None if no_tiling else tiling,
                 theme=theme,
                 gap=gap,
+                below=below,
+                legend=legend,
+                poses=poses,
+                seconds=seconds,
+                fps=fps,
+                done=done,
                 max_events=max_events,
                 max_seconds=max_seconds,
                 reached=reached,

@@ -11,7 +11,7 @@ from exactpt.pairs.surroundings import clearance
 from exactpt.render.film import film_of
 from exactpt.render.frame import frame_of
 from exactpt.render.marked import film_of_run
-from exactpt.render.movie import write_movie
+from exactpt.render.movie import RATE, SECONDS, write_movie
 from exactpt.render.page import page_of
 from exactpt.render.plot import plot_of, svg_of_plot
 from exactpt.render.png import png_of
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from exactpt.kernel.algebraic import AlgebraicNumber
-    from exactpt.kernel.numbers import QQ
+    from exactpt.kernel.numbers import QQ, Rational
     from exactpt.render.film import Film
     from exactpt.scene.scene import Scene
     from exactpt.simulation.simulation import Simulation
@@ -39,12 +39,18 @@ def draw(
     path: Path,
     *,
     at: QQ | Literal["contact"] | None = None,
-    tiling: str = "auto",
+    tiling: str | None = "auto",
     theme: str = "auto",
     gap: tuple[str, str] | None = None,
+    below: QQ | None = None,
+    legend: bool = False,
+    poses: int = 0,
+    seconds: Rational = SECONDS,
+    fps: int = RATE,
     max_events: int | None = None,
     max_seconds: float | None = None,
     reached: Callable[[AlgebraicNumber], None] | None = None,
+    done: Callable[[int, int], None] | None = None,
 ) -> None:
     """Draw a scene into a file, as a picture, an animation or a film by the suffix of the file.
 
@@ -52,13 +58,20 @@ def draw(
         scene: the bodies, their motions and the time span.
         path: the file, with a suffix in `ENDINGS`; it is complete or not there.
         at: the time, by default the start; an animation shows that time first.
-        tiling: the name of the tiling, or "auto".
+        tiling: the name of the tiling, or "auto"; None for bodies without a tiling.
         theme: "light", "dark" or "auto" (the reader's preference; PNG, films: light).
         gap: names of two bodies, whose distance over time is plotted beside the animation; a
             picture is of this plot alone.
+        below: a distance that is marked in the plot.
+        legend: whether a picture has the names of bodies beside it, and a scale bar.
+        poses: number of poses of each moving body, at equal distances in time, that a picture
+            shows faintly, with the path of its middle; 0 for none.
+        seconds: the length of a film.
+        fps: frames of a film in a second.
         max_events: see `Simulation`.
         max_seconds: see `Simulation`.
         reached: called with the times that the run of an animation reaches.
+        done: called with the number of frames of a film that are drawn, and of all.
 
     Raises:
         InputError: if the suffix is not in `ENDINGS`, there is no contact to draw, or there are
@@ -67,6 +80,12 @@ def draw(
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
     ending = _ending(path)
+    if (legend or poses) and (gap is not None or ending not in (".svg", ".png")):
+        raise InputError(f"{path}: a legend and poses are for a picture of bodies")
+    if poses < 0:
+        raise InputError(f"poses: not a number of them: {poses}")
+    if below is not None and (gap is None or below < 0):
+        raise InputError("below: a distance >= 0, for a plot of the clearance")
     if ending in MOVIES and (at is not None or gap is not None):
         raise InputError(f"{path}: a film has all times, and no plot")
     if ending == ".html" or ending in MOVIES:
@@ -78,7 +97,7 @@ def draw(
             reached=reached,
         )
         if ending in MOVIES:
-            write_movie(film, path, theme=_paper(theme))
+            write_movie(film, path, theme=_paper(theme), seconds=seconds, fps=fps, done=done)
             return
         first = _shown_first(film, at)
         distance = None if gap is None else clearance(_shown(film), *gap)
@@ -87,11 +106,12 @@ def draw(
         return
     light = _paper(theme) if ending == ".png" else theme
     if gap is not None:
-        _write_picture(path, svg_of_plot(plot_of(clearance(scene, *gap)), theme=light))
+        _write_picture(path, svg_of_plot(plot_of(clearance(scene, *gap), below), theme=light))
         return
     then = None if at == "contact" else scene._start if at is None else at
     picture = still(scene, then, tiling=tiling, max_events=max_events, max_seconds=max_seconds)
-    _write_picture(path, svg_of(frame_of(picture), theme=light))
+    frame = frame_of(picture, legend=legend, poses=poses)
+    _write_picture(path, svg_of(frame, theme=light))
 
 
 def draw_run(simulation: Simulation, path: Path, *, theme: str = "auto") -> None:

@@ -92,7 +92,7 @@ class Film:
 def film_of(
     scene: Scene,
     *,
-    tiling: str = "auto",
+    tiling: str | None = "auto",
     max_events: int | None = None,
     max_seconds: float | None = None,
     reached: Callable[[AlgebraicNumber], None] | None = None,
@@ -101,7 +101,7 @@ def film_of(
 
     Args:
         scene: the bodies, their motions and the time span.
-        tiling: the name of the tiling, or "auto".
+        tiling: the name of the tiling, or "auto"; None for bodies without a tiling.
         max_events: see `Simulation`.
         max_seconds: see `Simulation`.
         reached: called with the times that the run reaches.
@@ -109,10 +109,9 @@ def film_of(
     Raises:
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
-    if scene.is_rounded:
-        return _without_tiling(
-            scene, "no", first_contact(scene, tiling=tiling, max_seconds=max_seconds)
-        )
+    if tiling is None or scene.is_rounded:
+        contact = first_contact(scene, tiling=tiling or "auto", max_seconds=max_seconds)
+        return _without_tiling(scene, "no", contact)
     budget = Budget(max_events, max_seconds)
     driver = Driver(lambda: scene, budget=budget)
     with carrying(lambda: scene), searching(None, driver.passed), budget.held():

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final, TypeAlias, final
 
-from exactpt.kernel.numbers import nearest_float, rational
+from exactpt.kernel.numbers import QQ, ceil, nearest_float, rational
 from exactpt.render.labels import Named, labels
 from exactpt.render.palette import TINTS, body_colour
 from exactpt.render.window import Window, window_of
 from exactpt.render.words import contact_in_words, time_in_words
 
 if TYPE_CHECKING:
+    from exactpt.geometry.predicates import Point
     from exactpt.pairs.contact import Contact, Pair
     from exactpt.pseudotriangulation.snapshot import Face, Snapshot
     from exactpt.render.still import Still
@@ -24,6 +25,8 @@ Pixel: TypeAlias = tuple[float, float]
 
 NAMED: Final = 40
 """Maximum number of bodies that are labelled with their names."""
+BETWEEN: Final = 8
+"""Number of steps of a path between two poses."""
 _LETTER: Final = 8.0
 """Estimated width in pixels of a letter of `Frame.news`, rounded up."""
 
@@ -96,6 +99,10 @@ class Frame:
         news: the contact in words, if this is its time.
         note: a description of the picture.
         tiles, shapes, lines, marks: the parts.
+        ghosts: poses of bodies at other times, below all other parts.
+        paths: the paths of their middles, each with a colour.
+        legend: the colour and the name of each body; empty if there is none.
+        scale: the length of a scale bar in pixels, and in words; None if there is none.
     """
 
     window: Window
@@ -106,17 +113,23 @@ class Frame:
     shapes: tuple[Shape, ...]
     lines: tuple[Line, ...]
     marks: tuple[Mark, ...]
+    ghosts: tuple[Shape, ...] = ()
+    paths: tuple[tuple[str, tuple[Pixel, ...]], ...] = ()
+    legend: tuple[tuple[str, str], ...] = ()
+    scale: tuple[float, str] | None = None
 
 
-def frame_of(still: Still) -> Frame:
-    """The drawing primitives of a still."""
+def frame_of(still: Still, *, legend: bool = False, poses: int = 0) -> Frame:
+    """The drawing primitives of a still, see `exactpt.render.draw.draw`."""
     scene = still.scene
     places = {body.name: body._at(still.at) for body in scene.bodies}
+    others = _other_places(scene, poses) if poses else {}
     window = window_of(
         [
             (x + side * body._radius, y + side * body._radius)
             for body in scene.bodies
-            for x, y in places[body.name]
+            for points in (places[body.name], *others.get(body.name, ()))
+            for x, y in points
             for side in ((1, -1) if body._radius else (0,))
         ]
     )
@@ -158,7 +171,59 @@ def frame_of(still: Still) -> Frame:
         both, one = (contact_in_words(still.contact, limit=n) for n in (2, 1))
         news = both if len(both) * _LETTER < window.width else one
         marks = marks_of(scene, still.contact, pixels, window)
-    return Frame(window, caption, news, note, tiles, shapes, lines, marks)
+    ghosts, paths = _ghosts(others, poses, shapes, window)
+    return Frame(
+        window, caption, news, note, tiles, shapes, lines, marks, ghosts, paths,
+        tuple((shape.colour, shape.name) for shape in shapes) if legend else (),
+        _scale_bar(window) if legend else None,
+    )  # fmt: skip
+
+
+def _other_places(scene: Scene, poses: int) -> dict[str, list[list[Point]]]:
+    """Return the places of the bodies that move at `BETWEEN` times for each of the poses."""
+    count = BETWEEN * (poses - 1) if poses > 1 else 1
+    step = (scene._end - scene._start) / count
+    places = {
+        body.name: [body._at(scene._start + step * k) for k in range(count + 1)]
+        for body in scene.bodies
+    }
+    return {name: found for name, found in places.items() if any(p != found[0] for p in found)}
+
+
+def _ghosts(
+    places: dict[str, list[list[Point]]],
+    poses: int,
+    shapes: Sequence[Shape],
+    window: Window,
+) -> tuple[tuple[Shape, ...], tuple[tuple[str, tuple[Pixel, ...]], ...]]:
+    """Return poses of the bodies that move, and the paths of their middles with their colours."""
+    ghosts, paths = [], []
+    for shape in shapes:
+        found = places.get(shape.name, ())
+        for points in found[:: BETWEEN if poses > 1 else 2]:
+            pixels = tuple(window.pixel(x, y) for x, y in points)
+            ghosts.append(replace(shape, pixels=pixels, label=None))
+        if found:
+            middles = [
+                tuple(sum((p[k] for p in points), QQ(0)) / len(points) for k in (0, 1))
+                for points in found
+            ]
+            paths.append((shape.colour, tuple(window.pixel(x, y) for x, y in middles)))
+    return tuple(ghosts), tuple(paths)
+
+
+def _scale_bar(window: Window) -> tuple[float, str]:
+    """Return the longest bar of 1, 2 or 5 times a power of ten that is at most 160 pixels long."""
+    most = QQ(160) / window.scale
+    length = QQ(10) ** (len(str(ceil(most))) + 1)
+    if most < 1:
+        length = QQ(10) ** (2 - len(str(ceil(1 / most))))
+    factors = (2, QQ(5, 2), 2)
+    k = 0
+    while length > most:
+        length /= factors[k % 3]
+        k += 1
+    return nearest_float(length * window.scale), f"{nearest_float(length):.6g}"
 
 
 def _tiling(

@@ -5,11 +5,13 @@ from __future__ import annotations
 import io
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
+
+from numpy import array
 
 from exactpt.errors import InputError
 from exactpt.files import write_atomically
-from exactpt.kernel.numbers import QQ, nearest_float
+from exactpt.kernel.numbers import QQ, Rational, nearest_float, rational
 from exactpt.render.fixed import near
 from exactpt.render.frame import Frame, Line, Shape, Tile, marks_of
 from exactpt.render.palette import body_colour
@@ -19,7 +21,7 @@ from exactpt.render.window import Window, window_of
 from exactpt.render.words import contact_in_words, time_in_words
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterable, Iterator, Sequence
     from types import ModuleType
 
     from exactpt.render.film import Film
@@ -27,35 +29,96 @@ if TYPE_CHECKING:
 __all__ = ["frames_of", "write_movie"]
 
 SECONDS: Final = 8
+"""Length of a film, unless another is given."""
 RATE: Final = 20
-"""Frames in a second."""
-REST: Final = 20
-"""Number of times that the last frame is written."""
+"""Frames in a second, unless another number is given."""
+MOST: Final = 100_000
+"""Most frames of a film."""
+REST: Final = 1.0
+"""Seconds for which the last frame stays."""
+COLOURS: Final = 256
+"""Colours of a GIF."""
+SAMPLES: Final = 4
+"""Number of frames, beside the last one, whose colours it has."""
 _WHOLE: Final = 16
 """Number of equal parts of the time span at whose ends everything is in view."""
 
 
-def write_movie(film: Film, path: Path, *, theme: str = "light") -> None:
-    """Write a film as ``.gif`` or ``.mp4``: eight seconds, whatever its time span.
+def write_movie(
+    film: Film,
+    path: Path,
+    *,
+    theme: str = "light",
+    seconds: Rational = SECONDS,
+    fps: int = RATE,
+    done: Callable[[int, int], None] | None = None,
+) -> None:
+    """Write a film as ``.gif`` or ``.mp4``, of the same length whatever its time span.
+
+    Args:
+        film: the run.
+        path: the file; it is complete or not there.
+        theme: "light" or "dark".
+        seconds: the length of the film, before its last frame stays for a second.
+        fps: frames in a second; GIF players show at most 50.
+        done: called with the number of frames that are drawn, and of all.
 
     Raises:
         InputError: if imageio, its ffmpeg or resvg is not installed; the message says how to
-            install them.
+            install them. If there are no frames, or more than 100,000.
     """
+    count = round(rational(seconds) * rational(fps))
+    if not (0 < count < MOST and fps >= 1):
+        raise InputError(f"{path}: a film has from 1 to {MOST} frames, and 1 or more in a second")
     imageio = _imageio(path)
-    options: dict[str, object] = {"fps": RATE, "macro_block_size": 2}
-    if path.suffix.lower() == ".gif":
-        options = {"duration": 1000 / RATE, "loop": 0}
+    images = _images(film, count, theme, done)
     with TemporaryDirectory() as folder:
         made = Path(folder) / f"film{path.suffix.lower()}"
-        with imageio.get_writer(made, **options) as writer:
-            repeats = [1] * (SECONDS * RATE) + [REST]
-            for frame, count in zip(frames_of(film, SECONDS * RATE), repeats, strict=True):
-                image = imageio.imread(io.BytesIO(png_of(svg_of(frame, theme=theme), zoom=1)))
-                height, width = (size // 2 * 2 for size in image.shape[:2])  # as encoders want it
-                for _ in range(count):
-                    writer.append_data(image[:height, :width, :3])
+        if made.suffix == ".gif":
+            some = [_image(frame, theme) for frame in frames_of(film, SAMPLES)]
+            _write_gif(images, some, made, fps)
+        else:
+            with imageio.get_writer(made, fps=fps, macro_block_size=2) as writer:
+                last = None
+                for last in map(array, images):
+                    writer.append_data(last)
+                for _ in range(round(REST * fps) - 1):
+                    writer.append_data(last)
         write_atomically(path, made.read_bytes())
+
+
+def _image(frame: Frame, theme: str) -> Any:  # noqa: ANN401 - an image of Pillow
+    """Return a frame as an image of an even width and height, as encoders want it."""
+    from PIL import Image
+
+    image = Image.open(io.BytesIO(png_of(svg_of(frame, theme=theme), zoom=1))).convert("RGB")
+    return image.crop((0, 0, image.width // 2 * 2, image.height // 2 * 2))
+
+
+def _images(
+    film: Film, count: int, theme: str, done: Callable[[int, int], None] | None
+) -> Iterator[Any]:
+    for k, frame in enumerate(frames_of(film, count), 1):
+        yield _image(frame, theme)
+        if done is not None:
+            done(k, count + 1)
+
+
+def _write_gif(images: Iterable[Any], some: Sequence[Any], path: Path, fps: int) -> None:
+    """Write the images with the colours of some of them: all have the same bodies and tints.
+
+    Pillow takes 30 ms to choose colours for an image, and 1 ms to map it to known ones.
+    """
+    from PIL import Image
+
+    width, height = some[0].size
+    together = Image.new("RGB", (width, height * len(some)))
+    for k, image in enumerate(some):
+        together.paste(image, (0, k * height))
+    colours = together.quantize(COLOURS)
+    flat = [image.quantize(palette=colours, dither=Image.Dither.NONE) for image in images]
+    rest = [1000 / fps] * (len(flat) - 1) + [1000 * REST]
+    flat[0].save(path, save_all=True, append_images=flat[1:], duration=rest, loop=0, disposal=1)
 
 
 def _imageio(path: Path) -> ModuleType:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from exactpt.kernel.numbers import QQ, finite, nearest_float
+from exactpt.kernel.numbers import QQ, finite, nearest_float, rational
 from exactpt.render.fixed import near
 from exactpt.render.palette import DARK, LIGHT
 from exactpt.render.words import clean, short, time_in_words
@@ -34,6 +34,8 @@ class Plot(NamedTuple):
         ticks: shares of the time span, each with its time in words.
         title: what is shown.
         words: the minimum in words.
+        heights: distances on the axis, as shares of the largest one, each in words.
+        below: the share of a distance that is marked, and its words; None if there is none.
     """
 
     points: Sequence[tuple[float, float]]
@@ -42,10 +44,12 @@ class Plot(NamedTuple):
     ticks: Sequence[tuple[float, str]]
     title: str
     words: str
+    heights: Sequence[tuple[float, str]] = ()
+    below: tuple[float, str] | None = None
 
 
-def plot_of(gap: Clearance) -> Plot:
-    """The plot of a distance over its time span.
+def plot_of(gap: Clearance, below: QQ | None = None) -> Plot:
+    """The plot of a distance over its time span, with a mark at a distance ``below``.
 
     The curve is linear between samples; these include the ends of all pieces and the minimum.
     """
@@ -55,7 +59,7 @@ def plot_of(gap: Clearance) -> Plot:
     times = {start + span * k / SAMPLES for k in range(SAMPLES + 1)}
     times |= {min(near(t, span), end) for t in (least.time, *(p.end for p in gap.pieces))}
     curve = [(t, finite(gap(t))) for t in sorted(times)]
-    top = max(d for _, d in curve)
+    top = max(*(d for _, d in curve), 0.0 if below is None else nearest_float(below))
     scale = top or 1.0
     return Plot(
         points=[(float((t - start) / span), d / scale) for t, d in curve],
@@ -66,6 +70,10 @@ def plot_of(gap: Clearance) -> Plot:
         ),
         ticks=[(float((t - start) / span), text) for t, text in _ticks(start, end)],
         title=f"distance of {short(gap.a)} and {short(gap.b)}",
+        heights=[(float(h) / scale, text) for h, text in _ticks(QQ(0), rational(top))],
+        below=None
+        if below is None
+        else (nearest_float(below) / scale, f"{nearest_float(below):.6g}"),
         words=f"least {float(least):.6g} at {time_in_words(least.time.simplified())}",
     )
 
@@ -101,8 +109,13 @@ def svg_of_plot(plot: Plot, *, theme: str = "auto") -> str:
         f'<text class="caption" x="20" y="27">{_text(plot.title)}</text>',
         f'<text class="news" x="20" y="48">{_text(plot.words)}</text>',
         f'<path class="axis" d="M{LEFT} {TOP}V{bottom}H{right}"/>',
-        f'<text class="note" x="{LEFT - 8}" y="{TOP + 4}" text-anchor="end">{plot.top:.6g}</text>',
-        f'<text class="note" x="{LEFT - 8}" y="{bottom + 4}" text-anchor="end">0</text>',
+        *(
+            f'<path class="axis" d="M{LEFT} {py:.2f}h-5"/>'
+            f'<text class="note" x="{LEFT - 8}" y="{py + 4:.2f}" text-anchor="end">{text}</text>'
+            for share, text in plot.heights
+            for py in [_pixel((0.0, share))[1]]
+        ),
+        *_threshold(plot, right),
         *(
             f'<path class="axis" d="M{px:.2f} {bottom}v5"/>'
             f'<text class="note" x="{px:.2f}" y="{bottom + 20}" text-anchor="middle">{text}</text>'
@@ -116,6 +129,14 @@ def svg_of_plot(plot: Plot, *, theme: str = "auto") -> str:
         "</svg>",
     ]
     return "\n".join(parts) + "\n"
+
+
+def _threshold(plot: Plot, right: int) -> Iterator[str]:
+    if plot.below is not None:
+        share, text = plot.below
+        y = _pixel((0.0, share))[1]
+        yield f'<path class="below" d="M{LEFT} {y:.2f}H{right}"/>'
+        yield f'<text class="note" x="{right}" y="{y - 4:.2f}" text-anchor="end">{text}</text>'
 
 
 def _pixel(point: tuple[float, float]) -> tuple[float, float]:
@@ -140,6 +161,7 @@ def _rules(colours: dict[str, str], theme: str) -> str:
         ".axis": f"stroke:{colours['soft']};fill:none",
         ".curve": f"stroke:{colours['accent']};fill:none;stroke-width:2;stroke-linejoin:round",
         ".drop": f"stroke:{colours['contact']};stroke-dasharray:3 4",
+        ".below": f"stroke:{colours['contact']};stroke-dasharray:8 4",
         ".least": f"fill:{colours['contact']}",
     }
     return "".join(f".plot-{theme} {selector}{{{rule}}}" for selector, rule in rules.items())

@@ -29,7 +29,7 @@ class Still:
         scene: the scene.
         at: the time; a rational just before it if the time is irrational.
         tiling: the tiling at that time (at a contact: the one just before); None if the bodies
-            touch at the start, or one is rounded, and there is no tiling.
+            touch at the start, one is rounded, or none is wanted.
         contact: the contact, if this is its time.
     """
 
@@ -43,7 +43,7 @@ def still(
     scene: Scene,
     at: QQ | None,
     *,
-    tiling: str = "auto",
+    tiling: str | None = "auto",
     max_events: int | None = None,
     max_seconds: float | None = None,
 ) -> Still:
@@ -60,8 +60,8 @@ def still(
             f"from {show(scene._start)} to {show(scene._end)}"
         )
     simulation: Simulation | None = None
-    if scene.is_rounded:
-        contact = first_contact(scene, tiling=tiling, max_seconds=max_seconds)
+    if tiling is None or scene.is_rounded:
+        contact = first_contact(scene, tiling=tiling or "auto", max_seconds=max_seconds)
     else:
         simulation = Simulation(
             scene, tiling=tiling, max_events=max_events, max_seconds=max_seconds

@@ -19,6 +19,9 @@ THEMES: Final = ("auto", "light", "dark")
 """Names of the themes; ``auto`` follows the reader's preference."""
 
 _HEADER: Final = 60
+_COLUMN: Final = 190
+"""Width of a legend."""
+_ROW: Final = 18
 _ARROW: Final = 46.0
 _FONT: Final = "ui-sans-serif, system-ui, 'DejaVu Sans', Arial, sans-serif"
 
@@ -29,38 +32,44 @@ def svg_of(frame: Frame, *, theme: str = "auto") -> str:
     Strokes keep their width when the picture is scaled. Pixel (0, 0) of the frame's window is
     at (0, 60), below the caption.
     """
-    width, height = frame.window.width, frame.window.height + _HEADER
+    column = _COLUMN if frame.legend else 0
+    width, height = frame.window.width + column, frame.window.height + _HEADER
     size = f'width="{width}" height="{height}"'
     box = f'viewBox="0 0 {width} {height}"'
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" class="exactpt-{theme}" {box} {size} role="img">',
         f"<title>{_text(frame.caption)}</title>",
-        f"<style>{_style(theme)}</style>",
+        f"<style>{_style(theme, has_more=bool(frame.scale or frame.ghosts))}</style>",
         f'<rect class="paper" {size}/>',
         f'<text class="caption" x="20" y="27">{_text(frame.caption)}</text>',
         f'<text class="news" x="20" y="48">{_text(frame.news)}</text>',
         f'<text class="note" x="20" y="{height - 16}">{_text(frame.note)}</text>',
         f'<g transform="translate(0 {_HEADER})">',
+        *(_group("ghosts bodies", map(_shape, frame.ghosts)) if frame.ghosts else ()),
+        *(_group("paths", map(_path, frame.paths)) if frame.paths else ()),
         *_group("tiles", map(_tile, frame.tiles)),
         *_group("bodies", map(_shape, frame.shapes)),
         *_group("lines", map(_line, frame.lines)),
         *_group("names", (_name(s.name, s.label) for s in frame.shapes if s.label is not None)),
         *_group("contact", (part for mark in frame.marks for part in _mark(mark))),
         "</g>",
+        *_legend(frame.legend, frame.window.width, height),
+        *_bar(frame.scale, frame.window.width, height),
         "</svg>",
     ]
     return "\n".join(parts) + "\n"
 
 
-def _style(theme: str) -> str:
+def _style(theme: str, *, has_more: bool) -> str:
     """The style rules of a theme, prefixed by its class: a page may hold many pictures."""
     if theme == "auto":
-        dark = _rules(DARK, theme)
-        return f"{_rules(LIGHT, theme)}@media (prefers-color-scheme:dark){{{dark}}}"
-    return _rules(DARK if theme == "dark" else LIGHT, theme)
+        dark = _rules(DARK, theme, has_more=has_more)
+        light = _rules(LIGHT, theme, has_more=has_more)
+        return f"{light}@media (prefers-color-scheme:dark){{{dark}}}"
+    return _rules(DARK if theme == "dark" else LIGHT, theme, has_more=has_more)
 
 
-def _rules(colours: dict[str, str], theme: str) -> str:
+def _rules(colours: dict[str, str], theme: str, *, has_more: bool) -> str:
     halo = f"paint-order:stroke;stroke:{colours['paper']};stroke-linejoin:round"
     rules = {
         "text": f"font-family:{_FONT};fill:{colours['ink']}",
@@ -79,6 +88,13 @@ def _rules(colours: dict[str, str], theme: str) -> str:
         ".contact .dot": f"fill:{colours['contact']};stroke:none",
         ".contact .touched": "stroke-width:4;stroke-opacity:.55;stroke-linecap:round",
     }
+    if has_more:
+        rules |= {
+            ".ghosts": "fill-opacity:.18;stroke-opacity:.35",
+            ".paths *": "fill:none;stroke-width:1.4;stroke-dasharray:5 3",
+            ".legend text": "font-size:12px",
+            ".bar": f"stroke:{colours['ink']};stroke-width:2;fill:none",
+        }
     return "".join(
         f".exactpt-{theme} {part}{{{rule}}}"
         for selector, rule in rules.items()
@@ -184,6 +200,36 @@ def _arrow(tail: Pixel, direction: Pixel) -> str:
         f'<path class="normal" d="M{_pair(start)}L{_pair(tip)}M{_pair(left)}L{_pair(tip)}'
         f'L{_pair(right)}"/>'
     )
+
+
+def _path(path: tuple[str, Sequence[Pixel]]) -> str:
+    colour, pixels = path
+    return f'<polyline style="stroke:{colour}" points="{_points(pixels)}"/>'
+
+
+def _legend(rows: Sequence[tuple[str, str]], left: int, height: int) -> Iterator[str]:
+    """Names with colours in a column, as many as have room."""
+    room = (height - 2 * _ROW) // _ROW
+    shown = rows if len(rows) <= room else rows[: room - 1]
+    yield from ['<g class="legend">'] if rows else []
+    for k, (colour, name) in enumerate(shown):
+        y = _ROW * (k + 1)
+        yield f'<rect x="{left}" y="{y}" width="12" height="12" fill="{colour}"/>'
+        yield f'<text x="{left + 18}" y="{y + 10}">{_text(short(name))}</text>'
+    if len(shown) < len(rows):
+        more = len(rows) - len(shown)
+        yield f'<text x="{left}" y="{_ROW * (room + 1) - 6}">and {more} more</text>'
+    yield from ["</g>"] if rows else []
+
+
+def _bar(scale: tuple[float, str] | None, right: int, height: int) -> Iterator[str]:
+    if scale is not None:
+        pixels, text = scale
+        left = right - 20 - pixels
+        yield f'<path class="bar" d="M{_number(left)} {height - 24}v6h{_number(pixels)}v-6"/>'
+        middle = _number(left + pixels / 2)
+        place = f'x="{middle}" y="{height - 28}" text-anchor="middle"'
+        yield f'<text class="note" {place}>{text}</text>'
 
 
 def _points(pixels: Sequence[Pixel]) -> str:

@@ -347,9 +347,14 @@ class Scene:
         path: str | Path,
         *,
         at: Rational | Literal["contact"] | None = None,
-        tiling: str = "auto",
+        tiling: str | None = "auto",
         theme: str = "auto",
         gap: tuple[str, str] | None = None,
+        below: Rational | None = None,
+        legend: bool = False,
+        poses: int = 0,
+        seconds: Rational = 8,
+        fps: int = 20,
     ) -> None:
         """Draw the scene: a picture (.svg, .png), an animation (.html) or a film (.gif, .mp4).
 
@@ -359,10 +364,16 @@ class Scene:
             path: the file; it is complete or not there.
             at: the time, rational or "contact"; by default the start. An animation shows that
                 time first, a film has all times.
-            tiling: the tiling to show: "auto" or one of `TILINGS`.
+            tiling: the tiling to show: "auto" or one of `TILINGS`; None for bodies alone.
             theme: "light", "dark" or "auto" (the reader's preference; PNG and films: light).
             gap: names of two bodies, whose distance over time is plotted beside an animation; a
                 picture is of this plot alone.
+            below: a distance >= 0 that is marked in the plot of a picture.
+            legend: whether a picture has a scale bar, and the names of bodies beside it.
+            poses: number of faint poses of each moving body in a picture, at equal distances in
+                time over the whole span, with the path of the mean of its vertices.
+            seconds: the length of a film, before its last frame stays for a second.
+            fps: frames of a film in a second.
 
         Raises:
             InputError: if the suffix is unknown, a library is missing, or there is no contact
@@ -371,7 +382,17 @@ class Scene:
         """
         when = at if at is None or at == "contact" else rational(at)
         extension("drawing of a scene")(
-            self, Path(path), at=when, tiling=tiling, theme=theme, gap=gap
+            self,
+            Path(path),
+            at=when,
+            tiling=tiling,
+            theme=theme,
+            gap=gap,
+            below=None if below is None else rational(below),
+            legend=legend,
+            poses=poses,
+            seconds=seconds,
+            fps=fps,
         )
 
     def _repr_html_(self) -> str | None:

@@ -147,3 +147,15 @@ def test_wrong_plots(scene, monkeypatch, capsys, arguments, message):
     assert message in said
     assert said.count("\n") == 1
     assert not list(scene.parent.glob("x.*"))
+
+
+def test_marks_on_the_axis_and_a_threshold():
+    plot = plot_of(passing(), QQ(5, 2))
+    document = svg_of_plot(plot)
+
+    assert plot.heights[0] == (0.0, "0")
+    assert len(plot.heights) > 3
+    assert plot.below == (2.5 / plot.top, "2.5")
+    assert document.count('class="below"') == 1
+    high = plot_of(passing(), QQ(1000))
+    assert (high.top, high.below[0]) == (1000.0, 1.0)

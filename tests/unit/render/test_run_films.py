@@ -77,14 +77,16 @@ def test_frames_are_those_of_the_film():
 
 @pytest.mark.long
 @pytest.mark.parametrize("ending, start", [(".gif", b"GIF89a"), (".mp4", b"ftyp")])
-def test_a_film_as_a_file(tmp_path, monkeypatch, ending, start):
+def test_a_film_as_a_file(tmp_path, ending, start):
     pytest.importorskip("resvg_py")
     iio = pytest.importorskip("imageio.v3")
     ffmpeg = pytest.importorskip("imageio_ffmpeg")
-    monkeypatch.setattr(movie, "SECONDS", 1)
-    path = tmp_path / f"film{ending}"
+    path, told = tmp_path / f"film{ending}", []
 
-    small().draw(path)
+    film = film_of(small())
+    movie.write_movie(film, path, seconds=1, done=lambda k, count: told.append((k, count)))
+
+    assert told == [(k, 21) for k in range(1, 22)]
 
     data = path.read_bytes()
     assert data.startswith(start) or data[4:8] == start
@@ -93,8 +95,14 @@ def test_a_film_as_a_file(tmp_path, monkeypatch, ending, start):
         assert len(frames) == movie.RATE + 1  # the last one is shown for longer
         assert (frames[0] != frames[movie.RATE]).any()
     else:
-        assert ffmpeg.count_frames_and_secs(path) == (movie.RATE + movie.REST, 2.0)
+        assert ffmpeg.count_frames_and_secs(path) == (40, 2.0)
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("options", [{"seconds": 0}, {"fps": 0}, {"seconds": 10**5}])
+def test_films_without_frames_are_refused(tmp_path, options):
+    with pytest.raises(InputError, match="a film has from 1 to 100000 frames"):
+        small().draw(tmp_path / "film.gif", **options)
 
 
 def test_a_run_as_a_page_and_as_a_picture(tmp_path):

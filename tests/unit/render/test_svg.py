@@ -1,5 +1,6 @@
 """A still as SVG: well-formed, with every body and every tile where it is."""
 
+import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from itertools import pairwise
@@ -11,6 +12,7 @@ from render_scenes import apart, demo, overlapping, small
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
+from exactpt.motion.motions import Translation
 from exactpt.render.draw import draw
 from exactpt.render.frame import frame_of
 from exactpt.render.still import still
@@ -205,3 +207,63 @@ def test_png_without_its_library(tmp_path, monkeypatch):
     with pytest.raises(InputError, match=r"pip install 'exactpt\[draw\]'"):
         draw(small(), tmp_path / "picture.png")
     assert list(tmp_path.iterdir()) == []
+
+
+def moving_and_still():
+    box = [(0, 0), (2, 0), (2, 1), (0, 1)]
+    return Scene(
+        [Body("robot", box, Translation([0, 1])), Body("wall", [(8, -1), (8, 9)])], time=(0, 5)
+    )
+
+
+def text_of(scene, tmp_path, **options):
+    path = tmp_path / "picture.svg"
+    scene.draw(path, **options)
+    return path.read_text()
+
+
+def test_poses_and_paths_of_the_bodies_that_move(tmp_path):
+    text = text_of(moving_and_still(), tmp_path, poses=3, tiling=None)
+
+    ghosts = text.partition('<g class="ghosts bodies">')[2].partition("</g>")[0]
+    assert ghosts.count("<title>robot</title>") == 3
+    assert "wall" not in ghosts
+    path = text.partition('<g class="paths">')[2].partition("</g>")[0]
+    assert len(path.split('points="')[1].split('"')[0].split()) == 17  # 8 steps between two poses
+    assert '<g class="tiles">\n</g>' in text
+    assert "tiling" not in text.partition('class="note"')[2].partition("<")[0]
+
+
+def test_a_legend_has_names_and_a_scale_bar(tmp_path):
+    text = text_of(moving_and_still(), tmp_path, legend=True)
+
+    legend = text.partition('<g class="legend">')[2].partition("</g>")[0]
+    assert ("robot" in legend, "wall" in legend) == (True, True)
+    bar = re.search(r'class="bar" d="M[\d.]+ \d+v6h([\d.]+)v-6"/>\n<text [^>]*>(\w+)<', text)
+    assert bar[2] == "2"
+    assert 80 < float(bar[1]) <= 160
+    crowd = Scene([Body(f"p{i}", [(i, i % 7)]) for i in range(60)])
+    assert re.search(r"and \d+ more<", text_of(crowd, tmp_path, legend=True))
+
+
+@pytest.mark.parametrize("size", ["1/1000", 7, 10**9])
+def test_scale_bars_of_any_size(size, tmp_path):
+    text = text_of(Scene([Body("a", [(0, 0), (size, 0)])]), tmp_path, legend=True)
+
+    pixels, words = re.search(r'v6h([\d.]+)v-6"/>\n<text [^>]*>([^<]+)<', text).groups()
+    assert 64 - 1e-6 <= float(pixels) <= 160
+    assert words.replace("e-05", "").lstrip("0.")[0] in "125"
+
+
+@pytest.mark.parametrize(
+    "options, message",
+    [
+        ({"legend": True, "gap": ("robot", "wall")}, "are for a picture of bodies"),
+        ({"poses": -1}, "poses: not a number of them: -1"),
+        ({"below": 1}, "below: a distance >= 0, for a plot"),
+        ({"below": -1, "gap": ("robot", "wall")}, "below: a distance >= 0, for a plot"),
+    ],
+)
+def test_options_that_do_not_go_together(options, message, tmp_path):
+    with pytest.raises(InputError, match=message):
+        moving_and_still().draw(tmp_path / "x.svg", **options)
