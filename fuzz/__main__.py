@@ -10,8 +10,7 @@ from pathlib import Path
 import click
 
 from exactpt.files import write_atomically
-from exactpt.scene.generate import FAMILIES as BODIES
-from exactpt.scene.generate import POINTS, RINGS, ROUNDED, SPINNING
+from exactpt.scene.generate import EVERY, families
 from exactpt.tiling.start import TILINGS
 from fuzz import battery, planted, soak
 from fuzz.campaign import INTERRUPTS
@@ -29,7 +28,7 @@ from fuzz.thin import SUFFIX
 from fuzz.transformations.command import transformations
 from fuzz.witnesses import WITNESSES
 
-FAMILIES = (*BODIES, *POINTS, *ROUNDED, *RINGS)
+FAMILIES = tuple(families("convex", "simple", "points", "rounded", "rings"))
 ASKED = tuple(QUESTION + name for name in QUESTIONS)
 MIXED = tuple(name for pair in zip(FAMILIES, cycle(ASKED), strict=False) for name in pair)
 """A scene and a question in turn."""
@@ -130,8 +129,8 @@ def make_record(output: Path, count: int, seed: int, against: Path | None, *, pa
     families (the seeds from 0 on) and half as many on an integer grid.
     """
     if pairs:
-        families = sorted({*FAMILIES, *SPINNING})
-        lines = list(pair_record(families, max(1, count // len(families)), count // 2))
+        names = sorted(EVERY)
+        lines = list(pair_record(names, max(1, count // len(names)), count // 2))
     else:
         lines = list(record(FAMILIES, count, seed))
     write_atomically(output, "\n".join(lines) + "\n")

@@ -163,17 +163,11 @@ class _WithFamilies(click.Command):
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the families, grouped by the kind of bodies."""
         super().format_epilog(ctx, formatter)
-        from exactpt.scene.generate import CONVEX, POINTS, RINGS, ROUNDED, SIMPLE, SPINNING
+        from exactpt.scene.generate import CATALOGUE
 
-        rooms = {
-            "Convex bodies": CONVEX,
-            "Simple polygons": SIMPLE,
-            "Points": POINTS,
-            "Rounded bodies": ROUNDED,
-            "Bodies with holes and parts": RINGS,
-            "Bodies that turn at a constant rate": SPINNING,
-        }
-        for room, families in rooms.items():
+        rooms = ("Convex bodies", "Simple polygons", "Points", "Rounded bodies",
+                 "Bodies with holes and parts", "Bodies that turn at a constant rate")  # fmt: skip
+        for room, families in zip(rooms, CATALOGUE.values(), strict=True):
             with formatter.section(room):
                 formatter.write_dl(
                     [(name, family.__doc__ or "") for name, family in families.items()]
@@ -195,13 +189,12 @@ def generate(family: str, seed: int, output: Path | None) -> int:
       exactpt generate stars -o stars.json
       exactpt generate grids_passing --seed 7 -o grids.json
     """
-    from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED, SPINNING
+    from exactpt.scene.generate import EVERY
     from exactpt.scene.generate import generate as generated
     from exactpt.scene.written import save, to_json
 
-    names = FAMILIES | POINTS | ROUNDED | RINGS | SPINNING
-    if family not in names:
-        near = get_close_matches(family, names, n=3) or ["convex"]
+    if family not in EVERY:
+        near = get_close_matches(family, EVERY, n=3) or ["convex"]
         raise InputError(f"no family {family!r}: perhaps {' or '.join(near)} (all: --help)")
     scene = generated(family, seed)
     if output is None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from random import Random
+from types import ModuleType
 from typing import Final, TypeAlias
 
 from exactpt.scene.families import (
@@ -19,6 +20,7 @@ from exactpt.scene.families import (
 from exactpt.scene.scene import Scene
 
 __all__ = [
+    "CATALOGUE",
     "CONVEX",
     "EVERY",
     "FAMILIES",
@@ -28,98 +30,64 @@ __all__ = [
     "SIMPLE",
     "SPINNING",
     "Family",
+    "families",
     "generate",
 ]
 
 Family: TypeAlias = Callable[[Random], Scene]
 
-CONVEX: Final[dict[str, Family]] = {
-    "convex": convex.convex,
-    "mixed_shapes": convex.mixed_shapes,
-    "ballistic": convex.ballistic,
-    "turning": convex.turning,
-    "deforming": convex.deforming,
-    "pieces": convex.pieces,
-    "keyframed": convex.keyframed,
-    "small_grid": degenerate.small_grid,
-    "grids_passing": degenerate.grids_passing,
-    "row": degenerate.row,
-    "convoy": degenerate.convoy,
-    "mirrored": degenerate.mirrored,
-    "polygons_in_step": degenerate.polygons_in_step,
-    "grazing": degenerate.grazing,
-    "concentric": degenerate.concentric,
-    "sweeping": degenerate.sweeping,
+
+def _named(*rows: tuple[ModuleType, str]) -> dict[str, Family]:
+    return {name: getattr(module, name) for module, names in rows for name in names.split()}
+
+
+CATALOGUE: Final[dict[str, dict[str, Family]]] = {
+    "convex": _named(
+        (convex, "convex mixed_shapes ballistic turning deforming pieces keyframed"),
+        (degenerate, "small_grid grids_passing row convoy mirrored polygons_in_step grazing"),
+        (degenerate, "concentric sweeping"),
+    ),
+    "simple": _named(
+        (simple, "stars turning_stars blobs combs spirals clamps letters chains"),
+        (grid, "chains_on_grid bodies_on_grid"),
+        (simple, "flat nested"),
+        (degenerate, "hairs"),
+    ),
+    "points": _named(
+        (points, "linear_points ballistic_points piecewise_points turning_points grid_points"),
+        (points, "point_convoy point_grids_passing points_in_line crossing_lines parabola_points"),
+        (points, "simultaneous_swaps"),
+    ),
+    "rounded": _named(
+        (rounded, "discs kissing_discs sliding_capsules rolling_discs discs_in_corners"),
+        (rounded, "rounded_grid rounded_motions"),
+    ),
+    "rings": _named((rings, "lakes frames walls")),
+    "spinning": _named((spinning, "gears mills orbits")),
 }
-"""Families of convex bodies that stay convex (points and segments included)."""
+"""Families by kind, each a function from a random generator to a scene.
 
-SIMPLE: Final[dict[str, Family]] = {
-    "stars": simple.stars,
-    "turning_stars": simple.turning_stars,
-    "blobs": simple.blobs,
-    "combs": simple.combs,
-    "spirals": simple.spirals,
-    "clamps": simple.clamps,
-    "letters": simple.letters,
-    "chains": simple.chains,
-    "chains_on_grid": grid.chains_on_grid,
-    "bodies_on_grid": grid.bodies_on_grid,
-    "flat": simple.flat,
-    "nested": simple.nested,
-    "hairs": degenerate.hairs,
-}
-"""Families with simple polygons of any shape."""
-
-FAMILIES: Final[dict[str, Family]] = {**CONVEX, **SIMPLE}
-"""All families but those of points alone; each makes a scene from a random generator."""
-
-POINTS: Final[dict[str, Family]] = {
-    "linear_points": points.linear_points,
-    "ballistic_points": points.ballistic_points,
-    "piecewise_points": points.piecewise_points,
-    "turning_points": points.turning_points,
-    "grid_points": points.grid_points,
-    "point_convoy": points.point_convoy,
-    "point_grids_passing": points.point_grids_passing,
-    "points_in_line": points.points_in_line,
-    "crossing_lines": points.crossing_lines,
-    "parabola_points": points.parabola_points,
-    "simultaneous_swaps": points.simultaneous_swaps,
-}
-"""Families of points alone."""
+Convex bodies that stay convex (points and segments included); simple polygons of any shape; points
+alone; rounded bodies, which no tiling holds; bodies with holes and several parts; bodies that turn
+at a constant rate, by `Spin`.
+"""
 
 
-ROUNDED: Final[dict[str, Family]] = {
-    "discs": rounded.discs,
-    "kissing_discs": rounded.kissing_discs,
-    "sliding_capsules": rounded.sliding_capsules,
-    "rolling_discs": rounded.rolling_discs,
-    "discs_in_corners": rounded.discs_in_corners,
-    "rounded_grid": rounded.rounded_grid,
-    "rounded_motions": rounded.rounded_motions,
-}
-"""Families with rounded bodies, which no tiling holds."""
+def families(*kinds: str) -> dict[str, Family]:
+    """The families of some kinds of `CATALOGUE`, by name, in the order of the kinds."""
+    return {name: make for kind in kinds for name, make in CATALOGUE[kind].items()}
 
 
-RINGS: Final[dict[str, Family]] = {
-    "lakes": rings.lakes,
-    "frames": rings.frames,
-    "walls": rings.walls,
-}
-"""Families of bodies with holes and several parts."""
-
-SPINNING: Final[dict[str, Family]] = {
-    "gears": spinning.gears,
-    "mills": spinning.mills,
-    "orbits": spinning.orbits,
-}
-"""Families of bodies that turn at a constant rate, by `Spin`."""
-
-
-EVERY: Final[dict[str, Family]] = {**FAMILIES, **POINTS, **ROUNDED, **RINGS, **SPINNING}
-"""All families, by their names."""
+CONVEX: Final = families("convex")
+SIMPLE: Final = families("simple")
+FAMILIES: Final = families("convex", "simple")
+POINTS: Final = families("points")
+ROUNDED: Final = families("rounded")
+RINGS: Final = families("rings")
+SPINNING: Final = families("spinning")
+EVERY: Final = families(*CATALOGUE)
 
 
 def generate(family: str, seed: int) -> Scene:
-    """Return the scene of a family with this seed."""
+    """The scene of a family with this seed."""
     return EVERY[family](Random(f"{family}:{seed}"))

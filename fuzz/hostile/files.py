@@ -11,7 +11,7 @@ from typing import Final, NamedTuple
 
 from exactpt.exchange.files import write_shapes
 from exactpt.proof.written import write_proof
-from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED, SPINNING
+from exactpt.scene.generate import families
 from exactpt.simulation.simulation import Simulation
 from exactpt.simulation.store import sealed
 from fuzz.hostile.wounds import damaged, with_another_value, with_another_word
@@ -89,10 +89,11 @@ def _valid(kind: str, which: int) -> str:
     """A valid file of a format, made from a scene of a family."""
     if which % 2 and kind in ("svg", "mfjson"):
         return DRAWING if kind == "svg" else TRIP
-    special = [*RINGS, *ROUNDED, *SPINNING]
+    special = [*families("rings", "rounded", "spinning")]
     straight = ["chains_on_grid", "bodies_on_grid", "linear_points", "piecewise_points"]
-    families = {"special": special, "mfjson": straight}.get(kind, [*FAMILIES, *POINTS])
-    scene = scene_of(families[which % len(families)], 1 + which)
+    plain = [*families("convex", "simple", "points")]
+    names = {"special": special, "mfjson": straight}.get(kind, plain)
+    scene = scene_of(names[which % len(names)], 1 + which)
     with TemporaryDirectory() as folder:
         path = Path(folder) / f"file.{kind}"
         if kind in SCENES:

@@ -16,7 +16,7 @@ from typing import Any, Final
 from exactpt import proof_check
 from exactpt.errors import InputError
 from exactpt.proof import prove
-from exactpt.scene.generate import FAMILIES, POINTS, RINGS, SPINNING, generate
+from exactpt.scene.generate import families, generate
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
 from fuzz.limits import limit
 from fuzz.proofs.checking import checker
@@ -76,8 +76,8 @@ CODES: Final = {"accepted": 0, "rejected": 1, "no proof": 2, "not decided": 4}
 @cache
 def base(number: int) -> tuple[bytes, tuple[str, ...]] | None:
     """The scene and the lines of a right proof; None if it is long."""
-    families = [*FAMILIES, *POINTS, *RINGS, *SPINNING]
-    scene = generate(families[number % len(families)], 1 + number // len(families))
+    names = [*families("convex", "simple", "points", "rings", "spinning")]
+    scene = generate(names[number % len(names)], 1 + number // len(names))
     if sum(body.size for body in scene.bodies) > 70:
         return None
     try:

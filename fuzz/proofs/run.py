@@ -18,7 +18,7 @@ from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof import prove
 from exactpt.proof.emit import scene_bytes
 from exactpt.scene.format import loads
-from exactpt.scene.generate import FAMILIES, POINTS, RINGS, generate
+from exactpt.scene.generate import families, generate
 from exactpt.scene.scene import Scene
 from exactpt.tiling.start import tilings_for
 from fuzz.campaign import Check, Counts, Finding, Item, Result, Step, Tell
@@ -121,8 +121,8 @@ class Mutants(Check):
 def mutants(number: int, kinds: set[str]) -> Iterator[Mutant]:
     """The mutants of a round: those of one proof, and others."""
     random = Random(f"mutants:{number}")
-    families = [*FAMILIES, *POINTS, *RINGS]
-    scene = generate(families[number % len(families)], 100_000 + number // len(families))
+    names = [*families("convex", "simple", "points", "rings")]
+    scene = generate(names[number % len(names)], 100_000 + number // len(names))
     texts = [kind for kind in (*TEXTS, OTHER) if kind in kinds]
     if texts:
         _, file, proof = prove(scene, tiling=random.choice(tilings_for(scene)))

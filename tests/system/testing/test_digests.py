@@ -16,8 +16,7 @@ from benchmarks import first_contact, planted, point_scenes
 from benchmarks.everyday import EVERYDAY
 from benchmarks.everyday_later import EVERYDAY_LATER
 from exactpt.openset import passages
-from exactpt.scene.generate import FAMILIES as BODIES
-from exactpt.scene.generate import POINTS, RINGS, ROUNDED, SPINNING, generate
+from exactpt.scene.generate import EVERY, generate
 from exactpt.scene.written import to_json
 from exactpt.testing.families import FAMILIES as QUESTIONS
 from exactpt.testing.families import make_question
@@ -29,7 +28,6 @@ from fuzz.small_scope.scope import planned
 from fuzz.subscene import scene_of
 
 WRITTEN = Path(__file__).parents[2] / "data" / "digests.json"
-GENERATED = [*BODIES, *POINTS, *ROUNDED, *RINGS, *SPINNING]
 PAIRS = [
     scenes.distant_scene,
     scenes.crowded_scene,
@@ -46,7 +44,7 @@ def passage(family, number):
 
 
 CATALOGUES = {
-    "scenes": lambda: (to_json(generate(f, s)) for f in GENERATED for s in range(3)),
+    "scenes": lambda: (to_json(generate(f, s)) for f in EVERY for s in range(3)),
     "questions": lambda: (
         make_question(f, s, n).to_json() for f in QUESTIONS for s in range(2) for n in range(3)
     ),
@@ -72,7 +70,7 @@ CATALOGUES = {
         to_json(make(Random(f), 2)) for f, make in {**EVERYDAY, **EVERYDAY_LATER}.items()
     ),
     "subscenes": lambda: (
-        to_json(scene_of(f + thin, s)) for f in GENERATED for thin in ("", "/thin") for s in (1, 2)
+        to_json(scene_of(f + thin, s)) for f in EVERY for thin in ("", "/thin") for s in (1, 2)
     ),
     "battery": lambda: (to_json(test.build()) for test in BATTERY.values() if not test.large),
     "pairs of the fuzzer": lambda: (
