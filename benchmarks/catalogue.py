@@ -23,6 +23,7 @@ BENCHMARKS: Final[dict[str, str]] = {
     "stability": "the same answer, and its cost, for extreme input",
     "scaling": "events, certificates, time and memory against the size of a scene",
     "changes": "changes of the tilings of convex bodies beside the paper's bounds",
+    "large": "runs of up to a million bodies from arrays: start, memory, events, as users run them",
     "living": "bodies that bounce: contacts a second, audits, changes of plans",
     "points": "changes of the tilings of moving points beside the paper's bounds",
     "statics": "the greedy pseudo-triangulation of one instant against the vertices of a body",

@@ -20,6 +20,7 @@ from benchmarks import (
     exponents,
     first_contact,
     kernel,
+    large,
     living,
     points,
     proofs,
@@ -446,6 +447,14 @@ def test_changes(results):
     assert {row["tiling"] for row in fits} == {"greedy", "lazy"}
     assert all(float(row["p"]) <= float(row["bound"]) + 0.1 for row in fits)
     assert all(int(row["changes"]) > 0 for row in results.rows("changes"))
+
+
+def test_large(results):
+    large.run(results.output, large.Sizes((40,), 30), 0)
+    rows = results.rows("large")
+    assert [row["tiling"] for row in rows] == ["lazy", "greedy"]
+    assert {row["events seen"] for row in rows} == {"30"}
+    assert all(int(row["events at once"]) > 0 for row in rows)
 
 
 def test_living(results, alone):
