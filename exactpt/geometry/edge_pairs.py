@@ -15,6 +15,8 @@ from exactpt.kernel.rounding import SLACK, TINY, U
 __all__ = ["unsure_pairs"]
 
 K: Final = 8.0 * U
+CHUNK: Final = 1 << 13
+"""Number of pairs that are compared at once, so that their numbers stay in the cache."""
 
 
 def unsure_pairs(
@@ -27,32 +29,38 @@ def unsure_pairs(
         error: a bound on the errors of all coordinates.
         closed: whether the last one and the first one have a common end.
     """
-    ends = np.array(rows)
-    x, y = ends[:, ::2], ends[:, 1::2]
-    low_x, low_y = x.min(axis=1) - 4.0 * error, y.min(axis=1) - 4.0 * error
-    boxes = np.stack((low_x, x.max(axis=1), low_y, y.max(axis=1)), axis=1)
+    ends = np.array(rows).T.copy()
+    (x, y), (u, v) = ends[:2], ends[2:]
+    off = 4.0 * error
+    low_x, low_y = np.minimum(x, u) - off, np.minimum(y, v) - off
+    boxes = np.stack((low_x, np.maximum(x, u), low_y, np.maximum(y, v)), axis=1)
     pairs: list[tuple[int, int]] = []
     for first, second in overlapping_pairs(boxes):
-        ask()
-        unsure = (second == first + 1) | (closed & (second - first == len(rows) - 1))
-        unsure |= ~_surely_apart(ends[first], ends[second], error)
-        pairs += zip(first[unsure].tolist(), second[unsure].tolist(), strict=True)
+        for k in range(0, len(first), CHUNK):
+            ask()
+            i, j = first[k : k + CHUNK], second[k : k + CHUNK]
+            unsure = (j == i + 1) | (closed & (j - i == len(rows) - 1))
+            unsure |= ~_surely_apart(ends[:, i], ends[:, j], error)
+            pairs += zip(i[unsure].tolist(), j[unsure].tolist(), strict=True)
     return pairs
 
 
 @np.errstate(all="ignore")
 def _surely_apart(e: Floats, f: Floats, error: float) -> NDArray[np.bool_]:
-    """Return for which pairs of edges one is surely on one side of the line of the other."""
-    apart = np.zeros(len(e), np.bool_)
-    for line, ends in ((e, f), (f, e)):
-        u = line[:, 2:] - line[:, :2]
-        signs = []
-        for k in (0, 2):
-            v = ends[:, k : k + 2] - line[:, :2]
-            p, q = u[:, 0] * v[:, 1], u[:, 1] * v[:, 0]
+    """Return for which pairs of edges, in columns, one is surely beside the line of the other."""
+    apart = np.zeros(e.shape[1], np.bool_)
+    for (ax, ay, bx, by), ends in ((e, f), (f, e)):
+        ux, uy = bx - ax, by - ay
+        left, right = ~np.zeros_like(apart), ~np.zeros_like(apart)
+        for x, y in (ends[:2], ends[2:]):
+            vx, vy = x - ax, y - ay
+            p, q = ux * vy, uy * vx
             bound = K * (np.abs(p) + np.abs(q)) + TINY
-            size = np.abs(u).sum(axis=1) + np.abs(v).sum(axis=1)
-            bound = (bound + 2.0 * error * (size + 4.0 * error)) * SLACK
-            signs.append((p - q > bound) * 1 - (p - q < -bound))
-        apart |= signs[0] * signs[1] > 0
+            if error:
+                size = np.abs(ux) + np.abs(uy) + np.abs(vx) + np.abs(vy)
+                bound = (bound + 2.0 * error * (size + 4.0 * error)) * SLACK
+            value = p - q
+            left &= value > bound
+            right &= value < -bound
+        apart |= left | right
     return apart

@@ -115,14 +115,18 @@ def contains(
         p: a point.
         pairs: the edges of a polygon with holes or of several parts, as pairs of vertices.
     """
+    x, y = p
     inside = False
-    sides = _cyclic_pairs(points) if pairs is None else [(points[i], points[j]) for i, j in pairs]
+    sides = _cyclic_pairs(points) if pairs is None else ((points[i], points[j]) for i, j in pairs)
     for a, b in sides:
+        above = a[1] > y
+        if (above == (b[1] > y) and a[1] != y and b[1] != y) or (a[0] < x and b[0] < x):
+            continue  # neither p nor the ray to the right from it meets the edge
         s = side(a, b, p)
         if s == 0 and between(a, b, p):
             return True
-        # A ray to the right crosses the edge (half-open in y, so a vertex counts once).
-        if (a[1] > p[1]) != (b[1] > p[1]) and (s > 0) == (b[1] > a[1]):
+        # The ray crosses the edge (half-open in y, so a vertex counts once).
+        if above != (b[1] > y) and (s > 0) == (b[1] > a[1]):
             inside = not inside
     return inside
 

@@ -23,6 +23,15 @@ def one_is_inside(a: Body, p: Sequence[Point], b: Body, q: Sequence[Point]) -> b
     boundary of one of them comes first; this point of it is in the other body, and so is the
     whole ring. So one vertex of each ring tells.
     """
-    return any(covers(a, p, q[ring.start]) for ring in b.rings) or any(
-        covers(b, q, p[ring.start]) for ring in a.rings
-    )
+    return _has_ring(a, p, b, q) or _has_ring(b, q, a, p)
+
+
+def _has_ring(body: Body, points: Sequence[Point], other: Body, places: Sequence[Point]) -> bool:
+    """Return True if a polygon contains the first vertex of a ring of another body."""
+    if not body.has_interior:
+        return False
+    firsts = [places[ring.start] for ring in other.rings]
+    if len(firsts) > 1:
+        (left, right), (low, high) = ((min(c), max(c)) for c in zip(*points, strict=True))
+        firsts = [(x, y) for x, y in firsts if left <= x <= right and low <= y <= high]
+    return any(covers(body, points, first) for first in firsts)

@@ -2,6 +2,7 @@
 
 import math
 from fractions import Fraction
+from itertools import product
 
 import numpy as np
 import pytest
@@ -10,8 +11,9 @@ from hypothesis import strategies as st
 from strategies import as_rational, fractions
 
 from exactpt.geometry.boxes import boxes_of_points, overlapping_pairs
-from exactpt.geometry.polygon import is_counter_clockwise, signed_area2
-from exactpt.kernel.numbers import QQ
+from exactpt.geometry.polygon import contains, is_counter_clockwise, signed_area2
+from exactpt.geometry.predicates import between, side
+from exactpt.kernel.numbers import QQ, rational
 
 SIMPLE = (
     [(0, 0), (2, 0), (0, 1)],
@@ -75,3 +77,20 @@ def test_boxes_of_points_far_away_are_as_apart_as_near_the_origin():
         boxes = boxes_of_points([[(x + shift, y), (x + shift + 2, y + 2)] for x, y in corners])
 
         assert not sum(len(first) for first, _ in overlapping_pairs(boxes))
+
+
+def test_a_polygon_contains_what_a_ray_across_all_edges_finds_in_it():
+    """On a grid, where points are on edges, at vertices, and level with them."""
+    star = [(0, 0), (4, 1), (8, 0), (6, 4), (8, 8), (4, 6), (0, 8), (2, 4), (2, 2)]
+    ring = [(rational(x), rational(y)) for x, y in star]
+    edges = list(zip(ring, [*ring[1:], ring[0]], strict=True))
+    found = 0
+    for p in product(map(rational, range(-1, 10)), repeat=2):
+        inside = any(side(a, b, p) == 0 and between(a, b, p) for a, b in edges)
+        crossed = [
+            1 for a, b in edges if (a[1] > p[1]) != (b[1] > p[1])
+            and (side(a, b, p) > 0) == (b[1] > a[1])
+        ]  # fmt: skip
+        assert contains(ring, p) == contains(ring[::-1], p) == (inside or len(crossed) % 2 == 1)
+        found += contains(ring, p)
+    assert 20 < found < 100

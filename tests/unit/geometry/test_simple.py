@@ -110,7 +110,7 @@ def test_edges_that_are_surely_apart_do_not_meet(error):
             for _ in range(400)
         ]
     )
-    apart = _surely_apart(rows[:, :4], rows[:, 4:], error)
+    apart = _surely_apart(rows.T[:4], rows.T[4:], error)
     for row, surely in zip(rows.tolist(), apart.tolist(), strict=True):
         moved = [QQ(v) + random.choice((-1, 0, 1)) * QQ(error) for v in row]
         a, b, c, d = zip(moved[::2], moved[1::2], strict=True)
