@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final, TypeAlias, final
 
 from exactpt.kernel.numbers import QQ, ceil, nearest_float, rational
 from exactpt.render.labels import Named, labels
-from exactpt.render.palette import TINTS, body_colour
+from exactpt.render.palette import ARROW, TINTS, body_colour
 from exactpt.render.window import Window, window_of
 from exactpt.render.words import contact_in_words, time_in_words
 
@@ -19,7 +20,17 @@ if TYPE_CHECKING:
     from exactpt.render.still import Still
     from exactpt.scene.scene import Scene
 
-__all__ = ["Frame", "Line", "Mark", "Pixel", "Shape", "Tile", "frame_of", "marks_of", "tints"]
+__all__ = [
+    "Frame",
+    "Line",
+    "Mark",
+    "Pixel",
+    "Shape",
+    "Tile",
+    "frame_of",
+    "marks_of",
+    "tints",
+]
 
 Pixel: TypeAlias = tuple[float, float]
 
@@ -144,7 +155,11 @@ def frame_of(still: Still, *, legend: bool = False, poses: int = 0) -> Frame:
         )
         for body in scene.bodies
     ]
-    spots = labels(names) if len(names) <= NAMED else [None] * len(names)
+    marks: tuple[Mark, ...] = ()
+    if still.contact is not None:
+        marks = marks_of(scene, still.contact, pixels, window)
+    arrows = [box for mark in marks for box in arrow_boxes(mark)]
+    spots = labels(names, arrows) if len(names) <= NAMED else [None] * len(names)
     shapes = tuple(
         Shape(
             body.name,
@@ -164,13 +179,11 @@ def frame_of(still: Still, *, legend: bool = False, poses: int = 0) -> Frame:
         colours = {shape.name: shape.colour for shape in shapes}
         tiles, lines = _tiling(still.tiling, window, colours)
         note += f" · {still.tiling.tiling} tiling, {len(tiles)} pseudo-triangles"
-    marks: tuple[Mark, ...] = ()
     caption, news = time_in_words(still.at), ""
     if still.contact is not None:
         caption = f"first contact at {time_in_words(still.contact.time)}"
         both, one = (contact_in_words(still.contact, limit=n) for n in (2, 1))
         news = both if len(both) * _LETTER < window.width else one
-        marks = marks_of(scene, still.contact, pixels, window)
     ghosts, paths = _ghosts(others, poses, shapes, window)
     return Frame(
         window, caption, news, note, tiles, shapes, lines, marks, ghosts, paths,
@@ -271,6 +284,18 @@ def marks_of(
         _mark(pair, scene, pixels, window, touches=rounded.isdisjoint((pair.body, pair.other)))
         for pair in contact.pairs
     )
+
+
+def arrow_boxes(mark: Mark) -> list[tuple[float, float, float, float]]:
+    """Return small boxes along the arrow of a mark, from its ring to its tip."""
+    if mark.normal is None:
+        return []
+    length = math.hypot(*mark.normal)
+    boxes = []
+    for step in range(12, int(ARROW) + 1, 6):
+        x, y = (c + step * d / length for c, d in zip(mark.pixel, mark.normal, strict=True))
+        boxes.append((x - 5.0, y - 5.0, x + 5.0, y + 5.0))
+    return boxes
 
 
 def _mark(

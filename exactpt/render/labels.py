@@ -16,6 +16,8 @@ _LETTER: Final = 7.0
 """Estimated mean width in pixels of a letter of a name, rounded up."""
 _HALF: Final = 7.0
 """Half the height in pixels of a name."""
+_ASIDE: Final = (0.0, 16.0, -16.0, 32.0, -32.0, 48.0, -48.0)
+"""Distances in pixels by which a name is moved down, to be beside an arrow."""
 _ABOVE: Final = 13.0
 """Distance in pixels of a name from the point or line that it belongs to."""
 
@@ -35,25 +37,32 @@ class Named(NamedTuple):
         return not self.radius and not self.has_interior
 
 
-def labels(bodies: Sequence[Named]) -> Iterator[Pixel | None]:
+def labels(bodies: Sequence[Named], arrows: Sequence[_Box] = ()) -> Iterator[Pixel | None]:
     """For each body the centre of its name; None if it would hide a body or another name.
 
+    A name that an arrow would cross, of which ``arrows`` has small boxes, is above or below it.
+
     The name is within the bounding box of its body; that of a point or line is above it, and
-    outside the bounding boxes of all other bodies. `painter.js` follows the same rule.
+    outside the bounding boxes of all other bodies. `painter.js` follows the same rule, but for
+    arrows.
     """
     boxes = [_box_of(body) for body in bodies]
     taken: list[_Box] = []
     for i, body in enumerate(bodies):
         x, y = _middle(body)
         half = len(short(body.name)) * _LETTER / 2
-        place = (x - half, y - _HALF, x + half, y + _HALF)
-        if body.is_thin:
-            fits = not any(_meet(box, place) for k, box in enumerate(boxes) if k != i)
-        else:
-            fits = _covers(boxes[i], place)
-        if fits and not any(_meet(other, place) for other in taken):
-            taken.append(place)
-            yield x, y
+        places = [(x - half, y + up - _HALF, x + half, y + up + _HALF) for up in _ASIDE]
+        if not any(_meet(arrow, places[0]) for arrow in arrows):
+            places = places[:1]
+        for up, place in zip(_ASIDE, places, strict=False):
+            if body.is_thin:
+                fits = not any(_meet(box, place) for k, box in enumerate(boxes) if k != i)
+            else:
+                fits = _covers(boxes[i], place)
+            if fits and not any(_meet(other, place) for other in (*taken, *arrows)):
+                taken.append(place)
+                yield x, y + up
+                break
         else:
             yield None
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 from exactpt.render.data import data_of
 from exactpt.render.palette import DARK, LIGHT
 from exactpt.render.plot import plot_of, strip_of
-from exactpt.render.words import clean
+from exactpt.render.words import clean, time_in_words
 
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
@@ -83,7 +83,8 @@ def _summary(film: Film) -> str:
     count = sum(len(step.changes) for step in film.steps)
     return (
         f"{len(scene.bodies)} bodies, {scene.vertex_count} vertices, {film.tiling} tiling, "
-        f"{count} events from t = {scene._start} to {scene._end}"
+        f"{count} event{'s' * (count != 1)} from t = {scene._start} to "
+        f"{time_in_words(film.end.simplified())}"
     )
 
 

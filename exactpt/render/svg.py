@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Final
 from xml.sax.saxutils import escape
 
-from exactpt.render.palette import DARK, LIGHT, TINTS
+from exactpt.render.palette import ARROW, DARK, LIGHT, TINTS
 from exactpt.render.words import clean, short
 
 if TYPE_CHECKING:
@@ -22,7 +22,6 @@ _HEADER: Final = 60
 _COLUMN: Final = 190
 """Width of a legend."""
 _ROW: Final = 18
-_ARROW: Final = 46.0
 _FONT: Final = "ui-sans-serif, system-ui, 'DejaVu Sans', Arial, sans-serif"
 
 
@@ -191,7 +190,7 @@ def _arrow(tail: Pixel, direction: Pixel) -> str:
     (x, y), (dx, dy) = tail, direction
     length = math.hypot(dx, dy)
     dx, dy = dx / length, dy / length
-    tip = (x + _ARROW * dx, y + _ARROW * dy)
+    tip = (x + ARROW * dx, y + ARROW * dy)
     left, right = (
         (tip[0] - 9 * dx - side * 5 * dy, tip[1] - 9 * dy + side * 5 * dx) for side in (1, -1)
     )

@@ -119,7 +119,7 @@ def test_clients_of_gis_read_the_answers_and_the_moving_features(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.filterwarnings("ignore:Time zone information dropped")
+@pytest.mark.filterwarnings("ignore")  # those of movingpandas and pandas
 def test_movingpandas_reads_moving_features(tmp_path):
     movingpandas = pytest.importorskip("movingpandas")
     ship = exactpt.Body("ship", [(0, 0)], exactpt.Velocity(1, 0), properties={"mmsi": 7})

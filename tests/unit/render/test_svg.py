@@ -14,7 +14,9 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.render.draw import draw
-from exactpt.render.frame import frame_of
+from exactpt.render.film import film_of
+from exactpt.render.frame import arrow_boxes, frame_of
+from exactpt.render.page import page_of
 from exactpt.render.still import still
 from exactpt.render.svg import svg_of
 from exactpt.scene.scene import Scene
@@ -267,3 +269,28 @@ def test_scale_bars_of_any_size(size, tmp_path):
 def test_options_that_do_not_go_together(options, message, tmp_path):
     with pytest.raises(InputError, match=message):
         moving_and_still().draw(tmp_path / "x.svg", **options)
+
+
+def test_a_name_is_beside_the_arrow_of_a_contact():
+    """The arrow would go through the name in the middle of the diamond."""
+    diamond = [(0, -1), (1, 0), (0, 1), (-1, 0)]
+    bodies = [
+        Body("diamond", diamond, Translation([-8, 1])),
+        Body("wall", [(1, -6), (1, 6)]),
+    ]
+    frame = frame_of(still(Scene(bodies, time=(0, 9)), None))
+    (mark,) = frame.marks
+    label = next(shape.label for shape in frame.shapes if shape.name == "diamond")
+
+    assert label is not None
+    for left, top, right, bottom in arrow_boxes(mark):
+        apart = label[1] + 7 <= top or bottom <= label[1] - 7
+        assert apart or right <= label[0] - 24.5 or label[0] + 24.5 <= left
+
+
+def test_the_header_of_a_page_counts_and_ends_as_the_run_does():
+    bodies = [Body("a", [(0, 0)], Translation([0, 1])), Body("b", [(4, 0)])]
+
+    assert "1 event from t = 0 to t = 4<" in page_of(
+        film_of(Scene(bodies, time=(0, 8)), tiling=None)
+    )
