@@ -18,7 +18,7 @@ from exactpt.motion.outline import is_rigid
 from exactpt.motion.track import Track
 from exactpt.scene.scene import Scene
 
-__all__ = ["Pair", "details", "tracks_before", "tracks_just_before"]
+__all__ = ["Pair", "details", "tracks_just_before"]
 
 
 @final
@@ -68,16 +68,8 @@ class Pair:
         }
 
 
-def tracks_before(scene: Scene, time: AlgebraicNumber) -> list[tuple[Track, ...]]:
-    """The trajectories of the vertices of each body, in the piece of motion just before a time.
-
-    The time is later than the start of the scene.
-    """
-    return [tracks_just_before(body, time, scene._start) for body in scene.bodies]
-
-
 def tracks_just_before(body: Body, time: AlgebraicNumber, start: QQ) -> tuple[Track, ...]:
-    """Those of one body; at the start, in the piece just after it."""
+    """The trajectories of the vertices of a body just before a time; at the start, just after."""
     return _piece_before(body, time, start).tracks
 
 

@@ -20,7 +20,7 @@ from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, coincide, difference, lies_on, orientation
 from exactpt.motion.track import Track
 from exactpt.pairs.contact import Contact, contact_of
-from exactpt.pairs.incidences import tracks_before
+from exactpt.pairs.incidences import tracks_just_before
 from exactpt.pairs.radius_reference import (
     core_distance,
     first_at_distance,
@@ -47,7 +47,8 @@ def first_contact_allpairs(scene: Scene) -> Contact | None:
                 best = time
     if best is None:
         return None
-    return contact_of(scene, best, touches_at(scene, tracks_before(scene, best), best))
+    tracks = [tracks_just_before(body, best, scene._start) for body in scene.bodies]
+    return contact_of(scene, best, touches_at(scene, tracks, best))
 
 
 def _reach(a: Body, b: Body) -> QQ:
