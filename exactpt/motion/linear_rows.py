@@ -1,7 +1,7 @@
 """The coefficients of many polygons in linear translation at once, in numpy.
 
-What is computed here is bit for bit what `exactpt.motion.enclosures`, `exactpt.motion.frame` and
-`exactpt.motion.ring_order` compute body by body. It is left to them if any body is of another
+The results are bit for bit those of `exactpt.motion.enclosures`, `exactpt.motion.frame` and
+`exactpt.motion.ring_order` for one body. The computation is left to them if any body is of another
 kind, or a number is out of range or close to a bound.
 """
 
