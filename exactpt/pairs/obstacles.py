@@ -106,9 +106,9 @@ class Obstacles:
         self._slab_boxes: SlabBoxes | None = None
 
     def near(self, rows: Sequence[MotionPiece]) -> list[tuple[float, int, int]]:
-        """The obstacles' pieces, by number, whose boxes meet those of pieces, also by number.
+        """The obstacles' pieces whose boxes meet those of some pieces, numbered after them all.
 
-        Each comes with a time before which they do not; in the order of these times.
+        Each pair comes with a time before which they do not; in the order of these times.
         """
         if self._row_boxes is None or not self._row_boxes:
             return []
@@ -118,9 +118,7 @@ class Obstacles:
         enter, leave = boxes.windows(i, j, -np.inf, np.inf)
         meet = np.nonzero(enter <= leave)[0]
         meet = meet[np.argsort(enter[meet], kind="stable")]
-        return list(
-            zip(enter[meet].tolist(), i[meet].tolist(), (j[meet] - n).tolist(), strict=True)
-        )
+        return list(zip(enter[meet].tolist(), i[meet].tolist(), j[meet].tolist(), strict=True))
 
     def stretches(self, body: Body) -> Iterator[Stretch]:
         """The times during which a body is near obstacles, in order."""

@@ -19,8 +19,6 @@ from exactpt.pairs.two_pieces import ContactDistance
 from exactpt.scene.scene import Scene
 
 if TYPE_CHECKING:
-    from typing import Self
-
     from exactpt.pairs.boxes import PieceBoxes
 
 __all__ = [
@@ -80,7 +78,8 @@ class ScenePieces:
     Args:
         rows: the pieces, by number.
         start, end: a time span.
-        boxes: their boxes; None if all pairs are compared, without numpy.
+        pairs: the pairs to compare, by number, each with a time before which they do not touch, in
+            the order of these times; or the boxes of the pieces, of which pairs are found.
     """
 
     def __init__(
@@ -88,37 +87,35 @@ class ScenePieces:
         rows: Sequence[MotionPiece] | Mapping[int, MotionPiece],
         start: QQ,
         end: QQ,
-        boxes: PieceBoxes | None = None,
+        pairs: Sequence[tuple[float, int, int]] | PieceBoxes,
     ) -> None:
         self._rows = rows
         self._start, self._end = start, end
-        self._boxes = boxes
+        self._pairs = pairs
 
     @classmethod
     def of(
-        cls,
-        rows: Sequence[MotionPiece],
-        start: QQ,
-        end: QQ,
-        margin: float = 0.0,
-    ) -> Self:
+        cls, rows: Sequence[MotionPiece], start: QQ, end: QQ, margin: float = 0.0
+    ) -> ScenePieces:
         """The given pieces; if they are more than a few, with boxes grown by a margin."""
         if len(rows) <= FEW:
-            return cls(rows, start, end)
+            every = combinations(range(len(rows)), 2)
+            pairs = [(-math.inf, i, j) for i, j in every if rows[i].body != rows[j].body]
+            return cls(rows, start, end, pairs)
         from exactpt.pairs.boxes import PieceBoxes
 
         return cls(rows, start, end, PieceBoxes(rows, margin))
 
     def near_at_start(self) -> list[tuple[int, int]]:
         """The pairs i < j of bodies whose boxes meet at the start."""
-        if self._boxes is not None:
+        if not isinstance(self._pairs, Sequence):
             from exactpt.pairs.boxes import pairs_at
 
-            return sorted(set(pairs_at(self._boxes, self._start)))
+            return sorted(set(pairs_at(self._pairs, self._start)))
         low, high = enclosing_floats(self._start)
-        begin = [self._rows[k] for k in range(len(self._rows))]
-        begin = [row for row in begin if row.start == self._start]
-        windows = ((a.body, b.body, window_of(a, b, low, high)) for a, b in combinations(begin, 2))
+        two = ((self._rows[i], self._rows[j]) for time, i, j in self._pairs if time <= high)
+        begin = [(a, b) for a, b in two if a.start == b.start == self._start]
+        windows = ((a.body, b.body, window_of(a, b, low, high)) for a, b in begin)
         return [(i, j) for i, j, (enter, leave) in windows if not enter > leave]
 
     def near(
@@ -131,16 +128,15 @@ class ScenePieces:
         Args:
             counts: whether contacts of two bodies, by number, count.
         """
-        rows, boxes = self._rows, self._boxes
-        if boxes is None:
-            for i, j in combinations(range(len(rows)), 2):
-                if rows[i].body != rows[j].body and counts(rows[i].body, rows[j].body):
-                    yield -math.inf, rows[i], rows[j]
+        rows, pairs = self._rows, self._pairs
+        if isinstance(pairs, Sequence):
+            two = ((enter, rows[i], rows[j]) for enter, i, j in pairs)
+            yield from ((enter, a, b) for enter, a, b in two if counts(a.body, b.body))
             return
         from exactpt.pairs.boxes import candidate_pairs
 
-        body = boxes.body.tolist()
-        for enter, i, j in candidate_pairs(boxes, self._start, self._end):
+        body = pairs.body.tolist()
+        for enter, i, j in candidate_pairs(pairs, self._start, self._end):
             if counts(body[i], body[j]):
                 yield enter, rows[i], rows[j]
 

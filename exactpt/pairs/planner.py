@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Iterable, Sequence
 from typing import Final, final
 
 from exactpt.errors import InputError
-from exactpt.kernel.algebraic import AlgebraicNumber
-from exactpt.kernel.numbers import Rational, enclosing_floats, shorten
+from exactpt.kernel.numbers import Rational, shorten
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion
 from exactpt.motion.outline import Outline, is_rigid, rest_outline, straight_pieces
 from exactpt.motion.shape import VertexLike
-from exactpt.pairs.contact import Contact, contact_of
+from exactpt.pairs.contact import Contact
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.obstacles import Obstacles, Stretch
-from exactpt.pairs.pieces import MOST_VERTICES, MotionPiece, pieces_during, window_of
-from exactpt.pairs.search import first_among_candidates
-from exactpt.pairs.start import initial_touches
+from exactpt.pairs.pieces import MOST_VERTICES, ScenePieces, pieces_during
+from exactpt.pairs.search import LinearSearch
 from exactpt.scene.scene import Scene
 
 __all__ = ["Planner"]
@@ -93,32 +90,11 @@ class Planner:
             if pieces is not None:
                 number = len(scene.bodies)
                 moving = list(pieces_during(number, pieces, scene._start, scene._end))
-                return self._first_of_rows(body, rows, moving)
+                all_rows, near = [*rows, *moving], self._obstacles.near(moving)
+                planned = scene.going_on((*scene.bodies, body), scene._start)
+                few = ScenePieces(all_rows, scene._start, scene._end, near)
+                return LinearSearch(planned, few).run_to_contact()
         return self._first_of_any(body)
-
-    def _first_of_rows(
-        self, body: Body, rows: Sequence[MotionPiece], moving: Sequence[MotionPiece]
-    ) -> Contact | None:
-        """The first contact of a body with obstacles, if all of them move straight."""
-        start = self._scene._start
-        scene = self._scene.going_on((*self._scene.bodies, body), start)
-        near = self._obstacles.near(moving)
-        low, high = enclosing_floats(start)
-        begin = [
-            (rows[i].body, moving[j].body)
-            for time, i, j in near
-            if time <= high
-            and rows[i].start == moving[j].start == start
-            and not operator.gt(*window_of(rows[i], moving[j], low, high))
-        ]
-        if begin:
-            touches, overlaps = initial_touches(scene, begin)
-            if overlaps:
-                return contact_of(scene, AlgebraicNumber(start), touches, overlaps)
-        found = first_among_candidates((time, rows[i], moving[j]) for time, i, j in near)
-        if found is None:
-            return None
-        return contact_of(scene, found.number, found.touches)
 
     def _first_of_any(self, body: Body) -> Contact | None:
         """The first contact of a body with obstacles, or with itself, whatever the motions."""

@@ -37,7 +37,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "LinearSearch",
-    "first_among_candidates",
     "first_among_pieces",
     "pair_search",
     "scene_pieces_if_linear",
@@ -170,19 +169,7 @@ def first_among_pieces(
         distance: the distance of the cores at which bodies touch.
         margin: at least half of what the distance is more than the sum of the radii.
     """
-    return first_among_candidates(ScenePieces.of(rows, start, end, margin).near(), distance)
-
-
-def first_among_candidates(
-    pairs: Iterable[tuple[float, MotionPiece, MotionPiece]], distance: Distance = contact_distance
-) -> Meeting | None:
-    """The first contact of pairs of pieces of two bodies that are disjoint when both begin.
-
-    Args:
-        pairs: two pieces, and a time before which they do not touch; in the order of these times.
-        distance: the distance of the cores at which bodies touch.
-    """
-    return _Search(distance).run(pairs)
+    return _Search(distance).run(ScenePieces.of(rows, start, end, margin).near())
 
 
 class _Search:

@@ -141,18 +141,17 @@ def test_obstacles_are_validated_and_prepared_once(monkeypatch):
 def test_a_plan_looks_at_the_obstacles_near_it_alone(monkeypatch):
     """A shape passes along the lowest row of a grid of 30: at most six obstacles are compared."""
     compared, searched = [], []
-    first_among_candidates, search = planners.first_among_candidates, planners.PairsSearch
+    scene_pieces, search = planners.ScenePieces, planners.PairsSearch
 
-    def recorded(pairs):
-        pairs = list(pairs)
-        compared.extend(row.body for _, row, _ in pairs)
-        return first_among_candidates(pairs)
+    def recorded(rows, start, end, pairs):
+        compared.extend(rows[i].body for _, i, _ in pairs)
+        return scene_pieces(rows, start, end, pairs)
 
     def searching(scene, **options):
         searched.extend(body.name for body in scene.bodies)
         return search(scene, **options)
 
-    monkeypatch.setattr(planners, "first_among_candidates", recorded)
+    monkeypatch.setattr(planners, "ScenePieces", recorded)
     monkeypatch.setattr(planners, "PairsSearch", searching)
     planner = Planner(grid(30), (0, 10))
     shape = [(-9, "1/2"), (-8, "1/2"), (-8, 3)]
