@@ -1,4 +1,4 @@
-"""A progress bar on a terminal, which follows the time of a scene, or counts; lines elsewhere."""
+"""A progress bar on a terminal, which follows the time of a scene or an amount; lines elsewhere."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.scene.scene import Scene
 
-__all__ = ["SECONDS", "counting", "estimating", "progress"]
+__all__ = ["SECONDS", "estimating", "progress"]
 
 
 _STEPS: Final = 1000
@@ -50,16 +50,6 @@ def progress(
             bar.update(max(0, int(floor((time._low - start) / step)) - bar.pos))
 
         yield reached
-
-
-@contextmanager
-def counting(total: int, label: str, *, quiet: bool = False) -> Iterator[Callable[[], None]]:
-    """Give the function to call after each of ``total`` steps."""
-    if quiet or not is_terminal():
-        yield lambda: None
-        return
-    with click.progressbar(length=total, label=label, file=sys.stderr) as bar:
-        yield lambda: bar.update(1)
 
 
 @contextmanager

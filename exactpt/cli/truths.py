@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,7 +12,7 @@ import click
 
 from exactpt.cli.alarm import time_limit
 from exactpt.cli.options import QUIET, RATIONAL, bounded, max_bytes, max_memory, output, typed
-from exactpt.cli.progress import counting
+from exactpt.cli.progress import estimating
 from exactpt.cli.terminal import say, tell
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
@@ -137,8 +138,9 @@ def _write_set(folder: Path, passages: int, scenes: int, jobs: int, *, quiet: bo
     from exactpt.openset.writing import planned, write_set
 
     parts = planned(passages, scenes)
-    with counting(len(parts), "Families", quiet=quiet) as done:
-        summary = write_set(folder, parts, jobs=jobs, done=done)
+    numbers = itertools.count(1)
+    with estimating("Families", quiet=quiet) as show:
+        summary = write_set(folder, parts, jobs=jobs, done=lambda: show(next(numbers), len(parts)))
     if not quiet:
         say(f"{summary.files} files: {folder}", f"SHA-256 of SHA256SUMS: {summary.manifest}")
     return 0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
@@ -14,7 +13,7 @@ from exactpt.errors import AuditError, InputError
 from exactpt.indices import VertexId
 from exactpt.kernel.collection import collector_at_rest
 from exactpt.kernel.counters import Counters
-from exactpt.kernel.numbers import QQ, fraction
+from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body, refuse_rounded
 from exactpt.motion.vertices import Vertices
 from exactpt.pseudotriangulation.mesh import Mesh
@@ -33,7 +32,6 @@ __all__ = [
     "TilingPlan",
     "make",
     "plan_tiling",
-    "proved_until",
     "relative_hulls",
     "start_tiling",
     "tiling_for_contact",
@@ -126,18 +124,6 @@ def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
             return TilingPlan(entry, _vertices_of_points(entry, bodies, start, end), end)
         vertices().counters = Counters()  # decisions made for the choice are not part of the run
         return TilingPlan(entry, vertices(), end)
-
-
-def proved_until(kinetic: Tiling | None, start: QQ) -> Fraction:
-    """Return a rational time until which a run has passed no contact, also during an event.
-
-    Args:
-        kinetic: the tiling; None before there is one.
-        start: the start of the run, at which there is no contact.
-    """
-    if kinetic is None or kinetic.passed is None:
-        return fraction(start)
-    return fraction(max(start, kinetic.vertices.frame.exact_time(kinetic.passed.low)))
 
 
 def _are_points(bodies: Sequence[Body]) -> bool:
