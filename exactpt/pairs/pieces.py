@@ -130,8 +130,10 @@ class ScenePieces:
         """
         rows, pairs = self._rows, self._pairs
         if isinstance(pairs, Sequence):
-            two = ((enter, rows[i], rows[j]) for enter, i, j in pairs)
-            yield from ((enter, a, b) for enter, a, b in two if counts(a.body, b.body))
+            for enter, i, j in pairs:
+                a, b = rows[i], rows[j]
+                if counts(a.body, b.body):
+                    yield enter, a, b
             return
         from exactpt.pairs.boxes import candidate_pairs
 
