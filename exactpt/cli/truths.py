@@ -65,7 +65,8 @@ class _WithQuestions(click.Command):
 
         for room, families in {"Degenerate": DEGENERATE, "Generic": GENERIC}.items():
             with formatter.section(room):
-                formatter.write_dl([(name, f.__doc__ or "") for name, f in families.items()])
+                rows = [(name, " ".join((f.__doc__ or "").split())) for name, f in families.items()]
+                formatter.write_dl(rows)
 
 
 @click.command(cls=_WithQuestions)

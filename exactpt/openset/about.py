@@ -40,5 +40,14 @@ def about(parts: Sequence[Part], written: Sequence[Written]) -> str:
 def _list(degenerate: Mapping[str, object], generic: Mapping[str, object]) -> str:
     lines = []
     for word, those in (("Degenerate", degenerate), ("Generic", generic)):
-        lines += [f"{word}:", "", *(f"* `{name}`: {f.__doc__}" for name, f in those.items()), ""]
+        lines += [
+            f"{word}:",
+            "",
+            *(f"* `{name}`: {_first_line(f)}" for name, f in those.items()),
+            "",
+        ]
     return "\n".join(lines).rstrip()
+
+
+def _first_line(family: object) -> str:
+    return (family.__doc__ or "").partition("\n")[0]

@@ -69,7 +69,10 @@ def grazing_corner(rng: Random) -> Pass:
 
 
 def sliding(rng: Random) -> Pass:
-    """A box (3 of 10: a segment) slides along a line on which an edge of the other body lies."""
+    """A box that slides along a line, on which an edge of the other body lies.
+
+    In three of ten questions both are segments.
+    """
     left = rng.randint(3, 6)
     table = box(0, -2, rng.randint(1, 4), 2)
     moving = box(-left, 0, rng.randint(1, 2), rng.randint(1, 2))
