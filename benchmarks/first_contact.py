@@ -16,6 +16,8 @@ from typing import Final, NamedTuple, TypeAlias, final
 from benchmarks.methods.closed_form import CLOSED_FORM
 from benchmarks.methods.method import Answer, Method, UnsuitableScene, error_of
 from benchmarks.methods.own import EXACT_SEARCH, OWN
+from benchmarks.methods.with_arrays import FROM_ARRAYS
+from benchmarks.methods.with_cpp import SWEEP_AND_PRUNE, has_compiler
 from benchmarks.methods.with_ipctk import with_additive, with_tight_inclusion
 from benchmarks.methods.with_pymunk import with_pymunk
 from benchmarks.methods.with_shapely import with_shapely
@@ -54,6 +56,7 @@ FAMILIES: Final[dict[str, Family]] = {
     "deforming": deforming,
     "grazing": grazing,
     "thin and fast": thin_and_fast,
+    "long span": partial(crowd, radius=60, end=10_000),
 }
 """Scenes by size: number of bodies of crowds, teeth of clamps, vertices of each comb and spiral."""
 
@@ -89,6 +92,7 @@ QUICK: Final = Sizes(
         "deforming": (4, 16),
         "grazing": (4, 16),
         "thin and fast": (10, 50),
+        "long span": (10, 100),
     },
     scenes=1,
     steps=(100, 1000),
@@ -105,6 +109,7 @@ FULL: Final = Sizes(
         "deforming": (4, 16, 64, 256),
         "grazing": (4, 16, 64),
         "thin and fast": (10, 100, 1000),
+        "long span": (10, 100, 1000),
     },
     scenes=1,
     steps=(100, 1000, 10_000),
@@ -148,6 +153,9 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
         AuditError: if an answer of exactpt is wrong.
     """
     methods = [m for m in _methods(sizes.steps) if m.package is None or output.has(m.package)]
+    if not has_compiler():
+        output.say("skipped: g++ is not installed: no sweep-and-prune in C++")
+        methods.remove(SWEEP_AND_PRUNE)
     for method in methods:  # imports on first use are not timed
         method.prepare(crowd(2, Random(seed), radius=60, end=1))()
     rows: list[Row] = []
@@ -182,13 +190,13 @@ def _run_family(
         for method in tuple(left):
             result = _ask(method, scenes, truths, sizes)
             slow = result is not None and median(result.seconds) > sizes.seconds
-            if result is None or (slow and method not in OWN):
+            if result is None or (slow and method.name != "exactpt"):
                 left.remove(method)
             if result is None:
                 continue
             rows.append({**about, **_row(method, result)})
             if result.errors:
-                name = f"exactpt {method.setting}" if method in OWN else method.name
+                name = f"exactpt {method.setting}" if method.name == "exactpt" else method.name
                 error = max(LEAST_ERROR, *result.errors)
                 points.setdefault(name, []).append((error, median(result.seconds)))
     title = f"First contact, {family}, size {sizes.sizes[family][-1]}"
@@ -200,8 +208,10 @@ def _run_family(
 def _methods(steps: Sequence[int]) -> list[Method]:
     return [
         *OWN,
+        FROM_ARRAYS,
         EXACT_SEARCH,
         CLOSED_FORM,
+        SWEEP_AND_PRUNE,
         *(with_shapely(n, bisect=False) for n in steps),
         *(with_shapely(n, bisect=True) for n in steps),
         *(with_pymunk(n) for n in steps),
@@ -231,7 +241,7 @@ def _ask(
             result.add(answer, spent, truth.time)
         except UnsuitableScene:
             return None
-    if method in OWN and (result.missed or result.invented or any(result.errors)):
+    if method.name == "exactpt" and (result.missed or result.invented or any(result.errors)):
         raise AuditError(f"{method.name} {method.setting} is wrong about {scenes}: {result}")
     return result
 

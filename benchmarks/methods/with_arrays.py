@@ -5,24 +5,26 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import combinations
 from math import lcm
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
 from benchmarks.methods.method import Answer, Method, UnsuitableScene
 from exactpt.arrays import first_contacts
+from exactpt.collision.detector import first_contact
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.scene.scene import Scene
 
-__all__ = ["ARRAYS"]
+__all__ = ["ARRAYS", "FROM_ARRAYS"]
 
 
-def _prepare(scene: Scene) -> Callable[[], Answer]:
-    """Shift and stretch the scene by rationals so that all its numbers are doubles.
+def _arrays(scene: Scene) -> dict[str, Any]:
+    """Return the arguments of `Scene.from_arrays`.
 
-    That changes no time.
+    The scene is shifted and stretched by rationals so that all its numbers are doubles. That
+    changes no time.
     """
     bodies = scene.bodies
     outlines = [[(x._at(QQ(0)), y._at(QQ(0))) for x, y in body.vertices] for body in bodies]
@@ -37,13 +39,32 @@ def _prepare(scene: Scene) -> Callable[[], Answer]:
     moved = np.array([[[_double(c * factor) for c in f] for f in m] for m in coefficients])
     offsets = np.cumsum([0, *map(len, outlines)])
     closed = np.array([body.closed for body in bodies])
-    pairs = np.array(list(combinations(range(len(bodies)), 2))).reshape(-1, 2)
     time = [_double(scene._start), _double(scene._end)]
+    return {
+        "vertices": vertices,
+        "offsets": offsets,
+        "coefficients": moved,
+        "closed": closed,
+        "time": time,
+    }
+
+
+def _prepare_scene(scene: Scene) -> Callable[[], Answer]:
+    given = _arrays(scene)
 
     def ask() -> Answer:
-        contacts = first_contacts(
-            vertices, offsets, pairs, coefficients=moved, closed=closed, time=time
-        )
+        contact = first_contact(Scene.from_arrays(**given))
+        return None if contact is None else contact.time
+
+    return ask
+
+
+def _prepare(scene: Scene) -> Callable[[], Answer]:
+    given = _arrays(scene)
+    pairs = np.array(list(combinations(range(len(scene.bodies)), 2))).reshape(-1, 2)
+
+    def ask() -> Answer:
+        contacts = first_contacts(pairs=pairs, **given)
         if not contacts.found.any():
             return None
         first = np.flatnonzero(contacts.low <= contacts.high.min()).tolist()
@@ -73,3 +94,6 @@ def _double(value: QQ) -> float:
 
 ARRAYS: Final = Method("exactpt", "arrays", _prepare)
 """The first contact among the answers for all pairs."""
+
+FROM_ARRAYS: Final = Method("exactpt", "from arrays", _prepare_scene)
+"""The first contact of a scene in arrays, which is built in the same time."""

@@ -121,7 +121,7 @@ def contains(
     for a, b in sides:
         above = a[1] > y
         if (above == (b[1] > y) and a[1] != y and b[1] != y) or (a[0] < x and b[0] < x):
-            continue  # neither p nor the ray to the right from it meets the edge
+            continue  # the edge contains no point of the ray to the right from p
         s = side(a, b, p)
         if s == 0 and between(a, b, p):
             return True

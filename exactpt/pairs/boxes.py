@@ -153,7 +153,7 @@ class PieceBoxes:
         return first, last
 
     def _narrow(self, i: Indices, j: Indices, low: Floats, high: Floats) -> None:
-        """Narrow times to those at which the boxes of two pieces meet, in place."""
+        """Narrow times to those at which the boxes of two pieces intersect, in place."""
         # fmax and fmin take the other number instead of a NaN, which excludes no time.
         for start, end in ((self._start[i], self._end[i]), (self._start[j], self._end[j])):
             np.fmax(low, start, out=low)
@@ -172,7 +172,7 @@ class PieceBoxes:
             np.fmin(high, leave, out=high)
 
     def narrow(self, i: Indices, j: Indices, low: Floats, high: Floats) -> None:
-        """Narrow bounds of the times at which two pieces meet by oriented boxes, in place."""
+        """Narrow bounds of the times at which two pieces touch by oriented boxes, in place."""
         if self._oriented is None:
             motions = (*self._c.T, *self._v.T, self._c_error, self._v_error, self._reach)
             outlines = [self._outline(k) for k in range(len(self.body))]
@@ -248,11 +248,11 @@ def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[flo
 
 
 def _meeting(boxes: PieceBoxes, low: float, high: float) -> tuple[int, int, Indices, Indices]:
-    """Return the pairs of pieces of two bodies whose boxes meet during [low, high].
+    """Return the pairs of pieces of two bodies whose boxes intersect during [low, high].
 
     Returns:
         The number of pairs that numpy compares in the time of finding them, that of all pairs
-        whose boxes meet, those of one body included, and the pairs of two bodies.
+        whose boxes intersect, those of one body included, and the pairs of two bodies.
     """
     active, places = boxes.during(low, high)
     few, count = 8 * len(active) + 64, 0

@@ -176,8 +176,8 @@ def feature_pairs(
         b: the other body.
         p: the trajectories of the vertices of the first body.
         q: those of the other one.
-        numbers: the numbers of the pairs to yield, if not all: those of vertices come first, then
-            those of edges of the first body, then of the second.
+        numbers: the numbers of the pairs to yield, if not all. Pairs of vertices have the first
+            ones, then edges of the first body with vertices, then vertices with edges.
     """
     edges, others, n, m = a.edges, b.edges, len(p), len(q)
     everything = range(n * m + len(edges) * m + n * len(others))

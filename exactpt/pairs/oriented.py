@@ -44,13 +44,13 @@ class OrientedBoxes:
 
     @np.errstate(all="ignore")
     def narrow(self, i: Indices, j: Indices, low: Floats, high: Floats) -> None:
-        """Narrow times to those at which the rectangles of two bodies meet, for many pairs.
+        """Narrow times to those at which the rectangles of two bodies intersect, for many pairs.
 
         Args:
             i: the first body of each pair.
             j: the second one.
             low: the starts of the times, increased in place.
-            high: the ends, decreased; less than the starts where the rectangles do not meet.
+            high: the ends, decreased; less than the starts where the rectangles are disjoint.
         """
         for k in range(0, len(i), CHUNK):
             some = slice(k, k + CHUNK)
@@ -94,7 +94,7 @@ def _rectangle(xs: list[float], ys: list[float]) -> tuple[float, ...]:
 
 
 def _across(a: Floats, b: Floats, low: Floats, high: Floats) -> None:
-    """Narrow times to those at which two rectangles meet on the axis n across the first, in place.
+    """Narrow times, in place, to those at which two rectangles overlap along n across the first.
 
     At such a time, |n . (z + w t)| <= R, where z is the difference of the m + c, w that of the v,
     and R the sum of the reaches and of what the rectangles take up on the axis: T of the first;

@@ -9,7 +9,9 @@ from benchmarks.methods.closed_form import CLOSED_FORM
 from benchmarks.methods.method import UnsuitableScene, error_of
 from benchmarks.methods.moving import Moving
 from benchmarks.methods.own import EXACT_SEARCH, OWN, fresh
+from benchmarks.methods.with_arrays import FROM_ARRAYS
 from benchmarks.methods.with_box2d import BOX2D
+from benchmarks.methods.with_cpp import SWEEP_AND_PRUNE, has_compiler
 from benchmarks.methods.with_ipctk import with_additive, with_tight_inclusion
 from benchmarks.methods.with_pymunk import with_pymunk
 from benchmarks.methods.with_shapely import with_shapely
@@ -35,6 +37,22 @@ def answer(method, scene):
 def test_exact_ways_are_exact(method, make, truth):
     found = answer(method, make())
     assert found is None if truth is None else found == AlgebraicNumber(truth)
+
+
+@pytest.mark.parametrize("make, truth", [(meeting, 3.0), (thrown, 5.0), (passing, None)])
+def test_scenes_in_arrays_are_answered_exactly(make, truth):
+    found = answer(FROM_ARRAYS, make())
+    assert found is None if truth is None else found == AlgebraicNumber(truth)
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not has_compiler(), reason="g++ is not installed")
+def test_sweep_and_prune_in_cpp():
+    assert answer(SWEEP_AND_PRUNE, meeting()) == 3.0
+    assert answer(SWEEP_AND_PRUNE, passing()) is None
+    assert answer(SWEEP_AND_PRUNE, tangle(combs(16))) == pytest.approx(14.0)
+    with pytest.raises(UnsuitableScene, match="not linear"):
+        SWEEP_AND_PRUNE.prepare(thrown())
 
 
 @pytest.mark.parametrize("make, truth", ANSWERS)
