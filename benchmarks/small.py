@@ -7,7 +7,7 @@ milliseconds for one question. Every answer is compared with that of another met
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from random import Random
 from typing import Final, NamedTuple, TypeAlias
@@ -19,7 +19,7 @@ from benchmarks.methods.with_ipctk import with_tight_inclusion
 from benchmarks.methods.with_pymunk import with_pymunk
 from benchmarks.methods.with_shapely import with_shapely
 from benchmarks.output import Output, Row
-from benchmarks.timing import timed
+from benchmarks.timing import fastest, timed
 from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError
 from exactpt.kernel.algebraic import AlgebraicNumber
@@ -83,14 +83,6 @@ def _row(
     }
 
 
-def _least(ask: Callable[[], Times], runs: int) -> tuple[float, Times]:
-    """The least time of some runs, and the answers."""
-    found, least = timed(ask)
-    for _ in range(runs - 1):
-        least = min(least, timed(ask)[1])
-    return least, found
-
-
 def _time(contact: Contact | None) -> AlgebraicNumber | None:
     return None if contact is None else contact.time
 
@@ -137,7 +129,7 @@ def _triangles(output: Output, sizes: Sizes, rng: Random) -> list[Row]:
     seconds = min(timed(build)[1] for _ in range(sizes.runs))
     rows = [_row(question, "exactpt, scene alone", seconds, count, [])]
     for method in ("auto", "kinetic"):
-        seconds, found = _least(partial(answer, method), sizes.runs)
+        found, seconds = fastest(partial(answer, method), sizes.runs)
         _audit(question, found, expected)
         rows.append(_row(question, f"exactpt, scene and {method}", seconds, count, found, 0.0))
     others = [CLOSED_FORM, with_shapely(1000, bisect=True), with_pymunk(1000)]
@@ -214,7 +206,7 @@ def _discs(output: Output, sizes: Sizes, rng: Random) -> list[Row]:  # noqa: ARG
         ]
         scene = Scene(bodies, (0, 10))
         expected = [_time(first_contact(scene, exact_only=True))]
-        least, found = _least(partial(_asked, scene), sizes.runs)
+        found, least = fastest(partial(_asked, scene), sizes.runs)
         _audit(what, found, expected)
         rows.append(_row(f"{sizes.bodies} {what}", "exactpt, auto", least, 1, found, 0.0))
     return rows
@@ -242,7 +234,7 @@ def _plans(output: Output, sizes: Sizes, rng: Random) -> list[Row]:  # noqa: ARG
 
     question = f"plans among {OBSTACLES} obstacles"
     seconds, expected = timed(by_scenes)[::-1]
-    least, found = _least(by_planner, sizes.runs)
+    found, least = fastest(by_planner, sizes.runs)
     _audit(question, found, expected)
     return [
         _row(question, "exactpt, a scene each", seconds, sizes.plans, expected, 0.0),

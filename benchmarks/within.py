@@ -6,14 +6,13 @@ Every approach is compared with the exact search over all vertices and edges nea
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 from random import Random
-from typing import Final, NamedTuple, TypeVar
+from typing import Final, NamedTuple
 
 from benchmarks.output import Output, Row
 from benchmarks.shapes import crowd
-from benchmarks.timing import timed
+from benchmarks.timing import fastest
 from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError
 from exactpt.kernel.numbers import QQ
@@ -24,8 +23,6 @@ from exactpt.pairs.approach_search import ApproachSearch
 from exactpt.scene.scene import Scene
 
 __all__ = ["FULL", "QUICK", "Sizes", "run"]
-
-T = TypeVar("T")
 
 
 class Sizes(NamedTuple):
@@ -50,11 +47,11 @@ def run(output: Output, sizes: Sizes, seed: int) -> None:
     rows: list[Row] = []
     for name, scene in _crowds(sizes.bodies, seed).items():
         output.progress(f"within: {name}")
-        contact, unit = _least(partial(first_contact, scene), sizes.runs)
+        contact, unit = fastest(partial(first_contact, scene), sizes.runs)
         time = None if contact is None else float(contact.time)
         rows.append(_row(name, sizes, "first_contact", unit, 1.0, time))
         for d in DISTANCES:
-            found, seconds = _least(partial(_within, scene, d), sizes.runs)
+            found, seconds = fastest(partial(_within, scene, d), sizes.runs)
             _audit(scene, d, found)
             at = None if found is None else float(found.time)
             rows.append(_row(name, sizes, f"first_within {d}", seconds, seconds / unit, at))
@@ -95,14 +92,6 @@ def _crowds(bodies: int, seed: int) -> dict[str, Scene]:
         "dense": crowd(bodies, rng, radius=400, end=1),
         "accelerated": Scene(thrown, (0, 2)),
     }
-
-
-def _least(ask: Callable[[], T], runs: int) -> tuple[T, float]:
-    """The answer, and the least time of some runs."""
-    answer, least = timed(ask)
-    for _ in range(runs - 1):
-        least = min(least, timed(ask)[1])
-    return answer, least
 
 
 def _audit(scene: Scene, d: int, found: Approach | None) -> None:

@@ -17,7 +17,7 @@ from exactpt.kernel.polynomial import Polynomial
 from exactpt.pairs.contact import Contact
 from exactpt.testing.questions import Asked, Moving, Question
 
-__all__ = ["Truth", "first_pair", "root_between", "truth_of", "truths"]
+__all__ = ["Truth", "contacts_of", "first_pair", "root_between", "truth_of", "truths"]
 
 
 class Truth(NamedTuple):
@@ -72,15 +72,21 @@ def _truth(contact: Contact) -> Truth:
 
 def _by_arrays(questions: Sequence[Asked]) -> Iterator[Truth]:
     asked = [q for q in questions if isinstance(q, Question)]
-    if not asked:
-        return
+    contacts = contacts_of(asked) if asked else None
+    for k, question in enumerate(asked):
+        if contacts is not None:
+            yield _answer(question, contacts, k) if contacts.found[k] else Truth(None)
+
+
+def contacts_of(asked: Sequence[Question]) -> Contacts:
+    """The first contacts of some questions, at least one, in arrays."""
     bodies = [body for q in asked for body in (q.a, q.b)]
     size = max(2, *(max(len(m.x), len(m.y)) for m in bodies))
     coefficients = np.zeros((len(bodies), 2, size))
     for k, m in enumerate(bodies):
         coefficients[k, 0, : len(m.x)] = m.x
         coefficients[k, 1, : len(m.y)] = m.y
-    contacts = first_contacts(
+    return first_contacts(
         [v for m in bodies for v in m.vertices],
         np.cumsum([0, *(len(m.vertices) for m in bodies)]),
         np.arange(len(bodies)).reshape(-1, 2),
@@ -88,8 +94,6 @@ def _by_arrays(questions: Sequence[Asked]) -> Iterator[Truth]:
         closed=[m.closed for m in bodies],
         time=[q.time for q in asked],
     )
-    for k, question in enumerate(asked):
-        yield _answer(question, contacts, k) if contacts.found[k] else Truth(None)
 
 
 def _answer(question: Question, contacts: Contacts, k: int) -> Truth:

@@ -5,7 +5,7 @@ It shares nothing with `exactpt.pairs` but the kernel, the trajectories and orie
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cmp_to_key
 from itertools import combinations, pairwise, product
 from typing import Protocol, TypeAlias
@@ -19,8 +19,8 @@ from exactpt.motion.incidence import difference, orientation
 from exactpt.motion.track import Track
 
 __all__ = [
-    "contact_intervals", "critical_times", "edges_of", "first_within", "is_within", "meet_at",
-    "moments", "pieces", "tracks",
+    "contact_intervals", "critical_times", "edges_of", "first_within", "intervals_within",
+    "is_within", "meet_at", "moments", "pieces", "tracks",
 ]  # fmt: skip
 
 
@@ -124,24 +124,48 @@ def moments(begin: QQ, until: QQ, p: Tracks, q: Tracks) -> list[AlgebraicNumber]
 
 
 def contact_intervals(a: Body, b: Body, start: QQ, end: QQ) -> list[Interval]:
-    """The maximal intervals as pairs of algebraic numbers."""
+    """The maximal closed intervals in which two bodies meet, as pairs of algebraic numbers."""
+
+    def meet(t: Instant, p: Tracks, q: Tracks) -> bool:
+        return meet_at(t, a, b, p, q)
+
+    return _intervals(a, b, start, end, meet, moments)
+
+
+def intervals_within(a: Body, b: Body, start: QQ, end: QQ, s: QQ) -> list[Interval]:
+    """The maximal closed intervals in which the squared distance is at most s."""
+
+    def within(t: Instant, p: Tracks, q: Tracks) -> bool:
+        return is_within(t, a, b, p, q, s)
+
+    def critical(begin: QQ, until: QQ, p: Tracks, q: Tracks) -> list[AlgebraicNumber]:
+        found = [orientation(*three) for three in combinations([*p, *q], 3)]
+        for v, c, d in _corners(a, b, p, q):
+            found += dot(gap(c, d), gap(c, v)), dot(gap(d, c), gap(d, v))
+        return critical_times([*found, *_excesses(a, b, p, q, s)], begin, until)
+
+    return _intervals(a, b, start, end, within, critical)
+
+
+def _intervals(
+    a: Body, b: Body, start: QQ, end: QQ, holds: Callable[[Instant, Tracks, Tracks], bool],
+    critical: Callable[[QQ, QQ, Tracks, Tracks], list[AlgebraicNumber]],
+) -> list[Interval]:  # fmt: skip
+    """The maximal closed intervals in which something holds, which changes at critical times."""
     last = AlgebraicNumber(start)
-    states: list[tuple[AlgebraicNumber | None, bool]] = [
-        (last, meet_at(last, a, b, *tracks(a, b, start)))
-    ]
+    states: list[tuple[AlgebraicNumber | None, bool]] = [(last, holds(last, *tracks(a, b, start)))]
     for begin, until, p, q in pieces(a, b, start, end):
-        for time in moments(begin, until, p, q):
+        for time in critical(begin, until, p, q):
             between = AlgebraicNumber(rational_between(last, time))
-            states.append((None, meet_at(between, a, b, p, q)))
-            states.append((time, meet_at(time, a, b, p, q)))
+            states += [(None, holds(between, p, q)), (time, holds(time, p, q))]
             last = time
     found: list[Interval] = []
     since: AlgebraicNumber | None = None
-    for at, meets in [*states, (None, False)]:
-        if at is not None and meets:
+    for at, is_so in [*states, (None, False)]:
+        if at is not None and is_so:
             since = since or at
             last = at
-        elif at is None and not meets and since is not None:
+        elif at is None and not is_so and since is not None:
             found.append((since, last))
             since = None
     return found
@@ -185,19 +209,29 @@ def less(n: IntPoly, d: IntPoly, s: QQ) -> IntPoly:
     return subtract(scale(n, ZZ(s.denominator)), scale(d, ZZ(s.numerator)))
 
 
+def _corners(a: Body, b: Body, p: Tracks, q: Tracks) -> list[tuple[Track, Track, Track]]:
+    """The vertices of each body with the ends of the edges of the other one."""
+    corners = [(v, p[k], p[l]) for v in q for k, l in a.edges]
+    return corners + [(v, q[k], q[l]) for v in p for k, l in b.edges]
+
+
+def _excesses(a: Body, b: Body, p: Tracks, q: Tracks, s: QQ) -> list[IntPoly]:
+    """Positive where the squared distance of two features is more than s."""
+    found = [excess_of_vertices(u, v, s) for u, v in product(p, q)]
+    return found + [excess_of_line(v, c, d, s) for v, c, d in _corners(a, b, p, q)]
+
+
 def is_within(t: Instant, a: Body, b: Body, p: Tracks, q: Tracks, s: QQ) -> bool:
     """Whether the squared distance is at most s at an algebraic time."""
     if meet_at(t, a, b, p, q):
         return True
     if any(t.sign_of(excess_of_vertices(u, v, s)) <= 0 for u, v in product(p, q)):
         return True
-    corners = [(v, p[k], p[l]) for v in q for k, l in a.edges]
-    corners += [(v, q[k], q[l]) for v in p for k, l in b.edges]
     return any(
         t.sign_of(excess_of_line(v, c, d, s)) <= 0
         and t.sign_of(dot(gap(c, d), gap(c, v))) > 0
         and t.sign_of(dot(gap(d, c), gap(d, v))) > 0
-        for v, c, d in corners
+        for v, c, d in _corners(a, b, p, q)
     )
 
 
@@ -207,11 +241,7 @@ def first_within(a: Body, b: Body, start: QQ, end: QQ, s: QQ) -> AlgebraicNumber
     if is_within(now, a, b, *tracks(a, b, start), s):
         return now
     for begin, until, p, q in pieces(a, b, start, end):
-        corners = [(v, p[k], p[l]) for v in q for k, l in a.edges]
-        corners += [(v, q[k], q[l]) for v in p for k, l in b.edges]
-        polynomials = [excess_of_vertices(u, v, s) for u, v in product(p, q)]
-        polynomials += [excess_of_line(v, c, d, s) for v, c, d in corners]
-        for time in critical_times(polynomials, begin, until):
+        for time in critical_times(_excesses(a, b, p, q, s), begin, until):
             if is_within(time, a, b, p, q, s):
                 return time
     return None

@@ -6,25 +6,20 @@ polynomials at that time tell, by `fuzz.questions.reference`.
 
 from __future__ import annotations
 
-from itertools import combinations
 from random import Random
 
-from exactpt.kernel.algebraic import AlgebraicNumber, rational_between
-from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
-from exactpt.motion.incidence import orientation
 from exactpt.pairs.approach import first_within
 from exactpt.pairs.distance import distance
 from exactpt.pairs.intervals import contact_intervals
 from exactpt.pairs.surroundings import clearance
 from exactpt.scene.scene import Scene
 from fuzz.questions import reference
-from fuzz.questions.reference import Interval, Tracks
 from fuzz.questions.tiny import pair_scene
 from fuzz.rings import parts_of
 
-__all__ = ["intervals_within", "rounded_pair", "wrong_answer"]
+__all__ = ["rounded_pair", "wrong_answer"]
 
 
 def rounded_pair(random: Random) -> Scene:
@@ -52,55 +47,13 @@ def rounded_pair(random: Random) -> Scene:
     return Scene(bodies, (scene.start, scene.end))
 
 
-def intervals_within(a: Body, b: Body, start: QQ, end: QQ, squared: QQ) -> list[Interval]:
-    """The maximal closed intervals in which two cores are within a distance, by its square."""
-    last = AlgebraicNumber(start)
-    begin = reference.is_within(last, a, b, *reference.tracks(a, b, start), squared)
-    states: list[tuple[AlgebraicNumber | None, bool]] = [(last, begin)]
-    for since, until, p, q in reference.pieces(a, b, start, end):
-        for time in reference.critical_times(_critical(a, b, p, q, squared), since, until):
-            between = AlgebraicNumber(rational_between(last, time))
-            states.append((None, reference.is_within(between, a, b, p, q, squared)))
-            states.append((time, reference.is_within(time, a, b, p, q, squared)))
-            last = time
-    return _maximal(states)
-
-
-def _critical(a: Body, b: Body, p: Tracks, q: Tracks, squared: QQ) -> list[IntPoly]:
-    """Polynomials at whose roots alone the answer may change."""
-    corners = [(v, p[k], p[l]) for v in q for k, l in a.edges]
-    corners += [(v, q[k], q[l]) for v in p for k, l in b.edges]
-    found = [reference.excess_of_vertices(u, v, squared) for u in p for v in q]
-    for v, c, d in corners:
-        found.append(reference.excess_of_line(v, c, d, squared))
-        found.append(reference.dot(reference.gap(c, d), reference.gap(c, v)))
-        found.append(reference.dot(reference.gap(d, c), reference.gap(d, v)))
-    return found + [orientation(*three) for three in combinations([*p, *q], 3)]
-
-
-def _maximal(states: list[tuple[AlgebraicNumber | None, bool]]) -> list[Interval]:
-    """The intervals, of states at times and (None) between them."""
-    found: list[Interval] = []
-    since: AlgebraicNumber | None = None
-    last: AlgebraicNumber | None = None
-    for time, within in states:
-        if time is not None and within:
-            since, last = since or time, time
-        elif time is None and not within and since is not None and last is not None:
-            found.append((since, last))
-            since = None
-    if since is not None and last is not None:
-        found.append((since, last))
-    return found
-
-
 def wrong_answer(random: Random, scene: Scene) -> str | None:
     """What is not as defined about a rounded pair; None if all is."""
     a, b = scene.bodies
     start, end = scene._start, scene._end
     reach = a._radius + b._radius
     found = [(i.start, i.end) for i in contact_intervals(scene, a.name, b.name)]
-    expected = intervals_within(a, b, start, end, reach**2)
+    expected = reference.intervals_within(a, b, start, end, reach**2)
     if found != expected:
         return f"intervals {found}, not {expected}"
     d = QQ(random.choice([0, 1, 2]), random.choice([1, 3]))

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Sequence
-from itertools import accumulate
 from typing import NamedTuple
 
-import numpy as np
-
-from exactpt.arrays import KINDS, Contacts, first_contacts
+from exactpt.arrays import KINDS, Contacts
 from exactpt.arrays.spans import exact
-from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
+from exactpt.testing import truth
+from exactpt.testing.questions import Question
 from fuzz.limits import TooSlow, limit
 
 __all__ = ["ARRAYS", "Verdict", "suits", "verdicts"]
@@ -27,9 +25,6 @@ PATIENCE = 20.0
 
 WIDEST = 2.0**-40
 """Maximum width of the enclosure of a time."""
-
-Coefficients = tuple[list[float], list[float]]
-"""Of a translation in x and in y, constant first."""
 
 
 class Verdict(NamedTuple):
@@ -59,7 +54,7 @@ def verdicts(scenes: Sequence[Scene], expected: Sequence[Contact | None]) -> lis
     began = clock.process_time()
     try:
         with limit(PATIENCE):
-            contacts = _ask(scenes)
+            contacts = truth.contacts_of([Question.from_scene(scene) for scene in scenes])
             faults = [
                 _fault(scene, contacts, k, contact)
                 for k, (scene, contact) in enumerate(zip(scenes, expected, strict=True))
@@ -71,39 +66,6 @@ def verdicts(scenes: Sequence[Scene], expected: Sequence[Contact | None]) -> lis
         return [verdict for one in pairs for verdict in verdicts([one[0]], [one[1]])]
     share = (clock.process_time() - began) / max(1, len(scenes))
     return [Verdict(share, fault) for fault in faults]
-
-
-def _ask(scenes: Sequence[Scene]) -> Contacts:
-    """The first contacts of the two bodies of each scene."""
-    bodies = [body for scene in scenes for body in scene.bodies]
-    motions = [_coefficients(body) for body in bodies]
-    width = max(1, *(len(f) for motion in motions for f in motion))
-    return first_contacts(
-        [[_double(f._at(QQ(0))) for f in vertex] for body in bodies for vertex in body.vertices],
-        [0, *accumulate(body.size for body in bodies)],
-        np.arange(len(bodies)).reshape(-1, 2),
-        coefficients=[[[*f, *[0.0] * (width - len(f))] for f in motion] for motion in motions],
-        closed=[body.closed for body in bodies],
-        time=[[_double(scene._start), _double(scene._end)] for scene in scenes],
-    )
-
-
-def _coefficients(body: Body) -> Coefficients:
-    assert isinstance(body.motion, Translation)  # noqa: S101 - `suits`
-    x, y = (list(map(_double, f._coefficients)) for f in (body.motion.x, body.motion.y))
-    return x, y
-
-
-def _double(value: QQ) -> float:
-    """A number of the scope, which is a double.
-
-    Raises:
-        ValueError: if it is not.
-    """
-    near = float(value)
-    if exact(near) != value:
-        raise ValueError(f"not a double: {value}")
-    return near
 
 
 def _fault(scene: Scene, contacts: Contacts, k: int, expected: Contact | None) -> str | None:

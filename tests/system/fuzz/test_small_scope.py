@@ -25,7 +25,7 @@ from exactpt.scene.written import to_json
 from fuzz import corpus
 from fuzz.campaign import Item, Progress, campaign
 from fuzz.planted import PLANTED
-from fuzz.small_scope import by_arrays, tally
+from fuzz.small_scope import tally
 from fuzz.small_scope.by_arrays import ARRAYS, suits, verdicts
 from fuzz.small_scope.command import small_scope
 from fuzz.small_scope.look import AFTER_START, look, looks
@@ -418,7 +418,7 @@ def _wrong(attribute, value):
     ],
 )
 def test_a_wrong_answer_of_arrays_is_found(monkeypatch, attribute, value, fault):
-    monkeypatch.setattr(by_arrays, "first_contacts", _wrong(attribute, value))
+    monkeypatch.setattr("exactpt.testing.truth.first_contacts", _wrong(attribute, value))
 
     told = [
         answer.fault
@@ -437,7 +437,7 @@ def test_a_call_that_fails_is_asked_scene_by_scene(monkeypatch):
             raise ZeroDivisionError
         return first_contacts(vertices, *args, **options)
 
-    monkeypatch.setattr(by_arrays, "first_contacts", ask)
+    monkeypatch.setattr("exactpt.testing.truth.first_contacts", ask)
     scenes = [s.scene for s in map(planned, range(200)) if suits(s.scene)]
 
     told = verdicts(scenes, [first_contact_allpairs(scene) for scene in scenes])
