@@ -11,6 +11,7 @@ from exactpt.exchange.instants import to_datetime
 from exactpt.exchange.shapes import shape_at
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import shorten
+from exactpt.pairs.clearance import CloseInterval
 from exactpt.pairs.contact import Contact
 from exactpt.pairs.intervals import ContactInterval
 from exactpt.scene.scene import Scene
@@ -20,7 +21,7 @@ __all__ = ["to_features"]
 
 def to_features(
     scene: Scene,
-    answers: Iterable[ContactInterval | Contact],
+    answers: Iterable[ContactInterval | CloseInterval | Contact],
     *,
     geometry: Literal["a", "b"] = "a",
     dates: bool = False,
@@ -36,7 +37,7 @@ def to_features(
 
     Args:
         scene: the scene of the answers.
-        answers: intervals of contact, contacts, or both.
+        answers: intervals of contact, or of a distance (`Clearance.below`), and contacts.
         geometry: the body whose geometry an interval gets.
         dates: whether times are seconds since 1970-01-01T00:00:00Z, and become texts of dates,
             rounded to microseconds.
@@ -59,7 +60,7 @@ def to_features(
         features.append({"type": "Feature", "properties": properties, "geometry": shown})
 
     for answer in answers:
-        if isinstance(answer, ContactInterval):
+        if isinstance(answer, (ContactInterval, CloseInterval)):
             shape = shape_at(scene.body(answer.a if geometry == "a" else answer.b), answer.start)
             times = {"start": written(answer.start), "end": written(answer.end)}
             add(answer.a, answer.b, geometry_of(shape), times)

@@ -54,24 +54,9 @@ def draw(
 ) -> None:
     """Draw a scene into a file, as a picture, an animation or a film by the suffix of the file.
 
-    Args:
-        scene: the bodies, their motions and the time span.
-        path: the file, with a suffix in `ENDINGS`; it is complete or not there.
-        at: the time, by default the start; an animation shows that time first.
-        tiling: the name of the tiling, or "auto"; None for bodies without a tiling.
-        theme: "light", "dark" or "auto" (the reader's preference; PNG, films: light).
-        gap: names of two bodies, whose distance over time is plotted beside the animation; a
-            picture is of this plot alone.
-        below: a distance that is marked in the plot.
-        legend: whether a picture has the names of bodies beside it, and a scale bar.
-        poses: number of poses of each moving body, at equal distances in time, that a picture
-            shows faintly, with the path of its middle; 0 for none.
-        seconds: the length of a film.
-        fps: frames of a film in a second.
-        max_events: see `Simulation`.
-        max_seconds: see `Simulation`.
-        reached: called with the times that the run of an animation reaches.
-        done: called with the number of frames of a film that are drawn, and of all.
+    The arguments are those of `Scene.draw`; ``max_events`` and ``max_seconds`` are those of
+    `Simulation`, ``reached`` is called with the times that the run of an animation reaches, and
+    ``done`` with the number of frames of a film that are drawn, and of all.
 
     Raises:
         InputError: if the suffix is not in `ENDINGS`, there is no contact to draw, or there are

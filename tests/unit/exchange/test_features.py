@@ -93,6 +93,8 @@ def test_answers_as_features():
     assert dated["features"][0]["properties"]["start"] == "1970-01-01T00:00:02.449490Z"
     assert dated["features"][0]["geometry"]["type"] == "Polygon"
 
+    (near,) = exactpt.to_features(scene, exactpt.clearance(scene, "ship").below(1))["features"]
+    assert near["properties"]["start"] == 2.0
     contact = exactpt.first_contact(scene)
     (touch,) = exactpt.to_features(scene, [contact])["features"]
     assert touch["geometry"] == {"type": "Point", "coordinates": [3.0, 0.0]}
