@@ -222,6 +222,16 @@ def _fragments(n: int) -> Ask:
     return _first(bodies)
 
 
+def _explosion(n: int) -> Ask:
+    """Bodies that fly apart at one speed for a long time: their swept boxes overlap."""
+    bodies = []
+    for i in range(n):
+        a, r = 2.0 * math.pi * i / n, n / 3.0
+        motion = Translation([0, math.cos(a)], [0, math.sin(a)])
+        bodies.append(Body(f"f{i}", _ngon(5, r * math.cos(a), r * math.sin(a), 0.3), motion))
+    return _first(bodies, 10**6)
+
+
 def _planks(degrees: float, n: int) -> Ask:
     """Long thin bodies side by side, along a direction."""
     random, a = Random("planks"), math.radians(degrees)
@@ -266,12 +276,17 @@ def _far(bodies: int) -> Ask:
     return _first(made)
 
 
-def _plate(holes: int) -> Ask:
+def _plate(holes: int, *, filled: bool = False) -> Ask:
+    """A plate with holes; its first contact with a ball in each, or the scene alone."""
     side = math.isqrt(holes - 1) + 1
     centres = [(2 * (i % side) + 1, 2 * (i // side) + 1) for i in range(holes)]
     rings = [_ngon(6, x, y, 0.8) for x, y in centres]
     w = 2 * side
     outline = [(0, 0), (w, 0), (w, w), (0, w)]
+    if filled:
+        rolling = Translation([0, "1/100"])
+        balls = [Body(f"b{i}", _ngon(4, x, y, 0.3), rolling) for i, (x, y) in enumerate(centres)]
+        return _first([Body("plate", outline, holes=rings), *balls])
     return lambda: Scene([Body("plate", outline, holes=rings)], time=(0, 1))
 
 
@@ -346,7 +361,7 @@ FAMILIES: Final[dict[str, Family]] = {
     "locate_many": Family(_locate_many, 2000),
     "ray_cast": Family(_rays, 100),
     "shortest_path": Family(_shortest_path, 60, 1.5),
-    "clearance, translating": Family(_clearance_translating, 30),
+    "clearance, translating": Family(_clearance_translating, 60),
     "clearance, turning": Family(_clearance_turning, 6),
     "clearance to all others": Family(_clearance_to_all, 100),
     "distance": Family(_distance, 60, 2.0),
@@ -355,9 +370,11 @@ FAMILIES: Final[dict[str, Family]] = {
     "contacts of a crowd": Family(partial(_of_crowd, contacts, 0.1, 1.0), 60),
     "first_within of a crowd": Family(partial(_of_crowd, _within, 0.06, 1.0), 1000),
     "first_contact, fragments": Family(_fragments, 250),
+    "first_contact, explosion": Family(_explosion, 250),
+    "first_contact, plate with balls": Family(partial(_plate, filled=True), 100),
     "first_contact, planks at 45 degrees": Family(partial(_planks, 45.0), 200),
     "first_contact, planks at 20 degrees": Family(partial(_planks, 20.0), 200),
-    "first_contact, waypoints": Family(_waypoints, 60),
+    "first_contact, waypoints": Family(_waypoints, 250),
     "first_contact, keyframes": Family(_keyframes, 60),
     "first_contact, far": Family(_far, 250),
     "first_contact, spinners": Family(_spinners, 4),
@@ -365,7 +382,7 @@ FAMILIES: Final[dict[str, Family]] = {
     "PosePath": Family(_pose_paths, 8),
     "Scene, plate with holes": Family(_plate, 100),
     "Scene, comb": Family(_comb, 4000),
-    "Scene, gear": Family(_big_gear, 1500),
+    "Scene, gear": Family(_big_gear, 2500),
     "Scene, bodies": Family(lambda n: lambda: Scene(_crowd(n), time=(0, 1)), 2000),
     "Scene.to_json": Family(
         lambda n: partial(json.dumps, Scene(_crowd(n), time=(0, 1)).to_json()), 2000
@@ -373,5 +390,5 @@ FAMILIES: Final[dict[str, Family]] = {
     "Planner": Family(_plans, 100),
     "Simulation, all events": Family(_events, 60, 1.5),
     "prove": Family(partial(_of_crowd, prove, 0.06, 1.0), 60),
-    "draw, HTML": Family(_drawing, 60, 1.5),
+    "draw, HTML": Family(_drawing, 120, 1.5),
 }  # fmt: skip
