@@ -105,8 +105,11 @@ class Certifier:
         Args:
             time: of the event; its vertices still have the motions that lead up to it.
         """
-        vertices = self._numbered(time) if time.exact is None else ()
-        return Moment(time, vertices, self._vertices.frame)
+        if time.exact is not None:
+            return Moment(time, (), self._vertices.frame)
+        ids = (time.a, time.b) if time.c == X_ORDER else (time.a, time.b, time.c)
+        stages = tuple([(self.all[v].moving.stage, self.all[v].index) for v in ids])
+        return Moment(time, stages, self._vertices.frame)
 
     def resolve(self, time: EventTime) -> AlgebraicNumber:
         """The exact time of an event; its enclosure is narrowed as far as doubles allow."""

@@ -15,6 +15,7 @@ from exactpt.motion.incidence import difference, orientation
 if TYPE_CHECKING:
     from exactpt.motion.course import Piece
     from exactpt.motion.frame import Frame
+    from exactpt.motion.vertex import Stage
 
 __all__ = ["Moment", "Numbered", "exact_time"]
 
@@ -32,20 +33,26 @@ class Moment:
 
     Args:
         time: the time.
-        vertices: those whose function vanishes then, as in `exact_time`. None are needed if the
-            exact time is known.
+        vertices: those whose function vanishes then: the stage of the body, and the number in the
+            scene. None are needed if the exact time is known.
         frame: the normalisation of the enclosure.
     """
 
-    def __init__(self, time: EventTime, vertices: tuple[Numbered, ...], frame: Frame) -> None:
+    def __init__(
+        self, time: EventTime, vertices: tuple[tuple[Stage, int], ...], frame: Frame
+    ) -> None:
         self._time: EventTime = time
-        self._vertices: tuple[Numbered, ...] = vertices
+        self._vertices: tuple[tuple[Stage, int], ...] = vertices
         self._frame: Frame = frame
 
     @property
     def number(self) -> AlgebraicNumber:
         """The exact time."""
-        return self._time.exact or exact_time(self._time, self._vertices, self._frame)
+        exact = self._time.exact
+        if exact is None:
+            vertices = tuple([(stage.piece, vertex) for stage, vertex in self._vertices])
+            exact = exact_time(self._time, vertices, self._frame)
+        return exact
 
 
 def exact_time(time: EventTime, vertices: tuple[Numbered, ...], frame: Frame) -> AlgebraicNumber:

@@ -21,7 +21,41 @@ if TYPE_CHECKING:
     from exactpt.motion.infinitesimal import Direction
     from exactpt.motion.track import Track
 
-__all__ = ["MovingBody", "Vertex", "unused"]
+__all__ = ["MovingBody", "Stage", "Vertex", "unused"]
+
+
+_START: Final = QQ(0)
+
+
+@final
+@mypyc_attr(acyclic=True)
+class Stage:
+    """The motion of a body by one formula; made when it is first needed.
+
+    Args:
+        bodies: a sequence with the body.
+        number: its position there.
+        since: the rational time at which it enters the piece.
+        made: the piece, if it is known.
+    """
+
+    __slots__ = ("_bodies", "_made", "_number", "_since")
+
+    def __init__(
+        self, bodies: Sequence[Body], number: int, since: QQ, made: Piece | None = None
+    ) -> None:
+        self._bodies: Sequence[Body] = bodies
+        self._number: int = number
+        self._since: QQ = since
+        self._made: Piece | None = made
+
+    @property
+    def piece(self) -> Piece:
+        """The piece of motion."""
+        piece = self._made
+        if piece is None:
+            piece = self._made = self._bodies[self._number]._piece_after(self._since)
+        return piece
 
 
 @final
@@ -46,13 +80,14 @@ class MovingBody:
         is_polygon: whether it has an interior and one ring.
         is_tiled: whether its interior is tiled: it deforms at some time, has a diagonal,
             and is not known to stay convex.
+        stage: its current piece of motion.
         since: the rational time at which it entered the piece.
         enclosures: what makes its enclosures.
     """
 
     __slots__ = (
-        "_bodies", "_body", "_images", "_number", "_piece", "deforms", "enclosures", "is_polygon",
-        "is_tiled", "name", "ring", "since", "until",
+        "_bodies", "_body", "_images", "_number", "deforms", "enclosures", "is_polygon", "is_tiled",
+        "name", "ring", "since", "stage", "until",
     )  # fmt: skip
 
     def __init__(self, bodies: Sequence[Body], number: int, name: str) -> None:
@@ -66,8 +101,8 @@ class MovingBody:
         self.is_polygon: bool = False
         self.is_tiled: bool = False
         self.enclosures: Enclosures | None = None
+        self.stage: Stage = Stage(bodies, number, _START)
         self._body: Body | None = None
-        self._piece: Piece | None = None
         self._images: list[Image] | None = None
 
     @property
@@ -81,10 +116,7 @@ class MovingBody:
     @property
     def piece(self) -> Piece:
         """The motion of the body until its next breakpoint."""
-        piece = self._piece
-        if piece is None:
-            piece = self._piece = self.body._piece_after(self.since)
-        return piece
+        return self.stage.piece
 
     @property
     def images(self) -> list[Image]:
@@ -100,10 +132,15 @@ class MovingBody:
         """Be another body of the same name from now on; `enter` must follow."""
         self._body = body
 
+    def begin(self, t: QQ) -> None:
+        """Enter the only piece of motion at the start, without making it."""
+        self.since, self.stage = t, Stage(self._bodies, self._number, t)
+
     def enter(self, t: QQ) -> Piece:
         """Enter the piece of motion just after a rational time."""
+        piece = self.body._piece_after(t)
         self.since, self._images = t, None
-        self._piece = piece = self.body._piece_after(t)
+        self.stage = Stage(self._bodies, self._number, t, piece)
         self.until = piece.until
         return piece
 
@@ -113,7 +150,6 @@ class MovingBody:
         return rings_of(self.body, self.ring)
 
 
-_START: Final = QQ(0)
 _NO_IMAGE: Final = Image([0.0], [0.0], [], -1)
 _NO_BODY: Final = MovingBody((), 0, "")
 

@@ -144,7 +144,8 @@ class Vertices:
                 ask()
             name = bodies[i].name if name_of is None else name_of(i)
             moving = MovingBody(bodies, i, name)
-            moving.since, moving.is_polygon, moving.enclosures = start, True, self.enclosures
+            moving.begin(start)
+            moving.is_polygon, moving.enclosures = True, self.enclosures
             self.bodies.append(moving)
             last: i64 = first + size - 1
             for v in range(first, last + 1):

@@ -1,6 +1,7 @@
 """Starts in arrays: the same tilings, certificates and counts as one by one."""
 
 from fractions import Fraction
+from itertools import islice
 from random import Random
 
 import numpy as np
@@ -156,8 +157,10 @@ def test_starts_from_arrays_make_no_bodies(seed, tiling):
     assert len(arrays.bodies._made) < 10
     assert of_arrays == state_after_start(scene, tiling)
     simulation = Simulation(arrays, tiling=tiling)
+    events = list(islice(simulation.run(), 15))
     assert simulation.contact is None
     assert len(arrays.bodies._made) < 10
+    assert [event.time for event in events] == sorted(event.time for event in events)
     runs = [
         [event.to_json() for event in Simulation(s, tiling=tiling).run()] for s in (scene, arrays)
     ]
