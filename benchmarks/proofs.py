@@ -1,23 +1,29 @@
 """Proofs of first contacts: their size, and what it costs to write and to check them.
 
 Beside the run alone, which the checker in C++ should not exceed. Processor time throughout; the
-checker in C++ is a process of its own. Both checkers must accept every proof.
+checker in C++ is a process of its own. Both checkers must accept every proof. A second table has
+the shares of the steps of docs/proofs.md in the time of the checker in Python.
 """
 
 from __future__ import annotations
 
 import os
+import time
+from collections import defaultdict
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
+from unittest.mock import patch
 
 from benchmarks.methods.own import fresh
 from benchmarks.output import Output, Row
 from benchmarks.point_scenes import random_linear
 from benchmarks.shapes import combs, crowd, deforming, tangle, thin_and_fast
 from benchmarks.timing import timed
+from exactpt import proof_check
 from exactpt.cgal import check_proof, find_program
 from exactpt.collision.detector import first_contact
 from exactpt.errors import AuditError, InputError
@@ -42,6 +48,21 @@ class Sizes(NamedTuple):
     deforming: int
 
 
+STEPS: Final[dict[str, list[tuple[object, str]]]] = {
+    "reading": [(proof_check, "read"), (proof_check, "Scene")],
+    "1 scene": [(proof_check.Checker, "read_body")],
+    "2 map": [
+        *((proof_check.PlanarMap, name) for name in ("begin", "change", "make_faces")),
+        (proof_check.Checker, "check_insides"),
+    ],
+    "3 lives": [(proof_check.Checker, "end_lives")],
+    "4, 5 faces": [(proof_check.Checker, "look_at")],
+    "6 clusters": [(proof_check.Checker, "check_clusters")],
+    "7 times": [(proof_check.Checker, "read_time"), (proof_check, "between")],
+    "8 contact": [(proof_check.Checker, "check_contact"), (proof_check.Checker, "proved")],
+}
+"""The functions of the checker in Python that do the steps of docs/proofs.md."""
+
 QUICK: Final = Sizes(50, 64, 16)
 FULL: Final = Sizes(1000, 1024, 256)
 
@@ -49,10 +70,15 @@ FULL: Final = Sizes(1000, 1024, 256)
 def run(output: Output, sizes: Sizes, seed: int) -> None:
     """Prove and check a scene of each kind."""
     rows: list[Row] = []
+    steps: list[Row] = []
     for name, (tiling, make) in _scenes(sizes).items():
         output.progress(name)
-        rows.append({"scene": name, **_row(make(Random(f"proofs:{name}:{seed}")), tiling)})
+        scene = make(Random(f"proofs:{name}:{seed}"))
+        proof = prove(fresh(scene), tiling=tiling)
+        rows.append({"scene": name, **_row(scene, tiling, proof)})
+        steps.append({"scene": name, **_shares(proof)})
     output.table("proofs", rows)
+    output.table("proof-steps", steps)
 
 
 def _scenes(sizes: Sizes) -> dict[str, tuple[str, Callable[[Random], Scene]]]:
@@ -69,10 +95,10 @@ def _scenes(sizes: Sizes) -> dict[str, tuple[str, Callable[[Random], Scene]]]:
     }
 
 
-def _row(scene: Scene, tiling: str) -> Row:
+def _row(scene: Scene, tiling: str, proof: Proof) -> Row:
     first_contact(Scene([]), tiling=tiling)  # imports on first use are not timed
     _, alone = timed(lambda: first_contact(fresh(scene), tiling=tiling))
-    proof, proving = timed(lambda: prove(fresh(scene), tiling=tiling))
+    _, proving = timed(lambda: prove(fresh(scene), tiling=tiling))
     events = [line for line in proof.text.splitlines() if line.startswith(b"event ")]
     _, python = timed(proof.check)
     cpp = _in_cpp(proof)
@@ -88,6 +114,39 @@ def _row(scene: Scene, tiling: str) -> Row:
         "C++ : run": None if cpp is None else round(cpp / alone, 2),
         "Python : run": round(python / alone, 1),
     }
+
+
+def _shares(proof: Proof) -> Row:
+    """Return the percentage of the time of each step, without other steps that it calls."""
+    spent, running = defaultdict[str, float](float), ["else"]
+    last = time.process_time()
+
+    def charge() -> None:
+        nonlocal last
+        now = time.process_time()
+        spent[running[-1]] += now - last
+        last = now
+
+    def timing(step: str, function: Callable[..., Any]) -> Callable[..., Any]:
+        def timed_function(*arguments: Any) -> Any:  # noqa: ANN401 - of any function
+            charge()
+            running.append(step)
+            try:
+                return function(*arguments)
+            finally:
+                charge()
+                running.pop()
+
+        return timed_function
+
+    with ExitStack() as changed:
+        for step, functions in STEPS.items():
+            for owner, name in functions:
+                changed.enter_context(patch.object(owner, name, timing(step, getattr(owner, name))))
+        proof_check.check(proof.scene, proof.text)
+    charge()
+    whole = sum(spent.values())
+    return {f"{step} %": round(100 * spent[step] / whole, 1) for step in (*STEPS, "else")}
 
 
 def _in_cpp(proof: Proof) -> float | None:

@@ -192,7 +192,7 @@ class _Certificate:
             ) from None
 
     def _text(self, found: Contact | Approach | None, start: Fraction, end: Fraction) -> bytes:
-        WORK.left = WORK.usual
+        WORK.start(10**18, 0)  # of a checker, not of this search
         last, until = ["none"], end
         if found is not None:
             last, until = self._last(found, start)
