@@ -153,13 +153,18 @@ class Certifier:
         a, b, c = least_first(a, b, c)
         s, low, high = self.filtered_orientation(a, b, c)
         if s == 0:
-            return self.exact_orientation(a, b, c)
+            s, time, _ = self.exact_orientation(a, b, c)
+            return s, time
         return s, None if low == INFINITY else EventTime(low, high, a, b, c)
 
     def exact_orientation(
         self, a: VertexId, b: VertexId, c: VertexId
-    ) -> tuple[int, EventTime | None]:
-        """Return the `orientation` of vertices that the filter has left open."""
+    ) -> tuple[int, EventTime | None, bool]:
+        """Return the `orientation` of vertices that the filter has left open.
+
+        Returns:
+            The sign, the time, and whether it vanishes now (an identical zero does too).
+        """
         return self._exact_orientation(self.all[a], self.all[b], self.all[c])
 
     def filtered_orientation(self, a: VertexId, b: VertexId, c: VertexId) -> Answer:
@@ -299,24 +304,24 @@ class Certifier:
                 until = end
         return until
 
-    def _exact_orientation(self, a: Vertex, b: Vertex, c: Vertex) -> tuple[int, EventTime | None]:
+    def _exact_orientation(
+        self, a: Vertex, b: Vertex, c: Vertex
+    ) -> tuple[int, EventTime | None, bool]:
         f = base_orientation(a.track, b.track, c.track)
         until, now = self._until(a, b, c), self.exact_now
         s = now.sign_of(f) if f else 0
         why = reason(a, b, c, is_zero=s == 0, exact_only=self.exact_only)
         self.counters.count_exact("certificate", why)
+        self.zeros += s == 0
         if f:
-            if s == 0:
-                self.zeros += 1
-                s = now.sign_after(f)
-            return s, self._first_root(f, until, a.id, b.id, c.id)
-        self.zeros += 1
+            after = s or now.sign_after(f)
+            return after, self._first_root(f, until, a.id, b.id, c.id), s == 0
         meeting = self.first_coincidence(a.id, b.id, c.id)
         f = orientation(a, b, c)
         if not f:
-            return 0, meeting
+            return 0, meeting, True
         root = self._first_root(f, until, a.id, b.id, c.id)
-        return now.sign_after(f), earlier(meeting, root)
+        return now.sign_after(f), earlier(meeting, root), True
 
     def _first_root(
         self, f: IntPoly, until: QQ, a: VertexId, b: VertexId, c: VertexId

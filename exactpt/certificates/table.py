@@ -45,23 +45,24 @@ class CertificateTable:
 
     def watch_orientation(
         self, certificate: CertificateId, a: VertexId, b: VertexId, c: VertexId
-    ) -> int:
+    ) -> tuple[int, bool]:
         """Let a certificate fail at the next zero of an orientation.
 
         Returns:
-            The sign just after now, 0 if it is identically zero (`Certifier.orientation`).
+            The sign just after now, 0 if it is identically zero (`Certifier.orientation`); and
+            whether it vanishes now.
         """
-        certifier = self._certifier
+        certifier, vanishes = self._certifier, False
         a, b, c = least_first(a, b, c)
         s, low, high = certifier.filtered_orientation(a, b, c)
         if s == 0:
-            s, time = certifier.exact_orientation(a, b, c)
+            s, time, vanishes = certifier.exact_orientation(a, b, c)
             self.schedule(certificate, time)
         elif low == INFINITY:
             self.pending.cancel(certificate)
         else:
             self.pending.schedule_crossing(certificate, low, high, a, b, c)
-        return s
+        return s, vanishes
 
     def watch_x_order(
         self, certificate: CertificateId, a: VertexId, b: VertexId, *, touching: bool = False

@@ -122,8 +122,12 @@ class CertifiedMesh:
         left: list[HalfEdge] = h[~is_known].tolist()
         return left
 
-    def certify(self, h: HalfEdge) -> None:
-        """Certify the angle of h, or record it as violated just after now."""
+    def certify(self, h: HalfEdge) -> bool:
+        """Certify the angle of h, or record it as violated just after now.
+
+        Returns:
+            Whether it can fail and vanishes now; an angle that the filter decides does not.
+        """
         table = self.table
         if table.angles:
             table.angles.discard(h)
@@ -132,13 +136,14 @@ class CertifiedMesh:
         a, p, b = self.angle(h)
         if self.mesh.region[h] == SOLID or self._cannot_fail(h, a, p, b):
             self._skip(h)
-        else:
-            s = table.watch_orientation(pack(ANGLE, h), a, p, b)
-            if s == 0:
-                table.flat.add(h)
-            if (s > 0) != self.mesh.corner[h]:
-                table.pending.cancel(pack(ANGLE, h))
-                table.angles.add(h)
+            return False
+        s, vanishes = table.watch_orientation(pack(ANGLE, h), a, p, b)
+        if s == 0:
+            table.flat.add(h)
+        if (s > 0) != self.mesh.corner[h]:
+            table.pending.cancel(pack(ANGLE, h))
+            table.angles.add(h)
+        return vanishes
 
     def _skip(self, h: HalfEdge) -> None:
         """Cancel the certificate of an angle that cannot fail; if asked for, check its mark.
@@ -229,12 +234,7 @@ class CertifiedMesh:
         angles: dict[HalfEdge, None] = {}
         for h in self.ring_angles(i):
             angles.update(dict.fromkeys((h, m.following[h], twin(h))))
-        vanishing = []
-        for h in angles:
-            zeros = self.certifier.zeros
-            self.certify(h)
-            if self.certifier.zeros > zeros:
-                vanishing.append(h)
+        vanishing = [h for h in angles if self.certify(h)]
         self.rules.certify_body(i)
         return vanishing
 
