@@ -26,6 +26,7 @@ from exactpt.check import check_run
 from exactpt.collision.comparison import contrast, in_words
 from exactpt.kernel.numbers import QQ
 from exactpt.pairs import two_pieces
+from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.features_sweep import PairsSearch
 from exactpt.pairs.reference import first_contact_allpairs
 from exactpt.proof import prove
@@ -399,3 +400,18 @@ def test_any_two_rounded_bodies_within_a_distance():
         assert found.time == least
     with pytest.raises(InputError, match='norm "max" is for bodies without radius'):
         first_within(scene, distance=1, norm="max")
+
+
+def test_features_that_graze_after_the_contact_are_not_decided_exactly(monkeypatch):
+    """Vertices that pass at the sum of the radii have double roots, later than the contact."""
+    decided = []
+    exactly = FeaturePair.first_time
+    monkeypatch.setattr(
+        FeaturePair, "first_time", lambda self, *given: decided.append(1) or exactly(self, *given)
+    )
+    quarter = Fraction(1, 4)
+    a = Body("a", [(0, 0), (1, 0), (0, 1)], Translation([0, 1]), radius=quarter)
+    b = Body("b", [(6, 0), (7, "1/2"), ("13/2", "3/2")], Translation([0, -1]), radius=quarter)
+
+    assert met(a, b).time == Fraction(9, 4)
+    assert len(decided) <= 4
