@@ -743,10 +743,11 @@ def check(scene_file: bytes, certificate: bytes, work: int | None = None) -> Pro
         head = certificate[:100].decode("ascii", "replace").split("\n")
         many = head[0] == "exactpt-apart-rows 1"
         rows = [] if many else read(certificate)
-        if (f"scenes sha256 {digest}" != head[1]) if many else (rows[1][1][2] != digest):
+        named = head[1:2] == [f"scenes sha256 {digest}"] if many else rows[1][1][2] == digest
+        if not named:
             raise NoProofError("the certificate was made for a different scene: the hashes differ")
         if many:
-            proved = check_rows(text.split("\n")[:-1], certificate.decode().split("\n")[2:-1])
+            proved = check_rows(text.split("\n"), certificate.decode().split("\n")[2:])
         else:
             scene, line = Scene(text), rows[2][0]
             checker = Checker(scene, rows)
@@ -765,6 +766,8 @@ def check(scene_file: bytes, certificate: bytes, work: int | None = None) -> Pro
 
 def check_rows(scenes: list[str], rows: list[str]) -> Proved:
     """Check a certificate of many scenes, a line each, with ; between its lines; or only "open"."""
+    ends = [scenes.pop(), rows.pop()] if scenes and rows else ["no line"]
+    need(ends == ["", ""], "or the certificate: a last line without an end:", ends)
     need(len(scenes) == len(rows), "the numbers of scenes and of rows differ:", len(rows))
     found = dict.fromkeys(("no contact", "first contact", "contact at the start", "open"), 0)
     for k, (scene, row) in enumerate(zip(scenes, rows, strict=True), 1):

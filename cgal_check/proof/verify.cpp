@@ -245,6 +245,8 @@ int verify_rows(const Call& call, const std::string& scene_bytes, const std::str
   if (!call.expected.empty() || call.jobs != 1) throw NoProof(usage);
   std::vector<std::string> scenes = lines_of(scene_bytes), rows = lines_of(bytes);
   const std::string hash = sha256(scene_bytes);
+  if (bytes.back() != '\n' || (!scene_bytes.empty() && scene_bytes.back() != '\n'))
+    throw NoProof("a last line without an end");
   if (rows.size() < 2 || rows[1] != "scenes sha256 " + hash)
     throw NoProof("the certificate was made for a different scene: the hashes differ");
   if (rows.size() != scenes.size() + 2) throw NoProof("the numbers of scenes and of rows differ");

@@ -289,8 +289,9 @@ class Separation:
         low, high = low - wide, high + wide + self._extra * norm
         count = len(items)
         order = np.argsort((low + high).sum(axis=0), axis=0, kind="stable")
-        before = np.maximum.accumulate(np.take_along_axis(high, order[None], 1), axis=1)[:, :-1]
-        after = np.take_along_axis(low, order[None], 1)[:, ::-1]
+        columns = np.arange(len(directions))
+        before = np.maximum.accumulate(high[:, order, columns], axis=1)[:, :-1]
+        after = low[:, order, columns][:, ::-1]
         after = np.minimum.accumulate(after, axis=1)[:, ::-1][:, 1:]
         gap = (after - before).min(axis=0)
         extent = high.max(axis=(0, 1)) - low.min(axis=(0, 1)) + 1e-300

@@ -465,6 +465,14 @@ def test_rows_of_arrays():
     wide = proof._replace(text=b"\n".join([*lines[:2], b"open", *lines[3:]]))
     assert said(wide).endswith("no contact in 1, contact at the start in 1, open in 1")
     assert not wide.check().whole
+    with pytest.raises(check_apart.NoProofError, match="a last line without an end"):
+        check_apart.check(proof.scene, proof.text[:-1])
+    for part in (proof.scene + proof.scene.split(b"\n")[0], proof.scene + b"\n"):
+        digests = [hashlib.sha256(x).hexdigest().encode() for x in (proof.scene, part)]
+        with pytest.raises(check_apart.NoProofError):  # a scene without a row
+            check_apart.check(part, proof.text.replace(*digests))
+    with pytest.raises(check_apart.NoProofError):
+        check_apart.check(b"", b"exactpt-apart-rows 1")
     with pytest.raises(check_apart.NoProofError, match="the numbers of scenes and of rows"):
         check_apart.check(proof.scene, b"\n".join(lines[:-2]) + b"\n")
 
