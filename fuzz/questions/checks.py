@@ -372,21 +372,21 @@ def _scope(random: Random) -> Checked:
 
 
 QUESTIONS: Final[dict[str, Callable[[Random], Checked]]] = {
+    "small-scope": _scope,
+    "flips": _flips,
+    "filters": _filters,
     "distance": _distance,
+    "chosen": _chosen,
+    "restored": _restored,
     "approach": _approach,
     "norms": _norms,
     "intervals": _intervals,
     "after-start": _after_start,
-    "chosen": _chosen,
     "rounded": _rounded,
     "spin": _spin,
     "cgal": _cgal,
     "space": _space,
-    "restored": _restored,
     "runs": _runs,
-    "filters": _filters,
-    "small-scope": _scope,
     "path": _path,
-    "flips": _flips,
 }
-"""A function from random choices to a case, by question."""
+"""A function from random choices to a case, by question; what most mistakes show in is first."""

@@ -1,9 +1,14 @@
-"""Every witness is content with small scenes of every family; more come with every campaign."""
+"""Every witness accepts small scenes of every family, and all scenes of the corpus."""
+
+import json
 
 import pytest
+from folding import every
 
 from exactpt.scene.generate import FAMILIES, POINTS, RINGS, ROUNDED
+from exactpt.scene.scene import Scene
 from exactpt.tiling.start import TILINGS
+from fuzz import corpus
 from fuzz.cases import failure_of
 from fuzz.statics import run_and_audit
 from fuzz.subscene import scene_of
@@ -51,3 +56,20 @@ def test_no_witness_objects_to_more(family, program):
         scene = scene_of(family, seed)
         for witness in WITNESSES:
             assert failure_of(witness, scene, seed) is None
+
+
+FILES = corpus.files()
+BY_CGAL = {"cgal", "proof"}
+ALL = [pytest.param(name, marks=pytest.mark.cgal if name in BY_CGAL else ()) for name in WITNESSES]
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("witness", ALL)
+def test_what_once_failed_does_not(path, witness):
+    assert failure_of(witness, Scene.load(path), patience=20.0) is None
+
+
+@every("path", FILES)
+def test_every_scene_of_the_corpus_has_a_note(path):
+    assert path.with_suffix(".txt").read_text(encoding="utf-8").strip()
+    assert json.loads(path.read_text(encoding="utf-8"))["exactpt"] == 1

@@ -1,14 +1,20 @@
-"""Tables, plots, and peers that are skipped by name."""
+"""Tables, plots, peers that are skipped by name; and the cost of certificates alone."""
 
 import sys
+from itertools import islice
+from random import Random
 
 import pytest
 from bench_help import Results
 
+from benchmarks.floor import CERTIFICATES, floor
 from benchmarks.machine import machine
 from benchmarks.peers import PEERS, is_installed
 from benchmarks.plots import draw_lines, draw_shares, series_of
+from benchmarks.shapes import crowd
 from benchmarks.timing import exponent, memory_of, microseconds, timed
+from exactpt.collision.driver import Driver
+from exactpt.tiling.start import start_tiling
 
 
 def test_a_table_is_written_and_told(tmp_path):
@@ -87,3 +93,28 @@ def test_memory_is_that_of_what_is_kept():
 def test_lines_are_read_out_of_a_table():
     rows = [{"a": "p", "x": 1, "y": 2.5}, {"a": "q", "x": "3", "y": 0}, {"a": "p", "x": 2, "y": 1}]
     assert series_of(rows, "a", "x", "y") == {"p": [(1.0, 2.5), (2.0, 1.0)], "q": []}
+
+
+def test_a_tiling_goes_on_unchanged():
+    scene = crowd(30, Random(1), radius=60, end=100)
+    measured, other = (start_tiling(scene, "lazy", scene._start) for _ in range(2))
+
+    assert floor(measured, 100) > 0
+
+    assert measured.queue.slots() == other.queue.slots()
+    events = [
+        [(e.kind, e.removed, e.added, e.time.low) for e in islice(driver.events(scene.end), 50)]
+        for driver in (Driver(lambda: scene, kinetic) for kinetic in (measured, other))
+    ]
+    assert len(events[0]) == 50
+    assert events[0] == events[1]
+
+
+def test_each_event_computes_its_certificates():
+    scene = crowd(30, Random(2), radius=60, end=100)
+    kinetic = start_tiling(scene, "lazy", scene._start)
+    before = kinetic.certifier.made
+
+    floor(kinetic, 10)
+
+    assert kinetic.certifier.made == before + 10 * CERTIFICATES
