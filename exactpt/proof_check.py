@@ -607,7 +607,7 @@ class Body:
         closed: whether it is a polygon with its inside.
         rings: the numbers of the vertices of each ring, and whether it bounds a hole.
         parts: of each part, the numbers of the vertices of its rings, the outline first.
-        radius: the body is all that is within this distance of what it is without.
+        radius: points within this distance of the rest belong to the body, too.
     """
 
     def __init__(self, data: Json, first: int, start: Fraction) -> None:
