@@ -8,11 +8,11 @@ of a triangle fail together and share one certificate.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Final, final
+from typing import Final, final
 
 import numpy as np
 from librt.vecs import vec
-from mypy_extensions import i64
+from mypy_extensions import i64, mypyc_attr
 
 from exactpt.certificates.certificate import ANGLE, MOTION, SHRINK, pack
 from exactpt.certificates.certifier import Certifier
@@ -29,10 +29,7 @@ from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import SOLID, Mesh
 from exactpt.tiling.simultaneous import Batch
 
-if TYPE_CHECKING:
-    from exactpt.tiling.rules import Rules
-
-__all__ = ["CertifiedMesh"]
+__all__ = ["CertifiedMesh", "Followers"]
 
 MANY: Final = 50
 """Number of angles from which on they are certified in numpy."""
@@ -40,6 +37,23 @@ FEW: Final = 16
 """Number of certificates from one look at the budget to the next."""
 MOST_OF_FIVE: Final[int] = 20
 """Maximum number of angles that `CertifiedMesh.certify_five` certifies."""
+
+
+@mypyc_attr(allow_interpreted_subclasses=True)
+class Followers:
+    """What else is certified of a mesh; its methods do nothing by default, see `Rules`."""
+
+    def certify(self) -> None:
+        """Certify a newly built tiling, except for its angles."""
+
+    def certify_body(self, i: int) -> None:
+        """Certify again what depends on the motion of a body, except for angles."""
+
+    def changed(self, half_edges: list[HalfEdge]) -> None:
+        """Called when the angles of these half-edges have changed."""
+
+    def cancelled(self, h: HalfEdge) -> None:
+        """Called when an edge has been removed: cancel its certificates."""
 
 
 @final
@@ -51,13 +65,13 @@ class CertifiedMesh:
         vertices: the moving vertices.
         certifier: certificates and the current time.
         table: the pending and the violated certificates, and the flat angles.
-        rules: the rules of the tiling, which are told of every change.
+        followers: the rules of the tiling, which receive every change.
         batch: the repairs at the current time.
         checks_rigid: whether angles that cannot fail are checked too: in the midst of repairs
             and after other changes their marks may be wrong.
     """
 
-    rules: Rules
+    followers: Followers
 
     def __init__(self, vertices: Vertices, certifier: Certifier, table: CertificateTable) -> None:
         self.mesh: Mesh = Mesh(0)
@@ -87,7 +101,7 @@ class CertifiedMesh:
                 ask()
             self.certify(h)
         pending = len(self.table.pending)
-        self.rules.certify()
+        self.followers.certify()
         return pending
 
     def _certify_in_arrays(self) -> list[HalfEdge]:
@@ -191,7 +205,7 @@ class CertifiedMesh:
                     todo[fourth] = None
         for h in todo:
             self.certify(h)
-        self.rules.changed(half_edges)
+        self.followers.changed(half_edges)
 
     def certify_five(
         self, h0: HalfEdge, h1: HalfEdge, h2: HalfEdge, h3: HalfEdge, h4: HalfEdge
@@ -235,7 +249,7 @@ class CertifiedMesh:
         for h in self.ring_angles(i):
             angles.update(dict.fromkeys((h, m.following[h], twin(h))))
         vanishing = [h for h in angles if self.certify(h)]
-        self.rules.certify_body(i)
+        self.followers.certify_body(i)
         return vanishing
 
     def certify_again(self, half_edges: Iterable[HalfEdge]) -> None:
@@ -251,7 +265,7 @@ class CertifiedMesh:
             table.pending.cancel(pack(ANGLE, g))
             table.angles.discard(g)
             table.flat.discard(g)
-        self.rules.cancelled(h)
+        self.followers.cancelled(h)
 
     # Angles
 

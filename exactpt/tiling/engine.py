@@ -64,7 +64,7 @@ class Engine(Tiling):
         super().__init__(entry, vertices, certifier, stats)
         self.certified: CertifiedMesh = CertifiedMesh(vertices, certifier, self.table)
         self.rules: Rules = rules(self.certified, self.log)
-        self.certified.rules = self.rules
+        self.certified.followers = self.rules
         self.repairs: Repairs = Repairs(self.certified, self.rules, self.log)
         self._isolated: IsolatedEvents | None = None
         if rules.slides_are_plain and not certifier.exact_only:
@@ -258,12 +258,14 @@ class Engine(Tiling):
         self._begin_change(t)
         i = self.vertices.add(body, t)
         certify_piece(self.clock, self.vertices.bodies[i], i)
-        return self._end_change(was_possible=add_ring(self.certified, self.log, i, zone))
+        return self._end_change(
+            was_possible=add_ring(self.certified, self.rules, self.log, i, zone)
+        )
 
     def remove_body(self, i: int, t: QQ) -> list[TilingEvent] | None:
         """See `Tiling.remove_body`."""
         self._begin_change(t)
-        was_possible = remove_ring(self.certified, self.log, i)
+        was_possible = remove_ring(self.certified, self.rules, self.log, i)
         last = len(self.vertices.bodies) - 1
         for kind in (MOTION, SHRINK):
             self.table.move(pack(kind, last), pack(kind, i))

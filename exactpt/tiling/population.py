@@ -18,15 +18,17 @@ from exactpt.pseudotriangulation.inside import tile_inside
 from exactpt.pseudotriangulation.region import Region
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.events import Log
+from exactpt.tiling.rules import Rules
 
 __all__ = ["add_ring", "remove_ring"]
 
 
-def add_ring(certified: CertifiedMesh, log: Log, i: int, zone: ConflictZone) -> bool:
+def add_ring(certified: CertifiedMesh, rules: Rules, log: Log, i: int, zone: ConflictZone) -> bool:
     """Insert the ring of a new body into a tiling, and certify the new angles.
 
     Args:
         certified: the tiling; its moving vertices include those of the body.
+        rules: the rules of the tiling.
         log: the record of events.
         i: the number of the body.
         zone: its conflict zone.
@@ -35,26 +37,26 @@ def add_ring(certified: CertifiedMesh, log: Log, i: int, zone: ConflictZone) -> 
         Whether the region could be tiled; otherwise the tiling must be rebuilt.
     """
     moving = certified.vertices.bodies[i]
-    region = certified.rules.region_of_insertion(zone)
+    region = rules.region_of_insertion(zone)
     region.add_ring(certified.vertices, moving)
     if not _retile(certified, log, region):
         return False
     if moving.is_tiled:
         tile_inside(certified.mesh, certified.mesh.ring_edge[moving.ring[0]], certified.after())
         certified.recertify(certified.ring_angles(i))
-    certified.rules.enter(i)
+    rules.enter(i)
     return True
 
 
-def remove_ring(certified: CertifiedMesh, log: Log, i: int) -> bool:
+def remove_ring(certified: CertifiedMesh, rules: Rules, log: Log, i: int) -> bool:
     """Remove the ring of a body, and certify the new angles; returns as `add_ring`."""
     ring = certified.vertices.bodies[i].ring
-    region = certified.rules.region_of_removal(i)
+    region = rules.region_of_removal(i)
     for v in ring:
         certified.mesh.ring_edge[v] = NO_HALF_EDGE
     if not _retile(certified, log, region):
         return False
-    certified.rules.leave(i)
+    rules.leave(i)
     return True
 
 

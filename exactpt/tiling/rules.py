@@ -19,6 +19,7 @@ from exactpt.pseudotriangulation.audit import audit_angles
 from exactpt.pseudotriangulation.degenerate import close_at
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.pseudotriangulation.region import Region
+from exactpt.tiling.angles import CertifiedMesh, Followers
 
 if TYPE_CHECKING:
     from exactpt.certificates.at_time import PredicatesAt
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
     from exactpt.motion.body import Body
     from exactpt.motion.vertices import Vertices
     from exactpt.pseudotriangulation.conflict_zone import ConflictZone
-    from exactpt.tiling.angles import CertifiedMesh
     from exactpt.tiling.events import Log
     from exactpt.tiling.tiling import State
 
@@ -34,7 +34,7 @@ __all__ = ["Rules"]
 
 
 @mypyc_attr(allow_interpreted_subclasses=True)
-class Rules(ABC):
+class Rules(Followers, ABC):
     """The rules of a tiling; only `build` is required, the other methods do nothing by default.
 
     Call `build` of the class, ``type(rules).build``: compiled code that calls a static method of
@@ -100,18 +100,6 @@ class Rules(ABC):
         """Restore the data besides the mesh, from a saved state and from the mesh."""
 
     # Certificates
-
-    def certify(self) -> None:
-        """Certify a newly built tiling, except for its angles."""
-
-    def certify_body(self, i: int) -> None:
-        """Certify again what depends on the motion of a body, except for angles."""
-
-    def changed(self, half_edges: list[HalfEdge]) -> None:
-        """Called when the angles of these half-edges have changed."""
-
-    def cancelled(self, h: HalfEdge) -> None:
-        """Called when an edge has been removed: cancel its certificates."""
 
     def failed(self, certificates: list[CertificateId]) -> None:
         """Called at every event with the failed certificates, except for angles and bodies."""
