@@ -10,9 +10,10 @@ from typing import Final
 from librt.vecs import append, vec
 from mypy_extensions import i32, i64
 
+from exactpt.certificates.certificate import KIND_COUNT
 from exactpt.kernel.rounding import INFINITY
 
-__all__ = ["ROWS", "Calendar"]
+__all__ = ["Calendar"]
 
 
 DAYS: Final[int] = 1000
@@ -21,13 +22,12 @@ DAYS: Final[int] = 1000
 SAMPLE: Final[int] = 64
 """Number of events that determine the reach of a calendar."""
 
-ROWS: Final[int] = 16
-"""Number of rows of slots: certificates of one kind (`exactpt.certificates.certificate`) have
-slots in one row, neighbouring parts side by side; the row of an unused kind is empty."""
-
 
 class Calendar:
     """Enclosures of pending events, at most one in each slot; the first is on top of a heap.
+
+    Certificates of one kind (`exactpt.certificates.certificate`) have slots in one row,
+    neighbouring parts side by side; the row of an unused kind is empty.
 
     Days are intervals of time of equal length. Most certificates are cancelled long before they
     fail. So an event is only noted by its slot in the list of its day, and the events that are
@@ -41,8 +41,8 @@ class Calendar:
 
     def __init__(self) -> None:
         # The enclosure (low, high) of part p of row k is at 2 p and 2 p + 1 in _spans[k]; low is
-        # infinite if nothing is pending in the slot, ROWS p + k.
-        self._spans: vec[vec[float]] = vec[vec[float]]([vec[float]() for _ in range(ROWS)])
+        # infinite if nothing is pending in the slot, KIND_COUNT p + k.
+        self._spans: vec[vec[float]] = vec[vec[float]]([vec[float]() for _ in range(KIND_COUNT)])
         self._count: i64 = 0
         self._heap_low: vec[float] = vec[float]()
         self._heap_slot: vec[i64] = vec[i64]()
@@ -61,7 +61,7 @@ class Calendar:
 
     def _put(self, slot: i64, low: float, high: float) -> None:
         """Make [low, high] the enclosure of a slot, and note it; low must be less than infinity."""
-        row, at = slot % ROWS, 2 * (slot // ROWS)
+        row, at = slot % KIND_COUNT, 2 * (slot // KIND_COUNT)
         span = self._spans[row]
         if at >= len(span):
             span = _extended(span, at + 2 * (at // 8) + 2)
@@ -149,7 +149,7 @@ class Calendar:
         reach = -INFINITY
         if self._heap_size:
             top = self._heap_slot[0]
-            reach = self._spans[top % ROWS][2 * (top // ROWS) + 1]
+            reach = self._spans[top % KIND_COUNT][2 * (top // KIND_COUNT) + 1]
         least, furthest = self._sampled()
         days: i64 = min(self._count // 8, DAYS) + 1
         span = max(reach, furthest) - least
@@ -159,12 +159,12 @@ class Calendar:
         self._days, self._day = days, vec[i32]([-1] * days)
         self._heap_size = self._note_size = 0
         self._next_day, self._notes, self._has_more = 0.0, 0, False
-        for row in range(ROWS):
+        for row in range(KIND_COUNT):
             lows = self._spans[row]
             for at in range(0, len(lows), 2):  # most slots are empty
                 low = lows[at]
                 if low != INFINITY:
-                    self._note(ROWS * (at >> 1) + row, low)
+                    self._note(KIND_COUNT * (at >> 1) + row, low)
 
     def _sampled(self) -> tuple[float, float]:
         """Return the least low of a pending event, and the upper quartile of a sample."""
@@ -172,7 +172,7 @@ class Calendar:
         seen: i64 = 0
         least = INFINITY
         sample: list[float] = []
-        for row in range(ROWS):
+        for row in range(KIND_COUNT):
             lows = self._spans[row]
             for at in range(0, len(lows), 2):
                 low = lows[at]
@@ -197,7 +197,7 @@ class Calendar:
         self._next_day += 1.0
         while n >= 0:
             slot = self._note_slot[n]
-            low = self._spans[slot % ROWS][2 * (slot // ROWS)]
+            low = self._spans[slot % KIND_COUNT][2 * (slot // KIND_COUNT)]
             if low != INFINITY and not (low - self._first) * self._per_day >= self._next_day:
                 self._push(slot, low)
             n = i64(self._note_next[n])
@@ -212,7 +212,7 @@ class Calendar:
             high = INFINITY
             while self._heap_size:
                 slot = self._heap_slot[0]
-                span, at = self._spans[slot % ROWS], 2 * (slot // ROWS)
+                span, at = self._spans[slot % KIND_COUNT], 2 * (slot // KIND_COUNT)
                 if span[at] == self._heap_low[0]:
                     high = span[at + 1]
                     break

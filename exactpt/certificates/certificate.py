@@ -1,7 +1,8 @@
 """What a pending certificate is of: its kind, and the part of the structure that it watches.
 
 In the queue a certificate is one integer, so that hot code compares and hashes plain numbers.
-It is packed and unpacked here and nowhere else. The queue breaks ties by that integer, by the
+It is packed and unpacked here, and by the queue in place: a call for each would take too long
+in plain Python. The queue breaks ties by that integer, by the
 part first; in which order certificates that fail at one time are *repaired* is the order of
 `Kind`.
 """
@@ -37,7 +38,7 @@ __all__ = [
     "point_of",
 ]
 
-KIND_COUNT: Final = 16
+KIND_COUNT: Final[int] = 16
 """All packed codes of kinds are less."""
 
 _POINT_KINDS: Final = 4

@@ -13,7 +13,8 @@ import numpy as np
 from librt.vecs import append, vec
 from mypy_extensions import i32, i64, mypyc_attr
 
-from exactpt.certificates.calendar import ROWS, Calendar
+from exactpt.certificates.calendar import Calendar
+from exactpt.certificates.certificate import KIND_COUNT
 from exactpt.indices import CertificateId
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
@@ -92,7 +93,7 @@ class EventQueue(Calendar):
         super().__init__()
         self._resolver = resolver
         self._counters: Counters = counters
-        self._keys: vec[vec[i32]] = vec[vec[i32]]([vec[i32]() for _ in range(ROWS)])
+        self._keys: vec[vec[i32]] = vec[vec[i32]]([vec[i32]() for _ in range(KIND_COUNT)])
         self._kept: dict[CertificateId, EventTime] = {}
 
     def __len__(self) -> int:
@@ -111,7 +112,7 @@ class EventQueue(Calendar):
         """Put a change of sign, whose exact time is not known, into a slot."""
         if self._kept:
             self._kept.pop(slot, None)
-        row, at = slot % ROWS, 3 * (slot // ROWS)
+        row, at = slot % KIND_COUNT, 3 * (slot // KIND_COUNT)
         key = self._keys[row]
         if at >= len(key):
             key = _extended(key, at + 3 * (at // 12) + 3)
@@ -147,7 +148,7 @@ class EventQueue(Calendar):
 
     def cancel(self, slot: CertificateId) -> None:
         """Empty a slot."""
-        span, at = self._spans[slot % ROWS], 2 * (slot // ROWS)
+        span, at = self._spans[slot % KIND_COUNT], 2 * (slot // KIND_COUNT)
         if at < len(span) and span[at] != INFINITY:
             span[at] = INFINITY
             self._count -= 1
@@ -156,7 +157,7 @@ class EventQueue(Calendar):
 
     def pending(self, slot: CertificateId) -> EventTime | None:
         """Return the time of the event in a slot, or None."""
-        span, at = self._spans[slot % ROWS], 2 * (slot // ROWS)
+        span, at = self._spans[slot % KIND_COUNT], 2 * (slot // KIND_COUNT)
         return None if at >= len(span) or span[at] == INFINITY else self.time_of(slot)
 
     def time_of(self, slot: CertificateId) -> EventTime:
@@ -165,7 +166,7 @@ class EventQueue(Calendar):
             kept = self._kept.get(slot)
             if kept is not None:
                 return kept
-        row, part = slot % ROWS, slot // ROWS
+        row, part = slot % KIND_COUNT, slot // KIND_COUNT
         span, key, at = self._spans[row], self._keys[row], 3 * part
         a, b, c = i64(key[at]), i64(key[at + 1]), i64(key[at + 2])
         return EventTime(span[2 * part], span[2 * part + 1], a, b, c)
@@ -173,10 +174,10 @@ class EventQueue(Calendar):
     def slots(self) -> list[CertificateId]:
         """Return all slots with a pending event, in increasing order."""
         found: list[CertificateId] = []
-        for row in range(ROWS):
+        for row in range(KIND_COUNT):
             span = self._spans[row]
             parts = range(len(span) // 2)
-            found += [CertificateId(ROWS * p + row) for p in parts if span[2 * p] != INFINITY]
+            found += [CertificateId(KIND_COUNT * p + row) for p in parts if span[2 * p] != INFINITY]
         return sorted(found)
 
     def first_alone(self, until: float) -> CertificateId:
@@ -189,7 +190,7 @@ class EventQueue(Calendar):
         if not self._find_first():
             return NO_CERTIFICATE
         slot = self._heap_slot[0]
-        low, high = self._heap_low[0], self._spans[slot % ROWS][2 * (slot // ROWS) + 1]
+        low, high = self._heap_low[0], self._spans[slot % KIND_COUNT][2 * (slot // KIND_COUNT) + 1]
         if high > until:
             return NO_CERTIFICATE
         if self._kept:
@@ -202,7 +203,7 @@ class EventQueue(Calendar):
             self._drop_top()
             other = self._heap_slot[0]
             if other != slot and (
-                self._spans[other % ROWS][2 * (other // ROWS)] == self._heap_low[0]
+                self._spans[other % KIND_COUNT][2 * (other // KIND_COUNT)] == self._heap_low[0]
             ):
                 self._push(slot, low)
                 return NO_CERTIFICATE
@@ -234,7 +235,7 @@ class EventQueue(Calendar):
         while self._heap_size and self._heap_low[0] <= bound:
             other, low = CertificateId(self._heap_slot[0]), self._heap_low[0]
             self._drop_top()
-            if other != slot and self._spans[other % ROWS][2 * (other // ROWS)] == low:
+            if other != slot and self._spans[other % KIND_COUNT][2 * (other // KIND_COUNT)] == low:
                 its = self.time_of(other)
                 candidates[other] = its
                 bound = min(bound, its.high)

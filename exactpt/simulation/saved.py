@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
+from exactpt.certificates.certificate import KIND_COUNT
 from exactpt.certificates.certifier import Certifier
 from exactpt.certificates.queue import EventTime
 from exactpt.errors import InputError
@@ -46,9 +47,9 @@ Data: TypeAlias = "dict[str, Any]"
 
 _STATS = ("batches", "rebuilds", "flips", "most")
 
-_SLOTS = 1024
+_SLOTS = 64 * KIND_COUNT
 """A bound, a vertex, on the slots of a queue (which has room for all up to the largest): 64 parts
-of each of 16 kinds; a planar map of n vertices has less than 6 n half-edges."""
+of each kind; a planar map of n vertices has less than 6 n half-edges."""
 
 
 def tiling_to_json(kinetic: Tiling) -> Data:

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
-from exactpt.certificates.calendar import ROWS
+from exactpt.certificates.certificate import KIND_COUNT
 from exactpt.certificates.queue import EventQueue, EventTime, ExactQueue
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.counters import Counters
@@ -272,11 +272,11 @@ def test_bug_a_queue_whose_events_lie_within_the_least_doubles_ends(exponent):
 def test_bug_a_row_of_many_new_events_is_shorter_than_the_old_one():
     """The calendar read the row at a slot of its heap that was not there any more."""
     queue = EventQueue(Numbers(), Counters())
-    queue.schedule_crossing(ROWS * 100, 1.0, 1.0, 3, -1, -1)
-    assert queue.first_alone(9.0) == ROWS * 100  # it is in the heap now
-    queue.cancel(ROWS * 100)
+    queue.schedule_crossing(KIND_COUNT * 100, 1.0, 1.0, 3, -1, -1)
+    assert queue.first_alone(9.0) == KIND_COUNT * 100  # it is in the heap now
+    queue.cancel(KIND_COUNT * 100)
 
     queue.schedule_new(0, np.array([2]), np.array([2.0]), np.array([3.0]), np.array([[4, -1, -1]]))
 
-    assert queue.slots() == [ROWS * 2]
-    assert queue.first_alone(9.0) == ROWS * 2
+    assert queue.slots() == [KIND_COUNT * 2]
+    assert queue.first_alone(9.0) == KIND_COUNT * 2
