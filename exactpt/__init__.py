@@ -219,7 +219,7 @@ for _name, _place in {
 
 
 def __getattr__(name: str) -> object:
-    """A public name, imported on first use (PEP 562); `exactpt.arrays` and `exactpt.batch` too."""
+    """Return a public name or subpackage, imported on first use (PEP 562)."""
     if name in ("arrays", "batch"):
         return import_module(f"exactpt.{name}")
     if name not in _ROOM_OF:

@@ -27,7 +27,7 @@ def register(name: str, place: str) -> None:
 
 
 def extension(name: str) -> Callable[..., Any]:
-    """The function registered under a name."""
+    """Return the function registered under a name."""
     module, _, function = _places[name].partition(":")
     found: Callable[..., Any] = getattr(import_module(module), function)
     return found

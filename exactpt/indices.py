@@ -49,10 +49,10 @@ NO_HALF_EDGE: Final = HalfEdge(-1)
 
 
 def vertex_vec(vertices: Iterable[VertexId] = ()) -> vec[VertexId]:
-    """A vector of vertices; at run time a type of vectors has no item types but i64."""
+    """Return a vector of vertices; at run time a type of vectors has no item types but i64."""
     return vec[i64](vertices)  # type: ignore[return-value]
 
 
 def half_edge_vec(half_edges: Iterable[HalfEdge] = ()) -> vec[HalfEdge]:
-    """A vector of half-edges, as `vertex_vec`."""
+    """Return a vector of half-edges, as `vertex_vec`."""
     return vec[i64](half_edges)  # type: ignore[return-value]

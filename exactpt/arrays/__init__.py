@@ -2,7 +2,7 @@
 
 `first_contacts` takes bodies that translate, and pairs of them; `point_segment_contacts` bare
 queries, moving points against moving segments. Filters in doubles with proved bounds answer most
-of them, for all vertices and edges at once; what they leave open is decided exactly, one by one.
+of them, for all vertices and edges at once; undecided cases are decided exactly, one by one.
 So every answer is that of `exactpt.first_contact`, and `Contacts.exact_share` is the share of the
 latter.
 """

@@ -73,7 +73,7 @@ class Block(NamedTuple):
 
     @np.errstate(all="ignore")
     def _near(self) -> Indices:
-        """The pairs whose boxes may meet during the span.
+        """Return the pairs whose boxes may intersect during the span.
 
         A gap takes two sums, of terms that add up to at most ``size``.
         """
@@ -92,7 +92,7 @@ class Block(NamedTuple):
         """Record the contacts of the pairs k, of which some may touch at the start.
 
         The first contact is certain if the enclosure of one candidate's meeting is before all
-        other times at which a candidate meets or may meet. All incidences at the time of the
+        other times at which a candidate touches or may touch. All incidences at the time of the
         first contact are of candidates that are left.
         """
         o, n, two, motions = self.outlines, len(k), (self.i[k], self.j[k]), self.motions.take(k)
@@ -145,7 +145,7 @@ class Block(NamedTuple):
 
     @property
     def is_rounded(self) -> bool:
-        """Whether the numbers of the bodies are the doubles nearest to the exact ones."""
+        """True if the numbers of the bodies are the doubles nearest to the exact ones."""
         return self.motions.edges is not None
 
     def _search(self, k: int) -> None:
@@ -165,7 +165,7 @@ class Block(NamedTuple):
 def _beside_until(
     relative: Relative, low: Floats, high: Floats, until: Floats, some: Indices
 ) -> Flags:
-    """Of some candidates, whether they are open and surely do not meet up to a time."""
+    """Of some candidates, whether they are undecided and surely do not touch up to a time."""
     beside = np.zeros(len(some), dtype=np.bool_)
     at = np.flatnonzero((high[some] == INFINITY) & (until[some] < INFINITY))
     doubtful = some[at]

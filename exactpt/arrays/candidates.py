@@ -38,11 +38,11 @@ class Candidates(NamedTuple):
     corner: Indices
 
     def take(self, index: Indices) -> Candidates:
-        """The entries at the given places."""
+        """Return the entries at the given places."""
         return Candidates(*(column[index] for column in self))
 
     def relative(self, o: Outlines, motions: Motions) -> Relative:
-        """The vertices relative to the edges; ``motions`` are those of the pairs of bodies.
+        """Return the vertices relative to the edges; ``motions`` are those of the pairs of bodies.
 
         The difference of a vertex and an end of the edge is off by one unit, and its sum with a
         displacement by another.
@@ -71,7 +71,7 @@ class Candidates(NamedTuple):
     def exact(
         self, o: Outlines, coefficients: Floats, a: Indices, b: Indices, count: int
     ) -> ExactRelative:
-        """The same without rounding, as polynomials in t of ``count`` coefficients.
+        """Return the same without rounding, as polynomials in t of ``count`` coefficients.
 
         Args:
             o: the outlines.
@@ -96,7 +96,7 @@ class Candidates(NamedTuple):
         return [Candidate(a, b, Touch(i, v, 1 - i, e, w)) for a, b, i, v, e, w in rows]
 
     def numbered(self, o: Outlines) -> tuple[Indices, Indices, Indices]:
-        """Vertices, edges and corners by their numbers in their bodies; -1 where there is none."""
+        """Return vertices, edges and corners by number in their bodies; -1 for none."""
         vertex, edge, corner = (
             numbers - first[np.searchsorted(first, numbers, side="right") - 1]
             for first, numbers in (
@@ -112,7 +112,7 @@ class Candidates(NamedTuple):
 
 
 def all_candidates(o: Outlines, i: Indices, j: Indices) -> tuple[Candidates, Indices]:
-    """All vertices of i with all edges of j, then the reverse, and where each of these starts.
+    """Return all pairs of a vertex of i and an edge of j, then the reverse, with their starts.
 
     The latter has two entries for each pair of bodies: first those of all pairs with a vertex of
     the first body, then those of all pairs with a vertex of the second.
@@ -131,7 +131,7 @@ def all_candidates(o: Outlines, i: Indices, j: Indices) -> tuple[Candidates, Ind
 
 
 def vertex_candidates(o: Outlines, i: Indices, j: Indices) -> tuple[Candidates, Indices]:
-    """All vertices of i with all vertices of j, and where those of each pair of bodies start."""
+    """Return all pairs of a vertex of i and one of j, with the starts of each pair of bodies."""
     counts = o.vertex_count[i] * o.vertex_count[j]
     owner, position = spread(counts)
     across = o.vertex_count[j][owner]

@@ -87,7 +87,7 @@ class Contacts:
         return float(self.exact.mean()) if len(self) else 0.0
 
     def contact(self, i: int) -> Contact | None:
-        """The exact contact of a pair: that of `exactpt.first_contact`; None if there is none.
+        """Return the exact contact of a pair, equal to `exactpt.first_contact`, or None.
 
         Raises:
             IndexError: if there is no such pair.
@@ -105,11 +105,11 @@ class Contacts:
         self._reasons[i] = reason
 
     def reasons(self) -> list[tuple[int, str]]:
-        """Return the number of each refused pair in order, with one line that says why."""
+        """Return the number of each refused pair in order, with the reason in one line."""
         return sorted(self._reasons.items())
 
     def scene(self, i: int) -> Scene:
-        """The scene of the two bodies of a pair.
+        """Return the scene of the two bodies of a pair.
 
         Raises:
             IndexError: if there is no such pair.

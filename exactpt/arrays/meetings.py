@@ -1,4 +1,4 @@
-"""The first time at which a vertex meets an edge: an enclosure, or what is left open."""
+"""The first time at which a vertex touches an edge: enclosures, and undecided pairs."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Span(NamedTuple):
     high: Floats
 
     def take(self, index: Indices) -> Span:
-        """The entries at the given places."""
+        """Return the entries at the given places."""
         return Span(self.low[index], self.high[index])
 
 
@@ -43,7 +43,7 @@ class Meetings(NamedTuple):
 
 @np.errstate(all="ignore")
 def first_meetings(r: Relative, span: Span, reach: Floats | None = None) -> Meetings:
-    """The first meetings during 0 <= s <= span, the start included.
+    """Return the first meetings during 0 <= s <= span, the start included.
 
     Of cores that keep a distance R (``reach``, with a relative error of at most U) and that are
     farther apart at the start, the first times at which the vertex is at this distance from the
@@ -72,7 +72,7 @@ def first_meetings(r: Relative, span: Span, reach: Floats | None = None) -> Meet
 
 
 def _first_meetings(r: Relative, cs: Sequence[Coefficient], span: Span) -> Meetings:
-    """The first meetings, given the polynomials that vanish while the vertex is on the line.
+    """Return the first meetings, given the polynomials that vanish while the vertex is on the line.
 
     A vertex is on the line of its edge at the zeros of the orientation. The first zero after the
     start is looked at, and where the vertex surely is beside the edge then, the second. A zero
@@ -124,7 +124,7 @@ def _first_zeros(
     cs: Sequence[Coefficient], now_low: Floats | float, now_high: Floats | float,
     horizon: Floats, at_root: Flags,
 ) -> Answers:  # fmt: skip
-    """The first zero after now up to the horizon, for each polynomial; sign 0 if that is open."""
+    """Return the first zero of each polynomial after now; sign 0 where it is undecided."""
     if len(cs) == 2:
         (c0, e0), (c1, e1) = cs
         return linears(c0, c1, e0, e1, now_low, now_high, horizon, at_root)
@@ -135,7 +135,7 @@ def _first_zeros(
 
 
 def _without_zeros(cs: Sequence[Coefficient], horizon: Floats) -> Answers:
-    """The answers where the constant term outweighs the others; those of the rest are open."""
+    """Return the rows whose constant term outweighs the others; the other rows are undecided."""
     most = np.zeros_like(horizon)
     for c, e in cs[:0:-1]:
         most = (most + np.abs(c) + e) * horizon

@@ -36,7 +36,7 @@ class Motions(NamedTuple):
         return int(self.coefficients.shape[2]) - 1
 
     def take(self, index: Indices) -> Motions:
-        """The entries at the given places."""
+        """Return the entries at the given places."""
         edges = None if self.edges is None else self.edges[index]
         return Motions(self.coefficients[index], self.off[index], self.plain, edges)
 
@@ -45,7 +45,7 @@ class Motions(NamedTuple):
 def relative_motions(
     coefficients: Floats, i: Indices, j: Indices, spans: Spans, rounded: Floats | None = None
 ) -> Motions:
-    """The motions of the bodies i relative to the bodies j; d is at least 1.
+    """Return the motions of the bodies i relative to the bodies j; d is at least 1.
 
     Where ``rounded`` is given, coefficients are the doubles nearest to the exact ones, and it
     bounds the errors of the vertices of each body. Then a difference of coefficients is off by
@@ -94,7 +94,7 @@ def relative_motions(
 
 
 def reaches(motions: Motions, length: Floats) -> tuple[Floats, Floats, Floats]:
-    """The least and the greatest displacement, shape (m, 2), and a bound on their errors.
+    """Return the least and the greatest displacement, shape (m, 2), and a bound on their errors.
 
     Each term c s^k is between 0 and c length^k, of which the computed value has a relative error
     of at most k + 1 units beside that of c; the sums take d more operations.

@@ -45,7 +45,7 @@ class Outlines(NamedTuple):
 
 
 def outlines_of(bodies: BodyArrays) -> Outlines:
-    """The outlines of bodies; a difference beyond the largest double is infinite."""
+    """Return the outlines of bodies; a difference beyond the largest double is infinite."""
     x, y = np.ascontiguousarray(bodies.vertices.T)
     edges = edges_of(bodies.offsets, bodies.closed)
     ax, ay = x[edges.first], y[edges.first]

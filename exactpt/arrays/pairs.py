@@ -37,7 +37,7 @@ def first_contacts(
     time: ArrayLike = (0.0, 1.0),
     errors: Errors = "raise",
 ) -> Contacts:
-    """The first contacts of pairs of bodies, of each pair for itself.
+    """Return the first contacts of pairs of bodies, of each pair for itself.
 
     Each answer is that of `exactpt.first_contact` for a scene of the two bodies.
 

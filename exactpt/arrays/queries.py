@@ -45,10 +45,10 @@ def point_segment_contacts(
     time: ArrayLike = (0.0, 1.0),
     errors: Errors = "raise",
 ) -> Contacts:
-    """The first contacts of moving points with moving segments, of each pair for itself.
+    """Return the first contacts of moving points with moving segments, of each pair for itself.
 
     Each answer is that of `exactpt.first_contact` for a scene of the point (body 0) and the
-    segment (body 1); so a segment that shrinks to a point touches itself then.
+    segment (body 1); so a segment that shrinks to a point touches itself.
 
     >>> found = point_segment_contacts(
     ...     [(0, 1), (5, 5)], [(2, 0), (2, 0)], [(2, 4), (2, 4)],
@@ -133,7 +133,7 @@ def _read(
 
 @np.errstate(all="ignore")
 def _filtered(g: Floats, spans: Spans) -> tuple[Indices, Floats, Floats, Flags]:
-    """The contacts with enclosures of their times, and what is open."""
+    """Return the contacts with enclosures of their times, and the undecided queries."""
     px, py, ax, ay, bx, by, vpx, vpy, vax, vay, vbx, vby = g
     u = (bx - ax, by - ay), (vbx - vax, vby - vay)
     w = (px - ax, py - ay), (vpx - vax, vpy - vay)
@@ -161,7 +161,7 @@ def _filtered(g: Floats, spans: Spans) -> tuple[Indices, Floats, Floats, Flags]:
 
 
 def _exact_relative(g: Floats, *, turning: bool) -> ExactRelative:
-    """The given queries without rounding."""
+    """Return the given queries without rounding."""
     p, a, b, vp, va, vb = ((g[k], g[k + 1]) for k in range(0, 12, 2))
     u, w, du, dw = (
         (exact_difference(f[0], h[0]), exact_difference(f[1], h[1]))
@@ -185,7 +185,7 @@ def _moved(
 
 
 def _may_shrink(r: Relative, span: Span) -> Flags:
-    """Whether a segment that turns may be a point at some time.
+    """Return True if a segment that turns may be a point at some time.
 
     If b - a vanishes at a time, then u0 x u1 = 0. Otherwise it does not if one of its coordinates
     keeps its sign.
@@ -209,7 +209,7 @@ def _may_shrink(r: Relative, span: Span) -> Flags:
 
 
 def _points(row: Floats) -> list[tuple[tuple[QQ, QQ], tuple[QQ, QQ]]]:
-    """The coefficients in x and in y of the point and of the segment's ends."""
+    """Return the coefficients in x and in y of the point and of the segment's ends."""
     q = [exact(c) for c in row.tolist()]
     return [((q[k], q[k + 6]), (q[k + 1], q[k + 7])) for k in (0, 2, 4)]
 
@@ -240,7 +240,7 @@ def _decide(contacts: Contacts, i: int, row: Floats, spans: Spans) -> None:
 
 
 def _scene(row: Floats, spans: Spans, i: int) -> Scene:
-    """The scene of a query."""
+    """Return the scene of a query."""
     p, *ends = ({"x": x, "y": y} for x, y in _points(row))
     point, segment = Body("point", [p]), Body("segment", ends)
     return Scene([point, segment], (float(spans.start[i]), float(spans.end[i])))

@@ -35,7 +35,7 @@ STEPS: Final = 6
 
 @np.errstate(all="ignore")
 def core_distances(o: Outlines, i: Indices, j: Indices, motions: Motions) -> tuple[Floats, Floats]:
-    """Bounds of the distances of disjoint cores at the start: of the vertices from the edges.
+    """Return bounds of the distances of disjoint cores at the start (vertices from edges).
 
     The distance of a point from a segment changes by at most the displacements of the point and
     of the ends relative to it: of u and w, U (|u| + |w|) and the absolute error of w. With the
@@ -65,7 +65,7 @@ def core_distances(o: Outlines, i: Indices, j: Indices, motions: Motions) -> tup
 def vertex_meetings(
     o: Outlines, motions: Motions, c: Candidates, reach: Floats, until: Floats
 ) -> Meetings:
-    """The first times at which pairs of vertices are at a distance.
+    """Return the first times at which pairs of vertices are at a distance.
 
     Args:
         o: the outlines.
@@ -93,7 +93,7 @@ def vertex_meetings(
 
 
 def _squares(z: Sequence[tuple[Floats, Floats, Floats]], reach: Floats) -> list[Coefficient]:
-    """The coefficients of x^2 + y^2 - R^2, and bounds on their errors.
+    """Return the coefficients of x^2 + y^2 - R^2, and bounds on their errors.
 
     A product of coefficients with the absolute errors d, e is off by d e and, for each factor, by
     its absolute value times the error of the other.
@@ -115,7 +115,7 @@ def _squares(z: Sequence[tuple[Floats, Floats, Floats]], reach: Floats) -> list[
 
 
 def _first_zeros(fs: Sequence[Coefficient], until: Floats) -> Meetings:
-    """The first zeros in [0, until] of polynomials that are positive at 0.
+    """Return the first zeros in [0, until] of polynomials that are positive at 0.
 
     A polynomial on an interval is between the least and the greatest of its Bernstein coefficients
     b_0, ..., b_n there, and so is its derivative between those of the n (b_k+1 - b_k), over the
@@ -168,7 +168,7 @@ def _first_zeros(fs: Sequence[Coefficient], until: Floats) -> Meetings:
 def _zero(
     fs: Sequence[Coefficient], low: Floats, high: Floats, slope: Floats
 ) -> tuple[Floats, Floats]:
-    """The zero in [low, high] of polynomials that fall there, and a bound on its error.
+    """Return the zero in [low, high] of polynomials that fall there, and a bound on its error.
 
     By the mean value theorem it is at most (|f| + the error of f) / slope off, where f is the value
     at a number in the interval, and the slope at least ``slope``.

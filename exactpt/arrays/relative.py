@@ -44,7 +44,7 @@ class Relative(NamedTuple):
     length: Floats | None
 
     def take(self, index: Indices) -> Relative:
-        """The entries at the given places."""
+        """Return the entries at the given places."""
         return Relative(
             tuple((x[index], y[index]) for x, y in self.u),
             tuple((x[index], y[index]) for x, y in self.w),
@@ -55,7 +55,7 @@ class Relative(NamedTuple):
 
 
 def orientations(r: Relative) -> list[Coefficient]:
-    """The coefficients of u x w, and bounds on their errors.
+    """Return the coefficients of u x w, and bounds on their errors.
 
     A coefficient is the sum of at most four products of coefficients of u and w (of degree 1
     both, or of degrees 0 and any). The relative errors of the two factors, of the product and of
@@ -104,7 +104,7 @@ def _off_product(r: Relative, i: int, j: int) -> Floats | float:
 
 
 def _is_zero(r: Relative, k: int) -> Flags:
-    """Whether each product in coefficient k has a factor that is exactly 0."""
+    """Return True if each product in coefficient k has a factor that is exactly 0."""
     zero: Flags = np.ones(len(r.u[0][0]), dtype=np.bool_)
     for i in range(len(r.u)):
         if 0 <= k - i < len(r.w):
@@ -151,7 +151,7 @@ def sides(r: Relative, low: Floats, high: Floats) -> tuple[Flags, Flags]:
 def _at(
     f: tuple[Plane, ...], off: tuple[Floats | None, ...], m: Floats, reach: Floats
 ) -> tuple[Floats, Floats, Floats]:
-    """The value at m >= 0, and a bound on how far it is off at any s within ``reach`` of m.
+    """Return the value at m >= 0, and a bound on how far it is off at any s within ``reach`` of m.
 
     Horner's rule for degree n takes 2 n operations; with the error of the coefficients that is
     at most (2 n + 1) units of sum |c_i| m^i. Within ``reach`` the exact value changes by at most

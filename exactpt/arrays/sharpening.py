@@ -82,7 +82,7 @@ def sharpened(
 
 
 def _value(r: ExactRelative, t: Double2) -> tuple[Floats, Floats]:
-    """The orientation at a time, and a bound on its error.
+    """Return the orientation at a time, and a bound on its error.
 
     In units of U^2: a step of Horner's rule adds at most 15 to the relative error with respect to
     the sum of the absolute values of all terms, so u and w have at most 15 times their degrees,
@@ -102,7 +102,7 @@ def _value(r: ExactRelative, t: Double2) -> tuple[Floats, Floats]:
 def _at(
     f: tuple[Plane2, ...], shift: Plane2 | None, t: Double2
 ) -> tuple[tuple[Double2, Floats], tuple[Double2, Floats]]:
-    """The value in x and in y, each with the sum of the absolute values of its terms."""
+    """Return the value in x and in y, each with the sum of the absolute values of its terms."""
     found = []
     far = np.abs(t[0]) * SLACK
     for axis in (0, 1):

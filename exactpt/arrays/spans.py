@@ -30,13 +30,13 @@ class Spans(NamedTuple):
     shifted: bool
 
     def part(self, first: int, last: int) -> Spans:
-        """The spans in a range."""
+        """Return the spans in a range."""
         cut = slice(first, last)
         length = Span(self.length.low[cut], self.length.high[cut])
         return Spans(self.start[cut], self.end[cut], length, self.shifted)
 
     def at(self, index: Indices) -> Spans:
-        """The spans at the given places."""
+        """Return the spans at the given places."""
         return Spans(self.start[index], self.end[index], self.length.take(index), self.shifted)
 
     def times(self, low: Floats, high: Floats) -> tuple[Floats, Floats]:
@@ -50,7 +50,7 @@ class Spans(NamedTuple):
 
 
 def exact(x: float) -> QQ:
-    """The value of a double."""
+    """Return the value of a double."""
     return QQ(*x.as_integer_ratio())
 
 

@@ -24,11 +24,11 @@ CHUNK: Final = 1 << 14
 def at_start(
     o: Outlines, i: Indices, j: Indices, motions: Motions, reach: Floats | None = None
 ) -> tuple[Flags, Flags]:
-    """For each pair of bodies, whether they surely overlap without an incidence, and what is open.
+    """Return which pairs surely overlap without an incidence, and the undecided pairs.
 
-    They overlap if two edges cross or, where no edges meet, one contains a vertex of the other; or
-    if their cores are nearer than a distance (``reach``), if there is one. Bodies whose boxes are
-    apart do not.
+    They overlap if two edges cross or, if no edges intersect, one contains a vertex of the other;
+    or if their cores are nearer than a distance (``reach``), if there is one. Bodies whose boxes
+    are apart do not.
     """
     overlaps = np.zeros(len(i), dtype=np.bool_)
     shift, off = motions.coefficients[:, :, 0], motions.off[:, 0]
@@ -79,7 +79,9 @@ def _meet(o: Outlines, i: Indices, j: Indices, motions: Motions) -> tuple[Flags,
 def _first_inside(
     o: Outlines, a: Indices, b: Indices, sign: float, motions: Motions
 ) -> tuple[Flags, Flags]:
-    """Whether the first vertex p of body a is inside polygon b, if it is not on it; what is open.
+    """Return whether the first vertex p of a is inside polygon b, and the undecided rows.
+
+    A vertex on the boundary of b is not expected here.
 
     ``sign`` times the motions are those of a relative to b.
 

@@ -27,7 +27,7 @@ def decide(contacts: Contacts, k: int, candidates: Sequence[Candidate], *, uncle
     Args:
         contacts: the answers.
         k: the number of the pair.
-        candidates: what may be its first incidences, in the order of time.
+        candidates: its possible first incidences, in the order of time.
         unclear: whether the bodies may touch at the start.
     """
     if len(candidates) > MOST:

@@ -43,7 +43,7 @@ def answers(scenes: Iterable[str | bytes], question: Question | None = None) -> 
 
     Args:
         scenes: the texts; they are taken some hundred at a time.
-        question: what is asked; by default the first contact.
+        question: the query; by default the first contact.
     """
     asked = question or Question()
     contents = (text.encode(errors="replace") if isinstance(text, str) else text for text in scenes)
@@ -52,14 +52,14 @@ def answers(scenes: Iterable[str | bytes], question: Question | None = None) -> 
 
 
 def answers_of(contents: Sequence[bytes], question: Question) -> Iterator[Answer]:
-    """The answers for some scenes, all of which are taken together."""
+    """Yield the answers for some scenes, all of which are taken together."""
     known = _by_arrays(contents, question) if question.is_plain else {}
     for k, content in enumerate(contents):
         yield known[k] if k in known else answer(content, question)
 
 
 def answer(content: bytes, question: Question) -> Answer:
-    """The answer to a question about a scene as JSON; why there is none as ``{"error"}``."""
+    """Return the answer to a question about a scene as JSON; why there is none as ``{"error"}``."""
     if len(content) > question.max_bytes:
         return {"error": f"more than {question.max_bytes} bytes"}
     try:
@@ -72,7 +72,7 @@ def answer(content: bytes, question: Question) -> Answer:
         return {"error": "the memory is used up"}
     except RoundingError:  # not a fault of the scene
         raise
-    except Exception as error:  # a bug: the other scenes are answered nevertheless
+    except Exception as error:  # a bug: the other scenes get their answers nevertheless
         return {"error": f"an invariant broke: {type(error).__name__}: {error}"}
 
 
@@ -85,12 +85,12 @@ def _scene(content: bytes) -> Scene:
 
 
 def _by_arrays(contents: Sequence[bytes], question: Question) -> dict[int, Answer]:
-    """The answers that filters have found, by the index of the scene."""
+    """Return the answers that filters have found, by the index of the scene."""
     try:
         with question.budget(), _uncollected():
             ask()
             return _screened(_read(contents, question.max_bytes), contents)
-    except BudgetExceeded:  # each by itself, then
+    except BudgetExceeded:  # each by itself
         return {}
 
 
@@ -136,7 +136,7 @@ def _screened(read: dict[int, TwoBodies], contents: Sequence[bytes]) -> dict[int
 
 
 def _contact(scene: TwoBodies, contacts: Contacts, k: int) -> Answer | None:
-    """The answer for a pair of bodies; None if arrays have not found it."""
+    """Return the answer for a pair of bodies; None if arrays have not found it."""
     if contacts.exact[k]:
         return None
     if not contacts.found[k]:

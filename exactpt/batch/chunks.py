@@ -1,4 +1,4 @@
-"""Answers for chunks of lines: what one worker does at a time."""
+"""Answers for chunks of lines, each the work of one worker."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Answered(NamedTuple):
 
 
 class Record(NamedTuple):
-    """A chunk that is answered.
+    """A chunk with its answers.
 
     Attributes:
         start, stop, digest, lines, scenes, failures, first: as in `Answered`.
@@ -74,26 +74,26 @@ class Record(NamedTuple):
 
 
 def record_of(answered: Answered, at: int) -> Record:
-    """The record of answers that are kept at a place."""
+    """Return the record of answers that are kept at a place."""
     *about, text = answered
     return Record._make([*about, at, len(text)])
 
 
 def answered(chunk: Chunk, _tell: Callable[[Step], None], question: Question) -> Answered:
-    """The answers for a chunk; empty lines have none."""
+    """Return the answers for a chunk; empty lines have none."""
     rows = _rows(chunk)
     return _told(chunk, zip(rows, answers_of([*rows.values()], question), strict=True))
 
 
 def one_by_one(chunk: Chunk, _step: Step | None, _why: str, question: Question) -> Answered:
-    """The answers for a chunk that ends its workers, each scene by itself in a process."""
+    """Return the answers for a chunk that ends its workers, each scene by itself in a process."""
     work = Work(partial(_answer, question=question), _no_answer)
     found = dict(results_of(work, iter(_rows(chunk).items()), 1))
     return _told(chunk, sorted(found.items()))
 
 
 def _rows(chunk: Chunk) -> dict[int, bytes]:
-    """The lines that are not empty, by their numbers."""
+    """Return the lines that are not empty, by their numbers."""
     rows = enumerate(chunk.text.removesuffix(b"\n").split(b"\n"), chunk.line)
     return {number: row for number, row in rows if row.strip()}
 

@@ -1,4 +1,4 @@
-"""The journal of a batch: which chunks are answered, and where their answers are."""
+"""The journal of a batch: the finished chunks, and the places of their answers."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ class Journal:
 
     They are in two files beside the answers' own, with ``.part`` and ``.journal`` after its name.
     A line is written when its answers are on the disk, so whatever ends the process, the last
-    whole line tells how far it came; what follows is cut off when the journal is opened again.
+    whole line is its end; the rest is cut off when the journal is opened again.
 
     Args:
         target: the file of answers.
-        question: what is asked.
+        question: the query.
         length: the length of the input, which a batch that goes on must find again.
 
     Attributes:
-        records: the chunks that are answered, by their starts.
+        records: the finished chunks, by their starts.
 
     Raises:
         InputError: if the files are not those of a batch with this question, cannot be written,
@@ -86,7 +86,7 @@ class Journal:
         self._journal.flush()
 
     def _read(self, head: str) -> None:
-        """Read the journal up to its last whole line, and cut off what follows."""
+        """Read the journal up to its last whole line, and cut off the rest."""
         known, *lines = self._journal.read().split(b"\n")[:-1] or [b""]
         if known not in {b"", head.encode()}:
             raise InputError(

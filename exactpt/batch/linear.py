@@ -20,19 +20,19 @@ LARGEST: Final = 2.0**200
 
 
 def is_linear(scene: TwoBodies) -> bool:
-    """Whether both bodies move straight, at constant velocities."""
+    """Return True if both bodies move straight, at constant velocities."""
     return not any(scene.coefficients[2::3])
 
 
 def initial_contact(scene: TwoBodies) -> dict[str, object]:
-    """The contact of two bodies that overlap at the start without an incidence, as JSON."""
+    """Return the contact of two bodies that overlap at the start without an incidence, as JSON."""
     names = [body.name for body in scene.bodies]
     time = AlgebraicNumber(exact(scene.time[0]))
     return {"time": time.to_json(), "kind": "initial", "pairs": [], "overlaps": [names]}
 
 
 def linear_contact(scene: TwoBodies, side: int, vertex: int, edge: int) -> dict[str, object] | None:
-    """The contact of one vertex with the inside of one edge, as JSON; None after the span.
+    """Return the contact of one vertex with the inside of one edge, as JSON; None after the span.
 
     With p - a = w + d t and b - a = u for the vertex p and the edge ab, u x w + (u x d) t
     vanishes at the time. u x d is positive if p comes from the right of ab.
@@ -71,20 +71,20 @@ def linear_contact(scene: TwoBodies, side: int, vertex: int, edge: int) -> dict[
 
 
 def _path(body: Moving, vertex: int) -> tuple[Vector, Vector]:
-    """The position at t = 0 and the velocity of a vertex, in x and in y."""
+    """Return the position at t = 0 and the velocity of a vertex, in x and in y."""
     x, y = map(exact, body.vertices[vertex])
     (x0, vx), (y0, vy) = map(_start, body.motion)
     return (x + x0, vx), (y + y0, vy)
 
 
 def _start(axis: Sequence[Raw]) -> Vector:
-    """The first two coefficients."""
+    """Return the first two coefficients."""
     first, second, *_ = *axis, 0, 0
     return exact(first), exact(second)
 
 
 def _normal(ux: QQ, uy: QQ, slope: QQ) -> list[float]:
-    """The unit normal of an edge to the side from which the vertex comes.
+    """Return the unit normal of an edge to the side from which the vertex comes.
 
     As `exactpt.pairs.contact` rounds it: coordinates of the edge are scaled by a power of
     two there, which cancels unless one becomes tiny.

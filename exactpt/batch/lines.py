@@ -37,15 +37,15 @@ class Source(Protocol):
     size: int
 
     def chunks(self, done: Mapping[int, Record], most: int) -> Iterator[Chunk]:
-        """The chunks of about ``most`` bytes between those that are done, which are by start.
+        """Return the chunks of about ``most`` bytes between the finished ones, which are by start.
 
         Raises:
-            InputError: if what is done is not the same as before.
+            InputError: if the finished part differs from before.
         """
 
 
 def size_of(total: int, workers: int) -> int:
-    """The size of chunks of an input of that many bytes."""
+    """Return the size of chunks of an input of that many bytes."""
     return min(LARGEST, max(SMALLEST, total // (PARTS * workers)))
 
 
@@ -116,7 +116,7 @@ class Lines:
 
 
 def changed(path: Path) -> InputError:
-    """The error that an input is another one than before."""
+    """Return the error that an input has changed."""
     return InputError(f"{path}: it has changed since the batch began")
 
 

@@ -92,7 +92,7 @@ class Rows:
             raise changed(self._path)
 
     def _rows(self) -> Iterator[bytes]:
-        """The texts, each on one line; a missing one is null."""
+        """Yield the texts, each on one line; a missing one is null."""
         for batch in self._file.iter_batches(AT_A_TIME, columns=[COLUMN]):
             for text in batch.column(0).to_pylist():
                 row = (text or "").replace("\n", " ").encode()
@@ -172,7 +172,7 @@ def _free(name: str, taken: Container[str], others: Container[str]) -> str:
 
 
 def _row(answer: str) -> dict[str, object]:
-    """The columns of an answer that are not null."""
+    """Return the columns of an answer that are not null."""
     data = json.loads(answer)
     row = {"line": data["line"], "error": data.get("error"), "answer": answer}
     if "intervals" in data:

@@ -1,4 +1,4 @@
-"""The question that a batch asks about each of its scenes."""
+"""The query of a batch about each of its scenes."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ FIRST_ONLY: Final = ("method", "tiling", "ignoring", "after_start", "between", "
 @final
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What is asked about each scene: by default its first contact, as `exactpt.first_contact`.
+    """The query about each scene: by default its first contact, as `exactpt.first_contact`.
 
     Attributes:
-        every: whether all intervals of contact are asked for (`exactpt.contacts`).
+        every: whether all intervals of contact are wanted (`exactpt.contacts`).
         distance: the first time at which two bodies are within this Euclidean distance is asked
             for (`exactpt.first_within`).
         until, since: an earlier end and a later start of the time span.
@@ -68,7 +68,7 @@ class Question:
             raise InputError("methods and choices of bodies are for the first contact alone")
         if self.distance is not None:
             first_within(NOTHING, distance=self.distance, norm="euclidean")
-        first_contact(  # refuses what does not go together
+        first_contact(  # refuses options that exclude each other
             NOTHING,
             method=self.method,
             tiling=self.tiling,
@@ -86,7 +86,7 @@ class Question:
 
     @property
     def is_plain(self) -> bool:
-        """Whether it is about the first contact of all bodies in the whole span, by any method."""
+        """True if it is about the first contact of all bodies in the whole span, by any method."""
         spans = (self.every, self.distance, self.until, self.since)
         plain = spans == (False, None, None, None)
         return plain and self._first_only() == self._defaults()
@@ -102,12 +102,12 @@ class Question:
         return numbers | {name: getattr(self, name) for name in rest}
 
     def budget(self) -> AbstractContextManager[None]:
-        """The context in which a scene is answered."""
+        """Return the context of the query about one scene."""
         most = self.max_seconds
         return within(None if most is None else clock.monotonic() + most, self.max_memory)
 
     def ask(self, scene: Scene) -> dict[str, object]:
-        """The answer for a scene as JSON, see docs/format.md.
+        """Return the answer for a scene as JSON, see docs/format.md.
 
         Raises:
             BudgetExceeded: if time or memory is used up.

@@ -59,7 +59,7 @@ def run(
     Args:
         scenes: the file: a scene on each line, or Parquet (``.parquet``) with a column "scene".
         answers: the file to write, which must not exist; Parquet if it ends in ``.parquet``.
-        question: what is asked; by default the first contact.
+        question: the query; by default the first contact.
         jobs: number of processes; one is this process. (More are started anew: a script that
             asks for them must be importable, see `multiprocessing`.)
         scheduler: the address of a Dask scheduler, instead.
@@ -117,7 +117,7 @@ def _as_rows(
 
 
 def _all(journal: Journal, source: Source) -> list[Record]:
-    """The records of all chunks, in the order of the input.
+    """Return the records of all chunks, in the order of the input.
 
     Raises:
         InputError: if some are missing.

@@ -72,7 +72,7 @@ class TwoBodies(NamedTuple):
 
 
 def read_two_bodies(content: bytes) -> TwoBodies | None:
-    """The scene in a line of JSON if it plainly is one of two bodies that translate, else None."""
+    """Return the scene of a line of JSON if it has two bodies that translate, else None."""
     if len(content) > LONGEST:
         return None
     try:
@@ -82,7 +82,7 @@ def read_two_bodies(content: bytes) -> TwoBodies | None:
 
 
 def exact(number: Raw) -> QQ:
-    """The number that is written, in the grammar of JSON or of `_TEXT`."""
+    """Return the number that is written, in the grammar of JSON or of `_TEXT`."""
     return QQ(number)
 
 
@@ -125,7 +125,7 @@ def _body(data: object) -> Moving:
 
 
 def _doubles(numbers: list[Raw]) -> list[float]:
-    """The nearest doubles to numbers of which each is 0 or neither tiny nor huge."""
+    """Return the nearest doubles to numbers of which each is 0 or neither tiny nor huge."""
     kinds = set(map(type, numbers))
     if kinds <= {int, Number}:
         found = [*map(float, numbers)]
@@ -150,7 +150,7 @@ def _quotient(text: str) -> float:
 
 
 def _is_zero(number: Raw) -> bool:
-    """Whether it is the integer 0, or a text with without another digit than 0 before a solidus.
+    """Return True for the integer 0, or a text whose numerator has no digit other than 0.
 
     With an exponent it counts as none: the format bounds exponents.
     """

@@ -98,7 +98,7 @@ class PredicatesAt(Predicates):
         return self._xs, self._ys
 
     def position(self, v: VertexId) -> Point:
-        """The exact unperturbed position of a vertex."""
+        """Return the exact unperturbed position of a vertex."""
         found = self._exact.get(v)
         if found is None:
             x, y = self._x[v], self._y[v]
@@ -134,7 +134,7 @@ class PredicatesAt(Predicates):
         return self._exact_sign(a, b, c)
 
     def signs(self, triples: Sequence[Triple]) -> list[int]:
-        """The `sign` of each triple, in numpy."""
+        """Return the `sign` of each triple, in numpy."""
         if not triples:
             return []
         ids = np.fromiter(chain.from_iterable(triples), np.int64, 3 * len(triples))
@@ -143,7 +143,7 @@ class PredicatesAt(Predicates):
 
     @np.errstate(all="ignore")
     def signs_of(self, ids: Indices) -> Indices:
-        """The `sign` of each row of three ids, in numpy."""
+        """Return the `sign` of each row of three ids, in numpy."""
         a, b, c = ids.T
         ux, uy = self._xs[b] - self._xs[a], self._ys[b] - self._ys[a]
         vx, vy = self._xs[c] - self._xs[a], self._ys[c] - self._ys[a]
@@ -187,7 +187,7 @@ class PredicatesAt(Predicates):
         self._counters.count_exact("sign", why)
 
     def _sign_of_copies(self, u: Vertex, v: Vertex, w: Vertex) -> int:
-        """The sign of `exactpt.certificates.perturbation.copy_orientation` at the time itself."""
+        """Return the sign of `perturbation.copy_orientation` at the time itself."""
         a, b, c = copies_first(u, v, w)
         (ax, ay), (bx, by) = self.offset(a.id), self.offset(b.id)
         (px, py), (qx, qy) = (
@@ -196,7 +196,7 @@ class PredicatesAt(Predicates):
         return sign((bx - ax) * (qy - py) - (by - ay) * (qx - px))
 
     def first_sign(self, terms: Iterable[IntPoly]) -> int:
-        """The sign of the first term that is not zero: just after the time, or at it."""
+        """Return the sign of the first term that is not zero: just after the time, or at it."""
         for f in terms:
             s = self._number.sign_after(f) if self.after else sign_at(f, self.time)
             if s:
@@ -204,7 +204,7 @@ class PredicatesAt(Predicates):
         return 0
 
     def left_of(self, a: VertexId, b: VertexId) -> bool:
-        """Whether a is left of b; of equal x, the upper one counts as left."""
+        """Return True if a is left of b; of equal x, the upper one counts as left."""
         difference = self._x[b] - self._x[a]
         bound = self._d + K * abs(difference)
         if not self._exact_only:
@@ -225,7 +225,7 @@ class PredicatesAt(Predicates):
         return self.first_sign(x_order_terms(u, v)) > 0
 
     def sorted_by_x(self, ids: Iterable[VertexId]) -> list[VertexId]:
-        """Vertices from left to right: sorted by doubles, and exactly where these are close.
+        """Return vertices from left to right: sorted by doubles, and exactly where these are close.
 
         In the order of the doubles, every vertex before a gap wider than the error bound is
         certainly left of every vertex after the gap.
@@ -279,7 +279,7 @@ class PredicatesAt(Predicates):
         return self._number.sign_after(cross(p, q, r, s))
 
     def turn_now(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
-        """The `turn` at the time itself; 0 if the directions are parallel then."""
+        """Return the `turn` at the time itself; 0 if the directions are parallel at that time."""
         if not self._exact_only:
             x, y, off = self._x, self._y, self._d
             now = cross_sign(x[b] - x[a], y[b] - y[a], off, x[d] - x[c], y[d] - y[c], off)
@@ -296,13 +296,13 @@ class PredicatesAt(Predicates):
         return now
 
     def middle(self, a: VertexId, b: VertexId, c: VertexId) -> VertexId:
-        """The middle one of three collinear vertices."""
+        """Return the middle one of three collinear vertices."""
         if self.nearer(a, b, c):
             return b if self.nearer(c, b, a) else a
         return c if self.nearer(b, c, a) else a
 
     def nearer(self, p: VertexId, a: VertexId, b: VertexId) -> bool:
-        """Whether a is nearer to p than b is, for a and b in the same direction from p."""
+        """Return True if a is nearer to p than b is, for a and b in the same direction from p."""
         origin, u, v = self.position(p), self.position(a), self.position(b)
         if u == v:
             return self._copy_is_nearer(p, a, b)
@@ -310,13 +310,13 @@ class PredicatesAt(Predicates):
         return abs(u[axis] - origin[axis]) < abs(v[axis] - origin[axis])
 
     def _copy_is_nearer(self, p: VertexId, a: VertexId, b: VertexId) -> bool:
-        """Whether copy a of a vertex is displaced further towards p than its copy b."""
+        """Return True if copy a of a vertex is displaced further towards p than its copy b."""
         (ax, ay), (bx, by) = self.offset(a), self.offset(b)
         (px, py), (x, y) = self.position(p), self.position(a)
         return (ax - bx) * (px - x) + (ay - by) * (py - y) > 0
 
     def offset(self, vertex_id: VertexId) -> Point:
-        """The direction of a vertex's infinitesimal displacement; (0, 0) if it has none."""
+        """Return the direction of a vertex's infinitesimal displacement; (0, 0) if it has none."""
         offset = self.vertices.all[vertex_id].offset
         if offset is None:
             return QQ(0), QQ(0)
@@ -324,6 +324,6 @@ class PredicatesAt(Predicates):
 
 
 def _extent(values: NDArray[np.float64]) -> float:
-    """The largest difference of two of the numbers, NaN ignored."""
+    """Return the largest difference of two of the numbers, NaN ignored."""
     known = values[~np.isnan(values)]
     return float(np.ptp(known)) if len(known) else 0.0

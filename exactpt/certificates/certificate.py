@@ -1,4 +1,4 @@
-"""What a pending certificate is of: its kind, and the part of the structure that it watches.
+"""Ids of certificates: the kind, and the part of the structure that it guarantees.
 
 In the queue a certificate is one integer, so that hot code compares and hashes plain numbers.
 It is packed and unpacked here, and by the queue in place: a call for each would take too long
@@ -109,30 +109,30 @@ POINT_MOTION: Final[int] = int(PointKind.MOTION)
 
 
 def pack(kind: i64, part: i64) -> CertificateId:
-    """The certificate of a kind; of a part of the mesh, as `Kind` tells."""
+    """Return the certificate of a kind and a part of the mesh, as defined by `Kind`."""
     return CertificateId(KIND_COUNT * part + kind)
 
 
 def kind_of(certificate: CertificateId) -> i64:
-    """The value of its `Kind`."""
+    """Return the value of its `Kind`."""
     return certificate % KIND_COUNT
 
 
 def part_of(certificate: CertificateId) -> i64:
-    """The part of the mesh that a certificate watches."""
+    """Return the part of the mesh that a certificate watches."""
     return certificate // KIND_COUNT
 
 
 def pack_point(kind: i64, point: i64) -> CertificateId:
-    """The certificate of a kind; of a point."""
+    """Return the certificate of a kind; of a point."""
     return CertificateId(_POINT_KINDS * point + kind)
 
 
 def point_kind_of(certificate: CertificateId) -> i64:
-    """The value of its `PointKind`."""
+    """Return the value of its `PointKind`."""
     return certificate % _POINT_KINDS
 
 
 def point_of(certificate: CertificateId) -> VertexId:
-    """The point that a certificate watches."""
+    """Return the point that a certificate watches."""
     return VertexId(certificate // _POINT_KINDS)

@@ -1,7 +1,7 @@
 """Certificates: the sign of an orientation or x-order just after now, and when it may fail.
 
-The tilings ask only here. Floats with proven bounds are tried first
-(`exactpt.certificates.coefficients`); exact arithmetic decides what they leave open, and
+The only predicates of the tilings. Floats with proven bounds are tried first
+(`exactpt.certificates.coefficients`); exact arithmetic decides the rest, and
 the answer is the same.
 """
 
@@ -61,7 +61,7 @@ class Certifier:
         exact_only: whether the float filters are switched off.
         made: the number of certificates computed.
         skipped: the number of certificates not computed, since they cannot fail.
-        zeros: the number of computed certificates that vanish now, or for ever.
+        zeros: the number of computed certificates that vanish now, or for all times.
         counters: the counts of decisions of the run.
         errors: bounds on the coefficients of the float enclosures, see `Enclosures`.
         positions: the positions of the vertices now, in doubles.
@@ -87,7 +87,7 @@ class Certifier:
         self.positions.move_to(low, high)
 
     def move_to(self, time: EventTime, roots: list[EventTime]) -> None:
-        """Make this the current time; the functions of which ``roots`` are roots vanish then."""
+        """Make this the current time; the functions of which ``roots`` are roots vanish at it."""
         self.now = time
         self.now_low = time.low
         self.now_high = time.high
@@ -100,7 +100,7 @@ class Certifier:
         return self.now.exact or self.resolve(self.now)
 
     def moment(self, time: EventTime) -> Moment:
-        """The time of an event, to be kept when the vertices get other motions.
+        """Return the time of an event, to be kept when the vertices get other motions.
 
         Args:
             time: of the event; its vertices still have the motions that lead up to it.
@@ -112,7 +112,7 @@ class Certifier:
         return Moment(time, stages, self._vertices.frame)
 
     def resolve(self, time: EventTime) -> AlgebraicNumber:
-        """The exact time of an event; its enclosure is narrowed as far as doubles allow."""
+        """Return the exact time of an event; its enclosure is narrowed as far as doubles allow."""
         number = exact_time(time, self._numbered(time), self._vertices.frame)
         if time is self.now:
             self.now_low, self.now_high = time.low, time.high
@@ -120,7 +120,7 @@ class Certifier:
         return number
 
     def _numbered(self, time: EventTime) -> tuple[Numbered, ...]:
-        """The vertices of an event, as in `exact_time`."""
+        """Return the vertices of an event, as in `exact_time`."""
         u, v = self.all[time.a], self.all[time.b]
         if time.c == X_ORDER:
             return (u.piece, u.index), (v.piece, v.index)
@@ -128,7 +128,7 @@ class Certifier:
         return (u.piece, u.index), (v.piece, v.index), (w.piece, w.index)
 
     def rigid(self, a: VertexId, b: VertexId, c: VertexId) -> bool:
-        """Whether three vertices keep their orientation for ever, so that no zero is lost."""
+        """Return True if three vertices keep their orientation for all times (no zero is lost)."""
         places = self._vertices.places
         m, n, o = places[WIDTH * a + MOTION], places[WIDTH * b + MOTION], places[WIDTH * c + MOTION]
         if a != c and OTHER_MOTION not in (m, n, o):
@@ -136,7 +136,7 @@ class Certifier:
         return rigid(self._vertices.bodies, self.all[a], self.all[b], self.all[c])
 
     def keeps_x_order(self, a: VertexId, b: VertexId) -> bool:
-        """Whether two vertices keep the difference of their x coordinates for ever."""
+        """Return True if two vertices keep the difference of their x coordinates for all times."""
         places = self._vertices.places
         m, n = places[WIDTH * a + MOTION], places[WIDTH * b + MOTION]
         if OTHER_MOTION not in (m, n):
@@ -144,9 +144,9 @@ class Certifier:
         return keeps_x_order(self._vertices.bodies, self.all[a], self.all[b])
 
     def orientation(self, a: VertexId, b: VertexId, c: VertexId) -> tuple[int, EventTime | None]:
-        """The sign of the orientation just after now, and its first zero later.
+        """Return the sign of the orientation just after now, and its first zero later.
 
-        The sign is 0 if the orientation is zero for ever; then the time is the first at
+        The sign is 0 if the orientation is identically zero; then the time is the first at
         which two of the vertices coincide. A zero without change of sign counts, even one of
         infinitesimal copies: it may be a contact (`exactpt.certificates.incidences`).
         """
@@ -257,7 +257,7 @@ class Certifier:
         return coefficients.linear_x_difference(places, i, j, errors, low, high, horizon, vanishes)
 
     def orientations(self, ids: Indices) -> Answers:
-        """The answers of `filtered_orientation` for rows of three ids, in numpy.
+        """Return the answers of `filtered_orientation` for rows of three ids, in numpy.
 
         Only those are counted that are not left open, with sign 0. Nothing may vanish now, and
         the filters must be on.
@@ -271,7 +271,7 @@ class Certifier:
         return answers
 
     def orientations_of_any(self, triples: Sequence[Triple]) -> list[tuple[int, EventTime | None]]:
-        """The `orientation` of each triple."""
+        """Return the `orientation` of each triple."""
         answers: list[tuple[int, EventTime | None]] = []
         for a, b, c in triples:
             if len(answers) % FEW == 0:
@@ -280,7 +280,7 @@ class Certifier:
         return answers
 
     def vanishes_now(self, a: VertexId, b: VertexId, c: VertexId) -> bool:
-        """Whether the function of these vertices is known to vanish now."""
+        """Return True if the function of these vertices is known to vanish now."""
         for time in self.roots_now:
             i, j, k = time.a, time.b, time.c
             if a in (i, j, k) and b in (i, j, k) and c in (i, j, k):
@@ -288,7 +288,7 @@ class Certifier:
         return False
 
     def _horizon(self, a: Vertex, b: Vertex) -> float:
-        """An upper bound of the time until which the motions of two vertices are known."""
+        """Return an upper bound of the time until which the motions of two vertices are known."""
         high = self._end_high
         if a.horizon < high:  # noqa: PLR1730 - `min` is a call in plain Python
             high = a.horizon
@@ -332,7 +332,7 @@ class Certifier:
         return self._event_time(root.time, (a, b, c), crossing=root.crossing)
 
     def first_coincidence(self, *ids: VertexId) -> EventTime | None:
-        """The first time at which two of these vertices, collinear for ever, coincide.
+        """Return the first time at which two of these vertices, collinear for all times, coincide.
 
         Two that share a motion keep their distance; it is not 0, or the scene would begin
         with a contact.

@@ -41,7 +41,7 @@ def orientation(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> filters.Answer:
-    """The filter's answer for the orientation of three vertices."""
+    """Return the filter's answer for the orientation of three vertices."""
     # The orientation is invariant under rotation of (a, b, c): rotate so that a and b
     # have one motion, if any two do.
     if a.ws or b.ws or c.ws:
@@ -191,7 +191,7 @@ def _any_degree(
     horizon: float,
     at_root: bool,  # noqa: FBT001
 ) -> filters.Answer:
-    """The answer for translations of any degree.
+    """Return the answer for translations of any degree.
 
     A coefficient is a sum of at most 2n products, each with an error of three units: 2n + 3
     units, and 4n + 8 cover the rounding of the bound.
@@ -224,7 +224,7 @@ def x_difference(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> filters.Answer:
-    """The filter's answer for x(b) - x(a)."""
+    """Return the filter's answer for x(b) - x(a)."""
     if a.ws or b.ws:
         return turning.x_difference(a, b, now_low, now_high, horizon, at_root)
     if a.degree <= 1 and b.degree <= 1:
@@ -275,7 +275,7 @@ def _linear_difference(
 
 
 def _differences(p: list[float], q: list[float], a: Image, b: Image) -> list[float]:
-    """The coefficients of q - p; for vertices of one translation, the constant alone."""
+    """Return the coefficients of q - p; for vertices of one translation, the constant alone."""
     if a.motion == b.motion and a.motion >= 0:
         return [q[0] - p[0]]
     if len(p) == len(q):

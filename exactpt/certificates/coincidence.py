@@ -34,7 +34,7 @@ __all__ = [
 
 
 def coordinate_order(certifier: Certifier, a: Vertex, b: Vertex, axis: int) -> int:
-    """The sign of x(b) - x(a) (axis 0) or of y(b) - y(a) (axis 1) at the current time."""
+    """Return the sign of x(b) - x(a) (axis 0) or of y(b) - y(a) (axis 1) at the current time."""
     if a.is_copy_of(b):
         return 0
     s = _filtered_order(certifier, a, b, axis)
@@ -70,7 +70,7 @@ def boxes_now(certifier: Certifier, vertices: Sequence[Vertex]) -> Boxes:
 
 
 def coincide(certifier: Certifier, a: Vertex, b: Vertex) -> bool:
-    """Whether two vertices coincide now."""
+    """Return True if two vertices coincide now."""
     if a.is_copy_of(b):
         return True
     # Doubles are tried on both axes first, as in `nearer`.
@@ -102,7 +102,7 @@ def nearer(certifier: Certifier, p: Vertex, a: Vertex, b: Vertex) -> int:
 
 
 def nearer_copy(certifier: Certifier, p: Vertex, a: Vertex, b: Vertex) -> int:
-    """The order of `nearer` for two infinitesimal copies a and b of one vertex."""
+    """Return the order of `nearer` for two infinitesimal copies a and b of one vertex."""
     if a.offset is None or b.offset is None or not a.is_copy_of(b):
         return 0
     (ax, ay), (bx, by) = a.offset, b.offset
@@ -116,7 +116,7 @@ def nearer_copy(certifier: Certifier, p: Vertex, a: Vertex, b: Vertex) -> int:
 
 
 def strictly_between(certifier: Certifier, a: Vertex, p: Vertex, b: Vertex) -> bool:
-    """Whether p lies strictly between a and b, for three collinear vertices.
+    """Return True if p lies strictly between a and b, for three collinear vertices.
 
     Of two infinitesimal copies of one vertex, the one displaced towards the third vertex
     lies between.
@@ -138,7 +138,7 @@ def strictly_between(certifier: Certifier, a: Vertex, p: Vertex, b: Vertex) -> b
 
 
 def lies_on(certifier: Certifier, v: Vertex, a: Vertex, b: Vertex) -> bool:
-    """Whether v lies in the closed segment ab now."""
+    """Return True if v lies in the closed segment ab now."""
     for order in (_filtered_order, coordinate_order):  # by doubles first, as in `nearer`
         for axis in (0, 1):
             if order(certifier, a, v, axis) * order(certifier, v, b, axis) < 0:

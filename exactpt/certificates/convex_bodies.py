@@ -8,7 +8,7 @@ __all__ = ["all_stay_convex"]
 
 
 def all_stay_convex(instant: PredicatesAt) -> bool:
-    """Whether all bodies are convex and stay so; angles of pi are allowed.
+    """Return True if all bodies are convex and stay so; angles of pi are allowed.
 
     False if there is an open chain of more than two vertices, even a straight one: it may
     bend later.

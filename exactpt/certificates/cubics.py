@@ -34,7 +34,7 @@ def three(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """The answer for three cubic motions: (b - a) x (c - a) is of degree 6 in t.
+    """Return the answer for three cubic motions: (b - a) x (c - a) is of degree 6 in t.
 
     With X[i] = |ux[i]| + |vx[i]| and Y likewise, the products of coefficient k have sizes
     that add up to at most the sum of X[i] Y[k - i], and the errors of the enclosures add
@@ -109,7 +109,7 @@ def pair(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """The answer for cubic motions, a and b together: (b - a) x (c - a) is of degree 3 in t."""
+    """Return the answer where a and b share a cubic motion: (b - a) x (c - a) has degree 3."""
     ux, uy = b.x0 - a.x0, b.y0 - a.y0
     vx0, vx1, vx2, vx3 = c.x0 - a.x0, c.x1 - a.x1, c.x2 - a.x2, c.x3 - a.x3
     vy0, vy1, vy2, vy3 = c.y0 - a.y0, c.y1 - a.y1, c.y2 - a.y2, c.y3 - a.y3
@@ -139,7 +139,7 @@ def x_difference(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """The answer for two different cubic motions: x(b) - x(a) is of degree 3 in t."""
+    """Return the answer for two different cubic motions: x(b) - x(a) is of degree 3 in t."""
     c0, c1, c2, c3 = b.x0 - a.x0, b.x1 - a.x1, b.x2 - a.x2, b.x3 - a.x3
     e0, e1 = K * abs(c0) + 2.0 * errors[0], K * abs(c1) + 2.0 * errors[1]
     e2 = K * abs(c2) + 2.0 * errors[2]

@@ -1,8 +1,8 @@
 """Positions at an instant that doubles hold exactly: ties are decided without rationals.
 
 At the time 0 of a scene of integers, or of doubles, in linear motion, the doubles are the
-positions themselves. What is computed from them without rounding is exact, zeros included
-(`exactpt.kernel.error_free`): there, most of what a filter leaves open is a tie.
+positions themselves. Computations without rounding are exact, zeros included
+(`exactpt.kernel.error_free`): there, most undecided cases of a filter are ties.
 """
 
 from __future__ import annotations
@@ -40,14 +40,14 @@ class ExactPlaces:
         self._after: bool = after
 
     def turn(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
-        """The sign of (b - a) x (d - c) at the instant; `NOT_EXACT` if doubles do not give it."""
+        """Return the sign of (b - a) x (d - c) at the instant, or `NOT_EXACT`."""
         if not self._are_exact:
             return NOT_EXACT
         x, y = self._x, self._y
         return exact_turn((x[a], y[a]), (x[b], y[b]), (x[c], y[c]), (x[d], y[d]))
 
     def is_slope(self, a: VertexId, b: VertexId, q: float) -> bool:
-        """Whether q, the double nearest to minus the slope of the line from a to b, is that.
+        """Return True if q, the double nearest to minus the slope of the line from a to b, is that.
 
         Then q dx is -dy or differs from it by less than a unit in its last place, and all sums of
         `is_exact_product` are exact but perhaps the last, which is 0 only if the error is.
@@ -66,7 +66,7 @@ class ExactPlaces:
         """1 if a is left of b (`Predicates.left_of`), -1 if right, for one x; 0 if not certain.
 
         Just after the instant x(b) - x(a) has the sign of its slope, since the trajectories are
-        straight. Where that is zero for ever, y decides.
+        straight. Where that is identically zero, y decides.
         """
         if not self._are_exact or self._x[a] != self._x[b]:
             return 0

@@ -5,7 +5,7 @@ t, in the limit towards t, with the infinitesimal copies of a vertex
 (`exactpt.motion.infinitesimal`) contracted to the vertex: its faces are pseudo-triangles,
 except for those that have lost all area, which are edges.
 
-*Which angles vanish.* Let vertex v meet a body edge e, or a vertex. Just before t, a short
+*Which angles vanish.* Let vertex v touch a body edge e, or a vertex. Just before t, a short
 segment from v to e leaves v through a face, crosses diagonals, and ends in a face at e; it
 shrinks to a point z. Each of these faces is pinched at z into two loops. Its three corners
 are divided between them, so one loop has at most one corner besides z. The turning angles
@@ -22,15 +22,15 @@ copies at most 0. So if the angle at the vertex becomes 0 (a turning angle of pi
 angle at the corner among the copies becomes pi and the others become 0; and if a reflex
 angle becomes straight (a turning angle of 0), all of them become 0: there is no corner among
 them, or the face would have two real corners only. So each of these copies has an
-orientation that vanishes at t, or is zero for ever.
+orientation that vanishes at t, or is identically zero.
 
 *Each has an event.* An orientation that vanishes at t has an event at t, whether it changes
 sign or only touches 0, also at the end of a piece of motion (`Certifier.orientation`);
-and if it is zero for ever, there is one when two of its vertices coincide. No corner whose
-angle is zero for ever remains in the tiling (`exactpt.certificates.perturbation`), so q has an
-event, and the angles beside it that are straight for ever are found by following the chain.
+and if it is identically zero, there is one when two of its vertices coincide. No corner whose
+angle is identically zero remains in the tiling (`exactpt.certificates.perturbation`), so q has an
+event, and the angles beside it that are straight for all times are found by following the chain.
 Hence testing the vertices of all angles with an event at t, extended along straight angles,
-finds every contact. (Where more than two features meet at z, consecutive ones do so as
+finds every contact. (Where more than two features touch at z, consecutive ones do so as
 above, and all pairs among the vertices and edges found are tested.)
 
 The faces are those of the free space, in holes of bodies too, and of the interiors that are tiled,
@@ -68,7 +68,7 @@ _Edge: TypeAlias = "tuple[Vertex, int, Vertex]"
 def touches(
     certifier: Certifier, vertices: Vertices, candidates: Iterable[VertexId]
 ) -> list[Touch]:
-    """All touches now among these vertices and the body edges between them, in order.
+    """Return all touches now among these vertices and the body edges between them, in order.
 
     Two coinciding vertices count once, and not also as vertices on the edges that end there.
     Neighbours on one body touch only if their edge has shrunk to a point.
@@ -100,7 +100,7 @@ def touches(
 
 
 def _pairs(points: list[Vertex], boxes: Boxes | None) -> Iterator[tuple[Vertex, Vertex]]:
-    """The pairs of points, in order; with boxes, only those whose boxes overlap."""
+    """Yield the pairs of points, in order; with boxes, only those whose boxes overlap."""
     if boxes is None:
         yield from combinations(points, 2)
     else:
@@ -112,7 +112,7 @@ def _pairs(points: list[Vertex], boxes: Boxes | None) -> Iterator[tuple[Vertex, 
 def _near(
     points: list[Vertex], edges: list[_Edge], boxes: Boxes | None
 ) -> Iterator[tuple[Vertex, _Edge]]:
-    """The pairs of a point and an edge; with boxes, only those whose boxes overlap."""
+    """Yield the pairs of a point and an edge; with boxes, only those whose boxes overlap."""
     if boxes is None or not edges:
         yield from product(points, edges)
         return
@@ -130,7 +130,7 @@ def _near(
 def _edges(
     vertices: Vertices, chosen: dict[tuple[int, int], Vertex], a: Vertex
 ) -> list[tuple[int, Vertex]]:
-    """The body edge that starts at a, as (number, other end), if that end is chosen too."""
+    """Return the body edge that starts at a, as (number, other end), if that end is chosen too."""
     body = vertices.bodies[a.body].body
     size = body.size
     if size == 1 or (a.index == size - 1 and (size == 2 or not body.closed)):

@@ -1,4 +1,4 @@
-"""A queue of certificates with names: what a kinetic data structure of one's own needs.
+"""An event queue of named certificates, for custom kinetic data structures.
 
 The engine of the tilings has certificates of its own, in doubles with proved bounds. Here they
 are polynomials, and their roots are exact from the beginning; only the order of the queue is
@@ -32,7 +32,7 @@ class _Failures:
         self.times: dict[i64, AlgebraicNumber] = {}
 
     def resolve(self, time: EventTime) -> AlgebraicNumber:
-        """The exact time of an event."""
+        """Return the exact time of an event."""
         time.exact = self.times[time.a]
         return time.exact
 
@@ -42,7 +42,7 @@ class CertificateQueue:
     """Certificates f(t) >= 0, and the time up to which all of them hold.
 
     A certificate fails at the first time, from now on, just after which its polynomial is
-    negative. A polynomial that only touches 0, or vanishes for ever, does not fail.
+    negative. A polynomial that only touches 0, or vanishes identically, does not fail.
 
     >>> from exactpt.kernel import Polynomial
     >>> t = Polynomial([0, 1])
@@ -106,8 +106,8 @@ class CertificateQueue:
         """Move to the next time at which certificates fail, or to the end.
 
         Returns:
-            The names of all that fail then, in the order in which the names were first given;
-            they are no longer watched. An empty list at the end.
+            All names that fail at that time, in the order in which they were first given; they
+            are no longer watched. An empty list at the end.
 
         Raises:
             RoundingError: see `check_rounding`.
@@ -122,7 +122,7 @@ class CertificateQueue:
         return [self._names[slot] for slot, _ in failed]
 
     def _failure(self, f: Polynomial) -> AlgebraicNumber | None:
-        """The first time >= now, and before the end, just after which f is negative."""
+        """Return the first time >= now, and before the end, just after which f is negative."""
         if f.sign_after(self.now) < 0:
             return self.now
         if f.degree < 1:

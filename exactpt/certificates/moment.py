@@ -29,7 +29,7 @@ class Moment:
     """The time of an event, a number on demand.
 
     It keeps the pieces of motion of the event, so it is the same time whatever motions the
-    vertices have by then, and whichever vertices have their ids.
+    vertices have by that time, and whichever vertices have their ids.
 
     Args:
         time: the time.
@@ -60,7 +60,7 @@ def exact_time(time: EventTime, vertices: tuple[Numbered, ...], frame: Frame) ->
 
     Args:
         time: a root, alone in its enclosure, of the function of ``vertices``. A filter has found
-            it, so the function is not zero for ever.
+            it, so the function is not identically zero.
         vertices: three for their orientation, two for their x-order.
         frame: the normalisation of the enclosure.
 
@@ -81,7 +81,7 @@ def exact_time(time: EventTime, vertices: tuple[Numbered, ...], frame: Frame) ->
 
 
 def _crossing(a: Numbered, b: Numbered) -> AlgebraicNumber | None:
-    """The time at which two vertices have one x, if `Piece.straight_x` knows both."""
+    """Return the time at which two vertices have one x, if `Piece.straight_x` knows both."""
     of_a, of_b = a[0].straight_x(a[1]), b[0].straight_x(b[1])
     if of_a is None or of_b is None:
         return None
@@ -89,7 +89,7 @@ def _crossing(a: Numbered, b: Numbered) -> AlgebraicNumber | None:
 
 
 def _isolated(f: IntPoly, time: EventTime, frame: Frame) -> AlgebraicNumber:
-    """The root of a polynomial in the enclosure of a time.
+    """Return the root of a polynomial in the enclosure of a time.
 
     Raises:
         AuditError: if it does not change its sign there. Refinement would not end.

@@ -23,6 +23,6 @@ def orientation(p: MovingPoint, q: MovingPoint, r: MovingPoint) -> Polynomial:
 
 
 def squared_distance(p: MovingPoint, q: MovingPoint) -> Polynomial:
-    """The square of the distance of p and q."""
+    """Return the square of the distance of p and q."""
     dx, dy = q[0] - p[0], q[1] - p[1]
     return dx * dx + dy * dy

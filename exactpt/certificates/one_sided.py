@@ -29,7 +29,7 @@ class OneSided(Predicates):
         self._before: bool = before
 
     def sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
-        """1 if a, b, c turn left, -1 if they turn right, 0 if collinear for ever (counts as -1)."""
+        """1 if a, b, c turn left, -1 if they turn right, 0 if always collinear (counts as -1)."""
         certifier, v = self._certifier, self._all
         va, vb, vc = v[a], v[b], v[c]
         if not certifier.exact_only:
@@ -44,7 +44,7 @@ class OneSided(Predicates):
         return self._exact(orientation(va, vb, vc), va, vb, vc)
 
     def _filtered_sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
-        """The sign of the orientation, one that vanishes now included; 0 if it is not certain."""
+        """Return the sign of the orientation, also if it vanishes now; 0 if undecided."""
         certifier, v = self._certifier, self._all
         va, vb, vc = v[a], v[b], v[c]
         if va.is_copy_of(vb) or vb.is_copy_of(vc) or va.is_copy_of(vc):
@@ -56,7 +56,7 @@ class OneSided(Predicates):
         return s
 
     def left_of(self, a: VertexId, b: VertexId) -> bool:
-        """Whether a is left of b."""
+        """Return True if a is left of b."""
         certifier = self._certifier
         va, vb = self._all[a], self._all[b]
         if not certifier.exact_only:
@@ -86,10 +86,10 @@ class OneSided(Predicates):
         return self._exact(cross(p.track, q.track, r.track, t.track), p, q, r, t)
 
     def _turn_at_end(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
-        """The turn of two segments that share an end; 0 if they do not, or it is not certain.
+        """Return the turn of two segments with a common end; 0 if undecided, or without one.
 
-        (b - a) x (d - c) is an orientation of the three vertices then. It vanishes at each event
-        at which a diagonal passes its shadow.
+        (b - a) x (d - c) is then an orientation of the three vertices. It vanishes at each event at
+        which a diagonal passes its shadow.
         """
         if a == c:
             return self._filtered_sign(a, b, d)
@@ -102,7 +102,7 @@ class OneSided(Predicates):
         return 0
 
     def nearer(self, p: VertexId, a: VertexId, b: VertexId) -> bool:
-        """Whether a is nearer to p than b is, for a and b in the same direction from p."""
+        """Return True if a is nearer to p than b is, for a and b in the same direction from p."""
         certifier = self._certifier
         o, u, v = (certifier.all[i] for i in (p, a, b))
         return (nearer(certifier, o, u, v) or nearer_copy(certifier, o, u, v)) > 0

@@ -1,10 +1,10 @@
 """Exact orientation and x-order of moving vertices, under a symbolic perturbation.
 
 **One symbolic perturbation** resolves all permanent degeneracies (functions that are zero
-for ever). It is infinitesimal and has two steps, the second smaller than every positive
+for all times). It is infinitesimal and has two steps, the second smaller than every positive
 power of the first:
 
-1. The plane is turned clockwise by rho. So of two vertices with equal x for ever the
+1. The plane is turned clockwise by rho. So of two vertices with equal x for all times the
    upper one is the left one: points are ordered by (x, -y), and a vertical direction is
    the steepest descent, not the steepest ascent.
 2. Every vertex v of the scene is inflated to a disc of radius eps * (1 - kappa |v|^2),
@@ -12,7 +12,7 @@ power of the first:
    segments have an interior too. (The rings of degenerate bodies have several copies of a
    vertex, see `exactpt.motion.infinitesimal`: its disc is divided among them, by direction.)
 
-Proof that step 2 decides three vertices a, m, b of the scene that are collinear for ever, m
+Proof that step 2 decides three vertices a, m, b of the scene that are collinear for all times, m
 between a and b: the radius is a strictly concave function along the line, so the disc of
 m sticks out of the hull of the discs of a and b on either side. So the free edge from a
 to b is hit by m, whichever sides its ends are tangent to; an angle of exactly pi at m in a
@@ -23,7 +23,7 @@ of these cases the orientation (previous, here, next) around a free face counts 
 **What the perturbation preserves, and what it does not.** Let g be the function of a
 certificate, and g + eps h + ... that of the perturbed vertices.
 
-- Where g is not zero for ever, the sign just after a time is that of g, and likewise just
+- Where g is not identically zero, the sign just after a time is that of g, and likewise just
   before: eps is smaller than every time step. So the tilings just before and just after a
   time are those of the scene itself.
 - At a zero at which g changes sign, the perturbed function changes sign an odd number of
@@ -65,7 +65,7 @@ __all__ = [
 
 
 def cross(a: Track, b: Track, c: Track, d: Track) -> IntPoly:
-    """A positive multiple of (b - a) x (d - c)."""
+    """Return a positive multiple of (b - a) x (d - c)."""
     length = a.length + b.length + c.length + d.length - 3
     width = width_for(a.bits + b.bits + c.bits + d.bits, length, 4)
     ax, ay, aw = a.packed(width)
@@ -86,7 +86,7 @@ def copies_first(a: Vertex, b: Vertex, c: Vertex) -> tuple[Vertex, Vertex, Verte
 
 
 def copy_orientation(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
-    """The orientation of three vertices of which two or all are copies of one.
+    """Return the orientation of three vertices of which two or all are copies of one.
 
     With two copies it is (offset(b) - offset(a)) x (c - a), in the limit of small
     displacements; with three, the orientation of their displacements.
@@ -112,14 +112,14 @@ def _offset_difference(a: Vertex, b: Vertex) -> tuple[IntPoly, IntPoly]:
 
 
 def orientation(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
-    """A function with the sign of the orientation; ``()`` if zero for ever (counts as -1)."""
+    """Return a function with the sign of the orientation; ``()``, if always 0, counts as -1."""
     if a.is_copy_of(b) or b.is_copy_of(c) or c.is_copy_of(a):
         return copy_orientation(a, b, c)
     return base_orientation(a.track, b.track, c.track)
 
 
 def x_order_terms(a: Vertex, b: Vertex) -> Iterator[IntPoly]:
-    """The terms of a function that is positive while a is left of b, the largest first.
+    """Yield the terms of a function that is positive while a is left of b, the largest first.
 
     They are x(b) - x(a); then y(a) - y(b), by step 1; then the same for the displacements.
     """
@@ -131,7 +131,7 @@ def x_order_terms(a: Vertex, b: Vertex) -> Iterator[IntPoly]:
 
 
 def x_order(a: Vertex, b: Vertex) -> IntPoly:
-    """The first of the `x_order_terms` that is not zero for ever."""
+    """Return the first of the `x_order_terms` that is not identically zero."""
     return next((f for f in x_order_terms(a, b) if f), ())
 
 
@@ -142,7 +142,7 @@ def comes_first(
     sign_q: int,
     t: AlgebraicNumber,
 ) -> bool:
-    """Whether the copies p become collinear before the copies q do.
+    """Return True if the copies p become collinear before the copies q do.
 
     Both are copies of the same three vertices of the scene, in orders that may differ; their
     orientation F vanishes at t and changes to sign_p and sign_q. With the displacements it is
@@ -155,7 +155,7 @@ def comes_first(
 
 
 def _offset_term(a: Vertex, b: Vertex, c: Vertex) -> IntPoly:
-    """The coefficient of eta in the orientation of three vertices displaced by eta * offset.
+    """Return the coefficient of eta in the orientation of three vertices displaced by eta * offset.
 
     Row (x, y, w) of the determinant becomes (x + eta dx w, y + eta dy w, w).
     """

@@ -104,7 +104,7 @@ class Positions:
         vertex.x, vertex.y, vertex.error = x, y, min(INFINITY, max(dx, dy))
 
     def sign(self, a: Vertex, b: Vertex, c: Vertex) -> int:
-        """The sign of the orientation now, or 0 if it is not certain.
+        """Return the sign of the orientation now, or 0 if it is not certain.
 
         With errors of the coordinates of at most da, db, dc, those of the differences
         u = b - a, v = c - a are at most du = da + db, dv = da + dc plus their own rounding,
@@ -122,7 +122,7 @@ class Positions:
         return cross_sign(b.x - x, b.y - y, d + b.error, c.x - x, c.y - y, d + c.error)
 
     def turn(self, a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> int:
-        """The sign of (b - a) x (d - c) now, or 0 if it is not certain."""
+        """Return the sign of (b - a) x (d - c) now, or 0 if it is not certain."""
         self.find(a)
         self.find(b)
         self.find(c)
@@ -131,7 +131,7 @@ class Positions:
         return cross_sign(b.x - a.x, b.y - a.y, du, d.x - c.x, d.y - c.y, dv)
 
     def order(self, a: Vertex, b: Vertex, axis: int) -> int:
-        """The sign of x(b) - x(a) (axis 0) or y(b) - y(a) (axis 1) now, or 0 if not certain."""
+        """Return the sign of x(b) - x(a) (axis 0) or y(b) - y(a) (axis 1) now; 0 if undecided."""
         self.find(a)
         self.find(b)
         difference = b.y - a.y if axis else b.x - a.x
@@ -139,7 +139,7 @@ class Positions:
         return 1 if difference > bound else -1 if difference < -bound else 0
 
     def _value(self, cs: list[float]) -> tuple[float, float]:
-        """The value of a polynomial now, and a bound on its error anywhere in [low, high].
+        """Return the value of a polynomial now, and a bound on its error anywhere in [low, high].
 
         Horner's rule at the middle m of the enclosure, with errors of the coefficients of at
         most errors[i] (and one unit), has an error of sum((4n + 8) u |c_i| + errors[i]) |m|^i;
@@ -190,7 +190,7 @@ def _quotient(x: float, dx: float, w: float, dw: float) -> tuple[float, float]:
 
 
 def cross_sign(ux: float, uy: float, du: float, vx: float, vy: float, dv: float) -> int:
-    """The sign of u x v, or 0 if it is not certain.
+    """Return the sign of u x v, or 0 if it is not certain.
 
     u and v are rounded differences, with errors of at most du and dv in each coordinate
     besides that rounding.

@@ -17,11 +17,11 @@ class Predicates:
 
     @abstractmethod
     def sign(self, a: VertexId, b: VertexId, c: VertexId) -> int:
-        """1 if a, b, c turn left, -1 if they turn right, 0 if collinear for ever (counts as -1)."""
+        """1 if a, b, c turn left, -1 if they turn right, 0 if always collinear (counts as -1)."""
 
     @abstractmethod
     def left_of(self, a: VertexId, b: VertexId) -> bool:
-        """Whether a is left of b."""
+        """Return True if a is left of b."""
 
     @abstractmethod
     def turn(self, a: VertexId, b: VertexId, c: VertexId, d: VertexId) -> int:
@@ -29,4 +29,4 @@ class Predicates:
 
     @abstractmethod
     def nearer(self, p: VertexId, a: VertexId, b: VertexId) -> bool:
-        """Whether a is nearer to p than b is, for a and b in the same direction from p."""
+        """Return True if a is nearer to p than b is, for a and b in the same direction from p."""

@@ -42,7 +42,7 @@ class EventTime:
         low, high: doubles, normalised as in the run: low <= time <= high.
         a, b, c: the function of which the time is a root, as known to the resolver.
         exact: the exact time, once it has been computed.
-        crossing: whether the function changes sign then; otherwise it only touches 0.
+        crossing: whether the function changes sign at it; otherwise it only touches 0.
     """
 
     __slots__ = ("a", "b", "c", "crossing", "exact", "high", "low")
@@ -67,7 +67,7 @@ class EventTime:
 
 
 def earlier(s: EventTime | None, t: EventTime | None) -> EventTime | None:
-    """The earlier of two exact times, the first if they are equal; None counts as infinity."""
+    """Return the earlier of two exact times, the first if equal; None is infinity."""
     if s is None or t is None or s.exact is None or t.exact is None:
         return s or t
     return t if t.exact.compare(s.exact) < 0 else s
@@ -77,7 +77,7 @@ class Resolver(Protocol):
     """Computes the exact times of events."""
 
     def resolve(self, time: EventTime) -> AlgebraicNumber:
-        """The exact time, stored in ``time.exact``; the enclosure is narrowed likewise."""
+        """Return the exact time, stored in ``time.exact``; the enclosure is narrowed likewise."""
         ...
 
 
@@ -185,7 +185,7 @@ class EventQueue(Calendar):
 
         Returns:
             -1 if there is none, it is not certainly before ``until``, another enclosure overlaps
-            its own, or the sign does not change then.
+            its own, or the sign does not change at it.
         """
         if not self._find_first():
             return NO_CERTIFICATE
@@ -322,7 +322,7 @@ class ExactQueue(EventQueue):
         return sorted(self._kept)
 
     def pop(self) -> tuple[EventTime, list[tuple[CertificateId, EventTime]]] | None:
-        """The earliest time and all slots with an event then; None if the queue is empty."""
+        """Return the earliest time and all slots with an event at it; None if it is empty."""
         heap = self._exact_heap
         entries: list[tuple[CertificateId, EventTime]] = []
         first: AlgebraicNumber | None = None

@@ -12,7 +12,7 @@ __all__ = ["reason"]
 
 
 def reason(*vertices: Vertex, is_zero: bool, exact_only: bool) -> str:
-    """The reason why a sign was decided exactly.
+    """Return the reason why a sign was decided exactly.
 
     Args:
         vertices: the vertices of the sign.
@@ -22,7 +22,7 @@ def reason(*vertices: Vertex, is_zero: bool, exact_only: bool) -> str:
     Returns:
         "asked" (the filters are switched off), "zero", "copies" (two vertices are copies of
         one of a degenerate body: there is no filter), "range" (a number is too large or too
-        small for the filters), or "close" (not zero, but floats cannot tell).
+        small for the filters), or "close" (not zero, but too close for floats).
     """
     if exact_only:
         return "asked"

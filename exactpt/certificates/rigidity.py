@@ -8,7 +8,7 @@ __all__ = ["keeps_x_order", "rigid"]
 
 
 def rigid(bodies: list[MovingBody], a: Vertex, b: Vertex, c: Vertex) -> bool:
-    """Whether three vertices keep their orientation for ever, so that no zero is lost.
+    """Return True if three vertices keep their orientation for all times, so that no zero is lost.
 
     Three vertices of one motion keep their distances, and the copies of one vertex their
     displacements, unless these turn independently of the motion. The copies of a point
@@ -27,7 +27,7 @@ def rigid(bodies: list[MovingBody], a: Vertex, b: Vertex, c: Vertex) -> bool:
 
 
 def _turns_apart(bodies: list[MovingBody], copy: Vertex) -> bool:
-    """Whether the displacements of a vertex's copies do not turn with its motion.
+    """Return True if the displacements of a vertex's copies do not turn with its motion.
 
     Those of a point never turn, even if the point does; those of a segment or chain
     that deforms may turn.
@@ -37,7 +37,7 @@ def _turns_apart(bodies: list[MovingBody], copy: Vertex) -> bool:
 
 
 def keeps_x_order(bodies: list[MovingBody], a: Vertex, b: Vertex) -> bool:
-    """Whether two vertices keep the difference of their x coordinates for ever."""
+    """Return True if two vertices keep the difference of their x coordinates for all times."""
     if a.offset is not None and bodies[a.body].deforms:
         return False  # its displacements turn
     p, q = a.image, b.image

@@ -1,4 +1,4 @@
-"""The table of certificates: what is pending, what is violated, what is flat for ever."""
+"""The table of certificates: pending, violated, and permanently flat ones."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class CertificateTable:
         pending: the times of failures, by certificate.
         violated: of each kind, the parts whose certificate is violated just after now.
         angles: of these, the half-edges whose angles are violated.
-        flat: the half-edges whose angles are straight for ever.
+        flat: the half-edges whose angles are straight for all times.
     """
 
     def __init__(self, certifier: Certifier) -> None:
@@ -79,7 +79,7 @@ class CertificateTable:
         return s
 
     def move(self, old: CertificateId, new: CertificateId) -> None:
-        """Let a certificate have the time of another one, which is forgotten."""
+        """Let a certificate have the time of a second one, which is removed."""
         time = self.pending.pending(old)
         self.pending.cancel(old)
         self.pending.cancel(new)

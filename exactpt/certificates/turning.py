@@ -5,7 +5,7 @@ one that only translates is at p(t), its arm is 0 and w = 1. The relative error 
 coefficient is at most one unit u = 2^-53.
 
 Two vertices a, b of one motion and a third vertex c. Let d = p(c) - p(a) and u the difference
-of the arms of b and a, or of a and b themselves if they only translate. Then
+of the arms of b and a, or of a and b themselves if they only translate. Thus
     (b - a) x (c - a) = u / w x (d + r(c) / w(c) - r(a) / w).
 Since arms only turn, u x r(a) = r(b) x r(a) is k w^2 with a constant k, and w w(c) times the
 orientation is
@@ -44,7 +44,7 @@ def pair(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """The answer for the orientation of a and b of one motion, and a third vertex.
+    """Return the answer for the orientation of a and b of one motion, and a third vertex.
 
     The bound. With X[i] = |x[i](a)| + |x[i](b)|, u[i] is off by at most 2 units of X[i] and Y[i],
     and d likewise by two units of the sums of its parts. w(c) d + r(c) has sums of at most four
@@ -130,7 +130,7 @@ def _pivot(image: Image) -> Six:
 
 
 def _times(f0: float, f1: float, f2: float, g0: float, g1: float, g2: float) -> Five:
-    """The coefficients of the product of two polynomials of degree 2."""
+    """Return the coefficients of the product of two polynomials of degree 2."""
     return f0 * g0, f0 * g1 + f1 * g0, f0 * g2 + f1 * g1 + f2 * g0, f1 * g2 + f2 * g1, f2 * g2
 
 
@@ -143,7 +143,7 @@ def three(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """The answer for any three vertices, by the determinant of the rows (x, y, w).
+    """Return the answer for any three vertices, by the determinant of the rows (x, y, w).
 
     The entries of a row are off by at most 7 units of its sizes s, see `_row`. With at most m
     terms in each, a minor of b and c goes through at most 2m sums and is off by 2m + 15 units of
@@ -174,7 +174,7 @@ def x_difference(
     horizon: float,
     at_root: bool,  # noqa: FBT001 - positional for speed
 ) -> Answer:
-    """The answer for x(b) - x(a): the sign of x(b) w(a) - x(a) w(b).
+    """Return the answer for x(b) - x(a): the sign of x(b) w(a) - x(a) w(b).
 
     A product is off by three units and goes through at most m + 1 sums.
     """

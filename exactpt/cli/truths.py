@@ -32,7 +32,7 @@ def oracle(file: BinaryIO, max_seconds: float | None) -> int:
     """Answer questions, one line of JSON each, by their exact truths, in the same order.
 
     Questions come from a file or from standard input; whenever no more of them have come, all
-    answers so far are written. docs/testing.md explains both. A line that is no question has an
+    answers so far are written. docs/testing.md explains both. A line that is not a question has an
     answer with the key "error", and the exit code is 2 at the end. --max-bytes bounds a line, by
     default to 2^24.
 

@@ -8,7 +8,7 @@ __all__ = ["contrast", "in_words"]
 
 
 def contrast(expected: Contact | None, found: Contact | None) -> str | None:
-    """The first attribute in which two contacts of one scene differ; None if they agree.
+    """Return the first attribute in which two contacts of one scene differ; None if they agree.
 
     One of "missed", "found" (only one of the two is a contact), "time", "kind", "pairs" and
     "overlaps".
@@ -26,7 +26,7 @@ def contrast(expected: Contact | None, found: Contact | None) -> str | None:
 
 
 def in_words(contact: Contact | None) -> str:
-    """One line of text: the time, the kind and the first four incidences of a contact."""
+    """Return one line of text: the time, the kind and the first four incidences of a contact."""
     if contact is None:
         return "finds no contact"
     pairs = ", ".join(

@@ -38,7 +38,7 @@ def first_contact(
     max_seconds: float | None = None,
     max_memory: int | None = None,
 ) -> Contact | None:
-    """The first contact in the closed time span of a scene; None if there is none.
+    """Return the first contact in the closed time span of a scene; None if there is none.
 
     Args:
         scene: the bodies, their motions and the time span.
@@ -55,7 +55,7 @@ def first_contact(
             overlap. This needs "pairs" or "auto", as does ``between``.
         between: pairs of names; contacts of other pairs do not count, nor do those of a body
             with itself. All if not given.
-        since: a later start of the time span. Bodies that touch then are in contact then.
+        since: a later start of the time span. Bodies that touch at it are in contact at it.
         proof: file to write, with what an independent program needs to check the answer
             (docs/proofs.md). The scene is written beside it, with ``.scene.json`` after the
             name. This needs a tiling: "kinetic" or "auto".
@@ -97,7 +97,7 @@ def first_contact(
 def _budget(
     max_seconds: float | None, max_memory: int | None
 ) -> contextlib.AbstractContextManager[None]:
-    """A context in which the time and memory are bounded.
+    """Return a context in which the time and memory are bounded.
 
     Raises:
         InputError: if a bound is not a number >= 0.

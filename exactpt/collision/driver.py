@@ -42,7 +42,7 @@ MANY: Final = 64
 
 
 class Observer:
-    """What follows a run; every method does nothing by default.
+    """An observer of a run; every method does nothing by default.
 
     Attributes:
         listens_to: `NOTHING`, `TIMES`, `EVENTS` or `CHANGES`.
@@ -89,12 +89,12 @@ class Driver:
     Args:
         scene: returns the scene, from the last change of motions on.
         tiling: the tiling, between two events; None before `start`.
-        observers: what follows the run.
+        observers: the observers of the run.
         budget: the bounds of `run`.
 
     Attributes:
         tiling: the tiling; None before there is one. It may be replaced between two events.
-        observers: what follows the run.
+        observers: the observers of the run.
         budget: the bounds of `run`.
         since: a rational time with no contact up to it; None before the contacts at the start
             are known, and if there are any.
@@ -199,7 +199,7 @@ class Driver:
 
         Raises:
             BudgetExceeded: if the budget is exceeded; its ``reached`` is a time up to which there
-                is no contact.
+                is not a contact.
         """
         level = max((observer.listens_to for observer in self.observers), default=NOTHING)
         if self.budget.limits_events:
@@ -215,7 +215,7 @@ class Driver:
         return self.contact_ahead()
 
     def contact_ahead(self) -> Contact:
-        """The contact that `advance` has found."""
+        """Return the contact that `advance` has found."""
         return contact_of(self._scene(), self.kinetic.now, self.touches or ())
 
     def change(self, tiling: Tiling, t: QQ) -> None:

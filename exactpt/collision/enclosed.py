@@ -3,21 +3,21 @@
 The pieces of a `Spin` or a `PosePath` keep each point of body i within e_i of its true place
 (`exactpt.motion.displacement`); for other motions e_i = 0.
 
-**Lower bound.** Where two true bodies meet, the given ones are within e_i + e_j of each other: with
-their radii larger by e_i and e_j they meet. So no two true bodies meet before the first contact
-of the bodies with these radii; nor at all, if there is none. A body that deforms and turns meets
+**Lower bound.** Where two true bodies touch, the given ones are within e_i + e_j: with their
+ radii larger by e_i and e_j they touch. So no two true bodies touch before the first contact
+of the bodies with these radii; nor at all, if there is none. A body that deforms and turns touches
 itself when it would without turning, at a time that is known exactly.
 
 **Upper bound.** At certain rational times the given bodies are tested by
-`exactpt.pairs.sure`: where one pair is sure to meet, the true first contact is not later; nor
+`exactpt.pairs.sure`: where one pair is sure to touch, the true first contact is not later; nor
 where a point is sure to have passed through an edge since a time as long before the contact of the
-given bodies. Two bodies with e_i + e_j = 0, and a body and itself, meet at a time known exactly.
+given bodies. Two bodies with e_i + e_j = 0, and a body and itself, touch at a time known exactly.
 At the start of the scene a body whose true angle is 0 is at a known place, too.
 
 **Width.** Let one pair be concerned, in the approach of a vertex to an edge at a speed of at
 least v, and E = e_i + e_j. From the lower bound on, the distance falls by E to that of a contact
 in at most E / v, and when it has fallen by another E, in at most E / v, the bodies are sure to
-meet, unless an end of the edge is near or the body behind it is thin. Times are tested from the
+touch, unless an end of the edge is near or the body behind it is thin. Times are tested from the
 contact of the given bodies on, in steps of an eighth of the first part, later of a quarter of the
 time since then, which are halved to a sixteenth of the whole: the width is at most 17/16 * 2 E /
 v. Steps never exceed 1/256 of the time span: a contact that is sure for less may be passed over.
@@ -63,11 +63,11 @@ class EnclosedContact:
     """Bounds of the time of the first contact of bodies whose turns have an error.
 
     Attributes:
-        low: no two bodies meet before this time.
-        high: two bodies meet at this time or before; None if they may just miss each other up to
+        low: no two bodies touch before this time.
+        high: two bodies touch at this time or before; None if they may just miss each other up to
             the end of the time span.
-        pairs: the names of the pairs that may meet at ``low``, each in the order of the scene;
-            a body that meets itself is a pair with itself.
+        pairs: the names of the pairs that may touch at ``low``, each in the order of the scene;
+            a body that touches itself is a pair with itself.
     """
 
     low: AlgebraicNumber
@@ -76,11 +76,11 @@ class EnclosedContact:
 
     @property
     def is_certain(self) -> bool:
-        """Whether there is a contact for sure; its time is in [low, high]."""
+        """True if there is a contact for sure; its time is in [low, high]."""
         return self.high is not None
 
     def to_json(self) -> dict[str, object]:
-        """The bounds as a JSON object, see docs/format.md."""
+        """Return the bounds as a JSON object, see docs/format.md."""
         return {
             "low": self.low.to_json(),
             "high": None if self.high is None else self.high.to_json(),
@@ -94,7 +94,7 @@ def first_contact_enclosed(
     between: Iterable[Sequence[str]] | None = None,
     ignoring: Iterable[Collection[str]] = (),
 ) -> EnclosedContact | None:
-    """Bounds of the time of the first contact, each `Spin` or `PosePath` at its true angle.
+    """Return bounds of the time of the first contact, each `Spin` or `PosePath` at its true angle.
 
     The answer of `first_contact` is about the rational pieces of a motion. This one is about
     the angle omega t, or the path of poses, itself: the first contact in the closed time span is in
@@ -161,14 +161,14 @@ class _Search:
         return first_contact(scene, **self._selection.among(bodies))
 
     def _pairs(self, *contacts: Contact) -> tuple[tuple[str, str], ...]:
-        """The names of the pairs that meet, in the order of the scene."""
+        """Return the names of the pairs that touch, in the order of the scene."""
         order = self._number
         met = {(pair.body, pair.other) for contact in contacts for pair in contact.pairs}
         met.update(pair for contact in contacts for pair in contact.overlaps)
         return tuple(sorted({(a, b) if order[a] <= order[b] else (b, a) for a, b in met}))
 
     def _at_start(self, touch: Contact) -> tuple[tuple[str, str], ...]:
-        """Return the pairs that may meet at the start; none if it is not sure that two do."""
+        """Return the pairs that may touch at the start; none if no contact is certain."""
         found = zip(self._scene.bodies, self._errors, strict=True)
         known = [b for body, e in found if (b := _unturned(body, self._start) if e else body)]
         names = {body.name for body in known}
@@ -181,7 +181,7 @@ class _Search:
         return tuple(pair for pair in pairs if pair in met or not names.issuperset(pair))
 
     def _known(self) -> list[Contact]:
-        """The first contacts among those whose times are exact."""
+        """Return the first contacts among those whose times are exact."""
         bodies = list(zip(self._scene.bodies, self._errors, strict=True))
         parts = [[body for body, e in bodies if not e]]
         parts += [[body] for body, e in bodies if e and not body._radius and not is_rigid(body)]
@@ -193,7 +193,7 @@ class _Search:
         return first.found
 
     def _sure(self, low: AlgebraicNumber, known: AlgebraicNumber | None) -> QQ | None:
-        """A time at which two bodies are sure to meet, before a known one."""
+        """Return a time at which two bodies are sure to touch, before a known one."""
         contact = self._first(self._scene.bodies)
         if contact is None:
             return None
@@ -226,7 +226,7 @@ class _Search:
         yield self._end
 
     def _earlier(self, low: AlgebraicNumber, before: QQ, sure: QQ) -> QQ:
-        """A time at which two bodies are sure to meet, near to one at which it is not known."""
+        """Return a time of certain contact of two bodies, near a time of possible contact."""
         while sure - before > (sure - low._low) / 16:
             ask()
             middle = (before + sure) / 2
@@ -234,7 +234,7 @@ class _Search:
         return sure
 
     def _points_on_edges(self, contact: Contact) -> list[tuple[Body, Body, int, QQ]]:
-        """Points on edges in a contact: the bodies, the edge and the sum of the errors."""
+        """Return points on edges in a contact: the bodies, the edge and the sum of the errors."""
         error = {b.name: e for b, e in zip(self._scene.bodies, self._errors, strict=True)}
         return [
             (body, self._scene.body(pair.other), pair.edge, error[pair.body] + error[pair.other])
@@ -269,7 +269,7 @@ def _unturned(body: Body, t: QQ) -> Body | None:
 
 
 def _corners(body: Body, t: QQ) -> list[tuple[QQ, QQ]]:
-    """Two corners of a box that contains a body."""
+    """Return two corners of a box that contains a body."""
     (left, right), (bottom, top) = ((min(c), max(c)) for c in zip(*body._at(t), strict=True))
     r = body._radius
     return [(left - r, bottom - r), (right + r, top + r)]

@@ -1,4 +1,4 @@
-"""What all searches for the first contact have in common."""
+"""The common part of all searches for the first contact."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Search(Protocol):
         """The counts of the search so far, see docs/format.md."""
 
     def run_to_contact(self) -> Contact | None:
-        """The first contact in the closed time span of the scene; None if there is none.
+        """Return the first contact in the closed time span of the scene; None if there is none.
 
         Raises:
             BudgetExceeded: if the events, the time or the memory are used up.

@@ -18,7 +18,7 @@ __all__ = ["Question", "search_for", "searches_pairs"]
 
 
 class Question(NamedTuple):
-    """What is asked about a scene, and how it is to be found.
+    """A query for a first contact, and the way to answer it.
 
     Attributes:
         method, tiling, exact_only, ignoring, after_start, between, proof, certificate: as in
@@ -45,7 +45,7 @@ class Question(NamedTuple):
 
 
 def search_for(scene: Scene, question: Question) -> Search:
-    """The search that answers a question.
+    """Return the search that answers a question.
 
     Args:
         scene: the bodies, their motions and the time span.
@@ -77,7 +77,7 @@ def search_for(scene: Scene, question: Question) -> Search:
 
 
 def _certified(scene: Scene, question: Question) -> Search:
-    """The search, whichever it is, that writes a certificate.
+    """Return the search, whichever it is, that writes a certificate.
 
     Raises:
         InputError: if there is a proof, too, or it is about new contacts.
@@ -93,10 +93,10 @@ def _certified(scene: Scene, question: Question) -> Search:
 
 
 def _selected(scene: Scene, question: Question) -> Search:
-    """The search for contacts of some pairs, or for new ones.
+    """Return the search for contacts of some pairs, or for new ones.
 
     Raises:
-        InputError: if a tiling or a proof is asked for.
+        InputError: if a tiling or a proof is requested.
     """
     if question.method == "kinetic" or question.tiling != "auto" or question.proof is not None:
         what = "a tiling watches" if question.proof is None else "a proof is about"
@@ -117,7 +117,7 @@ def _selected(scene: Scene, question: Question) -> Search:
 
 
 def _proved(scene: Scene, question: Question, path: Path) -> Search:
-    """The search by a tiling that writes a proof.
+    """Return the search by a tiling that writes a proof.
 
     Raises:
         InputError: if the answer is to be found without a tiling.
@@ -137,7 +137,7 @@ def _proved(scene: Scene, question: Question, path: Path) -> Search:
 
 
 def searches_pairs(method: str, tiling: str, groups: Collection[object] = ()) -> bool:
-    """Whether a method searches pairs: "pairs" does, "auto" does unless a tiling is named.
+    """Return True if a method searches pairs: "pairs" does, "auto" does unless a tiling is named.
 
     For a single first contact from a cold start the search over pairs is the faster one, also
     for bodies that deform, change their motion, are entangled, drive in a convoy or never touch

@@ -59,7 +59,7 @@ class TilingSearch:
         return self.driver.passed()
 
     def run_to_contact(self) -> Contact | None:
-        """The first contact in the closed time span of the scene; None if there is none.
+        """Return the first contact in the closed time span of the scene; None if there is none.
 
         Raises:
             BudgetExceeded: if the events or the time are used up; its ``reached`` is a time up to

@@ -22,7 +22,7 @@ CHUNK: Final = 1 << 13
 def unsure_pairs(
     rows: Sequence[tuple[float, float, float, float]], error: float, *, closed: bool
 ) -> list[tuple[int, int]]:
-    """The pairs i < j of edges that have a common end, or may intersect.
+    """Return the pairs i < j of edges that have a common end, or may intersect.
 
     Args:
         rows: the edges one after another, as x and y of both ends.

@@ -140,12 +140,12 @@ class Budget:
 
     @property
     def is_bounded(self) -> bool:
-        """Whether the number of events or the time has a limit."""
+        """True if the number of events or the time has a limit."""
         return self._events is not None or self._deadline is not None
 
     @property
     def limits_events(self) -> bool:
-        """Whether the number of events has a limit."""
+        """True if the number of events has a limit."""
         return self._events is not None
 
     def spend(self, events: int) -> bool:
@@ -156,11 +156,11 @@ class Budget:
         return self._events >= 0
 
     def is_late(self) -> bool:
-        """Whether the seconds are used up."""
+        """Return True if the seconds are used up."""
         return self._deadline is not None and clock.monotonic() > self._deadline
 
     def held(self) -> contextlib.AbstractContextManager[None]:
-        """A context whose long loops stop when the time or the memory is used up.
+        """Return a context whose long loops stop when the time or the memory is used up.
 
         A little more time is allowed than between two events, where a run can be interrupted and
         go on.
@@ -171,7 +171,7 @@ class Budget:
         return within(deadline, self._memory)
 
     def rest(self) -> tuple[int | None, float | None, int | None]:
-        """The events, seconds and memory that are left, None for no limit."""
+        """Return the events, seconds and memory that are left, None for no limit."""
         events = None if self._events is None else max(0, self._events)
         seconds = None if self._deadline is None else max(0.0, self._deadline - clock.monotonic())
         return events, seconds, self._memory

@@ -45,7 +45,7 @@ _NO_HOLES: Final = ()
 
 
 def is_text(name: object) -> bool:
-    """Whether it is a nonempty string that can be encoded: without unpaired surrogates."""
+    """Return True if it is a nonempty string that can be encoded: without unpaired surrogates."""
     try:
         return isinstance(name, str) and bool(name.encode())
     except UnicodeEncodeError:
@@ -166,7 +166,7 @@ class Body:
         holes: Literal["keep", "refuse", "fill"] = "keep",
         radius: Rational = 0,
     ) -> Body:
-        """The body of a shapely point, line or polygon, with the exact values of its doubles.
+        """Return the body of a shapely point, line or polygon, with its doubles exactly.
 
         Args:
             geometry: a geometry of one part, or a MultiPolygon; `Scene.from_shapely` takes all.
@@ -192,7 +192,7 @@ class Body:
         closed: bool = True,
         radius: Rational = 0,
     ) -> Body:
-        """The body that has a shape at a time, and moves with a constant velocity.
+        """Return the body that has a shape at a time, and moves with a constant velocity.
 
         >>> ball = Body.launched("ball", [(0, 0), (1, 0), (0, 1)], at=3, velocity=(2, 0))
         >>> ball.at(3)[0], ball.at(4)[0]
@@ -215,10 +215,10 @@ class Body:
         return cls(name, shape, Velocity(vx, vy, since=at), closed=closed, radius=radius)
 
     def with_motion(self, motion: Motion) -> Body:
-        """A body of the same name and shape with another motion.
+        """Return a body of the same name and shape with another motion.
 
         Raises:
-            InputError: if it is no motion, or jumps.
+            InputError: if it is not a motion, or jumps.
         """
         _check_motion(self.name, motion)
         other = self._copied()
@@ -229,7 +229,7 @@ class Body:
         return other
 
     def halted(self, t: Rational) -> Body:
-        """A body of the same name and kind at rest, as this one is at a rational time."""
+        """Return a body of the same name and kind at rest, as this one is at a rational time."""
         points = self._at(rational(t))
         if self._parts is None:
             body = Body(self.name, points, closed=self.closed, radius=str(self._radius))
@@ -240,10 +240,10 @@ class Body:
         return body
 
     def with_radius(self, radius: Rational) -> Body:
-        """A body of the same name, shape and motion with another radius.
+        """Return a body of the same name, shape and motion with another radius.
 
         Raises:
-            InputError: if it is no number >= 0.
+            InputError: if it is not a number >= 0.
         """
         other = self._copied()
         other._radius = _read_radius(self.name, radius)
@@ -292,7 +292,7 @@ class Body:
         return edges(self.size, closed=self.closed)
 
     def end_of_edge(self, edge: int) -> int:
-        """The vertex at which an edge ends."""
+        """Return the vertex at which an edge ends."""
         if self._parts is not None:
             return next(r.start + (edge + 1 - r.start) % len(r) for r in self.rings if edge in r)
         return edge + 1 if edge + 1 < self.size else 0
@@ -311,12 +311,12 @@ class Body:
 
     @property
     def has_rings(self) -> bool:
-        """Whether the body has more than one ring: holes, or several parts."""
+        """True if the body has more than one ring: holes, or several parts."""
         return self._parts is not None
 
     @property
     def has_interior(self) -> bool:
-        """Whether the body is a polygon: not a point, a segment or an open chain."""
+        """True if the body is a polygon: not a point, a segment or an open chain."""
         return self.closed and self.size > 2
 
     @property
@@ -349,7 +349,7 @@ class Body:
     def at(
         self, t: Rational | AlgebraicNumber, digits: int | None = None
     ) -> list[tuple[Fraction, Fraction]] | list[tuple[Decimal, Decimal]]:
-        """The positions of the vertices at a time: exact, or correctly rounded decimals.
+        """Return the positions of the vertices at a time: exact, or correctly rounded decimals.
 
         Args:
             t: the time; without ``digits``, a rational one.
@@ -372,7 +372,7 @@ class Body:
         ]
 
     def velocity_at(self, t: Rational) -> list[tuple[Fraction, Fraction]]:
-        """The velocities of the vertices just after a rational time, exactly."""
+        """Return the velocities of the vertices just after a rational time, exactly."""
         now = rational(t)
         return [place(track.velocity(now)) for track in self._piece_after(now).tracks]
 

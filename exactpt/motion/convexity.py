@@ -18,7 +18,7 @@ __all__ = ["stays_convex"]
 
 
 def stays_convex(body: Body, ring: Sequence[int], start: QQ, end: QQ) -> bool:
-    """Whether a polygon turns strictly left at every vertex throughout (start, end].
+    """Return True if a polygon turns strictly left at every vertex throughout (start, end].
 
     A simple polygon that turns left at every vertex at the start, and goes on doing so,
     keeps its turning number 1: it stays convex, and no two of its vertices ever coincide.

@@ -43,7 +43,7 @@ class Piece:
         self._tracks: tuple[Track, ...] | None = None
 
     def track(self, vertex: int) -> Track:
-        """The trajectory of a vertex, numbered as in the scene; made when first asked for."""
+        """Return the trajectory of a vertex, numbered as in the scene; made on first access."""
         made = self._made.get(vertex)
         if made is None:
             ask()
@@ -60,9 +60,9 @@ class Piece:
 
     @property
     def translation(self) -> tuple[Places, Translation] | None:
-        """The rest positions in doubles, and what is added to them.
+        """The rest positions in doubles, and their common translation.
 
-        None if they are not constant, or out of range, or the motion is no translation.
+        None if they are not constant, or out of range, or the motion is not a translation.
         """
         if not isinstance(self.motion, Translation):
             return None
@@ -70,7 +70,7 @@ class Piece:
         return None if places is None else (places, self.motion)
 
     def position(self, vertex: int, t: QQ) -> tuple[QQ, QQ]:
-        """The position of a vertex at a rational time of the piece."""
+        """Return the position of a vertex at a rational time of the piece."""
         moved = self.translation
         if moved is None or not moved[0].is_exact:
             return self.track(vertex)._at(t)
@@ -79,7 +79,7 @@ class Piece:
         return _exact(places.xs[vertex]) + dx, _exact(places.ys[vertex]) + dy
 
     def positions(self, t: QQ) -> list[tuple[QQ, QQ]]:
-        """The positions of all vertices at a rational time of the piece."""
+        """Return the positions of all vertices at a rational time of the piece."""
         moved = self.translation
         if moved is None or not moved[0].is_exact:
             return [track._at(t) for track in self.tracks]
@@ -88,7 +88,7 @@ class Piece:
         return [(_exact(x) + dx, _exact(y) + dy) for x, y in zip(xs, ys, strict=True)]
 
     def straight_x(self, vertex: int) -> tuple[QQ, QQ] | None:
-        """The coefficients of x = x0 + x1 t of a vertex, without its trajectory.
+        """Return the coefficients of x = x0 + x1 t of a vertex, without its trajectory.
 
         None if the motion is no linear translation of positions that doubles hold.
         """
@@ -103,7 +103,7 @@ class Piece:
         return (x + path[0] if path else x), (path[1] if len(path) == 2 else QQ(0))
 
     def corners(self, t: QQ) -> list[tuple[QQ, QQ]]:
-        """Points whose bounding box is that of the body at a rational time, rounding aside."""
+        """Return points with the bounding box of the body at a rational time, but for rounding."""
         moved = self.translation
         if moved is None:
             return self.positions(t)
@@ -138,7 +138,7 @@ class Course:
         self.breakpoints: tuple[QQ, ...] = tuple(sorted(ends))
 
     def after(self, t: QQ) -> Piece:
-        """The piece just after a rational time."""
+        """Return the piece just after a rational time."""
         ended = bisect_right(self.breakpoints, t)
         end = self.breakpoints[ended] if ended < len(self.breakpoints) else None
         if end not in self._pieces:
@@ -149,7 +149,7 @@ class Course:
         return self._pieces[end]
 
     def at(self, t: QQ) -> list[tuple[QQ, QQ]]:
-        """The positions at a time; those at the last time asked for are cached."""
+        """Return the positions at a time; those at the last requested time are cached."""
         last = self._last  # one read: other threads may share the body
         if last is None or last[0] != t:
             self._last = last = t, self.after(t).positions(t)
@@ -190,7 +190,7 @@ def _exact(x: float) -> QQ:
 
 
 def _places(shape: Sequence[Position], motion: SimpleMotion, t: QQ) -> list[tuple[QQ, QQ]]:
-    """The positions of vertices at a time."""
+    """Return the positions of vertices at a time."""
     places = []
     for position in shape:
         ask()

@@ -29,7 +29,7 @@ BITS: Final = 24
 
 
 def displacement(body: Body, start: QQ, end: QQ) -> QQ:
-    """A bound on how far a point of a body is from its true place, at any time of a span.
+    """Return a bound on how far a point of a body is from its true place, at any time of a span.
 
     At most 1 + 2^-20 times the largest distance from the pivot (of vertices that deform along
     polynomials: times that of their Bernstein coefficients) times the error of the angle, and the
@@ -47,7 +47,7 @@ def displacement(body: Body, start: QQ, end: QQ) -> QQ:
 
 
 def _squared_arms(body: Body, pivot: Point, start: QQ, end: QQ) -> Iterator[QQ]:
-    """Bounds on the squared distances of the vertices from the pivot, in the rest frame.
+    """Yield bounds on the squared distances of the vertices from the pivot, in the rest frame.
 
     Between keyframes a vertex moves on a segment.
     """
@@ -61,7 +61,7 @@ def _squared_arms(body: Body, pivot: Point, start: QQ, end: QQ) -> Iterator[QQ]:
 
 
 def _root_above(value: QQ) -> QQ:
-    """A number at least the square root of a positive one, and at most 1 + 2^-21 times it."""
+    """Return an upper bound on a square root, at most 1 + 2^-21 times it."""
     unit = power_of_two(2 * (exponent(value) // 2 - BITS))
     return QQ(isqrt(ceil(value / unit)) + 1) * power_of_two(exponent(value) // 2 - BITS)
 

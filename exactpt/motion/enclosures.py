@@ -37,7 +37,7 @@ _ZERO: Final = QQ(0)
 
 
 class _Common(NamedTuple):
-    """What the arms of all vertices of a motion have in common.
+    """The common part of the arms of all vertices of a motion.
 
     Attributes:
         w, w_now: the constant coefficients of 1 + h^2, in the scene's and in normalised time.
@@ -71,16 +71,16 @@ class Enclosures:
         self._motions: dict[object, int] = {}
         self._velocities: Floats | None = None  # of the first motions, until `_motions` is needed
         self._named: int = 0
-        self._turning: Turning | None = None  # of the last arm, and what it has in common
+        self._turning: Turning | None = None  # of the last arm, and its common part
         self._common: _Common | None = None
         self.errors: list[float] = [0.0, 0.0]
 
     def of_piece(self, piece: Piece) -> list[Image]:
-        """The enclosures of the trajectories of a piece of motion."""
+        """Return the enclosures of the trajectories of a piece of motion."""
         return self._translated(piece) or self.images(piece.tracks)
 
     def _translated(self, piece: Piece) -> list[Image] | None:
-        """The enclosures of vertices that are translated, without their trajectories.
+        """Return the enclosures of vertices that are translated, without their trajectories.
 
         None if doubles are not known, or would lose digits when they are added.
         """
@@ -116,10 +116,10 @@ class Enclosures:
     def _path(
         self, path: Sequence[QQ], size: int, scale: int, center: QQ
     ) -> tuple[QQ, Sequence[QQ]]:
-        """A coordinate of a translation in normalised time.
+        """Return a coordinate of a translation in normalised time.
 
         Returns:
-            What is added, less the center; and the coefficients of t, t^2, ..., scaled.
+            The translation less the center, and the coefficients of t, t^2, ..., scaled.
         """
         if self._frame.is_identity:
             return (path[0], path[1:]) if path else (_ZERO, path)
@@ -127,7 +127,7 @@ class Enclosures:
         return shift - center, [c * power_of_two(-scale) for c in tail]
 
     def images(self, tracks: Sequence[Track]) -> list[Image]:
-        """The enclosures of trajectories, fast if most successive ones share their motion."""
+        """Return the enclosures of trajectories; fast if successive ones share their motion."""
         images: list[Image] = []
         motion, last = -1, None
         tails: tuple[list[float], list[float]] | None = None
@@ -141,7 +141,7 @@ class Enclosures:
         return images
 
     def _number(self, motion: Hashable) -> int:
-        """The number of a rigid motion, as in `Track.motion`; -1 for None."""
+        """Return the number of a rigid motion, as in `Track.motion`; -1 for None."""
         if motion is None:
             return -1
         if self._velocities is not None:
@@ -165,7 +165,7 @@ class Enclosures:
         return numbers.reshape(-1)
 
     def _integer_tails(self, track: Track) -> tuple[list[float], list[float]] | None:
-        """All but the constant coefficients of a trajectory, if they are small integers.
+        """Return all but the constant coefficients of a trajectory, if they are small integers.
 
         Rounding is monotone and 2^53 is a double, so an integer rounded to less than 2^53
         is itself less, and hence a double.
@@ -206,7 +206,7 @@ class Enclosures:
         return image
 
     def _common_of(self, turning: Turning) -> _Common | None:
-        """What the arms of all vertices of a motion have in common; None if they are none."""
+        """Return the common part of the arms of a motion's vertices; None if there is none."""
         if self._turning is not turning:
             self._turning, self._common = turning, _common_of(turning, self._frame)
         return self._common
@@ -231,7 +231,7 @@ class Enclosures:
 
 
 def _arm(track: Track, common: _Common, frame: Frame) -> Arm | None:
-    """The trajectory as a pivot and an arm, with w = 1 + h^2 for the half turn h.
+    """Return the trajectory as a pivot and an arm, with w = 1 + h^2 for the half turn h.
 
     (The denominators of trajectories of one motion differ by constants.) None if the
     degrees are too large, or a coefficient is out of range.
@@ -254,7 +254,7 @@ def _arm(track: Track, common: _Common, frame: Frame) -> Arm | None:
 
 
 def _common_of(turning: Turning, frame: Frame) -> _Common | None:
-    """What the arms of all vertices of a motion have in common; None if they are none."""
+    """Return the common part of the arms of all vertices of a motion; None if there are none."""
     paths = turning.x._coefficients, turning.y._coefficients
     h = turning.half_turn
     w = ONE + h * h
@@ -276,7 +276,7 @@ def _common_of(turning: Turning, frame: Frame) -> _Common | None:
 
 
 def _integer_image(track: Track, x: list[float], y: list[float], motion: int) -> Image | None:
-    """The enclosure with these higher coefficients, if it is exact; else None."""
+    """Return the enclosure with these higher coefficients, if it is exact; else None."""
     if track.w != _ONE:
         return None
     try:
@@ -307,10 +307,10 @@ def _moderate(values: list[float]) -> bool:
 
 
 def _is_near(near: float, exact: QQ) -> bool:
-    """Whether the relative error of the nearest double is at most a unit."""
+    """Return True if the relative error of the nearest double is at most a unit."""
     return near == exact or SMALLEST <= abs(near) <= LARGEST
 
 
 def _fits_in_arms(v: float) -> bool:
-    """Whether products of four such numbers do not underflow."""
+    """Return True if products of four such numbers do not underflow."""
     return v == 0.0 or SMALLEST_OF_ARMS <= abs(v) <= LARGEST

@@ -44,7 +44,7 @@ class Frame:
         self.is_identity: bool = self.only_scales and scale == (0, 0) and time_scale == 0
 
     def point(self, position: tuple[QQ, QQ]) -> tuple[float, float]:
-        """The doubles nearest to a normalised position."""
+        """Return the doubles nearest to a normalised position."""
         if self.is_identity:
             return nearest_float(position[0]), nearest_float(position[1])
         return (
@@ -70,15 +70,15 @@ class Frame:
         return self.time(t._low)
 
     def exact_time(self, t: float) -> QQ:
-        """The rational time of which a double is the normalised value."""
+        """Return the rational time of which a double is the normalised value."""
         return QQ(*t.as_integer_ratio()) * power_of_two(self.time_scale) + self.origin
 
     def in_time(self, f: list[QQ]) -> list[QQ]:
-        """A polynomial in the scene's time as one in normalised time."""
+        """Return a polynomial in the scene's time as one in normalised time."""
         return _substituted(f, self.origin, power_of_two(self.time_scale))
 
     def moved(self, track: Track) -> tuple[Sequence[QQ], Sequence[QQ], Sequence[QQ]]:
-        """The exact normalised coefficients of a trajectory, up to a common factor."""
+        """Return the exact normalised coefficients of a trajectory, up to a common factor."""
         if self.is_identity:
             return track.x, track.y, track.w  # type: ignore[return-value]
         if self.only_scales:
@@ -91,7 +91,7 @@ class Frame:
         return self.in_time(x), self.in_time(y), self.in_time(w)
 
     def _scaled(self, f: Sequence[int], scale: int) -> list[QQ]:
-        """A polynomial in the scene's time, over 2^scale, as one in normalised time."""
+        """Return a polynomial in the scene's time, over 2^scale, as one in normalised time."""
         return [c * power_of_two(i * self.time_scale - scale) for i, c in enumerate(f)]
 
 
@@ -121,7 +121,7 @@ def _substituted(f: list[QQ], origin: QQ, step: QQ) -> list[QQ]:
 
 
 def frame_for(points: Sequence[tuple[QQ, QQ]], start: QQ, end: QQ) -> Frame:
-    """A normalisation in which these points and the time span are of moderate size.
+    """Return a normalisation in which these points and the time span are of moderate size.
 
     It shifts and scales only where needed, so that the integers of an ordinary scene stay
     unchanged.
@@ -136,7 +136,7 @@ def frame_for(points: Sequence[tuple[QQ, QQ]], start: QQ, end: QQ) -> Frame:
 
 
 def _axis(values: list[QQ]) -> tuple[QQ, int]:
-    """The center and the scale of one coordinate.
+    """Return the center and the scale of one coordinate.
 
     The center is the value of least size if the others are near it: then doubles stay
     doubles, being multiples of its last bit.

@@ -85,10 +85,10 @@ class Image:
         ws: the denominator's coefficients if the trajectory turns, up to a power of two
             that makes the largest about 1; else empty (a constant denominator is divided out).
         degree: the degree of the trajectory; of the numerators if it turns.
-        make_arm: what makes ``arm`` when it is first asked for; None if there is none, or
+        make_arm: what makes ``arm`` on first access; None if there is none, or
             it is made.
         motion: vertices of equal ``motion`` keep their difference (translating) or
-            their distances (turning) for ever; -1 is equal to nothing.
+            their distances (turning) for all times; -1 is equal to nothing.
     """
 
     __slots__ = (
@@ -110,7 +110,7 @@ class Image:
     )
 
     def __init__(self, xs: list[float], ys: list[float], ws: list[float], motion: int) -> None:
-        # In this order, so that what a linear motion needs is in one place when compiled.
+        # In this order, so that the fields of a linear motion are adjacent when compiled.
         self.motion: int = motion
         self.ws: list[float] = ws
         self.degree: int = len(xs) - 1
@@ -159,11 +159,11 @@ def translated(
     tails: tuple[list[float], list[float]],
     motion: int,
 ) -> list[Image]:
-    """The enclosures of vertices that are translated: constants (place + shift) unit, and tails.
+    """Return the enclosures of translated vertices: constants (place + shift) unit, and tails.
 
     Args:
         places: the coordinates x and y of the vertices.
-        shift: what is added to them.
+        shift: their translation.
         units: powers of two by which the sums are multiplied.
         tails: the coefficients of t, t^2, ... in x and in y.
         motion: the number of the motion.
@@ -188,7 +188,7 @@ def constant_error(
     *,
     is_exact: bool,
 ) -> float:
-    """A bound on the errors of the constants of `translated` that are in range.
+    """Return a bound on the errors of the constants of `translated` that are in range.
 
     A sum of exact doubles is rounded once, by at most U |x|; multiplying by a power of two
     rounds nothing. If the terms a and b are the nearest doubles, the error is at most
@@ -196,7 +196,7 @@ def constant_error(
 
     Args:
         places: the coordinates x and y of the vertices.
-        shift: what is added to them.
+        shift: their translation.
         units: powers of two by which the sums are multiplied.
         is_exact: whether the places and the shift are exact; else they are the nearest doubles.
 

@@ -39,7 +39,7 @@ class Touch(NamedTuple):
 
 
 def vertex_touch(body: int, vertex: int, other: int, other_vertex: int) -> Touch:
-    """The incidence of two vertices, that of the lower body first."""
+    """Return the incidence of two vertices, that of the lower body first."""
     if other < body:
         return Touch(other, other_vertex, body, -1, vertex)
     return Touch(body, vertex, other, -1, other_vertex)
@@ -63,7 +63,7 @@ def difference(p: IntPoly, pw: IntPoly, q: IntPoly, qw: IntPoly) -> IntPoly:
 
 
 def orientation(a: Track, b: Track, c: Track) -> IntPoly:
-    """A positive multiple of the orientation of three trajectories.
+    """Return a positive multiple of the orientation of three trajectories.
 
     It is the determinant of the rows (x, y, w), positive where a, b, c turn left.
     """
@@ -77,7 +77,7 @@ def orientation(a: Track, b: Track, c: Track) -> IntPoly:
 
 
 def coincide(a: Track, b: Track, t: AlgebraicNumber) -> bool:
-    """Whether two vertices coincide."""
+    """Return True if two vertices coincide."""
     return (
         t.sign_of(difference(a.x, a.w, b.x, b.w)) == 0
         and t.sign_of(difference(a.y, a.w, b.y, b.w)) == 0
@@ -85,7 +85,7 @@ def coincide(a: Track, b: Track, t: AlgebraicNumber) -> bool:
 
 
 def lies_on(v: Track, a: Track, b: Track, t: AlgebraicNumber) -> bool:
-    """Whether v is in the closed segment ab: on its line, and (a - v) . (b - v) <= 0."""
+    """Return True if v is in the closed segment ab: on its line, and (a - v) . (b - v) <= 0."""
     if t.sign_of(orientation(a, b, v)) != 0:
         return False
     along_x = multiply(difference(v.x, v.w, a.x, a.w), difference(v.x, v.w, b.x, b.w))

@@ -29,7 +29,7 @@ _POINT_DISPLACEMENTS: Final = ((-3, 1), (1, -4), (2, 3))
 
 
 def ring_of_copies(size: int) -> list[int]:
-    """The vertices of the scene along the ring of a degenerate body, counter-clockwise.
+    """Return the vertices of the scene along the ring of a degenerate body, counter-clockwise.
 
     The ring of a chain goes from the left of its first vertex to the right of it, along the
     right side to the last vertex, and back along the left side. (An end with a single copy
@@ -45,7 +45,7 @@ class Displacements(NamedTuple):
     """The displacements of the vertices of a ring, and the time up to which they hold.
 
     A displacement lies to the left of both edges of the chain at its vertex, or to the
-    right of both. ``until`` is None if they hold as long as was asked for.
+    right of both. ``until`` is None if they hold during the whole requested time.
     """
 
     directions: list[Direction]
@@ -53,7 +53,7 @@ class Displacements(NamedTuple):
 
 
 def displacements(tracks: Sequence[Track], start: QQ, end: QQ) -> Displacements:
-    """The displacements of a degenerate body.
+    """Return the displacements of a degenerate body.
 
     Args:
         tracks: the trajectories of its vertices in the scene.
@@ -77,7 +77,7 @@ def displacements(tracks: Sequence[Track], start: QQ, end: QQ) -> Displacements:
 
 
 def _left_of_both(d: Direction, e: Direction, start: QQ, end: QQ) -> tuple[Direction, QQ | None]:
-    """A direction to the left of two successive edges d and e, and the end of its validity.
+    """Return a direction to the left of two successive edges d and e, and the end of its validity.
 
     While d x e keeps its sign s, s (e - d) is one: d x (e - d) = d x e = e x (e - d).
     While d . e is positive, d turned left is one: e x (d turned left) = e . d. Where the
@@ -114,7 +114,7 @@ def _first_root(f: IntPoly, now: AlgebraicNumber, end: QQ) -> AlgebraicNumber | 
 
 
 def _before(time: AlgebraicNumber, f: IntPoly, now: AlgebraicNumber, end: QQ) -> QQ:
-    """A rational time before ``time`` and after all zeros of f before ``time``."""
+    """Return a rational time before ``time`` and after all zeros of f before ``time``."""
     last = now
     for root in roots_after(f, now, end) if f else ():
         if root.time.compare(time) >= 0:
@@ -128,7 +128,7 @@ def _direction(p: Track, q: Track) -> Direction:
 
 
 def _turned(d: Direction) -> Direction:
-    """The direction d turned left by a right angle."""
+    """Return the direction d turned left by a right angle."""
     return negate(d[1]), d[0]
 
 

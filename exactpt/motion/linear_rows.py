@@ -80,7 +80,7 @@ class _Arrays(Sequence["Body"]):
 
 
 def linear_rows(bodies: Sequence[Body], start: QQ, end: QQ) -> LinearRows | None:
-    """The rows of bodies from a time on; None if not all are polygons in linear translation."""
+    """Return the rows of bodies from a time on; None unless all are linear polygons."""
     given = _from_arrays(cast("_Arrays", bodies)) if hasattr(bodies, "offsets") else _read(bodies)
     if given is None or not len(bodies):
         return None
@@ -129,7 +129,7 @@ def _from_arrays(bodies: _Arrays) -> _Given | None:
 
 
 def _read(bodies: Sequence[Body]) -> _Given | None:
-    """The arrays of bodies whose numbers are all doubles."""
+    """Return the arrays of bodies whose numbers are all doubles."""
     xs: list[float] = []
     ys: list[float] = []
     offsets = [0]

@@ -32,7 +32,7 @@ class PiecewisePolynomial(Protocol):
 
 
 def Velocity(vx: Rational, vy: Rational, *, since: Rational = 0) -> Translation:  # noqa: N802
-    """The translation with a constant velocity that is the identity at the time ``since``.
+    """Return the translation with a constant velocity that is the identity at the time ``since``.
 
     >>> Velocity(2, 0, since=3)
     Translation(x=Polynomial(['-6', '2']), y=Polynomial([]))
@@ -66,7 +66,7 @@ def in_local_time(
     `Rigid`).
 
     Args:
-        steps: pairs of a positive duration and a motion; the last duration may be None, for ever.
+        steps: pairs of a positive duration and a motion; the last duration may be None.
         start: the time at which the first begins.
 
     Raises:
@@ -97,7 +97,7 @@ def in_local_time(
 
 
 def spline(curve: PiecewisePolynomial) -> Pieces:
-    """The translation along a piecewise polynomial of SciPy, such as a ``CubicSpline``.
+    """Return the translation along a piecewise polynomial of SciPy, such as a ``CubicSpline``.
 
     Coefficients are taken as the exact values of their doubles, but for the constant ones of all
     pieces but the first: rounded, these make the curve jump by an ulp from one piece to the next.
@@ -105,7 +105,7 @@ def spline(curve: PiecewisePolynomial) -> Pieces:
     breakpoint and after the last.
 
     Args:
-        curve: a curve in the plane, ``PPoly`` or what has its attributes ``c`` and ``x``.
+        curve: a curve in the plane, ``PPoly`` or an object with its attributes ``c`` and ``x``.
 
     Raises:
         InputError: if it is not a curve in the plane, or a coefficient is not finite.
@@ -125,12 +125,12 @@ def spline(curve: PiecewisePolynomial) -> Pieces:
 
 
 def _from_zero(powers: Iterable[Rational]) -> Polynomial:
-    """The polynomial with these coefficients, the highest first, and the constant 0."""
+    """Return the polynomial with these coefficients, the highest first, and the constant 0."""
     return Polynomial([0, *reversed([rational(c) for c in powers])])
 
 
 def _composed(motion: SimpleMotion, time: Polynomial, x: QQ, y: QQ) -> Translation | Rigid | Affine:
-    """A motion at a time that is a polynomial in the scene's, with a translation added."""
+    """Return a motion at a time that is a polynomial in the scene's, with a translation added."""
     if isinstance(motion, Translation):
         return Translation(motion.x(time) + x, motion.y(time) + y)
     if isinstance(motion, Rigid):
@@ -148,5 +148,5 @@ def _composed(motion: SimpleMotion, time: Polynomial, x: QQ, y: QQ) -> Translati
 
 
 def _held(motion: SimpleMotion, t: QQ) -> SimpleMotion:
-    """The motion that holds a body where another one has it at a time."""
+    """Return the motion that keeps a body where another motion has it at a time."""
     return _composed(motion, Polynomial([t]), QQ(0), QQ(0))

@@ -63,7 +63,7 @@ class _Given:
 
     @abstractmethod
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
-        """The positional and the keyword arguments of the constructor."""
+        """Return the positional and the keyword arguments of the constructor."""
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, _Given):
@@ -79,7 +79,7 @@ class _Given:
 
 
 def _sum(f: Polynomial, g: Polynomial) -> tuple[QQ, ...]:
-    """The coefficients of f + g, without any object besides if f is a constant."""
+    """Return the coefficients of f + g, without any object besides if f is a constant."""
     a, b = f._coefficients, g._coefficients
     if not a:
         return b
@@ -92,7 +92,7 @@ class SimpleMotion(Protocol):
     """A motion given by one formula for all time."""
 
     def track(self, position: Position) -> Track:
-        """The trajectory of the vertex with this position in the rest frame."""
+        """Return the trajectory of the vertex with this position in the rest frame."""
         ...
 
 
@@ -123,12 +123,12 @@ class Translation(_Given):
         self.y = polynomial(y)
 
     def track(self, position: Position) -> Track:
-        """The trajectory of the vertex with this position in the rest frame."""
+        """Return the trajectory of the vertex with this position in the rest frame."""
         x, y = position
         return translated(_sum(x, self.x), _sum(y, self.y))
 
     def _at(self, t: QQ) -> tuple[QQ, QQ]:
-        """The displacement at a time."""
+        """Return the displacement at a time."""
         return self.x._at(t), self.y._at(t)
 
     def _given(self) -> tuple[tuple[object, ...], dict[str, object]]:
@@ -157,7 +157,7 @@ class Rigid(_Given):
             turned about the pivot first; so pieces can begin at any angle, and pass 180 degrees.
 
     Raises:
-        InputError: if an argument is invalid, such as an orientation that is no unit vector.
+        InputError: if an argument is invalid, such as an orientation that is not a unit vector.
     """
 
     __slots__ = ("_orientation", "_pivot", "_turn", "half_turn", "x", "y")
@@ -193,7 +193,7 @@ class Rigid(_Given):
         return place(self._orientation)
 
     def track(self, position: Position) -> Track:
-        """The trajectory of the vertex with this position in the rest frame."""
+        """Return the trajectory of the vertex with this position in the rest frame."""
         if self._turn is None:
             from exactpt.motion.turn import turn_of
 
@@ -235,7 +235,7 @@ class Affine(_Given):
         self.y = polynomial(y)
 
     def track(self, position: Position) -> Track:
-        """The trajectory of the vertex with this position in the rest frame."""
+        """Return the trajectory of the vertex with this position in the rest frame."""
         (a, b), (c, d) = self.matrix
         u, v = position
         return track(a * u + b * v + self.x, c * u + d * v + self.y, None, None)
@@ -248,9 +248,9 @@ class Affine(_Given):
 
 
 class Pieces(_Given):
-    """A sequence of motions: each holds until its time, the last for ever.
+    """A sequence of motions: each holds until its time, the last for all times.
 
-    Where two pieces meet, every vertex must have the same position under both; the body,
+    At the end of a piece, every vertex must have the same position under both; the body,
     which knows the vertices, checks this.
     """
 

@@ -43,7 +43,7 @@ class Outline(NamedTuple):
 
 
 def pieces_of(motion: Motion) -> list[tuple[SimpleMotion, QQ | None]]:
-    """The motions by one formula that it consists of, each with its end."""
+    """Return the motions by one formula that it consists of, each with its end."""
     if isinstance(motion, Pieces):
         return list(zip(motion.motions, (*motion._until, None), strict=True))
     return [(motion, None)]
@@ -61,7 +61,7 @@ def is_rigid(body: Body) -> bool:
 
 
 def rest_outline(body: Body) -> Outline | None:
-    """The vertices in the rest frame; None if the body deforms there, or is out of range."""
+    """Return the vertices in the rest frame; None if the body deforms there, or is out of range."""
     near = body._shape.near
     if near is not None:
         return _outline(near.xs, near.ys, exact=near.is_exact)
@@ -74,7 +74,7 @@ def rest_outline(body: Body) -> Outline | None:
 
 
 def outline_at(body: Body, t: QQ) -> Outline | None:
-    """An outline congruent to the body at a time: at rest if its motion is rigid."""
+    """Return an outline congruent to the body at a time: at rest if its motion is rigid."""
     if all(isinstance(motion, (Translation, Rigid)) for motion, _ in pieces_of(body.motion)):
         shape = rest_outline(body)
         if shape is not None:
@@ -100,7 +100,7 @@ def _outline(xs: list[float], ys: list[float], *, exact: bool) -> Outline | None
 
 
 def _off(size: float) -> float:
-    """A bound on the distance of a number to its nearest double, of this size at most."""
+    """Return a bound on the distance of a number to its nearest double, of this size at most."""
     return 2.0 * U * size + TINY
 
 
@@ -153,7 +153,7 @@ class Straight:
         return point
 
     def line(self) -> tuple[QQ, QQ, QQ, QQ]:
-        """The exact coefficients of the translation: c in x and y, v in x and y."""
+        """Return the exact coefficients of the translation: c in x and y, v in x and y."""
         x, y = self.motion.x._coefficients, self.motion.y._coefficients
         zero = QQ(0)
         return (
@@ -165,7 +165,7 @@ class Straight:
 
 
 def _linear(f: Polynomial, shift: QQ | None = None) -> tuple[float, float, float, float]:
-    """The coefficients of a polynomial of degree at most 1, and their errors; perhaps infinite.
+    """Return the coefficients of a polynomial of degree at most 1, and their errors.
 
     The first coefficient is greater by ``shift``.
     """
@@ -221,7 +221,7 @@ def _constant(f: Polynomial) -> float:
 def straight_pieces(
     body: Body, shape: Outline | None = None, origin: tuple[QQ, QQ] | None = None
 ) -> list[tuple[Straight, QQ | None]] | None:
-    """The straight motions of a body, each with its end; None unless all its motions are.
+    """Return the straight motions of a body, each with its end; None unless all its motions are.
 
     Its vertices keep their positions in the rest frame, of which the outline may be given. Doubles
     are relative to an origin, if there is one, those of vertices to the first vertex. Only pieces

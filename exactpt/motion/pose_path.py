@@ -107,7 +107,7 @@ class PosePath(Pieces):
         error: Rational = "1/1000000",
         place_error: Rational | None = None,
     ) -> PosePath:
-        """The path along a piecewise polynomial of SciPy with three columns x, y, angle.
+        """Return the path along a piecewise polynomial of SciPy with three columns x, y, angle.
 
         Coefficients are taken as in `spline`: as the values of their doubles, but for the constant
         ones of all pieces but the first. Pieces of no duration, as `PPoly.from_spline` makes them,
@@ -115,7 +115,7 @@ class PosePath(Pieces):
         column by column.)
 
         Args:
-            curve: ``PPoly``, ``CubicSpline`` or what has the attributes ``c`` and ``x``.
+            curve: ``PPoly``, ``CubicSpline`` or an object with the attributes ``c`` and ``x``.
             error: see `PosePath`.
             place_error: see `PosePath`; if not given, 0 for degrees up to 3, else 10^-6.
 
@@ -151,7 +151,7 @@ class PosePath(Pieces):
         ramp: Rational = 0,
         error: Rational = "1/1000000",
     ) -> PosePath:
-        """The path through samples: between two of them at constant rates, or from rest to rest.
+        """Return the path through samples, at constant rates or from rest to rest.
 
         >>> path = PosePath.through([0, 3], [(0, 0, 0), (2, 0, 1)], ramp="1/3")
         >>> [path.pose(t)[0] for t in (0, 1, 2, 3)]  # trapezoidal: speeds up, goes on, slows down
@@ -191,7 +191,7 @@ class PosePath(Pieces):
         error: Rational,
         place_error: Rational = 0,
     ) -> PosePath:
-        """The path that consists of given pieces, after a proof that they follow it.
+        """Return the path that consists of given pieces, after a proof that they follow it.
 
         Args:
             pieces: as for `Pieces`: rigid motions about the origin, the first until the first time,

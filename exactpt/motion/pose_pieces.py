@@ -98,7 +98,7 @@ class _Builder:
         return f"more than {_MOST} pieces are needed for an error of {show(self._error)}"
 
     def _vector(self, t: QQ, angle: Polynomial) -> Vector:
-        """Return the orientation at a time: the same for both pieces that meet then."""
+        """Return the orientation at a time: the same for both pieces that end or begin at it."""
         if t not in self._vectors:
             self._vectors[t] = vector_near(angle._at(t), self._error)
         return self._vectors[t]

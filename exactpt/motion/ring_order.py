@@ -16,7 +16,7 @@ __all__ = ["ring_indices", "rings_of", "turns_left"]
 
 
 def ring_indices(body: Body, t: QQ, *, plain: bool = False) -> list[int]:
-    """The indices of a body's vertices, with copies where it needs them, along its rings.
+    """Return the indices of a body's vertices, with copies where it needs them, along its rings.
 
     Outlines are counter-clockwise, holes clockwise.
 
@@ -40,7 +40,7 @@ def ring_indices(body: Body, t: QQ, *, plain: bool = False) -> list[int]:
 
 
 def turns_left(body: Body, ring: range, t: QQ) -> bool:
-    """Whether a ring of a body with interior is counter-clockwise at a time."""
+    """Return True if a ring of a body with interior is counter-clockwise at a time."""
     moved = body._piece_after(t).translation
     if moved is not None:
         xs, ys, is_exact = moved[0]
@@ -52,7 +52,7 @@ def turns_left(body: Body, ring: range, t: QQ) -> bool:
 
 
 def rings_of(body: Body, ring: list[VertexId]) -> list[list[VertexId]]:
-    """The ids of each ring of a body, given those of all."""
+    """Return the ids of each ring of a body, given those of all."""
     if not body.has_rings:
         return [ring]
     return [ring[part.start : part.stop] for part in body.rings]

@@ -27,7 +27,7 @@ FEWEST: Final = 3
 def read_rings(
     vertices: Outline | None, holes: Iterable[Outline], parts: Iterable[PartLike] | None
 ) -> tuple[Shape, Parts | None]:
-    """The vertices of all rings, and the rings; None instead of the ring of a plain polygon.
+    """Return the vertices of all rings, and the rings; None instead of the ring of a plain polygon.
 
     Args:
         vertices: the outline of the only part; None if ``parts`` are given.
@@ -83,7 +83,7 @@ def _read_ring(where: str, outline: Outline | None) -> Shape:
 
 
 def _joined(rings: list[Shape]) -> Shape:
-    """The vertices of several rings, one after the other; doubles if all are."""
+    """Return the vertices of several rings, one after the other; doubles if all are."""
     known = [zip(*ring.doubles, strict=True) for ring in rings if ring.doubles is not None]
     if len(known) == len(rings):
         return Shape([vertex for ring in known for vertex in ring])
@@ -91,7 +91,7 @@ def _joined(rings: list[Shape]) -> Shape:
 
 
 def ring_edges(parts: Parts) -> list[tuple[int, int]]:
-    """The edges of all rings; edge i starts at vertex i."""
+    """Return the edges of all rings; edge i starts at vertex i."""
     return [
         (i, i + 1 if i + 1 < ring.stop else ring.start)
         for rings in parts
@@ -101,7 +101,7 @@ def ring_edges(parts: Parts) -> list[tuple[int, int]]:
 
 
 def parts_given(parts: Parts, vertices: Sequence[object]) -> dict[str, object]:
-    """The keyword arguments from which a body with these rings of vertices can be made."""
+    """Return the keyword arguments from which a body with these rings of vertices can be made."""
     made: list[dict[str, object]] = [
         {
             "vertices": vertices[outer.start : outer.stop],

@@ -110,7 +110,7 @@ class Shape:
 
     @property
     def is_exact(self) -> bool:
-        """Whether the rational positions are known: they are not, of doubles, until asked for."""
+        """True if the rational positions are known; those of doubles are made on first access."""
         return self._positions is not None
 
     @property
@@ -134,13 +134,13 @@ class Shape:
         return self._near
 
     def after(self, t: QQ) -> tuple[Position, ...]:
-        """Those just after a time; before the first keyframe and after the last they rest."""
+        """Return the motion just after a time; it rests outside the keyframes."""
         if not self.keyframes:
             return self.positions
         return self._pieces[bisect_right(self.keyframes, t, key=lambda frame: frame.t)]
 
     def given(self) -> dict[str, tuple[object, ...]]:
-        """The keyword arguments from which a body of this shape can be made."""
+        """Return the keyword arguments from which a body of this shape can be made."""
         if self.keyframes:
             return {"keyframes": tuple(
                 (str(frame.t), tuple((str(x), str(y)) for x, y in frame.vertices))
@@ -152,7 +152,7 @@ class Shape:
 
 
 def _near(positions: Sequence[Position]) -> Places | None:
-    """Vertices in doubles; None if they are not constant, out of range, or none are given."""
+    """Return vertices in doubles; None if not constant, out of range, or not given."""
     near = Places([], [], is_exact=True)
     for vertex in positions:
         for coordinate, values in zip(vertex, (near.xs, near.ys), strict=True):
@@ -169,7 +169,7 @@ def _near(positions: Sequence[Position]) -> Places | None:
 
 
 def _given(vertex: Position) -> tuple[object, object]:
-    """A vertex as an argument of the constructor; constants if it does not deform."""
+    """Return a vertex as an argument of the constructor; constants if it does not deform."""
     if vertex[0].degree > 0 or vertex[1].degree > 0:
         return vertex
     x, y = (f._at(QQ(0)) for f in vertex)
@@ -177,7 +177,7 @@ def _given(vertex: Position) -> tuple[object, object]:
 
 
 def listed(what: str, values: object) -> list[Any]:
-    """The entries of an iterable that is neither a text nor a mapping.
+    """Return the entries of an iterable that is neither a text nor a mapping.
 
     Those of an array of numbers are Python's, with equal values.
 
@@ -211,7 +211,7 @@ def _pair(point: object) -> tuple[Any, Any]:
 
 
 def _read_doubles(vertices: Sequence[object]) -> tuple[list[float], list[float]] | None:
-    """The coordinates x and y of vertices; None unless all are pairs of doubles."""
+    """Return the coordinates x and y of vertices; None unless all are pairs of doubles."""
     flat: list[object] = []
     for vertex in vertices:
         if type(vertex) not in _PAIRS or len(vertex) != 2:  # type: ignore[arg-type]
@@ -267,7 +267,7 @@ def _at_rest(frame: Keyframe) -> tuple[Position, ...]:
 
 
 def _between(before: Keyframe, after: Keyframe) -> tuple[Position, ...]:
-    """The linear interpolation a + (b - a) (t - t0) / (t1 - t0) of each vertex."""
+    """Return the linear interpolation a + (b - a) (t - t0) / (t1 - t0) of each vertex."""
     span = after.t - before.t
 
     def line(a: QQ, b: QQ) -> Polynomial:

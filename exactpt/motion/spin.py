@@ -1,6 +1,6 @@
 """Turning at a constant rate: rational turns whose angle differs from omega t by a proven error.
 
-The cosine and the sine of omega t are no rational functions of t. A `Spin` consists of pieces,
+The cosine and the sine of omega t are not rational functions of t. A `Spin` consists of pieces,
 each a `Rigid` motion that leads from one rational unit vector to the next; each of these vectors is
 found for its own time, so that errors do not add up. How they are found needs no proof, for
 `exactpt.motion.turned_angle` proves the error of any pieces.
@@ -110,7 +110,7 @@ class Spin(Pieces):
         omega: Rational,
         error: Rational,
     ) -> Spin:
-        """The spin that consists of given pieces, after a proof that it is one.
+        """Return the spin that consists of given pieces, after a proof that it is one.
 
         Args:
             pieces: as for `Pieces`: rigid motions, the first and the last without a turn.
@@ -163,7 +163,7 @@ def _rates(omega: Rational, error: Rational) -> tuple[QQ, QQ]:
 
 
 def _first_try(omega: QQ, error: QQ, span: QQ) -> tuple[int, QQ]:
-    """A degree, and a duration of pieces that is likely to be short enough.
+    """Return a degree, and a duration of pieces that is likely to be short enough.
 
     With the beginning of the Taylor series of the tangent as half turn, and its last coefficient
     chosen for the end of the piece, the angle is off by about 0.77 c (a / 2)^(d + 2) for a
@@ -212,7 +212,7 @@ class _Turns:
         return [*turns, (None, ZERO, u)]
 
     def _half_turn(self, a: QQ, b: QQ, u: Vector, v: Vector) -> Polynomial:
-        """The half turn that is 0 at a, and leads from u to v at b."""
+        """Return the half turn that is 0 at a, and leads from u to v at b."""
         whole = (u[0] * v[1] - u[1] * v[0]) / (1 + u[0] * v[0] + u[1] * v[1])
         half = self.omega * (b - a) / 2
         bits = bits_for(self.error, QQ(0))

@@ -92,7 +92,7 @@ class SweptBoxes:
 
     @np.errstate(all="ignore")
     def during(self, low: Floats | float, high: Floats | float) -> Boxes:
-        """A box for each trajectory less the drift, normalised, during low <= t <= high.
+        """Return a box for each trajectory less the drift, normalised, during low <= t <= high.
 
         For arrays of shape (k,), boxes during each of k intervals: of shape (k, n, 4).
 
@@ -127,7 +127,7 @@ class SweptBoxes:
         return boxes
 
     def _ranges(self, low: Floats | float, high: Floats | float) -> tuple[Floats, Floats]:
-        """Bounds of all x, then all y; if a vertex turns, of all w, and the drift too."""
+        """Return bounds of all x, then all y; if a vertex turns, of all w, and the drift too."""
         cs, n = self._rows, self._rows.shape[1]
         m = np.asarray(0.5 * (low + high))[..., None]
         r = np.maximum(high - m[..., 0], m[..., 0] - low)[..., None] * (1.0 + 4.0 * U)
@@ -146,7 +146,7 @@ class SweptBoxes:
 
     @np.errstate(all="ignore")
     def stride(self, now: float) -> float:
-        """The normalised time in which vertices move by their mean distance, on average.
+        """Return the normalised time in which vertices move by their mean distance, on average.
 
         An estimate that only chooses time steps. Infinite if no vertex moves relative to the
         drift; NaN if it is unknown.
@@ -156,7 +156,7 @@ class SweptBoxes:
         return float(gap / np.hypot(*(there - here).T).mean() * INSTANT)
 
     def _middles(self, t: float) -> Floats:
-        """The middles of the boxes at a time."""
+        """Return the middles of the boxes at a time."""
         boxes = self.during(t, t)
         return 0.5 * (boxes[:, ::2] + boxes[:, 1::2])
 
@@ -164,13 +164,13 @@ class SweptBoxes:
 def _difference(
     interval: tuple[Floats, Floats], low: Floats, high: Floats
 ) -> tuple[Floats, Floats]:
-    """The range of x - y for x in an interval and y in [low, high]."""
+    """Return the range of x - y for x in an interval and y in [low, high]."""
     least, most = interval[0] - high, interval[1] - low
     return least - 2.0 * U * np.abs(least) - TINY, most + 2.0 * U * np.abs(most) + TINY
 
 
 def _quotient(low: Floats, high: Floats, w_low: Floats, w_high: Floats) -> tuple[Floats, Floats]:
-    """The range of a quotient with positive denominator; NaN if it may not be positive."""
+    """Return the range of a quotient with positive denominator; NaN if it may not be positive."""
     w_low = np.where(w_low > SMALL, w_low, np.nan)
     least = low / np.where(low < 0.0, w_low, w_high)
     most = high / np.where(high < 0.0, w_high, w_low)

@@ -1,4 +1,4 @@
-"""The vertices and edges of moving bodies as numbers, and the pairs whose swept boxes meet."""
+"""The vertices and edges of moving bodies as numbers, and the pairs whose swept boxes intersect."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ class SweptEdges:
             self.enter_pieces(now)
 
     def _slab(self, now: QQ, step: QQ, near: Callable[[QQ, QQ], Near]) -> tuple[QQ, QQ, Near]:
-        """A slab from now on: its length, its end, and the candidates in it.
+        """Return a slab from now on: its length, its end, and the candidates in it.
 
         With many candidates it is shortened, by 4 or by 16, as long as these get fewer by the
         square root of that at least; else they stay near each other, and shorter slabs are no
@@ -138,7 +138,7 @@ class SweptEdges:
         return min(span, power_of_two(math.frexp(stride / 8.0)[1] + frame.time_scale))
 
     def until(self) -> QQ:
-        """The time at which the first current piece of motion ends, at the latest the span."""
+        """Return the earliest end of the current pieces of motion, at most that of the span."""
         untils = (m.until for m in self.vertices.bodies if m.until is not None)
         return min([self._end, *untils])
 
@@ -160,20 +160,20 @@ class SweptEdges:
         return self.boxes.replace(first, images, self.vertices.enclosures.errors)
 
     def during(self, now: QQ, later: QQ) -> Boxes:
-        """The boxes that the vertices sweep, normalised."""
+        """Return the boxes that the vertices sweep, normalised."""
         frame = self.vertices.frame
         return self.boxes.during(frame.time(now)[0], frame.time(later)[1])
 
     def around(self, boxes: Boxes) -> Boxes:
-        """The boxes of the edges, given those of the vertices."""
+        """Return the boxes of the edges, given those of the vertices."""
         a, b = self.ends[:, 0], self.ends[:, 1]
         low, high = np.minimum(boxes[a], boxes[b]), np.maximum(boxes[a], boxes[b])
         return np.stack((low[:, 0], high[:, 1], low[:, 2], high[:, 3]), axis=1)
 
     def meeting(self, boxes: Boxes, edge_boxes: Boxes) -> Iterator[tuple[Indices, Indices]]:
-        """The pairs of a vertex and an edge whose boxes meet, in blocks.
+        """Yield the pairs of a vertex and an edge whose boxes intersect, in blocks.
 
-        Pairs of one rigid body whose box meets no other may be left out: they keep their distance.
+        Pairs of one rigid body whose box intersects no other may be omitted.
         """
         if len(self._first) < MANY:
             yield from crossing_pairs(boxes, edge_boxes)
@@ -185,14 +185,14 @@ class SweptEdges:
             yield some[first], others[second]
 
     def _busy(self, boxes: Boxes) -> NDArray[np.bool_]:
-        """For each body, whether it deforms, or its box meets that of another one."""
+        """For each body, whether it deforms, or its box intersects that of another one."""
         busy = self.deforms.copy()
         for first, second in overlapping_pairs(self.of_bodies(boxes)):
             busy[first] = busy[second] = True
         return busy
 
     def of_bodies(self, boxes: Boxes) -> Boxes:
-        """The boxes of the bodies, given those of the vertices."""
+        """Return the boxes of the bodies, given those of the vertices."""
         joined = np.empty((len(self._first), 4))
         joined[:, ::2] = np.minimum.reduceat(boxes[:, ::2], self._first)
         joined[:, 1::2] = np.maximum.reduceat(boxes[:, 1::2], self._first)

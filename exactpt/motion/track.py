@@ -39,7 +39,7 @@ class Track:
         x, y: numerators.
         w: their denominator, positive at every time; a constant unless the body turns.
         motion: the identity of the rigid motion. Trajectories with equal ``motion`` keep
-            their distances for ever: they translate together, or (if w is not constant)
+            their distances for all times: they translate together, or (if w is not constant)
             turn together. ``None`` is equal to nothing.
         length: the maximum number of coefficients of x, y and w.
     """
@@ -72,7 +72,7 @@ class Track:
         return packed
 
     def at(self, t: Rational) -> tuple[Fraction, Fraction]:
-        """The exact position at a rational time."""
+        """Return the exact position at a rational time."""
         return place(self._at(rational(t)))
 
     def _at(self, t: QQ) -> tuple[QQ, QQ]:
@@ -85,7 +85,7 @@ class Track:
         return evaluate(self.x, t) / at_t, evaluate(self.y, t) / at_t
 
     def velocity(self, t: QQ) -> tuple[QQ, QQ]:
-        """The derivative of the position."""
+        """Return the derivative of the position."""
         w, dw = evaluate(self.w, t), evaluate(derivative(self.w), t)
         x, y = (
             (evaluate(derivative(f), t) * w - evaluate(f, t) * dw) / (w * w)
@@ -98,7 +98,7 @@ class Track:
 
 
 def track(x: Polynomial, y: Polynomial, w: Polynomial | None, turning: Hashable) -> Track:
-    """The trajectory (x / w, y / w) with integer coefficients; ``w`` None stands for 1.
+    """Return the trajectory (x / w, y / w) with integer coefficients; ``w`` None stands for 1.
 
     ``turning`` identifies the motion of a vertex that turns.
     """
@@ -111,7 +111,7 @@ def track(x: Polynomial, y: Polynomial, w: Polynomial | None, turning: Hashable)
 
 
 def translated(x: tuple[QQ, ...], y: tuple[QQ, ...]) -> Track:
-    """The trajectory of a vertex that only translates.
+    """Return the trajectory of a vertex that only translates.
 
     Its motion is identified by the coefficients of t, t^2, ...
     """
@@ -121,7 +121,7 @@ def translated(x: tuple[QQ, ...], y: tuple[QQ, ...]) -> Track:
 
 
 def _denominator(parts: Iterable[tuple[QQ, ...]]) -> ZZ:
-    """The least common denominator of all coefficients."""
+    """Return the least common denominator of all coefficients."""
     common = _ONE
     for part in parts:
         for c in part:

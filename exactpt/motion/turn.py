@@ -1,4 +1,4 @@
-"""Trajectories of vertices that turn: what they have in common is computed once a motion.
+"""Trajectories of vertices that turn: their common part is computed once a motion.
 
 With h the tangent of half the angle and w = 1 + h^2, the cosine is (1 - h^2) / w and the sine
 2 h / w. A vertex at (dx, dy) from the pivot, which is at (p, q), is at
@@ -39,7 +39,7 @@ class Turn(NamedTuple):
     identity: Turning
 
     def track(self, position: tuple[Polynomial, Polynomial]) -> Track:
-        """The trajectory of the vertex with this position in the rest frame."""
+        """Return the trajectory of the vertex with this position in the rest frame."""
         u, v = position
         rigid = u.degree <= 0 and v.degree <= 0
         x, y = self._resting(u._at(QQ(0)), v._at(QQ(0))) if rigid else self._deforming(u, v)
@@ -49,7 +49,7 @@ class Turn(NamedTuple):
         return track(x, y, self.w, self.identity if rigid else None)
 
     def _resting(self, u: QQ, v: QQ) -> tuple[Polynomial, Polynomial]:
-        """The trajectory of a vertex at rest in the rest frame, times w."""
+        """Return the trajectory of a vertex at rest in the rest frame, times w."""
         dx, dy = u - self.pivot[0], v - self.pivot[1]
         c, s = self.orientation
         if c != 1:
@@ -61,7 +61,7 @@ class Turn(NamedTuple):
         )
 
     def _deforming(self, u: Polynomial, v: Polynomial) -> tuple[Polynomial, Polynomial]:
-        """The trajectory of a vertex that moves in the rest frame, times w."""
+        """Return the trajectory of a vertex that moves in the rest frame, times w."""
         cosine, sine, x, y = (
             Polynomial._of(list(f)) for f in (self.cosine, self.sine, self.x, self.y)
         )
@@ -78,7 +78,7 @@ def turn_of(
     path: tuple[Polynomial, Polynomial],
     orientation: tuple[QQ, QQ],
 ) -> Turn:
-    """The turn with this tangent of half the angle, about a pivot that takes a path."""
+    """Return the turn with this tangent of half the angle, about a pivot that takes a path."""
     h, (x, y) = half_turn, path
     w = ONE + h * h
     parts = [f._coefficients for f in (ONE - h * h, h + h, w * x, w * y)]

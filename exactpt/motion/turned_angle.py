@@ -30,7 +30,7 @@ _MOST_BITS: Final = 512
 
 
 def is_within(pieces: Pieces, omega: QQ, error: QQ) -> bool:
-    """Whether it is proved that pieces turn by omega t with at most this error.
+    """Return True if it is proved that pieces turn by omega t with at most this error.
 
     From the end of the first piece to the beginning of the last one, which do not turn; and about
     one pivot, with one translation.
@@ -81,7 +81,7 @@ def angle_of(vector: tuple[QQ, QQ], bits: int) -> Bounds:
 
 
 def bound_on(f: Polynomial, a: QQ, b: QQ) -> QQ:
-    """A bound on |f| in [a, b]: the largest of its Bernstein coefficients."""
+    """Return a bound on |f| in [a, b]: the largest of its Bernstein coefficients."""
     c = f(Polynomial([a, b - a]))._coefficients
     n = len(c) - 1
     largest = QQ(0)

@@ -169,7 +169,7 @@ class Vertex:
         horizon: a double at least ``until`` of its body, normalised; infinite if that is None.
         ahead, behind: the ids of its neighbours on the ring.
         x, y, error: its last computed position, normalised, and a bound on the errors of
-            both; ``seen`` tells when (`exactpt.certificates.positions`).
+            both; ``seen`` is their time (`exactpt.certificates.positions`).
     """
 
     __slots__ = (
@@ -198,7 +198,7 @@ class Vertex:
 
     @property
     def image(self) -> Image:
-        """The float enclosure of its trajectory until then."""
+        """The float enclosure of its trajectory until that time."""
         return _NO_IMAGE if self.body < 0 else self.moving.images[self.index]
 
     @property
@@ -212,10 +212,10 @@ class Vertex:
         return f"{self.moving.name}:{self.index}"
 
     def is_copy_of(self, other: Vertex) -> bool:
-        """Whether both are one vertex of the scene, or infinitesimal copies of one."""
+        """Return True if both are one vertex of the scene, or infinitesimal copies of one."""
         return self.index == other.index and self.body == other.body
 
 
 def unused(vertex_id: VertexId) -> Vertex:
-    """A vertex that belongs to no body."""
+    """Return a vertex that belongs to no body."""
     return Vertex(vertex_id, -1, -1, _NO_BODY)

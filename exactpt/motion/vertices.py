@@ -104,7 +104,7 @@ class Vertices:
 
     @classmethod
     def of(cls, bodies: Sequence[Body], start: QQ, end: QQ, *, plain: bool = False) -> Vertices:
-        """The rings of bodies from a time on.
+        """Return the rings of bodies from a time on.
 
         With ``plain`` they are the vertices of the scene as they are, without infinitesimal
         copies, and no interior is tiled.
@@ -126,7 +126,7 @@ class Vertices:
 
     @classmethod
     def _of_rows(cls, bodies: Sequence[Body], rows: LinearRows, start: QQ, end: QQ) -> Vertices:
-        """The rings of polygons in linear translation, from their coefficients in numpy."""
+        """Return the rings of polygons in linear translation, from their coefficients in numpy."""
         self = cls([], [], [], rows.frame, end)
         self.changes = len(bodies)
         motions = self.enclosures.begin_linear(rows.velocities, rows.error)
@@ -215,7 +215,7 @@ class Vertices:
         return self._free
 
     def ids(self) -> list[VertexId]:
-        """The ids in use, body by body."""
+        """Return the ids in use, body by body."""
         return [v for moving in self.bodies for v in moving.ring]
 
     def nodes(self) -> list[int]:
@@ -224,7 +224,7 @@ class Vertices:
         return [first[v.body] + v.index if v.body >= 0 else -1 for v in self.all]
 
     def _may_pinch(self, i: int, start: QQ, end: QQ) -> bool:
-        """Whether the interior of a body must be tiled from a time on."""
+        """Return True if the interior of a body must be tiled from a time on."""
         body, ring = self.bodies[i].body, self.bodies[i].ring
         if body.has_rings:
             return self._ever_deforms(i, start)
@@ -236,18 +236,18 @@ class Vertices:
         )
 
     def _ever_deforms(self, i: int, start: QQ) -> bool:
-        """Whether a body deforms in its current piece or any later one."""
+        """Return True if a body deforms in its current piece or any later one."""
         body = self.bodies[i].body
         return self.bodies[i].deforms or self._deforms_in_pieces(
             body, [t for t in body._breakpoints if t > start]
         )
 
     def _deforms_in_pieces(self, body: Body, starts: Sequence[QQ]) -> bool:
-        """Whether a body deforms in one of the pieces that begin at these times."""
+        """Return True if a body deforms in one of the pieces that begin at these times."""
         return any(_deforms(self.enclosures.of_piece(body._piece_after(t))) for t in starts)
 
     def begins_inside(self, i: int, body: Body, t: QQ) -> bool:
-        """Whether the interior of several rings would have to be tiled by a plan, and is not yet.
+        """Return True if a motion requires a tiling of an interior that is not tiled yet.
 
         Args:
             i: the number of the body.
@@ -311,7 +311,7 @@ class Vertices:
         return self.all[v].image.motion if motion == OTHER_MOTION else int(motion)
 
     def name(self, vertex_id: VertexId) -> str:
-        """The name of a vertex in event logs, see `Vertex.name`."""
+        """Return the name of a vertex in event logs, see `Vertex.name`."""
         return self.all[vertex_id].name
 
 

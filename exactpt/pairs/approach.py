@@ -43,7 +43,7 @@ class Approach:
 
     Attributes:
         time: the exact time.
-        pairs: the names of all pairs that are within the distance then, each in the order of
+        pairs: the names of all pairs within the distance at that time, each in the order of
             the scene, sorted.
     """
 
@@ -86,7 +86,7 @@ def first_within(
     between: Iterable[Sequence[str]] | None = None,
     ignoring: Iterable[Collection[str]] = (),
 ) -> AlgebraicNumber | Approach | None:
-    """The first time in the scene's span at which bodies are at most a distance apart.
+    """Return the first time in the scene's span at which bodies are at most a distance apart.
 
     >>> from exactpt import Body, Scene, Translation
     >>> ball = Body("ball", [(0, 0), (1, 0), (0, 1)], Translation([0, 2]))
@@ -103,7 +103,7 @@ def first_within(
         scene: the bodies and the time span.
         a: the name of a body.
         b: the name of another body; without names, any two bodies of the scene.
-        distance: a number >= 0; 0 asks for the first contact.
+        distance: a number >= 0; 0 means the first contact.
         norm: "euclidean"; "max": the larger of the distances in x and in y; "x" or "y": the gap
             between the intervals that the bodies, with all their parts, span on that axis. To
             leave it out for two bodies means "max", and is deprecated.
@@ -151,7 +151,7 @@ def first_within(
 
 
 def _first(scene: Scene, d: QQ, norm: Norm) -> Near | None:
-    """The first approach of any two bodies, of which there are two."""
+    """Return the first approach of any two bodies, of which there are two."""
     if norm == "euclidean":
         return _euclidean(scene, d)
     if norm == "max":
@@ -168,7 +168,7 @@ def _selected(scene: Scene, selection: Selection, d: QQ, norm: Norm) -> Near | N
 
 
 def _on_axis(scene: Scene, d: QQ, norm: Literal["x", "y"]) -> Near | None:
-    """The first approach along an axis.
+    """Return the first approach along an axis.
 
     If all gaps between projections are more than d at the start, the order of the projections
     stays the same until one is d: a first approach is one of neighbours. Another pair can be
@@ -201,7 +201,7 @@ def _starts_by(limit: QQ, span: tuple[QQ, QQ, int]) -> bool:
 def _by_pairs(
     scene: Scene, candidates: Iterable[tuple[int, int]], d: QQ, norm: Norm
 ) -> Near | None:
-    """The first approach of some pairs: each is searched up to the best time so far."""
+    """Return the first approach of some pairs: each is searched up to the best time so far."""
     best: Earliest[tuple[int, int]] = Earliest()
     for i, j in map(sorted, candidates):
         two, until = (scene.bodies[i], scene.bodies[j]), best.until(scene._end)
@@ -250,7 +250,7 @@ def _euclidean(scene: Scene, squared: QQ) -> Near | None:
 
 
 def root_above(squared: QQ) -> QQ:
-    """A number a little above the square root of another one; 0 for 0."""
+    """Return a number a little above a square root; 0 for 0."""
     n, d = squared.numerator, squared.denominator
     shift = max(0, BITS - (n * d).bit_length() // 2)
     return QQ(isqrt(n * d << 2 * shift) + 1, d << shift) if n else QQ(0)

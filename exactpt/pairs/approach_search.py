@@ -1,9 +1,9 @@
 """The first time at which any two bodies of a scene are within a distance of each other.
 
 The time span is swept in slabs, as in the search for contacts by pairs. In a slab, a vertex and an
-edge whose boxes, grown by the distance, do not meet are farther apart. What is left is looked at in
-halves of the slab, then in halves of these; `_may_be_near` bounds the distance from below. The few
-that remain are decided by exact arithmetic, in the order of time.
+edge whose boxes, grown by the distance, do not intersect are farther apart. The other pairs are
+examined in halves of the slab, then in halves of these; `_may_be_near` bounds the distance from
+below. The few that remain are decided by exact arithmetic, in the order of time.
 """
 
 from __future__ import annotations
@@ -74,16 +74,16 @@ class ApproachSearch:
             self._grown = np.array(near)[self._swept.body] * (1.0 + 4.0 * U)
 
     def run(self) -> Meeting | None:
-        """The first approach, if no two bodies are within their distance at the start."""
+        """Return the first approach, if no two bodies are within their distance at the start."""
         found = (self.first(*slab) for slab in self._swept.slabs(self.near))
         return next((meeting for meeting in found if meeting is not None), None)
 
     def first(self, now: QQ, later: QQ, near: Near) -> Meeting | None:
-        """The first approach in (now, later] of the candidates of this slab."""
+        """Return the first approach in (now, later] of the candidates of this slab."""
         return self._search(now, later, self._left(now, later, near), DEPTH)
 
     def _boxes(self, now: QQ, later: QQ) -> Boxes:
-        """The boxes of the vertices in the smaller unit; the products are exact.
+        """Return the boxes of the vertices in the smaller unit; the products are exact.
 
         An axis whose unit is out of the range of doubles then has no bounds.
         """
@@ -97,7 +97,7 @@ class ApproachSearch:
         return boxes
 
     def near(self, now: QQ, later: QQ) -> Near:
-        """The numbers of vertices and of edges of other bodies that may be near in a slab."""
+        """Return the vertices and edges of other bodies that may be near in a slab, by number."""
         boxes = self._boxes(now, later)
         of_edges = self._swept.around(boxes)
         vs, es = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
@@ -112,7 +112,7 @@ class ApproachSearch:
     def _search(
         self, now: QQ, later: QQ, near: Near, depth: int, lasting: int = 0
     ) -> Meeting | None:
-        """The first approach in (now, later] of vertices to edges, given by their numbers.
+        """Return the first approach in (now, later] of vertices to edges, given by their numbers.
 
         Pairs that hover at about their distance are near in both halves of every interval: exact
         arithmetic decides these, too.
@@ -133,13 +133,13 @@ class ApproachSearch:
         return None
 
     def _left(self, now: QQ, later: QQ, near: Near) -> Near:
-        """Those pairs that may be near in [now, later]."""
+        """Return those pairs that may be near in [now, later]."""
         may = self._may_be_near(self._boxes(now, later), *near)
         return near[0][may], near[1][may]
 
     @np.errstate(all="ignore")
     def _may_be_near(self, boxes: Boxes, v: Indices, e: Indices) -> NDArray[np.bool_]:
-        """Whether each vertex may be within the distance of an edge, somewhere in their boxes.
+        """Return True if each vertex may be within the distance of an edge, by their boxes.
 
         With m the middle of a box and h half its diagonal, a point of the edge is within
         max(h_a, h_b) of a point of the segment m_a m_b. So the distance is at least that of m_v
@@ -165,7 +165,7 @@ class ApproachSearch:
         return may
 
     def _decide(self, now: QQ, later: QQ, v: Indices, e: Indices) -> Meeting | None:
-        """The first approach, exactly."""
+        """Return the first approach, exactly."""
         begin = AlgebraicNumber(now)
         best: Earliest[Touch] = Earliest()
         for pair in self._feature_pairs(v, e):
@@ -177,7 +177,7 @@ class ApproachSearch:
         return None if best.time is None else Meeting(best.time, best.found)
 
     def _feature_pairs(self, v: Indices, e: Indices) -> Iterator[FeaturePair]:
-        """The pairs of features to which a vertex and an edge belong, each once."""
+        """Yield the pairs of features to which a vertex and an edge belong, each once."""
         seen: set[Touch] = set()
         for one, edge in zip(v.tolist(), e.tolist(), strict=True):
             a, b = self._swept.ends[edge].tolist()
@@ -196,6 +196,6 @@ class ApproachSearch:
                     yield FeaturePair(touch, track, tuple(end[0] for end in of))
 
     def _vertex(self, k: int) -> tuple[Track, int, int]:
-        """The trajectory of a vertex, its body and its number in that."""
+        """Return the trajectory of a vertex, its body and its number in that."""
         vertex = self._swept.vertices.all[self._swept.ids[k]]
         return vertex.track, int(self._swept.body[k]), vertex.index

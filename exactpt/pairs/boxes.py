@@ -47,7 +47,7 @@ class PieceBoxes:
 
     Args:
         rows: the pieces.
-        margin: what the boxes are grown by besides, on each side.
+        margin: the additional growth of the boxes, on each side.
 
     Attributes:
         body: the number of the body of each piece.
@@ -108,7 +108,7 @@ class PieceBoxes:
         return len(self.body)
 
     def joined(self, other: PieceBoxes) -> PieceBoxes:
-        """The boxes of these pieces, and then of others."""
+        """Return the boxes of these pieces, and then of others."""
         both = PieceBoxes.__new__(PieceBoxes)
         for name in _COLUMNS:
             setattr(both, name, np.concatenate((getattr(self, name), getattr(other, name))))
@@ -117,7 +117,7 @@ class PieceBoxes:
 
     @np.errstate(all="ignore")
     def during(self, low: float, high: float) -> tuple[Indices, Boxes]:
-        """The pieces that last during a part of [low, high], and boxes of them in that part.
+        """Return the pieces that last during a part of [low, high], and boxes of them in that part.
 
         Boxes are relative to the drift. A displacement c + (v - drift) t is off by at most
         c_error + v_error |t|, the rounding of its terms, and U |v - drift| |t|.
@@ -140,10 +140,10 @@ class PieceBoxes:
 
     @np.errstate(all="ignore")
     def windows(self, i: Indices, j: Indices, low: float, high: float) -> tuple[Floats, Floats]:
-        """Bounds of the times in [low, high] at which the boxes of two pieces meet.
+        """Return bounds of the times in [low, high] at which the boxes of two pieces intersect.
 
         The bounds of `exactpt.pairs.filters.window`; the first is larger than the second
-        if they do not meet.
+        if they do not intersect.
         """
         n = len(i)
         first, last = np.full(n, low), np.full(n, high)
@@ -181,7 +181,7 @@ class PieceBoxes:
 
     @np.errstate(all="ignore")
     def stride(self, now: float) -> float:
-        """The time in which pieces move by their mean distance, on average: an estimate.
+        """Return the time in which pieces move by their mean distance, on average: an estimate.
 
         Infinite if none moves relative to the drift; perhaps NaN.
         """
@@ -196,7 +196,7 @@ def radius_above(body: Body) -> float:
 
 
 def pairs_at(boxes: PieceBoxes, time: QQ) -> list[tuple[int, int]]:
-    """The pairs i < j of bodies, each with one piece, whose boxes meet at a time."""
+    """Return the pairs i < j of bodies, each with one piece, whose boxes intersect at a time."""
     low, high = enclosing_floats(time)
     few, _, first, second = _meeting(boxes, low, high)
     if len(first) > few:
@@ -209,7 +209,7 @@ def pairs_at(boxes: PieceBoxes, time: QQ) -> list[tuple[int, int]]:
 
 
 def candidate_pairs(boxes: PieceBoxes, start: QQ, end: QQ) -> Iterator[tuple[float, int, int]]:
-    """The pairs of pieces of different bodies that come near each other, by number, once each.
+    """Yield the candidate pairs of pieces of different bodies, by number, once each.
 
     Each comes with a time at or before which it does, in increasing order of these times.
     """

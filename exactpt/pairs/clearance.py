@@ -1,6 +1,6 @@
 """The Euclidean distance of two bodies as a function of time.
 
-While two bodies do not meet, one pair of features is nearest, from one algebraic time to the
+While two bodies are disjoint, one pair of features is nearest, from one algebraic time to the
 next; the squared distance is then a quotient of two polynomials. Let f be nearest just after a
 time, and g another pair. g becomes nearer only at a time at which the numerator of g - f
 vanishes: where the foot of g's perpendicular comes onto its edge, g is as far as a pair of
@@ -8,7 +8,7 @@ vertices, so not nearer than f. f itself ends where its foot leaves its edge. At
 the pairs are compared anew, just after it, by signs of polynomials.
 
 The distance of rounded bodies is that of their cores less the sum of the radii, so it has the
-same pieces, up to the times at which they meet.
+same pieces, up to the times at which they intersect.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class ClearancePiece(NamedTuple):
 
     Attributes:
         start, end: the closed interval.
-        features: of the first body and of the second one; None where the bodies meet.
+        features: of the first and the second body; None while the bodies intersect.
         numerator, denominator: polynomials with integer coefficients, the constant first, whose
             quotient is the square of the distance plus `Clearance.radius`. Where both vanish,
             which they do at single times, it is the limit.
@@ -145,7 +145,7 @@ class Clearance:
         return f"<Clearance of {names}: {count} pieces from t = {start:.6g} to {end:.6g}>"
 
     def squared(self, at: Rational) -> Fraction:
-        """The squared distance at a rational time.
+        """Return the squared distance at a rational time.
 
         Raises:
             InputError: if the time is outside of the time span, or the square is irrational, which
@@ -156,7 +156,7 @@ class Clearance:
     def squared_with_radius(self, at: Rational) -> Fraction:
         """Return the square of the sum of the distance and the radius, at a rational time.
 
-        While rounded bodies meet it is the square of the radius, and not, as
+        While bodies with radii intersect it is the square of the radius, and not, as
         `Distance.core_squared`, that of the distance of their cores.
 
         Raises:
@@ -180,7 +180,7 @@ class Clearance:
         return self.squared_with_radius(at)
 
     def __call__(self, at: Rational) -> float:
-        """The double nearest to the distance at a rational time."""
+        """Return the double nearest to the distance at a rational time."""
         return nearest_root_less(QQ(self.squared_with_radius(at)), QQ(self.radius))
 
     def below(self, distance: Rational) -> tuple[CloseInterval, ...]:
@@ -261,7 +261,7 @@ def _squared_gap(core_squared: AlgebraicNumber, radius: Fraction) -> AlgebraicNu
 
 
 def _apart(a: Body, b: Body, begin: AlgebraicNumber, end: AlgebraicNumber) -> list[ClearancePiece]:
-    """The pieces of the distance between two times; between them the bodies do not meet."""
+    """Return the pieces of the distance between two times; between them the bodies are disjoint."""
     pieces: list[ClearancePiece] = []
     now = begin
     for stretch in stretches(a, b, begin._low, end._high):
@@ -319,7 +319,7 @@ def _piece(start: AlgebraicNumber, end: AlgebraicNumber, pair: FeaturePair) -> C
 
 
 def _nearest_after(pairs: list[FeaturePair], now: AlgebraicNumber) -> FeaturePair:
-    """The nearest pair just after a time; of equal ones the first, vertices before edges."""
+    """Return the nearest pair just after a time; of equal ones the first, vertices before edges."""
     holding = [pair for pair in pairs if pair.holds_after(now)]
     nearest = holding[0]
     for pair in holding[1:]:
@@ -329,7 +329,7 @@ def _nearest_after(pairs: list[FeaturePair], now: AlgebraicNumber) -> FeaturePai
 
 
 def _lead(g: FeaturePair, f: FeaturePair) -> IntPoly:
-    """A polynomial with the sign of the difference of the squared distances of g and f."""
+    """Return a polynomial with the sign of the difference of the squared distances of g and f."""
     (n, d), (m, e) = g.squared, f.squared
     return subtract(multiply(n, e), multiply(m, d))
 
@@ -341,7 +341,7 @@ def _first_change(
     until: AlgebraicNumber,
     above: QQ,
 ) -> AlgebraicNumber | None:
-    """The first time in (now, above], and before until, at which another pair becomes nearest."""
+    """Return the first time in (now, above], before until, of another nearest pair."""
     times: list[tuple[AlgebraicNumber, FeaturePair | None]] = []
     for f in filter(None, nearest.limits):
         times += [(root.time, None) for root in roots_after(f, now, above)]
@@ -384,7 +384,7 @@ def _parts_within(piece: ClearancePiece, limit: QQ) -> Iterator[ClearancePiece]:
 
 
 def _candidates(piece: ClearancePiece) -> Iterator[AlgebraicNumber]:
-    """The times at which the distance may be least in a piece, in increasing order."""
+    """Yield the times at which the distance may be least in a piece, in increasing order."""
     yield piece.start
     n, d = _poly(piece.numerator), _poly(piece.denominator)
     slope = subtract(multiply(derivative(n), d), multiply(n, derivative(d)))

@@ -1,4 +1,4 @@
-"""Contacts as users see them: the time, and what touches then."""
+"""Public records of contacts: the time, and the features in contact."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Contact:
     def time(self) -> AlgebraicNumber:
         """The exact time."""
         if not self._time.is_rational:
-            self._complete()  # an irrational time has another form then
+            self._complete()  # it changes the form of an irrational time
         return self._time
 
     @property
@@ -85,7 +85,7 @@ class Contact:
         return pairs
 
     def _touches(self, numbers: Mapping[str, int]) -> list[Touch]:
-        """The incidences, with the bodies numbered by ``numbers``; points are not computed."""
+        """Return the incidences, bodies numbered by ``numbers``; points are not computed."""
         found = self._pairs
         if isinstance(found, Found):
             order = [numbers.get(body.name, -1) for body in found.scene.bodies]
@@ -128,7 +128,7 @@ class Contact:
         return tuple(dict.fromkeys([*named, *(name for pair in self.overlaps for name in pair)]))
 
     def to_json(self) -> dict[str, object]:
-        """The contact as a JSON object, see docs/format.md."""
+        """Return the contact as a JSON object, see docs/format.md."""
         data: dict[str, object] = {
             "time": self.time.to_json(),
             "kind": self.kind,
@@ -139,7 +139,7 @@ class Contact:
         return data
 
     def _repr_html_(self) -> str:
-        """An HTML table of the time and the incidences, for notebooks."""
+        """Return an HTML table of the time and the incidences, for notebooks."""
         return str(extension("table of a contact")(self))
 
 
@@ -156,7 +156,7 @@ def contact_of(
     touches: Iterable[Touch],
     overlaps: Sequence[tuple[int, int]] = (),
 ) -> Contact:
-    """The contact with the given incidences.
+    """Return the contact with the given incidences.
 
     Args:
         scene: the scene.

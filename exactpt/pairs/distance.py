@@ -51,7 +51,7 @@ class Distance:
         return squared_gap(self.core_squared, self.radius)
 
     def __lt__(self, other: object) -> bool:
-        """Return True if this distance is less than another one, exactly."""
+        """Return True if this distance is less than another distance, exactly."""
         return NotImplemented if not isinstance(other, Distance) else _is_less(self, other)
 
     def __gt__(self, other: object) -> bool:
@@ -91,7 +91,7 @@ def _is_less(one: Distance, other: Distance) -> bool:
 
 
 def distance(scene: Scene, a: str, b: str, at: Rational | AlgebraicNumber) -> Distance:
-    """The Euclidean distance of two bodies at a time.
+    """Return the Euclidean distance of two bodies at a time.
 
     >>> from exactpt import Body, Scene
     >>> scene = Scene([Body("point", [(3, 1)]), Body("line", [(0, 0), (1, -1)])], time=(0, 1))
@@ -121,7 +121,7 @@ def distance(scene: Scene, a: str, b: str, at: Rational | AlgebraicNumber) -> Di
 
 
 def squared_gap(core_squared: Fraction, radius: Fraction) -> Fraction:
-    """The square of the distance of two rounded bodies, exactly.
+    """Return the square of the distance of two rounded bodies, exactly.
 
     Raises:
         InputError: if it is irrational.
@@ -140,7 +140,7 @@ def squared_gap(core_squared: Fraction, radius: Fraction) -> Fraction:
 
 
 def squared_distance(a: Body, b: Body, t: QQ) -> QQ:
-    """The squared distance of the cores of two bodies at a rational time."""
+    """Return the squared distance of the cores of two bodies at a rational time."""
     return QQ(0) if meet(a, b, t) else min(squared for squared, _ in _near_features(a, b, t))
 
 
@@ -164,7 +164,7 @@ def _in_order(pair: tuple[Feature, Feature]) -> list[int]:
 
 
 def _near_features(a: Body, b: Body, t: QQ) -> Iterator[tuple[QQ, tuple[Feature, Feature]]]:
-    """The squared distances of vertices from vertices, and from the interiors of edges."""
+    """Yield the squared distances of vertices from vertices, and from the interiors of edges."""
     p, q = a._at(t), b._at(t)
     for (i, u), (j, v) in product(enumerate(p), enumerate(q)):
         yield _squared(u, v), (Feature(i, None), Feature(j, None))
@@ -183,7 +183,7 @@ def _squared(u: Point, v: Point) -> QQ:
 
 
 def squared_from_interior(v: Point, a: Point, b: Point) -> QQ | None:
-    """The squared distance of v from ab; None if the nearest point is an end."""
+    """Return the squared distance of v from ab; None if the nearest point is an end."""
     x, y = b[0] - a[0], b[1] - a[1]
     along, length = x * (v[0] - a[0]) + y * (v[1] - a[1]), x * x + y * y
     if not 0 < along < length:

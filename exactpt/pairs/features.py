@@ -34,7 +34,7 @@ __all__ = ["Feature", "FeaturePair", "feature_pairs"]
 
 
 class Feature(NamedTuple):
-    """A vertex or an edge of a body; the other one of the two is None.
+    """A vertex or an edge of a body; one of the two fields is None.
 
     Attributes:
         vertex: the number of the vertex.
@@ -47,7 +47,7 @@ class Feature(NamedTuple):
 
 @final
 class FeaturePair:
-    """A vertex of a body, and a vertex or an edge of another one.
+    """A vertex of a body, and a vertex or an edge of another body.
 
     Args:
         touch: the vertex, and the other vertex or the edge.
@@ -66,7 +66,7 @@ class FeaturePair:
 
     @property
     def features(self) -> tuple[Feature, Feature]:
-        """The features of the lower body and of the other one."""
+        """The features of the lower and of the higher body."""
         body, vertex, other, edge, other_vertex = self.touch
         one = Feature(vertex, None)
         two = Feature(other_vertex, None) if edge < 0 else Feature(None, edge)
@@ -99,7 +99,7 @@ class FeaturePair:
         return _vector(*self.ends)
 
     def at_distance(self, squared: QQ) -> IntPoly:
-        """A polynomial that is positive where the squared distance is larger, 0 where equal.
+        """Return a polynomial that is positive where the squared distance is larger, 0 where equal.
 
         That of the line, of an edge. If the distance is 0, a polynomial that is 0 there alone, of
         any sign elsewhere: the orientation, or a common factor of the differences in x and in y.
@@ -116,7 +116,7 @@ class FeaturePair:
         return greatest_common_divisor(dx, dy) if dx and dy else dx or dy
 
     def holds(self, t: AlgebraicNumber) -> bool:
-        """Whether the foot of the perpendicular is on the edge, which has a length."""
+        """Return True if the foot of the perpendicular is on the edge, which has a length."""
         return all(t.sign_of(f) >= 0 for f in self._each_limit()) and (
             not self.is_of_edge or t.sign_of(_squared_length(self._along)) > 0
         )
@@ -139,7 +139,7 @@ class FeaturePair:
         return None
 
     def touch_at(self, t: AlgebraicNumber, ends: Sequence[int]) -> Touch:
-        """The incidence while the foot is on the edge: with one of its ends, if the foot is there.
+        """Return the incidence while the foot is on the edge; at an end, with that vertex.
 
         Args:
             t: the time.
@@ -152,11 +152,11 @@ class FeaturePair:
         return self.touch
 
     def is_inside(self, t: AlgebraicNumber) -> bool:
-        """Whether the foot of the perpendicular is no end of the edge; true of two vertices."""
+        """Return True for two vertices, or if the foot of the perpendicular is inside the edge."""
         return all(t.sign_of(f) > 0 for f in self.limits)
 
     def holds_after(self, t: AlgebraicNumber) -> bool:
-        """Whether it is so just after a time."""
+        """Return True if it is so just after a time."""
         return all(t.sign_after(f) >= 0 for f in self.limits) and (
             not self.is_of_edge or t.sign_after(_squared_length(self._along)) > 0
         )
@@ -195,7 +195,7 @@ def feature_pairs(
 
 
 def _vector(a: Track, b: Track) -> tuple[IntPoly, IntPoly]:
-    """The vector from a to b, times a positive factor."""
+    """Return the vector from a to b, times a positive factor."""
     return difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
 
 

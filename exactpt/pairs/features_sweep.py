@@ -1,7 +1,7 @@
 """The first contact without a tiling: a sweep over slabs of time with swept bounding boxes.
 
-Within a slab only a vertex and an edge whose swept boxes meet can touch. A float filter looks
-for the first zero of their orientation; exact arithmetic decides what the filter leaves open,
+Within a slab only a vertex and an edge whose swept boxes intersect can touch. A float filter looks
+for the first zero of their orientation; exact arithmetic decides the undecided cases,
 and whether the vertex lies on the edge at that time. The length of a slab adapts to the number
 of candidate pairs, so that few pairs are tested in more than one slab.
 
@@ -109,7 +109,7 @@ class PairsSearch:
 
     @property
     def is_blind(self) -> bool:
-        """Whether a tiling is expected to decide less exactly: many vertices have no boxes.
+        """True if a tiling is expected to decide less exactly: many vertices have no boxes.
 
         Such a vertex is compared with all edges, and its edges with all vertices. The tiling
         has about three certificates for each vertex.
@@ -123,7 +123,7 @@ class PairsSearch:
         return 2 * unknown * count > 3 * count + FEW
 
     def run_to_contact(self) -> Contact | None:
-        """The first contact in the closed time span of the scene; None if there is none.
+        """Return the first contact in the closed time span of the scene; None if there is none.
 
         Raises:
             BudgetExceeded: when the time limit is reached; its ``reached`` is a time up to which
@@ -188,7 +188,7 @@ class PairsSearch:
         return ApproachSearch(scene, squared, radii, apart, self._swept)
 
     def _split(self, near: Near) -> tuple[Near, Near]:
-        """Pairs of a vertex and an edge of bodies without radius, and all others."""
+        """Return pairs of a vertex and an edge of bodies without radius, and all others."""
         v, e = near
         if self._approaches is None:
             return near, (v[:0], e[:0])
@@ -197,7 +197,7 @@ class PairsSearch:
         return (v[~rounded], e[~rounded]), (v[rounded], e[rounded])
 
     def _near(self, now: QQ, later: QQ) -> Near:
-        """Candidate pairs in a slab: numbers of vertices and of edges whose swept boxes meet."""
+        """Return candidate pairs in a slab: vertices and edges whose swept boxes intersect."""
         boxes = self._swept.during(now, later)
         vs, es = [], []
         for v, e in self._swept.meeting(boxes, self._swept.around(boxes)):
@@ -215,7 +215,7 @@ class PairsSearch:
 
         It cannot if both have the same motion, belong to one rigid body, or are ignored. A vertex
         is not paired with its own edges, except with the edge that starts at it if the boxes of
-        that edge's ends meet: the edge may shrink to a point.
+        that edge's ends coincide: the edge may shrink to a point.
         """
         swept = self._swept
         a, b = swept.ends[e, 0], swept.ends[e, 1]
@@ -235,7 +235,7 @@ class PairsSearch:
         return bool(self._group[i] == self._group[j] and (i != j or self._ignores_self[i]))
 
     def _search(self, now: QQ, later: QQ, near: Near) -> Meeting | None:
-        """The first contact in (now, later] of bodies without radius."""
+        """Return the first contact in (now, later] of bodies without radius."""
         if not len(near[0]):
             return None
         vertices, ids, ends = self._swept.vertices, self._swept.ids, self._swept.ends

@@ -9,7 +9,7 @@ All incidences at the first contact T, before which the bodies are disjoint, are
 way. A vertex inside an edge at T does not move along that edge's line, or it would have been on
 the edge just before; so T is the one zero of its orientation. Let two vertices coincide at T.
 If w is not parallel to one of the edges at one of them, T is the zero for that edge. Otherwise
-take an edge at one of them: the other one moves along its line, and does not come along the
+take an edge at one of them: the other end moves along its line, and does not come along the
 edge, so it enters the edge at T, at that end. `exactpt.pairs.rational` finds both. (The edge
 of a point is a single point, with the orientation 0.)
 
@@ -91,7 +91,7 @@ def window(
 
 
 def relative(a: Straight, b: Straight) -> Path:
-    """The motion of a relative to b."""
+    """Return the motion of a relative to b."""
     cx, cy, wx, wy = a.cx - b.cx, a.cy - b.cy, a.vx - b.vx, a.vy - b.vy
     return Path(
         cx,
@@ -223,7 +223,7 @@ def _collect(
 def _near(
     a: Straight, b: Straight, path: Path, limits: _Limits, distance: float
 ) -> tuple[list[tuple[int, float, float]], list[tuple[int, int, int]]]:
-    """The vertices of a, with their coordinates c + p, and the edges of b that may touch.
+    """Return the vertices of a, with their coordinates c + p, and the edges of b that may touch.
 
     A vertex moves by a displacement between two bounds; it must come into the box of b, and
     the box of a to the edge, or within the distance of them.

@@ -54,7 +54,7 @@ class Pair:
     normal: tuple[float, float] | None
 
     def to_json(self) -> dict[str, object]:
-        """The pair as a JSON object, see docs/format.md."""
+        """Return the pair as a JSON object, see docs/format.md."""
         if self.edge is None:
             b: dict[str, object] = {"body": self.other, "vertex": self.other_vertex}
         else:
@@ -69,12 +69,12 @@ class Pair:
 
 
 def tracks_just_before(body: Body, time: AlgebraicNumber, start: QQ) -> tuple[Track, ...]:
-    """The trajectories of the vertices of a body just before a time; at the start, just after."""
+    """Return the trajectories of a body just before a time; at the start, just after."""
     return _piece_before(body, time, start).tracks
 
 
 def _piece_before(body: Body, time: AlgebraicNumber, start: QQ) -> Piece:
-    """The motion of a body just before a time; at the start, just after it."""
+    """Return the motion of a body just before a time; at the start, just after it."""
     since = max((b for b in body._breakpoints if time.compare_rational(b) > 0), default=start)
     return body._piece_after(since)
 
@@ -82,7 +82,7 @@ def _piece_before(body: Body, time: AlgebraicNumber, start: QQ) -> Piece:
 def details(
     scene: Scene, time: AlgebraicNumber, touches: Sequence[Touch]
 ) -> tuple[AlgebraicNumber, tuple[Pair, ...]]:
-    """The time in the form that does not depend on the search, and the incidences."""
+    """Return the time in the form that does not depend on the search, and the incidences."""
     involved = {i for touch in touches for i in (touch.body, touch.other)}
     pieces = {i: _piece_before(scene.bodies[i], time, scene._start) for i in involved}
     number = _as_root(scene, time, pieces, touches)
@@ -108,7 +108,7 @@ def _as_root(
     pieces: Mapping[int, Piece],
     touches: Sequence[Touch],
 ) -> AlgebraicNumber:
-    """The time as a root of the first incidence's polynomial, whichever search has found it."""
+    """Return the time as a root of the first incidence's polynomial."""
     if time.simplified().is_rational or not touches:
         return time
     touch = touches[0]
@@ -121,7 +121,7 @@ def _as_root(
 
 
 def _ends(scene: Scene, touch: Touch, other: Piece) -> tuple[Track] | tuple[Track, Track]:
-    """The vertex that is touched, or the ends of the edge."""
+    """Return the vertex that is touched, or the ends of the edge."""
     if touch.edge < 0:
         return (other.track(touch.other_vertex),)
     end = scene.bodies[touch.other].end_of_edge(touch.edge)
@@ -159,14 +159,14 @@ def _pair(
 
 
 def _touched_ring(scene: Scene, touch: Touch) -> tuple[int, range] | None:
-    """The body and the ring of the edge that is touched; None if a vertex or a chain is."""
+    """Return the body and the ring of the edge that is touched; None if a vertex or a chain is."""
     if touch.edge < 0 or not scene.bodies[touch.other].has_interior:
         return None
     return touch.other, next(r for r in scene.bodies[touch.other].rings if touch.edge in r)
 
 
 def _may_have_crossed_itself(scene: Scene, touch: Touch) -> bool:
-    """Return True unless a touched polygon surely is simple; no contact with itself is found then.
+    """Return True unless a touched polygon is certainly simple: otherwise it may touch itself.
 
     Where contacts of a body with itself do not count, it goes on after them. One that touches
     itself does so for the first time.

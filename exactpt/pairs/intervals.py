@@ -1,4 +1,4 @@
-"""The maximal intervals of time in which two bodies meet; they may pass through each other.
+"""The maximal intervals of time in which two bodies intersect; they may pass through each other.
 
 Whether two bodies have a common point changes only at a time at which their boundaries touch
 without crossing: then a vertex of one lies on an edge of the other, or if one is rounded, is at
@@ -50,12 +50,12 @@ class ContactInterval:
     end: AlgebraicNumber
 
     def to_json(self) -> dict[str, object]:
-        """The interval as a JSON object, see docs/format.md."""
+        """Return the interval as a JSON object, see docs/format.md."""
         return {"a": self.a, "b": self.b, "from": self.start.to_json(), "to": self.end.to_json()}
 
 
 def contact_intervals(scene: Scene, a: str, b: str) -> list[ContactInterval]:
-    """Return all maximal closed intervals of the time span in which two bodies meet.
+    """Return all maximal closed intervals of the time span in which two bodies intersect.
 
     The answer does not depend on the order in which the bodies are named.
 
@@ -91,7 +91,7 @@ def contacts(
     between: Iterable[Sequence[str]] | None = None,
     ignoring: Iterable[Collection[str]] = (),
 ) -> list[ContactInterval]:
-    """Return the intervals in which any two bodies meet, in the order of their starts, then names.
+    """Return the intervals in which two bodies intersect, in the order of their starts, then names.
 
     Contacts of a deforming body with itself are not included. A `Spin` or a `PosePath` counts as
     its pieces: docs/howto/motions.md has the bounds for the true motion.
@@ -122,7 +122,7 @@ _in_order = cmp_to_key(AlgebraicNumber.compare)
 def intervals(
     a: Body, b: Body, start: QQ, end: QQ
 ) -> Iterator[tuple[AlgebraicNumber, AlgebraicNumber]]:
-    """The maximal closed intervals in [start, end] in which two bodies meet."""
+    """Yield the maximal closed intervals in [start, end] in which two bodies intersect."""
     times = incidence_times(a, b, start, end)
     begin = AlgebraicNumber(start) if bodies_meet(a, b, start) else None
     last = AlgebraicNumber(start)
@@ -143,7 +143,7 @@ def intervals(
 
 
 def incidence_times(a: Body, b: Body, start: QQ, end: QQ) -> list[AlgebraicNumber]:
-    """The times in (start, end] at which a vertex of one body comes onto an edge of the other.
+    """Return the times in (start, end] of incidences of a vertex and an edge of two bodies.
 
     In increasing order, each once. Where a vertex stays on the line of an edge, the times at
     which it passes an end of the edge, and that at which the motion ends, if it is on the edge.
@@ -165,7 +165,7 @@ def _distinct(times: Iterable[AlgebraicNumber]) -> list[AlgebraicNumber]:
 
 
 def _times(a: Body, b: Body, stretch: Stretch, *, corners: bool) -> Iterator[AlgebraicNumber]:
-    """The times at which features of two bodies are at the sum of the radii.
+    """Yield the times at which features of two bodies are at the sum of the radii.
 
     Where they stay at it, that at which the motion ends. (A foot that leaves its edge does so at
     a vertex, which is then at that distance.) If the sum is 0 and ``corners`` is false, those of

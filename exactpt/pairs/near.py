@@ -23,7 +23,7 @@ SLABS: Final = 64
 
 
 def pairs_that_come_near(scene: Scene, reach: QQ) -> list[tuple[int, int]]:
-    """The pairs i < j of bodies whose swept boxes, grown to this reach, meet.
+    """Return the pairs i < j of bodies whose swept boxes, grown to this reach, intersect.
 
     A superset of those whose distance in the maximum norm is ever at most the reach. (The radii
     of rounded bodies are added to it.)

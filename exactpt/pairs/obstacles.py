@@ -56,7 +56,7 @@ class SlabBoxes:
         self._boxes = np.stack([self._of(body) for body in bodies], axis=1)
 
     def _of(self, body: Body) -> Floats:
-        """The box of a body during each slab: shape (SLABS, 4)."""
+        """Return the box of a body during each slab: shape (SLABS, 4)."""
         boxes = np.empty((SLABS, 4))
         boxes[:, ::2], boxes[:, 1::2] = np.inf, -np.inf
         start, end = self._cuts[0], self._cuts[-1]
@@ -73,7 +73,7 @@ class SlabBoxes:
         return boxes
 
     def stretches(self, body: Body) -> Iterator[Stretch]:
-        """The times during which the box of a body meets those of prepared ones, in order."""
+        """Yield the times during which the box of a body intersects prepared boxes, in order."""
         box = self._of(body)[:, None, :]
         others = self._boxes
         beside = np.maximum(box, others)[..., ::2] > np.minimum(box, others)[..., 1::2]
@@ -106,7 +106,9 @@ class Obstacles:
         self._slab_boxes: SlabBoxes | None = None
 
     def near(self, rows: Sequence[MotionPiece]) -> list[tuple[float, int, int]]:
-        """The obstacles' pieces whose boxes meet those of some pieces, numbered after them all.
+        """Return the obstacles' pieces whose boxes intersect those of some pieces.
+
+        They are numbered after all obstacles' pieces.
 
         Each pair comes with a time before which they do not; in the order of these times.
         """
@@ -121,7 +123,7 @@ class Obstacles:
         return list(zip(enter[meet].tolist(), i[meet].tolist(), j[meet].tolist(), strict=True))
 
     def stretches(self, body: Body) -> Iterator[Stretch]:
-        """The times during which a body is near obstacles, in order."""
+        """Return the times during which a body is near obstacles, in order."""
         scene = self._scene
         if not scene.bodies:
             return iter(())

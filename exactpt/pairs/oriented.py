@@ -35,7 +35,7 @@ class OrientedBoxes:
     Args:
         outlines: the vertices of the bodies at rest.
         motions: shape (7, n): c and v in x and y, bounds on the errors of a vertex and of v in each
-            coordinate, and what the body reaches beyond its vertices.
+            coordinate, and the reach of the body beyond its vertices.
     """
 
     def __init__(self, outlines: Iterable[Outline], motions: Floats) -> None:
@@ -60,7 +60,7 @@ class OrientedBoxes:
 
 
 def _rectangle(xs: list[float], ys: list[float]) -> tuple[float, ...]:
-    """A rectangle of points m + s d + t n with |s| <= S, |t| <= T: m, d (in x and y), S and T.
+    """Return a rectangle m + s d + t n with |s| <= S, |t| <= T: m and d by x, y, S, T.
 
     d is a vector of doubles along the body, with ||d| - 1| < 10^-12, and n = (-dy, dx). Let e be
     p - m in doubles, for a vertex p. The exact |d|^2 s is the exact (p - m) . d, from which the

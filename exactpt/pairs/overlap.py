@@ -20,7 +20,7 @@ Segment: TypeAlias = "tuple[Point, Point]"
 
 
 def bodies_meet(a: Body, b: Body, t: QQ) -> bool:
-    """Whether two bodies, rounded or not, have a point in common."""
+    """Return True if two bodies, rounded or not, have a point in common."""
     reach = a._radius + b._radius
     return squared_distance(a, b, t) <= reach * reach if reach else meet(a, b, t)
 
@@ -57,7 +57,7 @@ def overlap(a: Body, b: Body, t: QQ) -> bool:
 
 
 def _cut(edges: Sequence[Segment], at: Sequence[Segment]) -> list[Point]:
-    """Return the vertices of a chain that is cut at the vertices of another one, in order."""
+    """Return the vertices of a chain that is cut at the vertices of another chain, in order."""
     vertices = [edges[0][0]]
     for u, v in edges:
         cuts = _cuts((u, v), at)
@@ -97,7 +97,7 @@ def _is_left(before: Point, at: Point, after: Point, v: Point) -> bool:
 def _enters(
     body: Body, points: Sequence[Point], edges: Sequence[Segment], polygon: Sequence[Segment]
 ) -> bool:
-    """Whether a point of a body, whose edges cross none of a polygon's, is inside of that."""
+    """Return True if a body whose edges cross none of a polygon's is inside the polygon."""
     if any(_is_inside(middle, polygon) for edge in edges for middle in _middles(edge, polygon)):
         return True
     return body.has_interior and any(
@@ -110,7 +110,7 @@ def _cross(e: Segment, f: Segment) -> bool:
 
 
 def _is_inside(point: Point, polygon: Sequence[Segment]) -> bool:
-    """Whether a point is in the interior of a polygon, by its edges."""
+    """Return True if a point is in the interior of a polygon, by its edges."""
     corners = [end for edge in polygon for end in edge]
     pairs = [(i, i + 1) for i in range(0, len(corners), 2)]
     return contains(corners, point, pairs) and not any(
@@ -119,7 +119,7 @@ def _is_inside(point: Point, polygon: Sequence[Segment]) -> bool:
 
 
 def _middles(edge: Segment, polygon: Sequence[Segment]) -> Iterator[Point]:
-    """The midpoints of the parts into which the vertices of a polygon cut an edge."""
+    """Yield the midpoints of the parts into which the vertices of a polygon cut an edge."""
     cuts = _cuts(edge, polygon)
     if len(cuts) == 1:
         yield cuts[0]
@@ -135,7 +135,7 @@ def _cuts(edge: Segment, at: Sequence[Segment]) -> list[Point]:
 
 
 def _inner_points(body: Body, points: Sequence[Point]) -> Iterator[Point]:
-    """A point in the interior of each part, on a horizontal line through no vertex."""
+    """Yield a point in the interior of each part, on a horizontal line through no vertex."""
     for rings in body.parts:
         part = [(points[i], points[j]) for i, j in ring_edges((rings,))]
         low, above = sorted({y for (_, y), _ in part})[:2]

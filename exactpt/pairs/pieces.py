@@ -97,7 +97,7 @@ class ScenePieces:
     def of(
         cls, rows: Sequence[MotionPiece], start: QQ, end: QQ, margin: float = 0.0
     ) -> ScenePieces:
-        """The given pieces; if they are more than a few, with boxes grown by a margin."""
+        """Return the given pieces; if they are more than a few, with boxes grown by a margin."""
         if len(rows) <= FEW:
             every = combinations(range(len(rows)), 2)
             pairs = [(-math.inf, i, j) for i, j in every if rows[i].body != rows[j].body]
@@ -107,7 +107,7 @@ class ScenePieces:
         return cls(rows, start, end, PieceBoxes(rows, margin))
 
     def near_at_start(self) -> list[tuple[int, int]]:
-        """The pairs i < j of bodies whose boxes meet at the start."""
+        """Return the pairs i < j of bodies whose boxes intersect at the start."""
         if not isinstance(self._pairs, Sequence):
             from exactpt.pairs.boxes import pairs_at
 
@@ -121,7 +121,7 @@ class ScenePieces:
     def near(
         self, counts: Callable[[int, int], bool] = operator.ne
     ) -> Iterator[tuple[float, MotionPiece, MotionPiece]]:
-        """The pairs of pieces of two bodies that come near each other, once each.
+        """Yield the pairs of pieces of two bodies that come near each other, once each.
 
         Each comes with a time at or before which it does, in increasing order of these times.
 
@@ -144,7 +144,7 @@ class ScenePieces:
 
 
 def linear_pieces(scene: Scene) -> list[MotionPiece] | None:
-    """The pieces of all bodies; None unless all of them move straight and are not large."""
+    """Return the pieces of all bodies; None unless all of them move straight and are not large."""
     rows: list[MotionPiece] = []
     origin = far_origin(scene.bodies)
     for i, body in enumerate(scene.bodies):
@@ -161,7 +161,7 @@ def linear_pieces(scene: Scene) -> list[MotionPiece] | None:
 def pieces_during(
     body: int, pieces: Sequence[tuple[Straight, QQ | None]], start: QQ, end: QQ
 ) -> Iterator[MotionPiece]:
-    """The pieces of a body, of given pieces of motion, between two times."""
+    """Yield the pieces of a body, of given pieces of motion, between two times."""
     since = start
     for straight, until in pieces:
         if until is None or until >= end:

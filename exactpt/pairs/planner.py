@@ -51,7 +51,7 @@ class Planner:
         self._obstacles = Obstacles(self._scene)
 
     def first_contact(self, shape: Body | Iterable[VertexLike], motion: Motion) -> Contact | None:
-        """The first contact of a shape with an obstacle, or with itself; None if there is none.
+        """Return the first contact of a shape with an obstacle or with itself, or None.
 
         The answer is that of `exactpt.first_contact` for the scene of the obstacles and the
         shape as its last body, apart from contacts without the shape.
@@ -69,7 +69,7 @@ class Planner:
     def first_contacts(
         self, shape: Body | Iterable[VertexLike], motions: Iterable[Motion]
     ) -> list[Contact | None]:
-        """The `first_contact` of a shape for each of some motions.
+        """Return the `first_contact` of a shape for each of some motions.
 
         Raises:
             InputError: see `first_contact`.
@@ -97,13 +97,13 @@ class Planner:
         return self._first_of_any(body)
 
     def _first_of_any(self, body: Body) -> Contact | None:
-        """The first contact of a body with obstacles, or with itself, whatever the motions."""
+        """Return the first contact of a body with obstacles or with itself, for any motions."""
         if self._is_rounded(body) or not is_rigid(body):
             return self._first_during(body, [self._whole_span()])
         return self._first_during(body, self._obstacles.stretches(body))
 
     def _is_rounded(self, body: Body) -> bool:
-        """Whether the body or an obstacle has a radius: boxes of obstacles are of their cores."""
+        """Return True if the body or an obstacle has a radius (boxes are those of cores)."""
         return self._scene.is_rounded or bool(body._radius)
 
     def _whole_span(self) -> Stretch:
@@ -111,7 +111,7 @@ class Planner:
         return Stretch(scene._start, scene._end, list(range(len(scene.bodies))))
 
     def _first_during(self, body: Body, stretches: Iterable[Stretch]) -> Contact | None:
-        """The first contact of a body with obstacles that are near it in some stretches of time."""
+        """Return the first contact of a body with obstacles, searched while these are near."""
         scene = self._scene
         for stretch in stretches:
             obstacles = [scene.bodies[i] for i in stretch.obstacles]

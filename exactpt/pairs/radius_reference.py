@@ -1,6 +1,6 @@
 """Rounded bodies from the definition: the part of the reference search that is about radii.
 
-Two bodies meet where the distance of their cores is at most the sum R of their radii. Cores that
+Two bodies touch where the distance of their cores is at most the sum R of their radii. Cores that
 are farther apart come to distance R first at a pair of vertices, or at a vertex and the interior
 of an edge, at the foot of the perpendicular. All of these pairs are tested, in exact arithmetic.
 Nothing but the kernel and the trajectories is shared with the search that users call.
@@ -31,7 +31,7 @@ Vector: TypeAlias = "tuple[IntPoly, IntPoly, IntPoly]"
 
 
 def core_distance(a: Body, b: Body, t: QQ) -> QQ:
-    """The squared distance of the cores of two bodies at a rational time."""
+    """Return the squared distance of the cores of two bodies at a rational time."""
     p, q = a._at(t), b._at(t)
     if _is_in(b, q, a, p) or _is_in(a, p, b, q):
         return QQ(0)
@@ -42,7 +42,7 @@ def core_distance(a: Body, b: Body, t: QQ) -> QQ:
 
 
 def _is_in(a: Body, p: Sequence[Point], b: Body, q: Sequence[Point]) -> bool:
-    """Whether a ring of a body is inside of another body, if no edges cross."""
+    """Return True if a ring of a body is inside of another body, if no edges cross."""
     edges = [(q[i], q[j]) for i, j in b.edges]
     return b.has_interior and any(_is_inside(p[ring.start], edges) for ring in a.rings)
 
@@ -77,11 +77,11 @@ def _of_point(v: Point, segment: Segment) -> QQ:
 def first_at_distance(
     a: Body, b: Body, p: Sequence[Track], q: Sequence[Track], span: tuple[QQ, QQ]
 ) -> AlgebraicNumber | None:
-    """The first time in (start, end] at which features of the cores are at distance R.
+    """Return the first time in (start, end] at which features of the cores are at distance R.
 
     Args:
         a: a body.
-        b: another one; the cores are farther apart than R at the start.
+        b: another body; the cores are farther apart than R at the start.
         p: the trajectories of the vertices of the first.
         q: those of the second.
         span: the start and the end.
@@ -103,7 +103,7 @@ def touches_at_distance(
     bodies: Sequence[Body], tracks: Sequence[Sequence[Track]], ij: tuple[int, int],
     time: AlgebraicNumber,
 ) -> Iterator[Touch]:  # fmt: skip
-    """The pairs of features of bodies i < j that are at distance R at a time."""
+    """Yield the pairs of features of bodies i < j that are at distance R at a time."""
     i, j = ij
     squared = (bodies[i]._radius + bodies[j]._radius) ** 2
     p, q = tracks[i], tracks[j]
@@ -142,7 +142,7 @@ def _squared(e: Vector) -> Ratio:
 
 
 def _squared_from_line(v: Track, a: Track, b: Track) -> Ratio:
-    """The squared distance of v from the line ab: (e x f)^2 / e^2 with e = b - a, f = v - a."""
+    """Return the squared distance (e x f)^2 / e^2 of v from ab, e = b - a, f = v - a."""
     e, f = _from(a, b), _from(a, v)
     cross, w = subtract(multiply(e[0], f[1]), multiply(e[1], f[0])), multiply(e[2], f[2])
     n, d = _squared(e)
@@ -156,6 +156,6 @@ def _excess(ratio: Ratio, least: QQ) -> IntPoly:
 
 
 def _sides_of_foot(v: Track, a: Track, b: Track, t: AlgebraicNumber) -> tuple[int, int]:
-    """The signs of e . f and e . (e - f): both positive where the foot is inside the edge."""
+    """Return the signs of e . f and e . (e - f); the foot is inside the edge if both are 1."""
     e, f, g = _from(a, b), _from(a, v), _from(v, b)
     return t.sign_of(_dot(e, f)[0]), t.sign_of(_dot(e, g)[0])

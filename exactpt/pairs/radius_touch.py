@@ -1,6 +1,6 @@
 """Where two rounded bodies touch, and the normal there, as quotients of polynomials in time.
 
-Let v be the nearest vertex of one core, f the nearest point of the other one, and r, s the radii.
+Let v be the nearest vertex of one core, f the nearest point of the other core, and r, s the radii.
 At the time of a touch |v - f| = r + s =: R is rational, so the unit normal (v - f) / R and the
 common point f + s (v - f) / R are rational functions of the coordinates of v and f.
 
@@ -38,7 +38,7 @@ class Place(NamedTuple):
 
 
 def place_of(v: Track, ends: tuple[Track, ...], radius: QQ, other_radius: QQ) -> Place:
-    """The place where a vertex touches a vertex, or the edge between two, by the radii."""
+    """Return the place where a vertex touches a vertex, or the edge between two, by the radii."""
     foot = ends[0] if len(ends) == 1 else _foot(v, *ends)
     reach = radius + other_radius
     dx, dy = difference(foot.x, foot.w, v.x, v.w), difference(foot.y, foot.w, v.y, v.w)
@@ -55,7 +55,7 @@ def place_of(v: Track, ends: tuple[Track, ...], radius: QQ, other_radius: QQ) ->
 
 
 def _foot(v: Track, a: Track, b: Track) -> Track:
-    """The foot of the perpendicular from v on the line ab; its w is 0 where ab has no length."""
+    """Return the foot of the perpendicular from v on the line ab; w is 0 if a = b."""
     ex, ey = difference(a.x, a.w, b.x, b.w), difference(a.y, a.w, b.y, b.w)
     gx, gy = difference(a.x, a.w, v.x, v.w), difference(a.y, a.w, v.y, v.w)
     along = add(multiply(ex, gx), multiply(ey, gy))

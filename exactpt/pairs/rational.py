@@ -1,4 +1,4 @@
-"""When vertices meet edges in straight motion, decided exactly."""
+"""Times at which vertices touch edges in linear motion, in rational arithmetic."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Span(NamedTuple):
 
 
 def span_of(start: QQ, end: QQ) -> Span:
-    """The span between two times."""
+    """Return the span between two times."""
     return Span(start, end, *enclosing_floats(start), enclosing_floats(end)[1])
 
 
@@ -84,7 +84,7 @@ class Earliest(Generic[T]):
     Attributes:
         time: the earliest time; None before there is one.
         high: a double at least that time.
-        found: what begins then.
+        found: the incidences that begin at that time.
     """
 
     def __init__(self) -> None:
@@ -101,7 +101,7 @@ class Earliest(Generic[T]):
             self.found.extend(begins)
 
     def until(self, end: QQ) -> QQ:
-        """A time, at most the given one, after which none can be the earliest."""
+        """Return a time, at most the given one, after which none can be the earliest."""
         if isinstance(self.time, AlgebraicNumber):
             return min(end, self.time._high)
         return end if self.time is None else min(end, self.time)
@@ -122,7 +122,7 @@ def earliest(
     Args:
         candidates: in the order of ``low``; those after a double above the best time are not
             decided.
-        first: returns the exact time of a candidate, and the incidence then. It may return None
+        first: returns the exact time of a candidate, and its incidence. It may return None
             for any time later than its second argument.
         end: the last time.
     """
@@ -182,7 +182,7 @@ def _meeting(
     """When a vertex of a, moving relative to b, first lies on an edge of b: exactly.
 
     Returns:
-        The time, and the end of the edge that it meets, or -1; None if it never lies on the
+        The time, and the end of the edge at which it is, or -1; None if it never lies on the
         edge, or always.
     """
     cx, cy, wx, wy = path
@@ -210,7 +210,7 @@ def _meeting(
 
 
 def _passing(zx: QQ, zy: QQ, wx: QQ, wy: QQ, point: int) -> tuple[QQ, int] | None:
-    """When z + w t = 0, with the point that is met."""
+    """Return the time of z + w t = 0, with the point."""
     if zx * wy != zy * wx or not (wx or wy):
         return None
     return (-zx / wx if wx else -zy / wy), point

@@ -32,7 +32,7 @@ __all__ = ["first_contact_allpairs", "touches_at"]
 
 
 def first_contact_allpairs(scene: Scene) -> Contact | None:
-    """The first contact in the scene's closed time span; None if there is none."""
+    """Return the first contact in the scene's closed time span; None if there is none."""
     start = AlgebraicNumber(scene._start)
     overlaps = _overlapping_at_start(scene)
     if overlaps:
@@ -56,7 +56,7 @@ def _reach(a: Body, b: Body) -> QQ:
 
 
 def _first_between(scene: Scene, i: int, j: int, until: QQ) -> AlgebraicNumber | None:
-    """The first time in (start, until] at which bodies i and j touch (i == j: a self-contact)."""
+    """Return the first time in (start, until] at which i and j touch (i == j: itself)."""
     a, b = scene.bodies[i], scene.bodies[j]
     ends = sorted({t for t in (*a._breakpoints, *b._breakpoints) if scene._start < t < until})
     begin = scene._start
@@ -86,7 +86,7 @@ def _first_between(scene: Scene, i: int, j: int, until: QQ) -> AlgebraicNumber |
 def _vertex_edge_pairs(
     p: tuple[Track, ...], q: tuple[Track, ...], q_edges: list[tuple[int, int]], *, same: bool
 ) -> list[tuple[Track, Track, Track]]:
-    """All pairs of a vertex of p and an edge (a, b) of q, as triples (vertex, a, b).
+    """Return all pairs of a vertex of p and an edge (a, b) of q, as triples (vertex, a, b).
 
     A point counts as the edge from itself to itself. Within one body (``same``) a vertex is not
     paired with its own edges; in addition the two ends of each edge are paired, since a
@@ -106,7 +106,7 @@ def _vertex_edge_pairs(
 def _meetings(
     v: Track, a: Track, b: Track, start: AlgebraicNumber, until: QQ
 ) -> Iterator[AlgebraicNumber]:
-    """The times in (start, until] at which v starts to lie on the segment ab, in increasing order.
+    """Yield the times in (start, until] at which v comes onto the segment ab, in order.
 
     If the three are collinear for all times, v enters the segment at one of its ends.
     """
@@ -127,7 +127,7 @@ def _meetings(
 def touches_at(
     scene: Scene, tracks: list[tuple[Track, ...]], time: AlgebraicNumber
 ) -> Iterator[Touch]:
-    """Every incidence of a vertex with a vertex or an edge at a time.
+    """Yield every incidence of a vertex with a vertex or an edge at a time.
 
     Of rounded bodies: of features at the sum of the radii, unless the bodies overlap at the start.
     """
@@ -184,7 +184,7 @@ def _overlapping_at_start(scene: Scene) -> list[tuple[int, int]]:
 
 
 def _is_inside(a: Body, p: Sequence[Point], b: Body, q: Sequence[Point]) -> bool:
-    """Whether a ring of a body is in a part of another one, if no edges cross.
+    """Return True if a ring of a body is in a part of another one, if no edges cross.
 
     It is then in the outline, and in none of the holes.
     """

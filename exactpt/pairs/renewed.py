@@ -2,7 +2,7 @@
 
 They do when they touch after they have parted, or when they begin to overlap: just after a time
 they do, just before it they did not (at the start of the time span: then they did not). Whether two
-bodies meet or overlap changes only at times of incidences (`exactpt.pairs.intervals`): a
+bodies intersect or overlap changes only at times of incidences (`exactpt.pairs.intervals`): a
 rational time between any two consecutive ones decides for all times between.
 """
 
@@ -20,7 +20,7 @@ __all__ = ["new_contact_time"]
 
 
 def new_contact_time(a: Body, b: Body, start: QQ, end: QQ) -> AlgebraicNumber | None:
-    """The first time of a new contact of two bodies that meet at the start; None if there is none.
+    """Return the first time of a new contact of two bodies that touch at the start, or None.
 
     It is the start itself if the bodies only touch there and overlap just after it. Bodies that
     overlap at the start count again only when they have parted, or have only touched.

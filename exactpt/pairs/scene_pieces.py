@@ -42,7 +42,7 @@ class _OnDemand(dict[int, MotionPiece]):
 
 
 def pieces_on_demand(scene: Scene) -> ScenePieces | None:
-    """The pieces of a scene; None unless all bodies have one, are not large, doubles exact."""
+    """Return the pieces of a scene; None unless all are linear, small and exact in doubles."""
     bodies, start, end = scene.bodies, scene._start, scene._end
     numbers = _of_arrays(bodies) if isinstance(bodies, BodyArrays) else _of_bodies(bodies)
     if numbers is None:
@@ -59,7 +59,7 @@ def pieces_on_demand(scene: Scene) -> ScenePieces | None:
 
 @np.errstate(all="ignore")
 def _of_arrays(bodies: BodyArrays) -> Floats | None:
-    """The box, c, v and radius of each body; None unless all move straight and none is large."""
+    """Return the box, c, v and radius of each body; None unless all are small and linear."""
     bends = bodies.coefficients[:, :, 2:].any()
     if bends or np.diff(bodies.offsets).max(initial=0) > MOST_VERTICES:
         return None
@@ -74,7 +74,7 @@ def _of_arrays(bodies: BodyArrays) -> Floats | None:
 
 
 def _of_bodies(bodies: Sequence[Body]) -> Floats | None:
-    """The same of bodies one by one; None also if doubles are not exact."""
+    """Return the same of bodies one by one; None also if doubles are not exact."""
     numbers: list[tuple[float, ...]] = []
     for body in bodies:
         ask()
@@ -86,7 +86,7 @@ def _of_bodies(bodies: Sequence[Body]) -> Floats | None:
 
 
 def _doubles_of(body: Body) -> tuple[float, ...] | None:
-    """The numbers of a body in straight motion; None unless doubles are exact."""
+    """Return the numbers of a body in straight motion; None unless doubles are exact."""
     doubles = body._shape.doubles
     if doubles is None or type(body.motion) is not Translation or body.size > MOST_VERTICES:
         return None

@@ -1,7 +1,7 @@
 """The first contact of bodies that all move straight, piece by piece.
 
-Each body is a piece per piece of its motion. Rows whose boxes meet while both last are compared
-in the order in which their boxes meet, up to the first contact.
+Each body is a piece per piece of its motion. Rows whose boxes overlap while both last are compared
+in the order in which their boxes intersect, up to the first contact.
 """
 
 from __future__ import annotations
@@ -132,7 +132,7 @@ def pair_search(
     ignoring: Collection[Collection[str]] = (),
     max_seconds: float | None = None,
 ) -> LinearSearch | PairsSearch:
-    """The search over pairs: that for linear motion if all bodies move so and none is large."""
+    """Return the search over pairs: for linear motion if all bodies are small and linear."""
     rows = None if exact_only else scene_pieces_if_linear(scene)
     if rows is not None:
         return LinearSearch(scene, rows, ignoring, max_seconds)
@@ -142,7 +142,7 @@ def pair_search(
 
 
 def scene_pieces_if_linear(scene: Scene) -> ScenePieces | None:
-    """The pieces of all bodies; None unless all of them move straight and are not large."""
+    """Return the pieces of all bodies; None unless all of them move straight and are not large."""
     if len(scene.bodies) > FEW:
         from exactpt.pairs.scene_pieces import pieces_on_demand
 
@@ -160,14 +160,14 @@ def first_among_pieces(
     distance: Distance = contact_distance,
     margin: float = 0.0,
 ) -> Meeting | None:
-    """The first contact in (start, end] of bodies that are disjoint at the start.
+    """Return the first contact in (start, end] of bodies that are disjoint at the start.
 
     Args:
         rows: of all bodies.
         start: the start.
         end: the end.
         distance: the distance of the cores at which bodies touch.
-        margin: at least half of what the distance is more than the sum of the radii.
+        margin: at least half of the distance less the sum of the radii.
     """
     return _Search(distance).run(ScenePieces.of(rows, start, end, margin).near())
 

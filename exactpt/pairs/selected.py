@@ -1,7 +1,7 @@
 """The first contact of some pairs of bodies, or the first that is new.
 
 Bodies that touch at the start come into a new contact when they touch after they have parted, or
-when they begin to overlap (`exactpt.pairs.renewed`). Each pair whose swept boxes meet is
+when they begin to overlap (`exactpt.pairs.renewed`). Each pair whose swept boxes intersect is
 searched alone, up to the best time so far.
 """
 
@@ -91,7 +91,7 @@ class SelectedSearch:
         """No time up to which there is no contact is known before the end of the search."""
 
     def run_to_contact(self) -> Contact | None:
-        """The first contact that counts in the closed time span; None if there is none.
+        """Return the first contact that counts in the closed time span; None if there is none.
 
         Raises:
             BudgetExceeded: when the time limit is reached.
@@ -100,7 +100,7 @@ class SelectedSearch:
             try:
                 return self._first_contact()
             except BudgetExceeded as spent:
-                spent.reached = None  # what is known of one pair is not known of all
+                spent.reached = None  # bounds of one pair do not hold for all
                 raise
 
     def _first_contact(self) -> Contact | None:
@@ -126,14 +126,14 @@ class SelectedSearch:
         return contact_of(scene, best.number, [t for _, some in best.found for t in some], at_start)
 
     def _candidates(self) -> list[tuple[int, int]]:
-        """The pairs i < j of bodies that may come into a contact that counts."""
+        """Return the pairs i < j of bodies that may come into a contact that counts."""
         named = self._selection.named
         if named is not None:
             return named
         return self._selection.of(pairs_that_come_near(self._scene, QQ(0)))
 
     def _self_touching(self) -> list[int]:
-        """The bodies that may touch themselves."""
+        """Return the bodies that may touch themselves."""
         if self._selection.named is not None:
             return []
         bodies = enumerate(self._scene.bodies)
@@ -147,7 +147,7 @@ class SelectedSearch:
                 self._rows[row.body].append(row)
 
     def _renewed(self, i: int, j: int) -> Meeting | None:
-        """The first new contact of two bodies that touch at the start.
+        """Return the first new contact of two bodies that touch at the start.
 
         It is looked for beyond the best time so far: at that time they may begin to overlap.
         """
@@ -166,7 +166,7 @@ class SelectedSearch:
         return time, renumbered(touches, i, j)
 
     def _first(self, pair: tuple[int, ...], until: QQ) -> Meeting | None:
-        """The first contact of bodies that are disjoint at the start; of one, with itself."""
+        """Return the first contact of bodies that are disjoint at the start (one: with itself)."""
         scene = self._scene
         if until <= scene._start:
             return None
@@ -185,7 +185,7 @@ class SelectedSearch:
 
 
 def _move_together(a: Body, b: Body, start: QQ, end: QQ) -> bool:
-    """Whether two bodies certainly keep their places relative to each other."""
+    """Return True if two bodies certainly keep their places relative to each other."""
     if any(start < t < end for t in (*a._breakpoints, *b._breakpoints)):
         return False
     tracks = (*a._piece_after(start).tracks, *b._piece_after(start).tracks)

@@ -91,7 +91,7 @@ def _numbered(scene: Scene, between: Iterable[Sequence[str]]) -> list[tuple[int,
 
 
 def groups_of(scene: Scene, ignoring: Iterable[Collection[str]]) -> list[int]:
-    """The group number of each body; a body in no group has a number of its own.
+    """Return the group number of each body; a body in no group has a number of its own.
 
     Raises:
         InputError: if there is no body of a name, or it is in two groups, or a group is a text.

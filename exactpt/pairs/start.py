@@ -51,7 +51,7 @@ MOST_PAIRS: Final = 250_000
 def initial_touches(
     scene: Scene, near: Sequence[tuple[int, int]] | None = None
 ) -> tuple[list[Touch], list[tuple[int, int]]]:
-    """All incidences at the start, and the pairs of bodies (as indices) that share a point then.
+    """Return all incidences at the start, and the pairs of bodies (as indices) that share a point.
 
     The list of pairs is empty if and only if there is no contact at the start. There are no
     self-contacts: a scene with a polygon that is not simple at the start is refused. Rounded
@@ -92,7 +92,7 @@ def initial_touches(
 
 
 def near_pairs(vertices: Vertices, start: QQ) -> list[tuple[int, int]] | None:
-    """The pairs i < j of bodies whose boxes intersect at a time, by doubles; None if too many.
+    """Return the pairs i < j of bodies whose boxes intersect at a time; None if too many.
 
     Bodies of other pairs are certainly disjoint.
     """
@@ -201,7 +201,7 @@ def touches_at_distance(
 def _chunks(
     points: Mapping[int, Sequence[Point]], near: Sequence[tuple[int, int]] | None
 ) -> Iterator[tuple[list[int], list[int]]]:
-    """The given pairs of bodies; else all whose bounding boxes meet, in chunks."""
+    """Yield the given pairs of bodies; else all whose bounding boxes intersect, in chunks."""
     if near is not None:
         yield [i for i, _ in near], [j for _, j in near]
         return
@@ -227,7 +227,7 @@ class Edge(NamedTuple):
 def _near_edges(
     scene: Scene, points: Mapping[int, Sequence[Point]], bodies: set[int]
 ) -> Iterator[tuple[Edge, Edge]]:
-    """The pairs of edges of different bodies whose bounding boxes meet, ordered by body."""
+    """Yield the pairs of edges of different bodies whose boxes intersect, ordered by body."""
     found = []
     for i in sorted(bodies):
         body, at = scene.bodies[i], points[i]
@@ -245,7 +245,7 @@ def _near_edges(
 
 
 def incidences(e: Edge, f: Edge) -> Iterator[Touch]:
-    """The incidences of an end of edge e with edge f or with an end of f."""
+    """Yield the incidences of an end of edge e with edge f or with an end of f."""
     for v, p in zip(e.ends, (e.a, e.b), strict=True):
         meeting = [w for w, q in zip(f.ends, (f.a, f.b), strict=True) if p == q]
         for w in meeting:

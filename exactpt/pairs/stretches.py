@@ -1,4 +1,4 @@
-"""The time span of two bodies, cut where one of them changes its motion; whether they meet."""
+"""The time span of two bodies, cut where one of them changes its motion; whether they intersect."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def two_bodies(scene: Scene, a: str, b: str) -> tuple[Body, Body]:
 
 
 def stretches(a: Body, b: Body, start: QQ, end: QQ) -> Iterator[Stretch]:
-    """The time span of two bodies from piece to piece of their motions."""
+    """Yield the time span of two bodies from piece to piece of their motions."""
     times = {t for t in (*a._breakpoints, *b._breakpoints) if start < t < end}
     begin = start
     for until in (*sorted(times), end):
@@ -56,12 +56,12 @@ def stretches(a: Body, b: Body, start: QQ, end: QQ) -> Iterator[Stretch]:
 
 
 def segments_of(body: Body) -> list[tuple[int, int]]:
-    """The edges of a body as pairs of vertices; a point is an edge from itself to itself."""
+    """Return the edges of a body as pairs of vertices; a point is an edge from itself to itself."""
     return body.edges or [(0, 0)]
 
 
 def meet(a: Body, b: Body, t: QQ) -> bool:
-    """Whether the cores of two bodies have a point in common at a rational time."""
+    """Return True if the cores of two bodies have a point in common at a rational time."""
     p, q = a._at(t), b._at(t)
     return _boundaries_meet(p, segments_of(a), q, segments_of(b)) or one_is_inside(a, p, b, q)
 

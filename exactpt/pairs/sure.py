@@ -1,7 +1,7 @@
 """Whether two bodies meet, or have met, although their points may be somewhat out of place.
 
 Let each point of the core of body A be at most e_A from its true place, of B at most e_B, and let
-E = e_A + e_B, r the sum of the radii, m = E - r. The true bodies meet if the true cores are within
+E = e_A + e_B, r the sum of the radii, m = E - r. The true bodies touch if the true cores are within
 r of each other. This is sure
 
 * if m <= 0 and the cores are within -m of each other: two nearest points are then true within r;
@@ -14,15 +14,15 @@ Q(u); in the last case P is the vertex, and Q the boundary. Crossing edges: F is
 regular and is 0 at one inner point of the square, so on its boundary F winds once around 0. A
 vertex inside: F(u) winds around 0 an odd number of times, all rings of the boundary taken
 together. On these curves |F| >= m. Let F' be the same of the true places, so |F' - F| <= E, and
-suppose that the true bodies do not meet: |F'| > r. Then |F| + |F'| > E >= |F - F'|, so F and F'
+suppose that the true bodies do not touch: |F'| > r. Then |F| + |F'| > E >= |F - F'|, so F and F'
 are nowhere opposite, and h F + (1 - h) F' is not 0 for any h in [0, 1]: F' winds around 0 as F
 does, on each ring. Of edges, F' then is 0 in the square, and of a vertex, it is inside the true
 polygon: contradictions.
 
-Points correspond along edges, since a rotation maps edges to edges. Where cores meet but none of
-the above holds, the true bodies may miss each other.
+Points correspond along edges, since a rotation maps edges to edges. Where cores intersect but
+none of the above holds, the true bodies may miss each other.
 
-A point is never sure to meet a thin body at a given time, but it may be sure to have passed
+A point is never sure to touch a thin body at a given time, but it may be sure to have passed
 through an edge ab between two times: if m > 0, the foot of the perpendicular from it is inside
 the edge all the time, it is at least m from a and from b all the time, and from the line at both
 times, on opposite sides. *Proof.* Let F(u, t) be from the point to the point u of the edge. In
@@ -56,7 +56,7 @@ Segment: TypeAlias = "tuple[Point, Point]"
 
 
 def surely_meet(a: Body, b: Body, t: QQ, error: QQ) -> bool:
-    """Whether it is proved that two bodies meet at a time; if the error is 0, whether they meet.
+    """Return True if two bodies provably touch at a time; exact if the error is 0.
 
     Args:
         a: a body.
@@ -77,7 +77,7 @@ def surely_meet(a: Body, b: Body, t: QQ, error: QQ) -> bool:
 
 
 def surely_passed(point: Body, other: Body, edge: int, begin: QQ, end: QQ, error: QQ) -> bool:
-    """Whether it is proved that a point has met an edge of another body between two times.
+    """Return True if it is proved that a point has met an edge of another body between two times.
 
     Args:
         point: a body of one vertex.
@@ -110,7 +110,7 @@ def surely_passed(point: Body, other: Body, edge: int, begin: QQ, end: QQ, error
 
 
 def _is_positive(f: IntPoly, begin: QQ, end: QQ) -> bool:
-    """Whether a polynomial is positive in a closed interval."""
+    """Return True if a polynomial is positive in a closed interval."""
     start = AlgebraicNumber(begin)
     return start.sign_of(f) > 0 and next(iter(roots_after(f, start, end)), None) is None
 
@@ -127,7 +127,7 @@ def _is_deep(v: Point, body: Body, points: Sequence[Point], least: QQ) -> bool:
 
 
 def _cross_far(e: Segment, f: Segment, least: QQ) -> bool:
-    """Whether segments meet, with all ends at least at a squared distance from the other one."""
+    """Return True if segments cross, all ends at least a squared distance from the other."""
     return (
         segments_meet(*e, *f)
         and all(_squared(v, f) >= least for v in e)
@@ -136,6 +136,6 @@ def _cross_far(e: Segment, f: Segment, least: QQ) -> bool:
 
 
 def _squared(v: Point, segment: Segment) -> QQ:
-    """The squared distance of a point from a segment."""
+    """Return the squared distance of a point from a segment."""
     inside = squared_from_interior(v, *segment)
     return min((v[0] - x) ** 2 + (v[1] - y) ** 2 for x, y in segment) if inside is None else inside

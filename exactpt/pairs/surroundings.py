@@ -63,7 +63,7 @@ class Surroundings:
         others: the names of all other bodies, in the order of the scene.
 
     Raises:
-        InputError: if there is no such body, or no other one.
+        InputError: if there is no such body, or no second body.
     """
 
     def __init__(self, scene: Scene, name: str) -> None:

@@ -76,7 +76,7 @@ def vertex_candidates(
 def _smaller_root(
     a: float, b: float, c: float, a_error: float, b_error: float, c_error: float, times: float
 ) -> _Range | None:
-    """Bounds of the smaller root of a t^2 + 2 b t + c; None if it certainly has none.
+    """Return bounds of the smaller root of a t^2 + 2 b t + c; None if it certainly has none.
 
     With errors of the coefficients, that of the discriminant D = b^2 - a c is at most
     b_error (2 |b| + b_error) + (a + a_error) c_error + |c| a_error, and rounding; the root is

@@ -3,7 +3,7 @@
 (In the Euclidean norm, a vertex of one body is then at this distance from a vertex of the other,
 or from an edge, at the foot of the perpendicular: `exactpt.pairs.approach` finds that time.)
 
-In the maximum norm two sets are within distance d if and only if one of them meets the
+In the maximum norm two sets are within distance d if and only if one of them intersects the
 Minkowski sum of the other with a square of half-side d. At the first such time either a vertex
 of one body lies on an edge of the other translated by a corner of the square, or two vertices
 differ by exactly d in one coordinate and by at most d in the other. Both are roots of
@@ -48,7 +48,7 @@ Candidate: TypeAlias = "tuple[IntPoly, Callable[[AlgebraicNumber], bool]]"
 def time_within(
     first: Body, second: Body, start: QQ, end: QQ, d: QQ, norm: Norm
 ) -> AlgebraicNumber | None:
-    """The first time in [start, end] at which two bodies are within d.
+    """Return the first time in [start, end] at which two bodies are within d.
 
     In the Euclidean norm d is the square, and the end the start.
     """
@@ -68,7 +68,7 @@ def time_within(
 def asked_distance(
     distance: Rational | None, squared: Rational | None, norm: Norm | None
 ) -> tuple[Norm, QQ]:
-    """The norm, and the distance in it; the square of a Euclidean one.
+    """Return the norm, and the distance in it; the square of a Euclidean one.
 
     Raises:
         InputError: if there is no such norm, or not one distance that is not negative.
@@ -89,7 +89,7 @@ def asked_distance(
 
 
 def of_cores(d: QQ, radii: QQ, norm: Norm) -> QQ:
-    """The distance of the cores at which bodies with radii of this sum are within d.
+    """Return the distance of the cores at which bodies with radii of this sum are within d.
 
     Both as of `asked_distance`.
 
@@ -122,7 +122,7 @@ def _candidates(
 def _earliest(
     candidates: Iterator[Candidate], begin: AlgebraicNumber, end: QQ
 ) -> AlgebraicNumber | None:
-    """The earliest root in (begin, end] that satisfies the predicate of its candidate."""
+    """Return the earliest root in (begin, end] that satisfies the predicate of its candidate."""
     best: Earliest[None] = Earliest()
     for f, counts in candidates:
         # If f vanishes identically, another candidate yields the time.
@@ -161,7 +161,7 @@ def _in_both(
 
 
 def _offset(u: Track, v: Track, d: QQ, axis: Literal["x", "y"]) -> IntPoly:
-    """A positive multiple of the polynomial v - u - d in one coordinate."""
+    """Return a positive multiple of the polynomial v - u - d in one coordinate."""
     along = (u.x, v.x) if axis == "x" else (u.y, v.y)
     gap = scale(difference(along[0], u.w, along[1], v.w), ZZ(d.denominator))
     return subtract(gap, scale(multiply(u.w, v.w), ZZ(d.numerator)))
@@ -182,7 +182,7 @@ def _on_edge(v: Track, a: Track, b: Track) -> Callable[[AlgebraicNumber], bool]:
 
 
 def _moved(v: Track, by: Point) -> Track:
-    """The trajectory of a vertex translated by a constant vector."""
+    """Return the trajectory of a vertex translated by a constant vector."""
     m = ZZ(by[0].denominator * by[1].denominator)
     x, y = (add(scale(f, m), scale(v.w, ZZ(c * m))) for f, c in zip((v.x, v.y), by, strict=True))
     return Track(x, y, scale(v.w, m), None)
@@ -206,7 +206,7 @@ def _is_within(a: Body, b: Body, t: QQ, d: QQ, norm: Norm) -> bool:
 
 
 def _is_near(v: Point, a: Point, b: Point, d: QQ) -> bool:
-    """Whether the closed segment ab meets the square of half-side d around v."""
+    """Return True if the closed segment ab meets the square of half-side d around v."""
     low, high = QQ(0), QQ(1)
     for at, start, end in zip(v, a, b, strict=True):
         if start == end:

@@ -55,7 +55,7 @@ class Plane(NamedTuple):
     v: Fraction
 
     def line(self) -> str:
-        """The node that begins with it."""
+        """Return the node that begins with it."""
         return f"c {self.x} {self.y} {self.c}" + (f" {self.v}" if self.v else "")
 
 
@@ -90,11 +90,11 @@ class Paths:
         self._made: dict[tuple[int, int], Any] = {}
 
     def of(self, v: int) -> Breaks:
-        """The body of a vertex."""
+        """Return the body of a vertex."""
         return self.breaks[self.body_of[v]]
 
     def track(self, v: int, after: Fraction) -> Any:  # noqa: ANN401 - a track of check_apart
-        """The path of a vertex just after a time."""
+        """Return the path of a vertex just after a time."""
         i = self.body_of[v]
         breaks = self.breaks[i].breaks
         key = v, bisect_right(breaks, after) if breaks else 0
@@ -142,11 +142,11 @@ class Frame:
         self._extents = self.extents(slice(None), DIRECTIONS)
 
     def rows(self, items: Items) -> Items:
-        """The rows of some of the items."""
+        """Return the rows of some of the items."""
         return np.searchsorted(self._items, items)
 
     def extents(self, rows: Items | slice, directions: Floats) -> tuple[Floats, Floats]:
-        """The least and largest values at the start and at the end: (2, items, directions)."""
+        """Return the least and largest values at start and end, (2, items, directions)."""
         along = self.ends @ directions.T
         u, v = along[:, self.ends_of[rows, 0]], along[:, self.ends_of[rows, 1]]
         return np.minimum(u, v), np.maximum(u, v)
@@ -157,7 +157,7 @@ class Frame:
         return low[:, rows], high[:, rows]
 
     def values(self, rows: Items, plane: Plane) -> tuple[Floats, Floats, float]:
-        """The least and largest values of n.p - c - v t of items, and an error bound."""
+        """Return the least and largest values of n.p - c - v t of items, and an error bound."""
         c = plane.c + plane.v * self.start - plane.x * self.origin[0] - plane.y * self.origin[1]
         x, y, v, d = float(plane.x), float(plane.y), float(plane.v), float(c)
         f = self.points @ np.array([x, y, -v]) - d
@@ -206,7 +206,7 @@ class Separation:
         self.nodes = 0
 
     def lines(self, start: Fraction, end: Fraction) -> Iterator[str]:
-        """The lines of the nodes, for all items from start to end.
+        """Yield the lines of the nodes, for all items from start to end.
 
         Raises:
             BudgetExceeded: if bodies are too near to each other, or there are too many nodes.
@@ -258,13 +258,13 @@ class Separation:
         todo += [(items, (q, end), depth + 1), (items, (start, q), depth + 1)]
 
     def _largest(self, items: Items) -> tuple[int, Items]:
-        """The body with most items here, and these."""
+        """Return the body with most items here, and these."""
         bodies = self._body[items]
         body = int(np.bincount(bodies).argmax())
         return body, items[bodies == body]
 
     def _cut(self, frame: Frame, items: Items, rows: Items) -> tuple[Plane, Any, Any] | None:
-        """A good moving line, with the items below and above it; None if there is none."""
+        """Return a good moving line, with the items below and above it; None if there is none."""
         usual = DIRECTIONS, frame.usual(rows)
         for cut in sorted(self._clean(items, *usual), reverse=True)[:3]:
             if (found := self._made(frame, items, rows, cut, 1.0)) is not None:
@@ -283,7 +283,7 @@ class Separation:
         return None
 
     def _clean(self, items: Items, directions: Floats, extents: tuple[Floats, Floats]) -> list[Cut]:
-        """Lines between all items, in their order along a direction: the best of each."""
+        """Return lines between all items, in their order along a direction: the best of each."""
         low, high, norm = *extents, np.hypot(*directions.T)
         wide = self._wide[items][:, None] * norm
         low, high = low - wide, high + wide + self._extra * norm
@@ -315,7 +315,7 @@ class Separation:
     def _crossing(
         self, items: Items, directions: Floats, extents: tuple[Floats, Floats]
     ) -> list[Cut]:
-        """Lines through the middle of all items, some of which are on both sides."""
+        """Return lines through the middle of all items, some of which are on both sides."""
         low, high, norm = *extents, np.hypot(*directions.T)
         wide = self._wide[items][:, None] * norm
         low, high = low - wide, high + wide + self._extra * norm
@@ -341,7 +341,7 @@ class Separation:
     def _made(
         self, frame: Frame, items: Items, rows: Items, cut: Cut, most: float
     ) -> tuple[Plane, Any, Any] | None:
-        """A cut with short numbers, if it is a good one."""
+        """Return a cut with short numbers, if it is a good one."""
         (x, y), (c, d), start = cut.direction, cut.places, frame.start
         unit = cut.gap / 16
         v = (
@@ -397,7 +397,7 @@ class Separation:
 
 
 def short(x: Fraction, unit: float) -> Fraction:
-    """A number near x with few digits: a multiple of a power of two not above the unit."""
+    """Return a number near x with few digits: a multiple of a power of two not above the unit."""
     if not unit > 0:
         return x
     power = Fraction(2) ** (frexp(unit)[1] - 1)

@@ -46,7 +46,7 @@ def certify(
     ignoring: Iterable[Collection[str]] = (),
     since: Rational | None = None,
 ) -> Proof:
-    """The first contact or approach of two bodies, with a certificate (docs/proofs.md).
+    """Return the first contact or approach of two bodies, with a certificate (docs/proofs.md).
 
     >>> import exactpt
     >>> p = exactpt.Body("p", [(0, 0)], exactpt.Translation([0, 1]))
@@ -105,14 +105,14 @@ def certify(
 
 
 def certificate_of(scene: Scene, contact: Contact | None, file: bytes | None = None) -> Proof:
-    """The certificate of a first contact that is known. Raises: as `certify`."""
+    """Return the certificate of a first contact that is known. Raises: as `certify`."""
     content = scene_bytes(scene) if file is None else file
     made = _Certificate(scene, content, Selection(scene), Fraction(0))
     return Proof(contact, content, made.text(contact, made.start, made.end))
 
 
 def certify_rows(contacts: Contacts) -> Proof:
-    """The certificates of all answers of `exactpt.arrays.first_contacts`, in one file.
+    """Return the certificates of all answers of `exactpt.arrays.first_contacts`, in one file.
 
     Its scene file has a line for each pair, the scene of its two bodies. A pair that is refused,
     or whose contact has no certificate, is "open": nothing is shown of it.
@@ -183,7 +183,7 @@ class _Certificate:
         return any(i in bodies and j in bodies for i, j in named)
 
     def text(self, found: Contact | Approach | None, start: Fraction, end: Fraction) -> bytes:
-        """The bytes of the certificate. Raises: as `certify`."""
+        """Return the bytes of the certificate. Raises: as `certify`."""
         try:
             return self._text(found, start, end)
         except OverflowError:
@@ -211,7 +211,7 @@ class _Certificate:
         return "".join(f"{line}\n" for line in [*head, *last]).encode()
 
     def _chosen(self) -> Iterator[str]:
-        """The lines that select the pairs that count."""
+        """Yield the lines that select the pairs that count."""
         if self._selection.named is not None:  # those that ignore each other are not among them
             yield from (f"between {i} {j}" for i, j in self._selection.named)
             return
@@ -223,7 +223,7 @@ class _Certificate:
         )
 
     def _last(self, found: Contact | Approach, start: Fraction) -> tuple[list[str], Fraction]:
-        """The last line, which shows a contact, and a time up to which there is none."""
+        """Return the last line, which shows a contact, and a time up to which there is none."""
         names = set(found.pairs if isinstance(found, Approach) else found.overlaps)
         features = () if isinstance(found, Approach) else found.pairs
         names |= {(pair.body, pair.other) for pair in features}
@@ -253,11 +253,11 @@ class _Certificate:
         )
 
     def _items(self, body: int) -> list[int]:
-        """The numbers of the items of a body."""
+        """Return the numbers of the items of a body."""
         return [k for k, item in enumerate(self._paths.items) if item[0] == body]
 
     def _meeting(self, pairs: Sequence[tuple[int, int]], t: Fraction) -> str:
-        """A last line by two bodies at a time.
+        """Return a last line by two bodies at a time.
 
         Raises:
             Rejected: if there is none.
@@ -285,7 +285,7 @@ class _Certificate:
     def _passage(
         self, v: int, item: int, until: Fraction, low: Fraction, high: Fraction, end: Fraction
     ) -> str:
-        """A last line by a vertex that passes through an edge.
+        """Return a last line by a vertex that passes through an edge.
 
         Raises:
             Rejected: if it is not one.
@@ -306,7 +306,7 @@ def _candidates(
     place: Mapping[int, tuple[Fraction, Fraction]],
     far: float,
 ) -> list[tuple[int, int]]:
-    """Pairs of items whose boxes come near each other, by doubles; the nearest first."""
+    """Return pairs of items whose boxes come near each other, by doubles; the nearest first."""
     ends = [
         np.array([[place[v] for v in items[k][1:]] for k in some], float) for some in (one, other)
     ]

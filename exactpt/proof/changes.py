@@ -73,7 +73,7 @@ def change(
 
 
 def _star(v: int, first: int, after: dict[DirectedEdge, DirectedEdge]) -> list[int]:
-    """The neighbours of v, clockwise."""
+    """Return the neighbours of v, clockwise."""
     star = [first]
     while (u := after[star[-1], v][1]) != first:
         star.append(u)
@@ -113,7 +113,7 @@ class Angles:
             self._life.pop(d, None)
 
     def next_time(self) -> AlgebraicNumber | None:
-        """The first time at which a living angle vanishes."""
+        """Return the first time at which a living angle vanishes."""
         while self._failures and not self._is_alive(self._failures[0]):
             heapq.heappop(self._failures)
         if not self._failures:

@@ -1,6 +1,6 @@
 """Contraction of the faces of a mesh to those of the unperturbed free space.
 
-The infinitesimal copies of a vertex become one vertex; faces that have no area for ever are
+The infinitesimal copies of a vertex become one vertex; faces that have no area for all times are
 left out, and edges along such a face are split at its vertices.
 """
 
@@ -42,10 +42,10 @@ class Face(NamedTuple):
 
 @final
 class Contraction:
-    """The contracted faces of a mesh that changes; a change costs what it affects.
+    """The contracted faces of a mesh that changes, at the cost of the affected faces.
 
     Args:
-        is_flat: whether three vertices are collinear for ever.
+        is_flat: whether three vertices are collinear for all times.
     """
 
     def __init__(self, is_flat: Callable[[int, int, int], bool]) -> None:
@@ -89,7 +89,7 @@ class Contraction:
         return before - after, after - before
 
     def _forget(self, key: HalfEdge, before: set[Cycle]) -> None:
-        """Forget the cycle of a face, if it has one; what has gone is added to ``before``."""
+        """Forget the cycle of a face, if it has one; removed half-edges are added to ``before``."""
         if key in self._cycles:
             before.add(self._cycles.pop(key))
             for edge in set(self._used.pop(key)):
@@ -133,7 +133,7 @@ class Contraction:
     def _path(
         self, u: int, v: int, used: list[Edge], place: Callable[[int], tuple[QQ, QQ]]
     ) -> Iterator[int]:
-        """The vertices from u to v along an edge with its splits, v excluded."""
+        """Yield the vertices from u to v along an edge with its splits, v excluded."""
         used.append(edge_key(u, v))
         inside = {w for vertices in self._cuts.get(used[-1], {}).values() for w in vertices}
         if not inside:

@@ -31,12 +31,12 @@ __all__ = ["Part", "ProofRun", "beside", "scene_bytes"]
 
 
 def scene_bytes(scene: Scene) -> bytes:
-    """The bytes that `Scene.save` writes: the file to which a proof of this scene refers."""
+    """Return the bytes that `Scene.save` writes: the file to which a proof of this scene refers."""
     return (json.dumps(to_json(scene), indent=1) + "\n").encode()
 
 
 def beside(path: Path) -> Path:
-    """The path of the scene of a proof or certificate."""
+    """Return the path of the scene of a proof or certificate."""
     return path.with_name(f"{path.name}.scene.json")
 
 
@@ -97,7 +97,7 @@ class ProofRun(TilingSearch):
         return self.contact
 
     def lines(self) -> Iterator[str]:
-        """The lines, without line ends."""
+        """Yield the lines, without line ends."""
         scene, driver = self._scene, self.driver
         yield from header(self._file, scene._start, scene._end)
         if not scene.bodies:

@@ -23,7 +23,7 @@ __all__ = ["Lines", "header"]
 
 
 def header(scene_file: bytes, start: QQ, end: QQ) -> list[str]:
-    """The lines at the beginning.
+    """Return the lines at the beginning.
 
     Args:
         scene_file: the bytes of the scene's file.
@@ -51,7 +51,7 @@ class Lines:
         self.after: dict[DirectedEdge, DirectedEdge] = {}
 
     def faces(self, faces: Iterable[Cycle]) -> Iterator[str]:
-        """The lines of the faces from the start on."""
+        """Yield the lines of the faces from the start on."""
         ordered = sorted(faces)
         links = followers(face.nodes for face in ordered)
         self.after = links | followers(self._nodes.solid_faces())
@@ -62,7 +62,7 @@ class Lines:
     def contact(
         self, time: AlgebraicNumber, names: Sequence[tuple[int, ...]], touches: Iterable[Touch]
     ) -> Iterator[str]:
-        """The last lines, if there is a contact.
+        """Yield the last lines, if there is a contact.
 
         Args:
             time: the time of the contact.
@@ -77,18 +77,18 @@ class Lines:
     def contact_at_start(
         self, touches: Sequence[Touch], overlaps: Sequence[tuple[int, int]]
     ) -> str:
-        """The last line, if there is a contact at the start."""
+        """Return the last line, if there is a contact at the start."""
         start = self._nodes.scene._start
         what = self._touch(touches[0]) if touches else self._overlap(*overlaps[0])
         return f"contact {start} {start} {what}"
 
     def none(self, end: QQ) -> Iterator[str]:
-        """The last lines, if there is no contact."""
+        """Yield the last lines, if there is no contact."""
         yield from self.renewals(AlgebraicNumber(end))
         yield "none"
 
     def event(self, step: Step) -> Iterator[str]:
-        """The line of an event, if it has items, after those of renewals before it."""
+        """Yield the line of an event, if it has items, after those of renewals before it."""
         yield from self.renewals(step.time)
         renewed = self._angles.vanishing(step.time)
         old, new = (followers(f.nodes for f in faces) for faces in (step.gone, step.come))
@@ -105,7 +105,7 @@ class Lines:
             yield f"event {time_text(step.time, step.names, self._nodes)} {' '.join(items)}"
 
     def renewals(self, until: AlgebraicNumber) -> Iterator[str]:
-        """The lines of angles that vanish before a time, when the map does not change."""
+        """Yield the lines of angles that vanish before a time, when the map does not change."""
         while (time := self._angles.next_time()) is not None and time.compare(until) < 0:
             angles = self._angles.vanishing(time)
             self._angles.begin(angles, time)
@@ -113,7 +113,7 @@ class Lines:
             yield f"event {time_text(time, angles, self._nodes)} {items}"
 
     def is_body_edge(self, u: int, v: int) -> bool:
-        """Whether two vertices are the ends of an edge of a body."""
+        """Return True if two vertices are the ends of an edge of a body."""
         i = self._nodes.body_of[u]
         if self._nodes.body_of[v] != i:
             return False
@@ -140,7 +140,7 @@ class Lines:
         return f"vertex {v} {'edge' if touch.edge >= 0 else 'vertex'} {' '.join(map(str, others))}"
 
     def _overlap(self, i: int, j: int) -> str:
-        """A common point of two bodies at the start, if none is a vertex on a boundary."""
+        """Return a common point of two bodies at the start, if none is a vertex on a boundary."""
         bodies = [self._nodes.scene.bodies[k] for k in (i, j)]
         p, q = (body._at(self._nodes.scene._start) for body in bodies)
         of_p, of_q = (body.edges for body in bodies)
@@ -162,5 +162,5 @@ class Lines:
 def _angles(
     links: dict[DirectedEdge, DirectedEdge], old: dict[DirectedEdge, DirectedEdge]
 ) -> list[Angle]:
-    """The angles of new links that are not among the old ones."""
+    """Return the angles of new links that are not among the old ones."""
     return [(u, v, w) for (u, v), (_, w) in links.items() if old.get((u, v)) != (v, w)]

@@ -48,7 +48,7 @@ class Nodes:
         ]
 
     def solid_faces(self) -> list[list[int]]:
-        """The rings of the rigid closed bodies, each with the body on its left."""
+        """Return the rings of the rigid closed bodies, each with the body on its left."""
         faces = []
         for first, body, rigid in zip(self.first, self.scene.bodies, self.rigid, strict=False):
             if not (rigid and body.has_interior):
@@ -62,12 +62,12 @@ class Nodes:
         return faces
 
     def track(self, v: int, after: QQ) -> Track:
-        """The trajectory of a vertex just after a rational time."""
+        """Return the trajectory of a vertex just after a rational time."""
         i = self.body_of[v]
         return self.scene.bodies[i]._piece_after(after).track(v - self.first[i])
 
     def last_break(self, i: int, time: AlgebraicNumber) -> QQ:
-        """The last breakpoint of a body not after a time, or the start of the scene."""
+        """Return the last breakpoint of a body not after a time, or the start of the scene."""
         breaks = self.scene.bodies[i]._breakpoints
         return max(
             (b for b in breaks if b > self.scene._start and time.compare_rational(b) >= 0),
@@ -75,23 +75,23 @@ class Nodes:
         )
 
     def orientation(self, a: int, b: int, c: int, after: QQ) -> IntPoly:
-        """The orientation of three vertices just after a rational time; () if it is always 0."""
+        """Return the orientation of three vertices after a rational time; () if always 0."""
         return orientation(self.track(a, after), self.track(b, after), self.track(c, after))
 
     def vanishing(self, name: tuple[int, ...], after: QQ) -> IntPoly:
-        """The orientation of three vertices, or the difference of the abscissas of two."""
+        """Return the orientation of three vertices, or the difference of the abscissas of two."""
         if len(name) == 3:
             return self.orientation(name[0], name[1], name[2], after)
         p, q = self.track(name[0], after), self.track(name[1], after)
         return difference(p.x, p.w, q.x, q.w)
 
     def breaks(self, vertices: tuple[int, ...]) -> list[QQ]:
-        """The breakpoints of some vertices, in order."""
+        """Return the breakpoints of some vertices, in order."""
         bodies = {self.body_of[v] for v in vertices}
         return sorted({b for i in bodies for b in self.scene.bodies[i]._breakpoints})
 
     def fails(self, angle: tuple[int, int, int], now: AlgebraicNumber) -> AlgebraicNumber | None:
-        """The time at which an angle that begins now vanishes, or ceases to be flat; None if never.
+        """Return the time at which a new angle vanishes or ceases to be flat; None if never.
 
         A flat angle vanishes where two of its vertices coincide; that is a contact, and is not
         considered here.
@@ -122,13 +122,13 @@ class Nodes:
 
 
 def rigid_until(scene: Scene) -> QQ:
-    """The first time at which a body that has been rigid since the start deforms, or the end."""
+    """Return the first time at which a body that was rigid deforms, or the end."""
     times = [_deforms_from(body, scene._start, scene._end) for body in scene.bodies]
     return min((t for t in times if t is not None and t > scene._start), default=scene._end)
 
 
 def _deforms_from(body: Body, start: QQ, end: QQ) -> QQ | None:
-    """The start of the first piece in which lengths of edges or angles change; None if none."""
+    """Return the start of the first piece that changes lengths or angles, or None."""
     times = [start, *(b for b in body._breakpoints if start < b < end)]
     for t in times:
         tracks = body._piece_after(t).tracks

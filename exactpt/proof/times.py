@@ -1,4 +1,4 @@
-"""Names of times: a function that vanishes then, and a coarse isolating interval."""
+"""Names of times: a function that vanishes at it, and a coarse isolating interval."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["time_text"]
 
 
 def time_text(time: AlgebraicNumber, names: Iterable[tuple[int, ...]], nodes: Nodes) -> str:
-    """A time in the notation of docs/proofs.md.
+    """Return a time in the notation of docs/proofs.md.
 
     Args:
         time: within the time span.
@@ -44,7 +44,7 @@ def time_text(time: AlgebraicNumber, names: Iterable[tuple[int, ...]], nodes: No
 
 
 def _interval(time: AlgebraicNumber, f: IntPoly, breaks: list[QQ], end: QQ) -> tuple[QQ, QQ]:
-    """The interval from m / 2^k to (m + 1) / 2^k that isolates this root of f, for the least k.
+    """Return the interval [m / 2^k, (m + 1) / 2^k] that isolates this root, for the least k.
 
     The interval contains no other root and no breakpoint in its interior; k begins where 2^-k
     has the size of the time.

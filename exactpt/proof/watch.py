@@ -1,7 +1,7 @@
-"""A tiling reduced to what a proof contains: the changes of faces, and their times.
+"""A tiling reduced to the contents of a proof: changes of faces, and their times.
 
 Vertices are those of the
-scene; infinitesimal copies and faces that have no area for ever have been contracted.
+scene; infinitesimal copies and faces that have no area for all times have been contracted.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ class Watch:
         return self.kinetic.now
 
     def first(self) -> set[Cycle]:
-        """All faces just after now."""
+        """Return all faces just after now."""
         self.kinetic.changes()
         mesh = self.kinetic.mesh_after()
         _, come = self._replace(mesh, set(mesh.map.half_edges()))
@@ -76,7 +76,7 @@ class Watch:
         return come or {Cycle("outer", (v,)) for v in range(len(self._nodes.body_of))}
 
     def step(self, changed: set[HalfEdge] | None) -> Step:
-        """The changes since the last call, from the changed half-edges (`Tiling.changes`)."""
+        """Return the changes since the last call, from those half-edges (`Tiling.changes`)."""
         mesh = self.kinetic.mesh_after()
         if changed is None:
             changed = {*mesh.map.half_edges(), *self._face_of}
@@ -86,7 +86,7 @@ class Watch:
         return Step(self.now, self.names(), *self._replace(mesh, changed))
 
     def names(self) -> list[tuple[int, ...]]:
-        """The vertices whose function may vanish now, as in `Step`."""
+        """Return the vertices whose function may vanish now, as in `Step`."""
         certifier, node = self.kinetic.certifier, self._node
         triples = [(t.a, t.b, t.c) for t in (certifier.now, *certifier.roots_now)]
         return [tuple([node[v] for v in t if v >= 0]) for t in triples if t[0] >= 0]
@@ -132,7 +132,7 @@ class Watch:
         return gone, come
 
     def _face(self, mesh: Mesh, cycle: list[HalfEdge]) -> Face | None:
-        """A face in vertices of the scene; None for the interior of a rigid or a thin body."""
+        """Return a face in vertices of the scene; None inside a rigid or degenerate body."""
         around = [self._node[mesh.map.origin[h]] for h in cycle]
         region, i = mesh.region[cycle[0]], self._nodes.body_of[around[0]]
         body = self._nodes.scene.bodies[i]
@@ -144,7 +144,7 @@ class Watch:
         return Face(label, around, [] if region in (SOLID, OUTER) else corners)
 
     def _is_flat(self, *corners: int) -> bool:
-        """Whether three vertices stay collinear in the current pieces of their motions."""
+        """Return True if three vertices stay collinear in the current pieces of their motions."""
         if corners not in self._flat:
             nodes, bodies = self._nodes, self.kinetic.vertices.bodies
             tracks = [nodes.track(v, bodies[nodes.body_of[v]].since) for v in corners]
@@ -152,7 +152,7 @@ class Watch:
         return self._flat[corners]
 
     def _later(self) -> Callable[[int], tuple[QQ, QQ]]:
-        """The positions of vertices at a rational time before the next event."""
+        """Return the positions of vertices at a rational time before the next event."""
 
         @cache
         def time() -> QQ:

@@ -35,7 +35,7 @@ class Proof(NamedTuple):
         """Have `exactpt.proof_check`, or `exactpt.check_apart`, verify the proof.
 
         Returns:
-            what it proves, in words: a text with the attributes ``until`` and ``whole`` (whether
+            the proved statement, a text with the attributes ``until`` and ``whole`` (whether
             it answers for the whole time span of the scene).
 
         Raises:
@@ -65,7 +65,7 @@ class Proof(NamedTuple):
 def prove(
     scene: Scene, *, tiling: str = "auto", scene_file: bytes | None = None, exact_only: bool = False
 ) -> Proof:
-    """The first contact of a scene by a tiling, with its proof (docs/proofs.md).
+    """Return the first contact of a scene by a tiling, with its proof (docs/proofs.md).
 
     >>> import exactpt
     >>> p = exactpt.Body("p", [(0, 0)], exactpt.Translation([0, 1]))
@@ -98,7 +98,7 @@ def write_proof(
     scene_file: bytes | None = None,
     exact_only: bool = False,
 ) -> Contact | None:
-    """The first contact of a scene, or None, by a tiling; the proof is written to a file.
+    """Return the first contact of a scene, or None, by a tiling; the proof is written to a file.
 
     Args and raises: as `ProofRun`.
     """

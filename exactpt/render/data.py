@@ -28,7 +28,7 @@ _LONGEST: Final = 1200
 
 
 def data_of(film: Film, *, at: AlgebraicNumber | QQ | None = None) -> dict[str, object]:
-    """The JSON data that the page needs; ``at`` is the time shown first."""
+    """Return the JSON data that the page needs; ``at`` is the time shown first."""
     scene = film.scene
     time_unit = exponent_above(scene._end - scene._start)
     time_bits = BITS - time_unit
@@ -56,12 +56,12 @@ def data_of(film: Film, *, at: AlgebraicNumber | QQ | None = None) -> dict[str, 
 
 
 def _integer(value: int) -> int | str:
-    """A JSON number if a double holds the value, otherwise its decimal digits as a string."""
+    """Return a JSON number if a double holds the value, else a string of its digits."""
     return int(value) if -_SAFE < value < _SAFE else str(value)
 
 
 def _extent(film: Film) -> tuple[int, tuple[QQ, QQ]]:
-    """The exponent of a power of two not below the size of the scene, and a point in the scene."""
+    """Return the exponent of a power of two >= the scene's size, and a point in the scene."""
     scene = film.scene
     last = film.end.simplified()._canonical_interval()[0]
     times = (scene._start, (scene._start + last) / 2, last)

@@ -120,7 +120,7 @@ def _ending(path: Path) -> str:
 
 
 def _paper(theme: str) -> str:
-    """The theme of a picture that cannot ask for the reader's preference."""
+    """Return the theme of a picture that cannot follow the reader's preference."""
     return "light" if theme == "auto" else theme
 
 
@@ -129,7 +129,7 @@ def _write_picture(path: Path, svg: str) -> None:
 
 
 def _shown(film: Film) -> Scene:
-    """The scene up to the end of its animation; all of it if that ends at the start."""
+    """Return the scene up to the end of its animation; all of it if that ends at the start."""
     last = film.end.simplified()._canonical_interval()[1]
     return film.scene.until(last) if last > film.scene._start else film.scene
 

@@ -75,7 +75,7 @@ class Film:
     spans: tuple[tuple[QQ, QQ], ...] = ()
 
     def is_there(self, body: int, t: QQ) -> bool:
-        """Whether a body, by its index, is there at a time."""
+        """Return True if a body, by its index, is there at a time."""
         if not self.spans:
             return True
         since, until = self.spans[body]
@@ -141,7 +141,7 @@ def film_of(
 
 
 def _without_tiling(scene: Scene, name: str, contact: Contact | None) -> Film:
-    """A film of bodies alone, up to the contact."""
+    """Return a film of bodies alone, up to the contact."""
     steps: tuple[Step, ...] = ()
     if contact is not None:
         steps = (Step(contact.time, [Change("contact", (), ())], ()),)
@@ -149,7 +149,7 @@ def _without_tiling(scene: Scene, name: str, contact: Contact | None) -> Film:
 
 
 def _step(kinetic: Tiling, node: list[int], changes: list[Change]) -> Step:
-    """The step of the event time that is now."""
+    """Return the step of the event time that is now."""
     now = kinetic.certifier.now
     certificate = tuple(node[v] for v in (now.a, now.b, now.c) if v >= 0)
     return Step(kinetic.now, changes, certificate)

@@ -18,7 +18,7 @@ BITS: Final = 192
 
 
 def exponent_above(extent: QQ) -> int:
-    """The least integer e with ``extent <= 2**e``; 0 if the extent is 0."""
+    """Return the least integer e with ``extent <= 2**e``; 0 if the extent is 0."""
     if extent == 0:
         return 0
     e = int(extent.numerator).bit_length() - int(extent.denominator).bit_length()
@@ -26,7 +26,7 @@ def exponent_above(extent: QQ) -> int:
 
 
 def fixed(value: AlgebraicNumber | QQ, bits: int) -> int:
-    """The integer n with n <= value * 2**bits < n + 1."""
+    """Return the integer n with n <= value * 2**bits < n + 1."""
     scale = power_of_two(bits)
     if not isinstance(value, AlgebraicNumber):
         return int(floor(value * scale))
@@ -39,7 +39,7 @@ def fixed(value: AlgebraicNumber | QQ, bits: int) -> int:
 
 
 def near(value: AlgebraicNumber, span: QQ) -> QQ:
-    """A rational at most 2**-192 of the span (rounded up to a power of two) below a number.
+    """Return a rational at most 2**-192 of the span (rounded up to a power of two) below a number.
 
     A rational number is returned unchanged.
     """

@@ -131,7 +131,7 @@ class Frame:
 
 
 def frame_of(still: Still, *, legend: bool = False, poses: int = 0) -> Frame:
-    """The drawing primitives of a still, see `exactpt.render.draw.draw`."""
+    """Return the drawing primitives of a still, see `exactpt.render.draw.draw`."""
     scene = still.scene
     places = {body.name: body._at(still.at) for body in scene.bodies}
     others = _other_places(scene, poses) if poses else {}
@@ -261,7 +261,7 @@ def _tiling(
 
 
 def tints(faces: Sequence[Face]) -> list[int]:
-    """A tint for each face, by a greedy colouring: adjacent faces differ where possible."""
+    """Return a tint for each face, by a greedy colouring: adjacent faces differ where possible."""
     at_edge: dict[frozenset[int], list[int]] = {}
     chosen: list[int] = []
     for i, face in enumerate(faces):
@@ -278,7 +278,7 @@ def tints(faces: Sequence[Face]) -> list[int]:
 def marks_of(
     scene: Scene, contact: Contact, pixels: dict[str, tuple[Pixel, ...]], window: Window
 ) -> tuple[Mark, ...]:
-    """The marks of a contact; ``pixels`` are those of the bodies, by name."""
+    """Return the marks of a contact; ``pixels`` are those of the bodies, by name."""
     rounded = {body.name for body in scene.bodies if body._radius}
     return tuple(
         _mark(pair, scene, pixels, window, touches=rounded.isdisjoint((pair.body, pair.other)))
@@ -306,7 +306,7 @@ def _mark(
     *,
     touches: bool,
 ) -> Mark:
-    """The mark of an incidence; ``touches`` unless a body is rounded, and so not the cores do."""
+    """Return the mark of an incidence; ``touches`` unless a body has a radius."""
     other = pixels[pair.other]
     edge = None
     if pair.edge is not None:

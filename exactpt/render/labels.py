@@ -33,7 +33,7 @@ class Named(NamedTuple):
 
     @property
     def is_thin(self) -> bool:
-        """Whether no name has room inside: a point, a segment or an open chain."""
+        """True if no name has room inside: a point, a segment or an open chain."""
         return not self.radius and not self.has_interior
 
 
@@ -82,7 +82,7 @@ def _covers(a: _Box, b: _Box) -> bool:
 
 
 def _middle(body: Named) -> Pixel:
-    """The position of a name: in the middle of a body; of a non-convex one, where it is widest."""
+    """Return the position of a name: the middle of a body, or where it is widest."""
     pixels = body.pixels
     x, y = (sum(c) / len(pixels) for c in zip(*pixels, strict=True))
     if not body.has_interior:
@@ -98,7 +98,7 @@ def _middle(body: Named) -> Pixel:
 
 
 def _inside_at(sides: Sequence[tuple[Pixel, Pixel]], y: float) -> list[tuple[float, float]]:
-    """The intervals in which the horizontal line at height y is inside a polygon."""
+    """Return the intervals in which the horizontal line at height y is inside a polygon."""
     crossings = sorted(
         px + (y - py) * (qx - px) / (qy - py)
         for (px, py), (qx, qy) in sides

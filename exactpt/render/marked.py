@@ -31,7 +31,7 @@ _NAMED: Final = 4
 
 
 def film_of_run(history: History, *, tiling: str = "auto") -> Film:
-    """The film of a run so far.
+    """Return the film of a run so far.
 
     With the same bodies throughout, it is that of `History.scene`, with a tiling; bodies that
     came or went are shown without one.
@@ -50,7 +50,7 @@ def film_of_run(history: History, *, tiling: str = "auto") -> Film:
 
 
 def _marked(film: Film, marks: Sequence[Mark]) -> Film:
-    """A film with more events; its last contact, if there is one, is not marked twice."""
+    """Return a film with more events; its last contact, if there is one, is not marked twice."""
     last = None if film.contact is None else film.contact.time
     added = [
         Step(mark.time, [Change(mark.kind, (), (), _in_words(mark))], ())
@@ -79,7 +79,7 @@ def _marked(film: Film, marks: Sequence[Mark]) -> Film:
 
 
 def _moved(span: Span, place: dict[int, int]) -> Span:
-    """A lifetime in numbers of other steps."""
+    """Return a lifetime in numbers of other steps."""
     last = None if span.last is None else place[span.last]
     return span._replace(first=place[span.first], last=last)
 

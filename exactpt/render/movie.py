@@ -64,7 +64,7 @@ def write_movie(
         done: called with the number of frames that are drawn, and of all.
 
     Raises:
-        InputError: if imageio, its ffmpeg or resvg is not installed; the message says how to
+        InputError: if imageio, its ffmpeg or resvg is not installed; the message has the command to
             install them. If there are no frames, or more than 100,000.
     """
     count = round(rational(seconds) * rational(fps))

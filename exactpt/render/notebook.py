@@ -27,17 +27,17 @@ MOST_SECONDS: Final = 5.0
 
 
 def scene_svg(scene: Scene) -> str:
-    """An SVG picture of the bodies of a scene at its start."""
+    """Return an SVG picture of the bodies of a scene at its start."""
     return svg_of(frame_of(Still(scene, scene._start, None, None)))
 
 
 def simulation_svg(simulation: Simulation) -> str:
-    """An SVG picture of the bodies and the tiling at the current time, or of the contact."""
+    """Return an SVG picture of the bodies and the tiling at the current time, or of the contact."""
     return svg_of(frame_of(still_of(simulation)))
 
 
 def scene_player(scene: Scene) -> str | None:
-    """The animation of a scene in a frame of its own; None if its run takes long."""
+    """Return the animation of a scene in a frame of its own; None if its run takes long."""
     try:
         film = film_of(scene, max_events=MOST_EVENTS, max_seconds=MOST_SECONDS)
     except BudgetExceeded:
@@ -46,7 +46,7 @@ def scene_player(scene: Scene) -> str | None:
 
 
 def simulation_player(simulation: Simulation) -> str | None:
-    """The animation of a remembered run; None if no time has passed."""
+    """Return the animation of a remembered run; None if no time has passed."""
     history = simulation.history()
     if history.start == history.end:
         return None
@@ -59,7 +59,7 @@ def _framed(page: str) -> str:
 
 
 def contact_html(contact: Contact) -> str:
-    """An HTML table of the exact time and of the incidences."""
+    """Return an HTML table of the exact time and of the incidences."""
     number = contact.time.simplified()
     heading = f"First contact at {time_in_words(number)} ({contact.kind})"
     lines = incidences_in_words(contact)

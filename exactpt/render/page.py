@@ -48,7 +48,7 @@ def page_of(
     theme: str = "auto",
     gap: Clearance | None = None,
 ) -> str:
-    """The animation of a film as an HTML document.
+    """Return the animation of a film as an HTML document.
 
     Args:
         film: the recorded run.

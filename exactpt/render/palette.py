@@ -74,7 +74,7 @@ DARK: Final[dict[str, str]] = {
 
 
 def body_colour(index: int) -> str:
-    """The colour of the body with a given index, legible on light and on dark paper."""
+    """Return the colour of the body with a given index, legible on light and on dark paper."""
     if index < len(_FIRST):
         return _FIRST[index]
     # Golden-ratio steps through the hues from yellow to pink, in three degrees of lightness.

@@ -32,7 +32,7 @@ class Plot(NamedTuple):
         top: the largest distance.
         least: the point of the minimum.
         ticks: shares of the time span, each with its time in words.
-        title: what is shown.
+        title: the subject.
         words: the minimum in words.
         heights: distances on the axis, as shares of the largest one, each in words.
         below: the share of a distance that is marked, and its words; None if there is none.
@@ -49,7 +49,7 @@ class Plot(NamedTuple):
 
 
 def plot_of(gap: Clearance, below: QQ | None = None) -> Plot:
-    """The plot of a distance over its time span, with a mark at a distance ``below``.
+    """Return the plot of a distance over its time span, with a mark at a distance ``below``.
 
     The curve is linear between samples; these include the ends of all pieces and the minimum.
     """
@@ -96,7 +96,7 @@ def _ticks(start: QQ, end: QQ) -> Iterator[tuple[QQ, str]]:
 
 
 def svg_of_plot(plot: Plot, *, theme: str = "auto") -> str:
-    """The plot as an SVG document."""
+    """Return the plot as an SVG document."""
     right, bottom = WIDTH - ROOM, HEIGHT - BELOW
     points = " ".join(f"{x:.2f},{y:.2f}" for x, y in map(_pixel, plot.points))
     x, y = _pixel(plot.least)
@@ -168,7 +168,7 @@ def _rules(colours: dict[str, str], theme: str) -> str:
 
 
 def strip_of(plot: Plot) -> str:
-    """The plot as part of a page, as wide as the scrubber below it; `page.css` has its style."""
+    """Return the plot as part of a page, as wide as the scrubber; its style is in `page.css`."""
     points = " ".join(f"{1000 * x:.2f},{100 - 100 * y:.2f}" for x, y in plot.points)
     x, y = plot.least
     ticks = "".join(

@@ -8,10 +8,10 @@ __all__ = ["png_of"]
 
 
 def png_of(svg: str, *, zoom: int = 2) -> bytes:
-    """The PNG image of an SVG document, with ``zoom`` pixels per unit in each direction.
+    """Return the PNG image of an SVG document, with ``zoom`` pixels per unit in each direction.
 
     Raises:
-        InputError: if resvg is not installed; the message says how to install it.
+        InputError: if resvg is not installed; the message has the command to install it.
     """
     try:
         import resvg_py

@@ -47,10 +47,10 @@ def still(
     max_events: int | None = None,
     max_seconds: float | None = None,
 ) -> Still:
-    """The scene at a rational time, or at its first contact if ``at`` is None.
+    """Return the scene at a rational time, or at its first contact if ``at`` is None.
 
     Raises:
-        InputError: if there is no contact, but it is asked for.
+        InputError: if a contact is requested, but there is none.
         TimeRangeError: if the time is outside the span or after the first contact.
         BudgetExceeded: if ``max_events`` or ``max_seconds`` is exceeded.
     """
@@ -87,7 +87,7 @@ def still(
 
 
 def still_of(simulation: Simulation) -> Still:
-    """A simulation at its current time."""
+    """Return a simulation at its current time."""
     scene, kinetic, contact = simulation.scene, simulation.kinetic, simulation.contact
     now = (simulation.now if contact is None else contact.time).simplified()
     at = near(now, scene._end - scene._start)

@@ -26,7 +26,7 @@ _FONT: Final = "ui-sans-serif, system-ui, 'DejaVu Sans', Arial, sans-serif"
 
 
 def svg_of(frame: Frame, *, theme: str = "auto") -> str:
-    """The picture as an SVG document.
+    """Return the picture as an SVG document.
 
     Strokes keep their width when the picture is scaled. Pixel (0, 0) of the frame's window is
     at (0, 60), below the caption.
@@ -60,7 +60,7 @@ def svg_of(frame: Frame, *, theme: str = "auto") -> str:
 
 
 def _style(theme: str, *, has_more: bool) -> str:
-    """The style rules of a theme, prefixed by its class: a page may hold many pictures."""
+    """Return the style rules of a theme, prefixed by its class: a page may hold many pictures."""
     if theme == "auto":
         dark = _rules(DARK, theme, has_more=has_more)
         light = _rules(LIGHT, theme, has_more=has_more)
@@ -136,7 +136,7 @@ def _shape(shape: Shape) -> str:
 
 
 def _core(shape: Shape) -> tuple[str, str]:
-    """The name of the element that draws a polygon, and its outline as attributes."""
+    """Return the name of the element that draws a polygon, and its outline as attributes."""
     if len(shape.rings) == 1:
         return "polygon", f'points="{_points(shape.pixels)}"'
     rings = ((_pair(shape.pixels[i]) for i in ring) for ring in shape.rings)
@@ -145,7 +145,7 @@ def _core(shape: Shape) -> tuple[str, str]:
 
 
 def _rounded(shape: Shape) -> Iterator[str]:
-    """The core, drawn twice with a pen as wide as the body: a little wider for the outline."""
+    """Yield the core, drawn twice with a wide pen; the wider one makes the outline."""
     if shape.closed and len(shape.pixels) > 2:
         core, drawn = _core(shape)
     else:
@@ -171,7 +171,7 @@ def _name(name: str, at: Pixel) -> str:
 
 
 def _mark(mark: Mark) -> Iterator[str]:
-    """The feature that is touched, a ring around the point, and the normal."""
+    """Yield the feature that is touched, a ring around the point, and the normal."""
     x, y = mark.pixel
     if mark.edge is not None:
         (x1, y1), (x2, y2) = mark.edge
@@ -186,7 +186,7 @@ def _mark(mark: Mark) -> Iterator[str]:
 
 
 def _arrow(tail: Pixel, direction: Pixel) -> str:
-    """A line from just outside the ring, with an arrowhead at its end."""
+    """Return a line from just outside the ring, with an arrowhead at its end."""
     (x, y), (dx, dy) = tail, direction
     length = math.hypot(dx, dy)
     dx, dy = dx / length, dy / length
@@ -207,7 +207,7 @@ def _path(path: tuple[str, Sequence[Pixel]]) -> str:
 
 
 def _legend(rows: Sequence[tuple[str, str]], left: int, height: int) -> Iterator[str]:
-    """Names with colours in a column, as many as have room."""
+    """Yield names with colours in a column, as many as have room."""
     room = (height - 2 * _ROW) // _ROW
     shown = rows if len(rows) <= room else rows[: room - 1]
     yield from ['<g class="legend">'] if rows else []
@@ -240,7 +240,7 @@ def _pair(pixel: Pixel) -> str:
 
 
 def _number(value: float) -> str:
-    """A coordinate rounded to a thousandth of a pixel."""
+    """Return a coordinate rounded to a thousandth of a pixel."""
     text = f"{value:.3f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text
 

@@ -69,7 +69,7 @@ class _Tile:
     since: int
 
     def span(self, last: int | None) -> TileSpan:
-        """The lifetime of the tile, up to a step."""
+        """Return the lifetime of the tile, up to a step."""
         return TileSpan(
             self.nodes, self.corners, self.tint, self.inside, self.place, self.since, last
         )
@@ -198,7 +198,7 @@ class Tracker(Observer):
             self._gone_tiles.append(tile.span(step))
 
     def _new_tint(self, name: int, cycle: list[int]) -> int:
-        """A tint that no neighbouring tile has, if there is one."""
+        """Return a tint that no neighbouring tile has, if there is one."""
         nearby = (self._tiles.get(self._tile_of[h ^ 1]) for h in cycle)
         taken = {tile.tint for tile in nearby if tile is not None}
         free = [tint for tint in range(TINTS) if tint not in taken]
@@ -230,7 +230,7 @@ class Tracker(Observer):
                 self._edges[key] = (kind, step)
 
     def _kind(self, members: Iterable[int]) -> str | None:
-        """The kind of an edge, given its copies; None for an edge of a body or inside one."""
+        """Return the kind of an edge, given its copies; None on or inside a body."""
         mesh = self._kinetic.mesh_after()
         edges = [e for e in members if mesh.boundary[e] or mesh.region[2 * e] != INSIDE]
         boundary = any(mesh.boundary[e] for e in edges)
@@ -240,12 +240,12 @@ class Tracker(Observer):
 
 
 def _origin(m: PlanarMap, h: int) -> int:
-    """The origin of a half-edge; -1 if it is gone: a mesh built anew may have fewer than before."""
+    """Return the origin of a half-edge; -1 if a rebuilt mesh does not have it."""
     return int(m.origin[h]) if h < len(m.origin) else -1
 
 
 def _differences(old: Sequence[object], new: Sequence[object]) -> list[int]:
-    """The indices at which two lists differ. Equal chunks are skipped at once."""
+    """Return the indices at which two lists differ. Equal chunks are skipped at once."""
     return [
         i
         for start in range(0, max(len(old), len(new)), _CHUNK)

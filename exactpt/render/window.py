@@ -33,13 +33,13 @@ class Window:
     height: int
 
     def pixel(self, x: QQ, y: QQ) -> tuple[float, float]:
-        """The pixel of a point of the plane."""
+        """Return the pixel of a point of the plane."""
         across, down = (x - self.left) * self.scale, (self.top - y) * self.scale
         return nearest_float(across), nearest_float(down)
 
 
 def window_of(points: Sequence[tuple[QQ, QQ]]) -> Window:
-    """The window around some points: as large as fits, with a margin, without distortion."""
+    """Return the window around some points: as large as fits, with a margin, without distortion."""
     xs = [x for x, _ in points] or [QQ(0)]
     ys = [y for _, y in points] or [QQ(0)]
     across, up = max(xs) - min(xs), max(ys) - min(ys)

@@ -24,7 +24,7 @@ __all__ = [
 
 
 def clean(text: str) -> str:
-    """The text with each character that XML does not allow replaced by U+FFFD."""
+    """Return the text with each character that XML does not allow replaced by U+FFFD."""
     return "".join(c if _is_xml(ord(c)) else "\ufffd" for c in text)
 
 
@@ -33,7 +33,7 @@ def _is_xml(c: int) -> bool:
 
 
 def short(text: str, limit: int = 24) -> str:
-    """The text, shortened in the middle to ``limit`` characters."""
+    """Return the text, shortened in the middle to ``limit`` characters."""
     if len(text) <= limit:
         return text
     half = (limit - 1) // 2
@@ -51,7 +51,7 @@ def time_in_words(time: AlgebraicNumber | QQ) -> str:
 
 
 def pair_in_words(pair: Pair) -> str:
-    """The two features of an incidence: ``vertex 2 of tip on edge 4 of box``."""
+    """Return the two features of an incidence: ``vertex 2 of tip on edge 4 of box``."""
     mine = f"vertex {pair.vertex} of {short(pair.body)}"
     if pair.edge is None:
         return f"{mine} on vertex {pair.other_vertex} of {short(pair.other)}"
@@ -59,7 +59,7 @@ def pair_in_words(pair: Pair) -> str:
 
 
 def polynomial_in_words(coefficients: Sequence[object]) -> str:
-    """An integer polynomial in t, given with the constant term first: ``3 t^2 - t + 1``."""
+    """Return an integer polynomial in t, given with the constant term first: ``3 t^2 - t + 1``."""
     terms = []
     for power, coefficient in enumerate(map(str, coefficients)):
         size = coefficient.lstrip("-")
@@ -72,14 +72,14 @@ def polynomial_in_words(coefficients: Sequence[object]) -> str:
 
 
 def incidences_in_words(contact: Contact) -> list[str]:
-    """One line for every incidence, and for every two bodies that share a point."""
+    """Return one line for every incidence, and for every two bodies that share a point."""
     return [pair_in_words(pair) for pair in contact.pairs] + [
         f"{short(a)} and {short(b)} share a point" for a, b in contact.overlaps
     ]
 
 
 def contact_in_words(contact: Contact, *, limit: int = 2) -> str:
-    """One line: the first ``limit`` incidences and the number of others."""
+    """Return one line: the first ``limit`` incidences and the number of others."""
     found = incidences_in_words(contact)
     more = [f"{len(found) - limit} more"] if len(found) > limit else []
     return ", ".join(found[:limit] + more)

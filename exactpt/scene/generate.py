@@ -74,7 +74,7 @@ at a constant rate, by `Spin`.
 
 
 def families(*kinds: str) -> dict[str, Family]:
-    """The families of some kinds of `CATALOGUE`, by name, in the order of the kinds."""
+    """Return the families of some kinds of `CATALOGUE`, by name, in the order of the kinds."""
     return {name: make for kind in kinds for name, make in CATALOGUE[kind].items()}
 
 
@@ -89,5 +89,5 @@ EVERY: Final = families(*CATALOGUE)
 
 
 def generate(family: str, seed: int) -> Scene:
-    """The scene of a family with this seed."""
+    """Return the scene of a family with this seed."""
     return EVERY[family](Random(f"{family}:{seed}"))

@@ -47,14 +47,14 @@ class Event:
 
     @property
     def time(self) -> AlgebraicNumber:
-        """The exact time, computed when it is first asked for."""
+        """The exact time, computed on first access."""
         if isinstance(self._time, Moment):
             self._time = self._time.number
         return self._time
 
     @property
     def kind(self) -> str:
-        """What has happened."""
+        """The kind of the event."""
         return self._kind
 
     @property
@@ -70,7 +70,7 @@ class Event:
         return names
 
     def to_json(self) -> dict[str, object]:
-        """The event as a JSON object, see docs/format.md (a line of ``simulate --events``)."""
+        """Return the event as a JSON object, a line of ``simulate --events`` (docs/format.md)."""
         return {
             "time": self.time.to_json(),
             "kind": self.kind,
@@ -89,7 +89,7 @@ class Event:
 
 
 def events_of(tiling: Tiling, events: Sequence[TilingEvent]) -> list[Event]:
-    """The public events of a tiling that have just happened.
+    """Return the public events of a tiling that have just happened.
 
     Nothing of an event is computed until it is read, neither its time nor the names of its
     vertices. It keeps the vertices that have their ids now: ids are used again.
@@ -106,7 +106,7 @@ def _vertices(every: list[Vertex], edges: Edges) -> _Ends:
 
 
 def _named(edges: _Names | _Ends) -> _Names:
-    """Edges as pairs of names, which they may be already."""
+    """Return edges as pairs of names, which they may be already."""
     if not edges or isinstance(edges[0][0], str):
         return cast("_Names", edges)
     return tuple([(u.name, v.name) for u, v in edges])

@@ -64,13 +64,13 @@ class History:
 
     @property
     def is_scene(self) -> bool:
-        """Whether all bodies were there from the start on, and kept their shapes."""
+        """True if all bodies were there from the start on, and kept their shapes."""
         return all((life.since, life.until) == (self.start, self.end) for life in self.lives)
 
     def scene(self) -> Scene:
-        """The whole run as one scene: every plan is a piece of its body's motion.
+        """Return the whole run as one scene: every plan is a piece of its body's motion.
 
-        Contacts that were answered are not in it, as the bodies turned before they touched.
+        Contacts with a response are not in it, as the bodies turned before they touched.
 
         Raises:
             InputError: if no time has passed, or a body came, went or changed its shape.
@@ -89,7 +89,7 @@ class History:
 
 @final
 class Log:
-    """Told of a run what changes, for its `History`."""
+    """Collects the changes of a run for its `History`."""
 
     def __init__(self, scene: Scene) -> None:
         self._start = scene._start
@@ -139,7 +139,7 @@ class Log:
             self._gone.append(_life(plans, t))
 
     def history(self, now: AlgebraicNumber, contact: Contact | None) -> History:
-        """The run up to now; if that is irrational, to a rational time just before."""
+        """Return the run up to now; if that is irrational, to a rational time just before."""
         end = now.simplified()._canonical_interval()[0] if contact is None else self._end
         here = [_life(plans, end) for plans in self._plans.values()]
         lives = sorted([*self._gone, *here], key=lambda life: life.since)
@@ -152,7 +152,7 @@ def _is_same_shape(a: Body, b: Body) -> bool:
 
 
 def _life(plans: list[tuple[QQ, Body]], until: QQ) -> Life:
-    """The life of a body with these plans, each with the time of its beginning."""
+    """Return the life of a body with these plans, each with the time of its beginning."""
     since, body = plans[0]
     if len(plans) == 1:
         return Life(body, fraction(since), fraction(until))
@@ -166,7 +166,7 @@ def _life(plans: list[tuple[QQ, Body]], until: QQ) -> Life:
 
 
 def _pieces(plan: Body, begin: QQ, end: QQ | None) -> Iterator[tuple[QQ | None, SimpleMotion]]:
-    """The pieces of a plan between two times, the last until the second; None: for ever."""
+    """Yield the pieces of a motion between two times (None: unbounded)."""
     motion = plan.motion
     if not isinstance(motion, Pieces):
         yield end, motion

@@ -106,7 +106,7 @@ class LivingScene:
         return self._bodies
 
     def body(self, name: str) -> Body:
-        """The body of a given name, with its current motion.
+        """Return the body of a given name, with its current motion.
 
         Raises:
             InputError: if there is none.
@@ -114,7 +114,7 @@ class LivingScene:
         return self._bodies[self._index(name)]
 
     def has(self, body: Body) -> bool:
-        """Whether a body belongs to the scene, with this motion."""
+        """Return True if a body belongs to the scene, with this motion."""
         return body.name in self._number and self.body(body.name) is body
 
     def _index(self, name: str) -> int:
@@ -123,7 +123,7 @@ class LivingScene:
         return self._number[name]
 
     def rational_now(self) -> QQ:
-        """The current time, as a time at which bodies may change.
+        """Return the current time, as a time at which bodies may change.
 
         Raises:
             InputError: if it is not rational, or is the end of the time span.

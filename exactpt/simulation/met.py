@@ -1,4 +1,4 @@
-"""The last contact that a callback has answered, to recognise it when it recurs."""
+"""The last contact passed to a callback, so that it is not reported twice."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Met(NamedTuple):
     bodies: dict[str, Body]
 
     def is_again(self, other: Met) -> bool:
-        """Whether another contact is the same: at one time, of bodies with the same motions."""
+        """Return True if another contact has the same time, bodies and motions."""
         mine, theirs = self.bodies, other.bodies
         return (
             self.time.compare(other.time) == 0
@@ -33,11 +33,11 @@ class Met(NamedTuple):
         )
 
     def may_recur(self, living: LivingScene) -> bool:
-        """Whether all of its bodies still have the same motions."""
+        """Return True if all of its bodies still have the same motions."""
         return all(living.has(body) for body in self.bodies.values())
 
 
 def met(contact: Contact, living: LivingScene) -> Met:
-    """A contact that lies ahead of a scene."""
+    """Return a contact that lies ahead of a scene."""
     names = {name for pair in contact.pairs for name in (pair.body, pair.other)}
     return Met(contact.time, {name: living.body(name) for name in names})

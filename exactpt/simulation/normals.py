@@ -55,7 +55,7 @@ def normals_at(
 
 
 def _inner_corner(edges: list[Vector], inside: Vector) -> list[Vector]:
-    """The normals of two edges, towards a direction, if that is in an angle below pi of them."""
+    """Return the normals of two edges towards a direction in their angle below pi."""
     if len(edges) != 2:
         return []
     e, f = edges if _cross(*edges) > 0 else edges[::-1]
@@ -65,7 +65,7 @@ def _inner_corner(edges: list[Vector], inside: Vector) -> list[Vector]:
 
 
 def _edges_at(body: Body, vertex: int, t: QQ) -> list[Vector]:
-    """The directions of the edges at a vertex."""
+    """Return the directions of the edges at a vertex."""
     points = body._at(t)
     (x, y) = points[vertex]
     ends = [points[j if i == vertex else i] for i, j in body.edges if vertex in (i, j)]
@@ -73,7 +73,7 @@ def _edges_at(body: Body, vertex: int, t: QQ) -> list[Vector]:
 
 
 def _between_centers(a: Body, b: Body, t: QQ) -> Vector:
-    """The direction from the centroid of the vertices of b to that of a."""
+    """Return the direction from the centroid of the vertices of b to that of a."""
     (ax, ay), (bx, by) = (
         [sum((p[k] for p in body._at(t)), QQ(0)) / body.size for k in (0, 1)] for body in (a, b)
     )

@@ -31,7 +31,7 @@ GRID = power_of_two(-20)
 
 
 def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
-    """A body with a new motion from a time on.
+    """Return a body with a new motion from a time on.
 
     Args:
         body: the body with its current motion.
@@ -60,7 +60,7 @@ def planned(body: Body, plan: Motion | Body, t: QQ) -> Body:
 
 
 def _moves_on(body: Body, new: Body, t: QQ) -> bool:
-    """Whether a shape is translated, before and after a time, and by the same vector then."""
+    """Return True if a shape is translated before and after a time, by one vector there."""
     before, after = body._piece_after(t).motion, new._piece_after(t).motion
     return (
         body._shape is new._shape
@@ -71,7 +71,7 @@ def _moves_on(body: Body, new: Body, t: QQ) -> bool:
 
 
 def rounded(value: Rational, grid: Rational = GRID) -> QQ:
-    """The multiple of ``grid`` nearest to a number; the larger of two.
+    """Return the multiple of ``grid`` nearest to a number; the larger of two.
 
     Raises:
         InputError: if the grid is not positive.
@@ -85,7 +85,7 @@ def rounded(value: Rational, grid: Rational = GRID) -> QQ:
 def onward(
     body: Body, t: Rational, velocity: Sequence[Rational], *, grid: Rational = GRID
 ) -> Motion:
-    """The motion by which a body continues from its position with a new velocity.
+    """Return the motion by which a body continues from its position with a new velocity.
 
     The translation becomes linear; rotation or affine deformation continues unchanged. For a
     motion in pieces this applies to all pieces from t on.
@@ -114,7 +114,7 @@ def onward(
 
 
 def translation_at(body: Body, t: QQ) -> tuple[Polynomial, Polynomial]:
-    """The translational part of a body's motion just after a time."""
+    """Return the translational part of a body's motion just after a time."""
     motion = body.motion
     if isinstance(motion, Pieces):
         ends = [*motion._until, None]
@@ -124,7 +124,7 @@ def translation_at(body: Body, t: QQ) -> tuple[Polynomial, Polynomial]:
 
 
 def translation_velocity(body: Body, t: QQ | AlgebraicNumber) -> tuple[QQ, QQ]:
-    """The velocity that the motion's translation gives to every vertex just after a time.
+    """Return the velocity that the motion's translation gives to every vertex just after a time.
 
     Raises:
         InputError: if the time is irrational, and the velocity is not constant there.
@@ -156,7 +156,7 @@ def _translation(motion: SimpleMotion) -> tuple[Polynomial, Polynomial]:
 
 
 def _translated(motion: SimpleMotion, x: Polynomial, y: Polynomial) -> SimpleMotion:
-    """The same motion with another translation."""
+    """Return the same motion with another translation."""
     if isinstance(motion, Rigid):
         turned = motion._orientation
         return Rigid(motion.half_turn, pivot=motion._pivot, x=x, y=y, orientation=turned)

@@ -38,7 +38,7 @@ def stop(simulation: Simulation, contact: Contact) -> None:
 
 
 class _Push(NamedTuple):
-    """One direction in which the first body of a pair is pushed, the other one opposite.
+    """One direction in which the first body of a pair is pushed, the second in the opposite one.
 
     Attributes:
         pair: the pair.
@@ -127,7 +127,7 @@ class Bounce:
         simulation.set_motions(plans)
 
     def momentum(self, simulation: Simulation) -> tuple[Fraction, Fraction]:
-        """The momentum (x, y) now of all bodies that are not fixed, exactly.
+        """Return the momentum (x, y) now of all bodies that are not fixed, exactly.
 
         The velocity of a body is that of its translation: rotations and deformations, which
         contacts do not change, have no part in it.
@@ -141,12 +141,15 @@ class Bounce:
         return fraction(x), fraction(y)
 
     def kinetic_energy(self, simulation: Simulation) -> Fraction:
-        """The kinetic energy now, see `momentum`: m (vx^2 + vy^2) / 2, of all these bodies."""
+        """Return the kinetic energy of these bodies now, the sum of m (vx^2 + vy^2) / 2.
+
+        See `momentum` for the bodies.
+        """
         moving = self._moving(simulation)
         return fraction(sum((m * (x * x + y * y) / 2 for m, (x, y) in moving), QQ(0)))
 
     def _moving(self, simulation: Simulation) -> list[tuple[QQ, tuple[QQ, QQ]]]:
-        """The masses and velocities of all bodies that are not fixed."""
+        """Return the masses and velocities of all bodies that are not fixed."""
         return [
             (rational(self._masses.get(body.name, 1.0)), translation_velocity(body, simulation.now))
             for body in simulation.scene.bodies
@@ -228,7 +231,7 @@ class Bounce:
 
 
 def _velocities(pair: Pair, a: Body, b: Body, t: QQ) -> tuple[Vector, Vector]:
-    """The velocities of the vertex and of what it touches."""
+    """Return the velocities of the vertex and of the feature that it touches."""
     first = _velocity(a, pair.vertex, t)
     if pair.edge is None:
         return first, _velocity(b, pair.other_vertex or 0, t)
@@ -236,13 +239,13 @@ def _velocities(pair: Pair, a: Body, b: Body, t: QQ) -> tuple[Vector, Vector]:
 
 
 def _velocity(body: Body, vertex: int, t: QQ) -> Vector:
-    """The velocity of a vertex just after a time, in doubles."""
+    """Return the velocity of a vertex just after a time, in doubles."""
     x, y = body._piece_after(t).track(vertex).velocity(t)
     return nearest_float(x), nearest_float(y)
 
 
 def _velocity_beside(body: Body, edge: int, vertex: tuple[Body, int], t: QQ) -> Vector:
-    """The velocity of the point of an edge that is nearest to a vertex of a body."""
+    """Return the velocity of the point of an edge that is nearest to a vertex of a body."""
     if body._piece_after(t).translation is not None:
         return _translation_speed(body, t)
     points, end = body._at(t), body.end_of_edge(edge)
@@ -256,6 +259,6 @@ def _velocity_beside(body: Body, edge: int, vertex: tuple[Body, int], t: QQ) -> 
 
 
 def _translation_speed(body: Body, t: QQ) -> Vector:
-    """The velocity that the motion's translation gives to every vertex, in doubles."""
+    """Return the velocity that the motion's translation gives to every vertex, in doubles."""
     x, y = translation_velocity(body, t)
     return nearest_float(x), nearest_float(y)

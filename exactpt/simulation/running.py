@@ -90,7 +90,7 @@ class Run:
     def events(
         self, until: Rational | None, respond: Response | None, margin: Rational | None
     ) -> Iterator[Event]:
-        """The events up to and including a time, see `Simulation.run`."""
+        """Yield the events up to and including a time, see `Simulation.run`."""
         last = self.living.scene._end
         end = last if until is None else min(rational(until), last)
         grid = self.margin if margin is None else rational(margin)
@@ -115,7 +115,7 @@ class Run:
                     return None
 
     def step(self) -> list[Event]:
-        """The events of the next time at which there are any, see `Simulation.step`."""
+        """Return the events of the next time at which there are any, see `Simulation.step`."""
         with self.alone:
             while not self.pending and self.contact is None:
                 self._spend(0)
@@ -127,7 +127,7 @@ class Run:
             return events
 
     def to_contact(self) -> Contact | None:
-        """The first contact, see `Simulation.run_to_contact`."""
+        """Return the first contact, see `Simulation.run_to_contact`."""
         with self.alone:
             if self.contact is None:
                 self.check_whole()
@@ -245,7 +245,7 @@ class Run:
         """Change motions or bodies at a rational time, and report the events that this causes.
 
         Raises:
-            BudgetExceeded: if the time or memory is used up; the run cannot go on then.
+            BudgetExceeded: if the time or memory is used up; the run cannot continue.
             InputError: if the run has ended with a contact.
         """
         with self.alone:
@@ -269,7 +269,7 @@ class Run:
         return self.driver.reached() if self.contact is None else self.driver.passed()
 
     def rest(self) -> tuple[int | None, float | None, int | None]:
-        """The events, seconds and memory that are left, None for no limit."""
+        """Return the events, seconds and memory that are left, None for no limit."""
         return self._budget.rest()
 
     def _spend(self, events: int) -> None:
@@ -287,7 +287,7 @@ def begin(
     observers: Sequence[Observer] = (),
     log: Log | None = None,
 ) -> Run:
-    """The run of a scene from its start, see `exactpt.Simulation`."""
+    """Return the run of a scene from its start, see `exactpt.Simulation`."""
     with carrying(lambda: scene), budget.held():
         plan = plan_tiling(scene, tiling, scene._start)
         living = LivingScene(scene, None, Choice(tiling, plan.name, exact_only))

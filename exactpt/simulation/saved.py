@@ -53,10 +53,10 @@ of each kind; a planar map of n vertices has less than 6 n half-edges."""
 
 
 def tiling_to_json(kinetic: Tiling) -> Data:
-    """The state of a tiling between two events."""
+    """Return the state of a tiling between two events."""
     certifier, stats, vertices = kinetic.certifier, kinetic.stats, kinetic.vertices
     if certifier.now.exact is None:
-        certifier.resolve(certifier.now)  # the same file whether or not it was asked for before
+        certifier.resolve(certifier.now)  # the same file, whether or not it was computed before
     data: Data = {
         "kind": kinetic.name,
         "convex": kinetic.entry.is_for_convex,
@@ -85,7 +85,7 @@ def tiling_to_json(kinetic: Tiling) -> Data:
 
 
 def _rings_from_json(data: Data, bodies: Sequence[Body]) -> list[list[tuple[VertexId, int]]]:
-    """The ring of each body: ids, every one used once, each with its vertex in the scene."""
+    """Return the ring of each body: ids, every one used once, each with its vertex in the scene."""
     rings = [[(v, index) for v, index in body["ring"]] for body in data["bodies"]]
     ids = sorted([*(v for ring in rings for v, _ in ring), *data["free"]])
     if ids != list(range(len(ids))):
@@ -97,7 +97,7 @@ def _rings_from_json(data: Data, bodies: Sequence[Body]) -> list[list[tuple[Vert
 
 
 def tiling_from_json(data: Data, bodies: Sequence[Body], last: QQ, *, exact_only: bool) -> Tiling:
-    """The tiling with a saved state, for bodies with their motions, up to the ``last`` time.
+    """Return the tiling with a saved state, for bodies with their motions, up to the ``last`` time.
 
     Raises:
         InputError: if the state is of another time span, which the run would take for its own, or
@@ -140,7 +140,7 @@ def tiling_from_json(data: Data, bodies: Sequence[Body], last: QQ, *, exact_only
 
 
 def number_to_json(number: AlgebraicNumber) -> Data:
-    """An algebraic number with its current isolating interval."""
+    """Return an algebraic number with its current isolating interval."""
     return {
         "polynomial": [str(c) for c in number._polynomial],
         "low": str(number._low),
@@ -149,7 +149,7 @@ def number_to_json(number: AlgebraicNumber) -> Data:
 
 
 def number_from_json(data: Data) -> AlgebraicNumber:
-    """The number that `number_to_json` has written.
+    """Return the number that `number_to_json` has written.
 
     Raises:
         InputError: if the polynomial has not just one root in the interval: refinements of it
@@ -202,13 +202,13 @@ def _frame_from_json(data: Data) -> Frame:
 
 
 def event_from_json(data: Mapping[str, Any]) -> Event:
-    """The event that `Event.to_json` has written."""
+    """Return the event that `Event.to_json` has written."""
     removed, added = (tuple((u, v) for u, v in data[key]) for key in ("removed", "added"))
     return Event(number_from_json(data["time"]), data["kind"], removed, added)
 
 
 def contact_from_json(data: Mapping[str, Any]) -> Contact:
-    """The contact that `Contact.to_json` has written."""
+    """Return the contact that `Contact.to_json` has written."""
     pairs = tuple(
         Pair(
             pair["kind"],

@@ -24,7 +24,7 @@ __all__ = ["run_from_json", "run_to_json"]
 
 
 def run_to_json(run: Run, scene: object) -> Data:
-    """The state of a run, with a given representation of its scene.
+    """Return the state of a run, with a given representation of its scene.
 
     Raises:
         InputError: if the run was interrupted in the middle of an event.
@@ -53,7 +53,7 @@ def run_to_json(run: Run, scene: object) -> Data:
 
 
 def run_from_json(data: Data, scene: Scene, budget: Budget) -> Run:
-    """The run of a scene with a saved state."""
+    """Return the run of a scene with a saved state."""
     counts, exact_only = data["counts"], data["exact_only"]
     choice = Choice(data["tiling"], data["name"], exact_only)
     kinetic = data["state"] and tiling_from_json(
@@ -72,7 +72,7 @@ def run_from_json(data: Data, scene: Scene, budget: Budget) -> Run:
 
 
 def _met_to_json(met: Met | None, living: LivingScene) -> Data | None:
-    """The last contact with a response; None if it can no longer recur."""
+    """Return the last contact with a response; None if it can no longer recur."""
     if met is None or not met.may_recur(living):
         return None
     return {"time": number_to_json(met.time), "bodies": sorted(met.bodies)}

@@ -189,7 +189,7 @@ class Simulation:
         return self._run.step()
 
     def run_to_contact(self) -> Contact | None:
-        """The first contact in the time span, or None; the fastest way to find it.
+        """Return the first contact in the time span, or None; the fastest way to find it.
 
         Raises:
             BudgetExceeded: if ``max_events``, ``max_seconds`` or ``max_memory`` is exceeded.
@@ -225,7 +225,7 @@ class Simulation:
     # Changes of motions and bodies
 
     def body(self, name: str) -> Body:
-        """The body of a given name, with its current motion.
+        """Return the body of a given name, with its current motion.
 
         Raises:
             InputError: if there is none.
@@ -256,10 +256,10 @@ class Simulation:
     def add(self, body: Body) -> None:
         """Add a body at the current time, which must be rational; it becomes the last one.
 
-        Only the faces of the tiling that it meets are changed, after a walk to them; in the mixed
-        tiling also the geodesics of bodies in whose relative hulls it lies. The tiling of points is
-        rebuilt in O(n log n); so is the one for convex bodies, once, if the new body need not stay
-        convex.
+        Only the faces of the tiling that it intersects are changed, after a walk to them; in the
+        mixed tiling also the geodesics of bodies in whose relative hulls it lies. The
+        tiling of points is rebuilt in O(n log n); so is the one for convex bodies, once, if
+        the new body need not stay convex.
 
         Raises:
             InputError: if its name is taken, it is not simple, it touches another body, or now is
@@ -283,7 +283,7 @@ class Simulation:
     # Questions
 
     def space(self, at: Rational | None = None) -> FreeSpace:
-        """The free space at a time, for any number of queries; built in O(n log n).
+        """Return the free space at a time, for any number of queries; built in O(n log n).
 
         Args:
             at: a rational time, from now to before the next event; by default now.
@@ -299,7 +299,7 @@ class Simulation:
             return self._spaces.space(self._run.living.kinetic, at)
 
     def snapshot(self) -> Snapshot:
-        """The tiling at the current time, which must be rational.
+        """Return the tiling at the current time, which must be rational.
 
         Raises:
             InputError: see `space`.
@@ -312,45 +312,45 @@ class Simulation:
         return self.snapshot()
 
     def locate(self, point: PointLike) -> Place:
-        """The location of a point now, see `FreeSpace.locate`."""
+        """Return the location of a point now, see `FreeSpace.locate`."""
         return self.space().locate(point)
 
     def ray_cast(self, origin: PointLike, direction: PointLike) -> Hit | None:
-        """The first point of a ray that belongs to a body now, see `FreeSpace.ray_cast`."""
+        """Return the first point of a ray that belongs to a body now, see `FreeSpace.ray_cast`."""
         return self.space().ray_cast(origin, direction)
 
     def is_free(self, p: PointLike, q: PointLike) -> bool:
-        """Whether no body meets a segment now, see `FreeSpace.is_free`."""
+        """Return True if no body meets a segment now, see `FreeSpace.is_free`."""
         return self.space().is_free(p, q)
 
     def path(self, start: PointLike, goal: PointLike) -> answers.Path:
-        """A shortest path of its homotopy class now, see `FreeSpace.path`."""
+        """Return a shortest path of its homotopy class now, see `FreeSpace.path`."""
         return self.space().path(start, goal)
 
     def shortest_path(self, start: PointLike, goal: PointLike) -> answers.Path:
-        """A shortest path of all now, see `FreeSpace.shortest_path`."""
+        """Return a shortest path of all now, see `FreeSpace.shortest_path`."""
         return self.space().shortest_path(start, goal)
 
     def shorten(self, walk: Sequence[PointLike]) -> answers.Path:
-        """The shortest path homotopic to a polyline now, see `FreeSpace.shorten`."""
+        """Return the shortest path homotopic to a polyline now, see `FreeSpace.shorten`."""
         return self.space().shorten(walk)
 
     def hull(self) -> list[VertexName]:
-        """The vertices on the convex hull of all bodies now, see `FreeSpace.hull`."""
+        """Return the vertices on the convex hull of all bodies now, see `FreeSpace.hull`."""
         return self.space().hull()
 
     def relative_hull(self, body: str) -> list[VertexName]:
-        """The shortest loop around a body now, see `FreeSpace.relative_hull`."""
+        """Return the shortest loop around a body now, see `FreeSpace.relative_hull`."""
         return self.space().relative_hull(body)
 
     def neighbours(self, body: str) -> list[str]:
-        """The bodies connected to a body by a diagonal now, see `FreeSpace.neighbours`."""
+        """Return the bodies connected to a body by a diagonal now, see `FreeSpace.neighbours`."""
         return self.space().neighbours(body)
 
     # The past
 
     def history(self) -> History:
-        """The whole run so far; ``history().scene()`` is it as one exact scene.
+        """Return the whole run so far; ``history().scene()`` is it as one exact scene.
 
         Raises:
             InputError: if the run is not remembered (``record=True``).
@@ -370,17 +370,17 @@ class Simulation:
             theme: "light", "dark" or "auto" (the reader's preference; PNG and films: light).
 
         Raises:
-            InputError: if the suffix is another one, a library is missing, the run is not
+            InputError: if the suffix is unknown, a library is missing, the run is not
                 remembered, or no time has passed.
         """
         extension("drawing of a simulation")(self, Path(path), theme=theme)
 
     def _repr_html_(self) -> str | None:
-        """The animation of a remembered run, for notebooks; None: there is a picture instead."""
+        """Return the animation of a recorded run, for notebooks; None if there is a picture."""
         return None if self._run.log is None else extension("player of a simulation")(self)
 
     def _repr_svg_(self) -> str:
-        """A picture of the tiling at the current time, or of the contact, for notebooks."""
+        """Return a picture of the tiling at the current time, or of the contact, for notebooks."""
         return str(extension("picture of a simulation")(self))
 
     # Saving and copying
@@ -409,7 +409,7 @@ class Simulation:
         max_memory: int | None = None,
         max_bytes: int | None = None,
     ) -> Simulation:
-        """The simulation that `save` has written.
+        """Return the simulation that `save` has written.
 
         Args:
             path: the file.
@@ -420,7 +420,7 @@ class Simulation:
 
         Raises:
             InputError: if it is not a saved simulation, has been changed since (its checksum
-                is another one), or is one of another version.
+                differs), or is of another version.
         """
         from exactpt.simulation.store import reading, scene_from_json
 
@@ -429,7 +429,7 @@ class Simulation:
             return _resumed(data, scene, max_events, max_seconds, max_memory)
 
     def copy(self) -> Simulation:
-        """An independent copy of the simulation, in memory.
+        """Return an independent copy of the simulation, in memory.
 
         The same events follow in both. The rest of the bounds is copied too.
         `copy.copy`, `copy.deepcopy` and `pickle` give the same result.
@@ -437,7 +437,7 @@ class Simulation:
         return copy(self)
 
     def to_json(self) -> dict[str, object]:
-        """The JSON data that `save` writes."""
+        """Return the JSON data that `save` writes."""
         from exactpt.simulation.saved_run import run_to_json
         from exactpt.simulation.store import sealed
 
@@ -458,7 +458,7 @@ def _resumed(
     max_seconds: float | None,
     max_memory: int | None = None,
 ) -> Simulation:
-    """The simulation of a scene, with the state that `Simulation.to_json` has written."""
+    """Return the simulation of a scene, with the state that `Simulation.to_json` has written."""
     from exactpt.simulation.saved_run import run_from_json
 
     self = Simulation.__new__(Simulation)

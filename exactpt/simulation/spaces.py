@@ -17,7 +17,7 @@ __all__ = ["SpaceCache"]
 
 @final
 class SpaceCache:
-    """The last free space that was asked for, kept until time passes or bodies change.
+    """The last requested free space, kept until time passes or bodies change.
 
     Either gives the tiling a new `EventTime` as its current time.
     """
@@ -27,7 +27,7 @@ class SpaceCache:
         self._space: FreeSpace | None = None
 
     def space(self, kinetic: Tiling, at: Rational | None) -> FreeSpace:
-        """The free space at a time, see `Simulation.space`."""
+        """Return the free space at a time, see `Simulation.space`."""
         t = _now(kinetic) if at is None else _before_next_event(kinetic, rational(at))
         now = kinetic.certifier.now
         if self._space is None or self._now is not now or self._space._at != t:

@@ -24,7 +24,7 @@ WIDTH: Final = 100
 
 
 def sealed(data: Mapping[str, object]) -> dict[str, object]:
-    """The data with version and checksum: the SHA-256 of the data as JSON without spaces."""
+    """Return the data with version and checksum: the SHA-256 of the data as JSON without spaces."""
     return {"exactpt-simulation": VERSION, "sha256": _checksum(data), **data}
 
 
@@ -54,7 +54,7 @@ def _text(value: object, indent: str) -> str:
 
 
 def scene_from_json(data: Mapping[str, Any]) -> Scene:
-    """The scene in the data of a file."""
+    """Return the scene in the data of a file."""
     return loads(json.dumps(data))
 
 

@@ -22,13 +22,13 @@ def tile_at(
     max_events: int | None = None,
     max_seconds: float | None = None,
 ) -> Snapshot:
-    """The tiling at a time in the span of the scene.
+    """Return the tiling at a time in the span of the scene.
 
     Args:
         scene: the scene.
         at: the rational time.
         tiling: the name of the tiling, or "auto".
-        by_running: whether to run from the start to that time; otherwise it is built then.
+        by_running: whether to run from the start to that time; otherwise it is built at that time.
         max_events: see `Simulation`.
         max_seconds: see `Simulation`.
 

@@ -51,7 +51,7 @@ class Subject(Generic[Q]):
         make: returns the question of a family, a seed and a number.
         truths: returns the truths of questions, in their order.
         shrink: returns a smaller question for which a condition on it and its truth still holds.
-        imports: what a pytest file imports from the testing kit.
+        imports: the names that a pytest file imports from the testing kit.
         assertion: the assertion of a pytest file, with a place for the tolerance.
     """
 
@@ -79,10 +79,10 @@ CHUNK: Final = 1000
 @final
 @dataclass(frozen=True, slots=True)
 class Counterexample(Generic[Q]):
-    """A question that is answered wrong, shrunken.
+    """A question with a wrong answer, shrunken.
 
     Attributes:
-        verdict: what is wrong: "missed", "invented", "early", "late" or "crashed".
+        verdict: the kind of error: "missed", "invented", "early", "late" or "crashed".
         question: the question; its ``name`` is that of the question that was shrunken.
         answer: the wrong answer, or the exception.
         truth: the right one.
@@ -120,11 +120,11 @@ class Report(Generic[Q]):
 
     @property
     def ok(self) -> bool:
-        """Whether all answers are right."""
+        """True if all answers are right."""
         return self.table.ok
 
     def pytest_file(self) -> str:
-        """The text of a pytest file with a test for each counterexample."""
+        """Return the text of a pytest file with a test for each counterexample."""
         known = self._module != "__main__" and self._function.isidentifier()
         imported = f"from {self._module} import {self._function} as toi"
         other = "from my_module import toi  # the place of your function"
@@ -174,14 +174,14 @@ def check(
         cases: the number of questions, dealt to the families in turn.
         seed: the seed of the questions.
         families: names of `FAMILIES`; all if not given.
-        tolerance: the largest error of a time that is none. It forgives no contact that is
+        tolerance: the largest error of a time that counts as right. It forgives no contact that is
             missed or invented, however near.
         accept: the domain of ``toi``: True for the questions that it is made for, such as
             ``lambda question: question.convex and question.time[0] == 0``. It gets no other one,
             also while a counterexample is shrunken; a family without such questions is left out.
 
     Raises:
-        InputError: if ``toi`` is no function, there is no such family, the tolerance or the
+        InputError: if ``toi`` is not a function, there is no such family, the tolerance or the
             number of questions is negative, or ``accept`` refuses all questions.
     """
     return check_subject(_PLANE, toi, cases, seed, families, tolerance, accept)

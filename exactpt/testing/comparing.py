@@ -33,7 +33,7 @@ Answer: TypeAlias = "Rational | AlgebraicNumber | Mapping[str, object] | Contact
 
 
 def bound(tolerance: Rational) -> QQ:
-    """A tolerance as a rational.
+    """Return a tolerance as a rational.
 
     Raises:
         InputError: if it is negative, or no number.
@@ -45,7 +45,7 @@ def bound(tolerance: Rational) -> QQ:
 
 
 def verdict(time: AlgebraicNumber | None, answer: object, tolerance: QQ) -> str:
-    """One of `VERDICTS` about a time, or None for no contact; "crashed" if it is neither."""
+    """Return one of `VERDICTS` about a time, or None for no contact; "crashed" if it is neither."""
     if answer is None:
         return "right" if time is None else "missed"
     try:
@@ -67,7 +67,7 @@ def assert_same_contact(scene: Scene, answer: Answer, *, tolerance: Rational = T
         answer: None for no contact, or the time. Or a contact, also as JSON (docs/format.md):
             then each of its pairs has to be an incidence of the true contact; "point" and
             "normal" are not compared.
-        tolerance: the largest error of the time that is none.
+        tolerance: the largest error of the time that still counts as right.
 
     Raises:
         AssertionError: one line: missed, invented, early, late, or the wrong witness, and the
@@ -102,7 +102,7 @@ def assert_same_contact(scene: Scene, answer: Answer, *, tolerance: Rational = T
 
 
 def shown_time(time: AlgebraicNumber) -> str:
-    """An exact time in words."""
+    """Return an exact time in words."""
     if time.is_rational:
         return str(time._low)
     return f"{float(time)!r}, a root of {list(time.polynomial)}"
@@ -118,7 +118,7 @@ def _shown(truth: Contact | None) -> str:
 
 
 def _features(pair: Mapping[str, object]) -> frozenset[tuple[object, ...]]:
-    """The two features of an incidence, in no order."""
+    """Return the two features of an incidence, in no order."""
     return frozenset(_feature(pair.get(side)) for side in ("a", "b"))
 
 

@@ -23,16 +23,16 @@ NO_ANSWER: Final = object()
 def judged(
     answers: Iterable[bytes], asked: dict[Name, Asked] | None, tolerance: Rational
 ) -> tuple[Table, list[str]]:
-    """The table of answers, and a line for each wrong one.
+    """Return the table of answers, and a line for each wrong one.
 
     Args:
         answers: lines of JSON with "id" and "time", see docs/testing.md.
         asked: the questions by id, of which those without an answer count as crashed; None for
             the questions of `make_question` that the ids name.
-        tolerance: the largest error of a time that is none.
+        tolerance: the largest error of a time that still counts as right.
 
     Raises:
-        InputError: if a line is no answer, or answers no question or one a second time; or if
+        InputError: if a line is not an answer, or answers no question or one a second time; or if
             the tolerance is negative.
     """
     exact = bound(tolerance)
@@ -66,10 +66,10 @@ def judged(
 
 
 def questions_in(lines: Sequence[bytes]) -> dict[Name, Asked]:
-    """The questions of lines of JSON, by id; the number of the line if it has none.
+    """Return the questions of lines of JSON, by id; the number of the line if it has none.
 
     Raises:
-        InputError: if a line is no question, or two have one id.
+        InputError: if a line is not a question, or two have one id.
     """
     asked: dict[Name, Asked] = {}
     for number, line in enumerate(lines, 1):
@@ -86,7 +86,7 @@ def questions_in(lines: Sequence[bytes]) -> dict[Name, Asked]:
 
 
 def _named(name: Name) -> Asked:
-    """The question that `make_question` has named so."""
+    """Return the question that `make_question` has named so."""
     family, *rest = str(name).split(":")
     if family not in FAMILIES or len(rest) != 2:
         raise InputError(f"no question of a family: {shorten(name)} (name the questions)")
@@ -103,7 +103,7 @@ def _family(name: Name) -> str:
 
 
 def _answer(data: dict[str, object]) -> tuple[Name, object]:
-    """The id of an answer, and its time, None for no contact, or `NO_ANSWER`."""
+    """Return the id of an answer, and its time, None for no contact, or `NO_ANSWER`."""
     name = data.get("id")
     if isinstance(name, bool) or not isinstance(name, str | int):
         raise InputError(f'"id": neither a text nor an integer: {shorten(name)}')

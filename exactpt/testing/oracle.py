@@ -35,7 +35,7 @@ class Refusals:
 
 
 def batches(stream: BinaryIO, longest: int | None = None) -> Iterator[list[bytes]]:
-    """The lines of a stream, as many at a time as have come: it never waits with lines in hand.
+    """Yield all complete lines read so far; never block while any are buffered.
 
     Args:
         stream: the stream, which has a file descriptor.
@@ -64,17 +64,17 @@ def batches(stream: BinaryIO, longest: int | None = None) -> Iterator[list[bytes
 
 
 def _next_piece(stream: BinaryIO) -> bytes:
-    """What has come; waits for it. Empty at the end."""
+    """Return the next bytes, and wait for them; empty at the end."""
     return os.read(stream.fileno(), PIECE)
 
 
 def _has_more(stream: BinaryIO) -> bool:
-    """Whether more has come; false on Windows, where only sockets can tell."""
+    """Return True if more has come; false on Windows, where only sockets can tell."""
     return sys.platform != "win32" and bool(select.select([stream], [], [], 0)[0])
 
 
 def answers(lines: Sequence[bytes], first: int, refusals: Refusals) -> Iterator[str]:
-    """The answers to lines of questions, each a line of JSON; empty lines have none.
+    """Yield the answers to lines of questions, each a line of JSON; empty lines have none.
 
     Args:
         lines: the questions.
@@ -134,7 +134,7 @@ def _read(line: bytes) -> tuple[Name, Asked | SpaceQuery]:
 
 
 def _each(asked: Sequence[Asked]) -> list[Truth | InputError]:
-    """The truth of each question, or why it has none: halves are asked again without the others."""
+    """Return the answer of each question, or the reason why there is none, by halves."""
     try:
         return [*truths(asked)]
     except InputError as error:

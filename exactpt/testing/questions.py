@@ -52,7 +52,7 @@ class Moving:
         return x[1] if len(x) > 1 else 0.0, y[1] if len(y) > 1 else 0.0
 
     def to_json(self) -> dict[str, object]:
-        """The body as a JSON object, see docs/testing.md."""
+        """Return the body as a JSON object, see docs/testing.md."""
         data: dict[str, object] = {"vertices": [list(v) for v in self.vertices]}
         if self.x or self.y:
             data["motion"] = {"x": list(self.x), "y": list(self.y)}
@@ -95,12 +95,12 @@ class Question:
 
     @property
     def polygons(self) -> bool:
-        """Whether both bodies are polygons: neither points, segments nor open chains."""
+        """True if both bodies are polygons: neither points, segments nor open chains."""
         return all(body.closed and len(body.vertices) > 2 for body in (self.a, self.b))
 
     @property
     def convex(self) -> bool:
-        """Whether both bodies are strictly convex polygons."""
+        """True if both bodies are strictly convex polygons."""
         return self.polygons and _is_convex(self.a) and _is_convex(self.b)
 
     @property
@@ -110,10 +110,10 @@ class Question:
 
     @classmethod
     def from_scene(cls, scene: Scene, name: Name = None) -> Question:
-        """The question about the two bodies of a scene.
+        """Return the question about the two bodies of a scene.
 
         Raises:
-            InputError: if there are not two, one does not translate, or a number is no double.
+            InputError: if there are not two, one does not translate, or a number is not a double.
         """
         if len(scene.bodies) != 2:
             raise InputError(f"a question is about two bodies, not {len(scene.bodies)}")
@@ -122,10 +122,10 @@ class Question:
 
     @classmethod
     def from_json(cls, data: Mapping[str, object]) -> Question:
-        """The question of a JSON object, see docs/testing.md.
+        """Return the question of a JSON object, see docs/testing.md.
 
         Raises:
-            InputError: one line that says what is wrong.
+            InputError: one line that names the fault.
         """
         question = _asked(dict(data))
         if not isinstance(question, Question):
@@ -133,7 +133,7 @@ class Question:
         return question
 
     def to_json(self) -> dict[str, object]:
-        """The question as a JSON object, see docs/testing.md."""
+        """Return the question as a JSON object, see docs/testing.md."""
         name = {} if self.name is None else {"id": self.name}
         bodies = {"a": self.a.to_json(), "b": self.b.to_json()}
         return {**name, "time": list(self.time), **bodies}
@@ -144,17 +144,17 @@ Asked: TypeAlias = Question | Scene
 
 
 def read_question(text: str | bytes) -> tuple[Name, Asked]:
-    """The id and the question in a line of JSON.
+    """Return the id and the question in a line of JSON.
 
     Raises:
-        InputError: one line that says what is wrong.
+        InputError: one line that names the fault.
     """
     data = objects(text)
     return id_of(data), _asked(data)
 
 
 def objects(text: str | bytes) -> dict[str, object]:
-    """The JSON object of a line.
+    """Return the JSON object of a line.
 
     Raises:
         InputError: if it is none, a key is there twice, or a number is not finite.
@@ -171,7 +171,7 @@ def objects(text: str | bytes) -> dict[str, object]:
 
 
 def double(value: object, where: str) -> float:
-    """The double that a JSON number means, or a text: decimal, or hexadecimal as in C.
+    """Return the double that a JSON number means, or a text: decimal, or hexadecimal as in C.
 
     A decimal means the nearest double.
 
@@ -222,7 +222,7 @@ def id_of(data: dict[str, object]) -> Name:
 
 
 def _translates(body: object) -> bool:
-    """Whether a body has the keys of one that translates; else the format of scenes judges it."""
+    """Return True if a body has the keys of a body that translates."""
     if not isinstance(body, dict) or not _BODY.issuperset(body):
         return False
     motion, vertices = body.get("motion", {}), body.get("vertices")
@@ -259,7 +259,7 @@ def _doubles(values: object, where: str) -> Doubles:
 
 
 def _exactly(body: object, where: str) -> dict[str, object]:
-    """A body in which every double is written as the rational that it is."""
+    """Return a body in which every double is written as the rational that it is."""
     if not isinstance(body, dict):
         raise InputError(f"{where}: not a body: {shorten(body)}")
     return {key: _rationals(value, f"{where}: {shorten(key)}") for key, value in body.items()}

@@ -32,14 +32,14 @@ Path: TypeAlias = tuple[str | int, ...]
 
 
 def shrink(scene: Scene, fails: Callable[[Scene], bool], *, seconds: float = 60.0) -> Scene:
-    """The smallest scene found for which something still fails.
+    """Return the smallest scene found for which something still fails.
 
     Fewer bodies, a shorter span, fewer vertices, simpler motions, rounder numbers: each is kept
-    if ``fails`` is true of the scene then.
+    if ``fails`` is true of the scene without it.
 
     Args:
         scene: a scene for which ``fails`` is true.
-        fails: whether a scene fails. It is asked about valid scenes alone.
+        fails: whether a scene fails. It is called with valid scenes only.
         seconds: time limit; the search ends by itself, too.
 
     Raises:
@@ -61,7 +61,7 @@ def shrink(scene: Scene, fails: Callable[[Scene], bool], *, seconds: float = 60.
 def shrink_question(
     question: Question, fails: Callable[[Question, Truth], bool], *, seconds: float = 60.0
 ) -> Question:
-    """The smallest question found for which something still fails.
+    """Return the smallest question found for which something still fails.
 
     A polygon stays one, and the kind of the true contact stays, too: otherwise most shrink to two
     points that touch at the start, which is another fault.
@@ -97,7 +97,7 @@ def shrink_data(
     seconds: float,
     steps: Sequence[Callable[[Data], Iterator[Data]]] = (),
 ) -> Data:
-    """The smallest scene found in time for which ``fails`` holds; it must hold for ``data``.
+    """Return the smallest scene found in time for which ``fails`` holds; it must hold for ``data``.
 
     Other data than scenes have their own ``steps``, which yield candidates.
     """
@@ -131,14 +131,14 @@ def _size(data: Data) -> tuple[int, int, int, int]:
 
 
 def _weight(text: str) -> int:
-    """The complexity of a number; 0 for 0."""
+    """Return the complexity of a number; 0 for 0."""
     q = Fraction(text)
     bits = 4 * (q.numerator.bit_length() + q.denominator.bit_length() - 1)
     return bits + (q < 0) + min(abs(q.numerator), 3)
 
 
 def _without(items: Sequence[Data]) -> Iterator[list[Data]]:
-    """The items without one half, one quarter, ..., one of them."""
+    """Yield the items without one half, one quarter, ..., one of them."""
     width = len(items) // 2
     while width:
         for start in range(0, len(items), width):
@@ -147,7 +147,7 @@ def _without(items: Sequence[Data]) -> Iterator[list[Data]]:
 
 
 def _changed(data: Data, path: Path, value: Data) -> Data:
-    """A copy with another value at a path."""
+    """Return a copy with another value at a path."""
     result = copy.deepcopy(data)
     _at(result, path[:-1])[path[-1]] = value
     return result
@@ -183,7 +183,7 @@ def _fewer_vertices(data: Data) -> Iterator[Data]:
 
 
 def _rings(body: Data) -> Iterator[Path]:
-    """The paths of the rings of vertices in a body."""
+    """Yield the paths of the rings of vertices in a body."""
     parts: list[Path] = [("parts", k) for k in range(len(body.get("parts", ())))]
     for path in parts or ([()] if "vertices" in body else []):
         part = _at(body, path)
@@ -292,7 +292,7 @@ _STEPS: Final = (
 
 
 def _numbers(data: Data) -> Iterator[Path]:
-    """The paths of all numbers: of all texts except names."""
+    """Yield the paths of all numbers: of all texts except names."""
     for path in _paths(data):
         if isinstance(_at(data, path), str) and path[-1] != "name":
             yield path

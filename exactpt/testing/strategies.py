@@ -8,7 +8,7 @@
 ...     assert question.scene.bodies[0].name == "a"
 >>> test()
 
-All numbers are doubles, and mean exactly what they say. Hypothesis shrinks what is drawn; so does
+All numbers are doubles, taken at their exact values. Hypothesis shrinks what is drawn; so does
 `exactpt.testing.shrink`, if it is a scene.
 """
 
@@ -83,7 +83,7 @@ def motions(*, degree: int = 1, turning: bool = False) -> SearchStrategy[Transla
 def pairs_in_motion(family: str | None = None) -> SearchStrategy[Question]:
     """Questions about two bodies that translate.
 
-    Those of a family are drawn by their numbers, which their names tell.
+    Those of a family are drawn by their numbers, which are in their names.
 
     Args:
         family: one of `exactpt.testing.FAMILIES`, most of which are degenerate: grazes, slides,
@@ -148,7 +148,7 @@ def _hull(points: Outline) -> Outline:
 
 
 def _monotone(points: Outline) -> Outline:
-    """The polygon of two chains, below and above the line from the leftmost to the rightmost point.
+    """Return the polygon of two chains, below and above the line of its extreme points.
 
     Each is ordered by x, then by y: so neither chain touches itself, and one is below the other.
     """

@@ -35,11 +35,11 @@ class Table:
 
     @property
     def ok(self) -> bool:
-        """Whether all answers are right."""
+        """True if all answers are right."""
         return all(row["right"] == sum(row.values()) for row in self.rows.values())
 
     def to_json(self) -> dict[str, object]:
-        """The table as a JSON object."""
+        """Return the table as a JSON object."""
         return {"families": {f: dict(row) for f, row in self.rows.items()}, "total": self.total}
 
     def __str__(self) -> str:

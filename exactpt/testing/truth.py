@@ -35,14 +35,14 @@ class Truth(NamedTuple):
     pair: dict[str, object] | None = None
 
     def to_json(self) -> dict[str, object]:
-        """The truth as a JSON object, see docs/testing.md."""
+        """Return the truth as a JSON object, see docs/testing.md."""
         if self.time is None:
             return {"time": None}
         return {"time": self.time.to_json(), "kind": self.kind, "pair": self.pair}
 
 
 def truths(questions: Sequence[Asked]) -> list[Truth]:
-    """The truths of questions, in their order.
+    """Return the truths of questions, in their order.
 
     Raises:
         InputError: if a span is empty, or a body is not simple.
@@ -53,7 +53,7 @@ def truths(questions: Sequence[Asked]) -> list[Truth]:
 
 
 def truth_of(asked: Asked) -> Truth:
-    """The truth of one question.
+    """Return the truth of one question.
 
     Raises:
         InputError: see `truths`.
@@ -79,7 +79,7 @@ def _by_arrays(questions: Sequence[Asked]) -> Iterator[Truth]:
 
 
 def contacts_of(asked: Sequence[Question]) -> Contacts:
-    """The first contacts of some questions, at least one, in arrays."""
+    """Return the first contacts of some questions, at least one, in arrays."""
     bodies = [body for q in asked for body in (q.a, q.b)]
     size = max(2, *(max(len(m.x), len(m.y)) for m in bodies))
     coefficients = np.zeros((len(bodies), 2, size))
@@ -97,7 +97,7 @@ def contacts_of(asked: Sequence[Question]) -> Contacts:
 
 
 def _answer(question: Question, contacts: Contacts, k: int) -> Truth:
-    """The truth of a question that arrays have answered, with the exact time."""
+    """Return the truth of a question by arrays, with the exact time."""
     kind = KINDS[contacts.kind[k]]
     if kind == "initial":
         return Truth(AlgebraicNumber(question.time[0]), kind, first_pair(contacts, k))
@@ -119,7 +119,7 @@ def first_pair(contacts: Contacts, k: int) -> dict[str, object] | None:
 
 
 def _time(question: Question, contacts: Contacts, k: int) -> AlgebraicNumber | None:
-    """The time as the one root of the first incidence's polynomial in the enclosure of arrays.
+    """Return the time as the root of the first incidence's polynomial in the enclosure.
 
     None if it is not clear that there is one.
     """
@@ -131,7 +131,7 @@ def _time(question: Question, contacts: Contacts, k: int) -> AlgebraicNumber | N
 
 
 def root_between(f: Sequence[int], low: QQ, high: QQ) -> AlgebraicNumber | None:
-    """The one root between two bounds of an integer polynomial, the constant first.
+    """Return the one root between two bounds of an integer polynomial, the constant first.
 
     There is at least one. None if it is not clear that there is one only: a quadratic has exactly
     one root between two places where its signs are opposite, and one in all if its discriminant
@@ -153,7 +153,7 @@ def root_between(f: Sequence[int], low: QQ, high: QQ) -> AlgebraicNumber | None:
 
 
 def _incidence(mover: Moving, other: Moving, contacts: Contacts, k: int) -> Polynomial:
-    """A polynomial that vanishes at the time of the first incidence."""
+    """Return a polynomial that vanishes at the time of the first incidence."""
     edge = int(contacts.edge[k])
     at = edge if edge >= 0 else int(contacts.other_vertex[k])
     v, p = mover.vertices[contacts.vertex[k]], other.vertices[at]

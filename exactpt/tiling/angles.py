@@ -160,7 +160,7 @@ class CertifiedMesh:
         return vanishes
 
     def _skip(self, h: HalfEdge) -> None:
-        """Cancel the certificate of an angle that cannot fail; if asked for, check its mark.
+        """Cancel the certificate of an angle that cannot fail; optionally check its mark.
 
         A rigid angle keeps its sign, so its mark can be wrong only if the angle is new, in the
         midst of simultaneous repairs.
@@ -175,13 +175,13 @@ class CertifiedMesh:
                 self.table.angles.add(h)
 
     def _cannot_fail(self, h: HalfEdge, a: VertexId, p: VertexId, b: VertexId) -> bool:
-        """Whether the angle of h, at p between a and b, needs no certificate of its own."""
+        """Return True if the angle of h, at p between a and b, needs no certificate of its own."""
         if a == b or self._shares_certificate(h):
             return True
         return self.certifier.rigid(a, p, b)
 
     def _shares_certificate(self, h: HalfEdge) -> bool:
-        """Whether the angle belongs to a triangle whose certificate is that of another angle."""
+        """Return True if the angle's triangle is certified at another angle."""
         if not self.mesh.corner[h]:
             return False
         m = self.mesh.map
@@ -270,23 +270,23 @@ class CertifiedMesh:
     # Angles
 
     def angle(self, h: HalfEdge) -> Triple:
-        """The three vertices of the angle of h, its apex in the middle."""
+        """Return the three vertices of the angle of h, its apex in the middle."""
         m = self.mesh.map
         return m.origin[m.previous[h]], m.origin[h], m.origin[h ^ 1]
 
     def vertices_of(self, h: HalfEdge) -> tuple[Vertex, Vertex, Vertex]:
-        """The three moving vertices of the angle of h, its apex in the middle."""
+        """Return the three moving vertices of the angle of h, its apex in the middle."""
         a, p, b = self.angle(h)
         v = self.vertices.all
         return v[a], v[p], v[b]
 
     def is_triangle(self, h: HalfEdge) -> bool:
-        """Whether the face on the left of h has three edges."""
+        """Return True if the face on the left of h has three edges."""
         m = self.mesh.map
         return m.following[m.following[m.following[h]]] == h
 
     def collinear_run(self, h: HalfEdge) -> set[VertexId]:
-        """The vertices of an angle, extended on both sides along flat angles."""
+        """Return the vertices of an angle, extended on both sides along flat angles."""
         m = self.mesh.map
         run = set(self.angle(h))
         for step in (m.following, m.previous):
@@ -297,14 +297,14 @@ class CertifiedMesh:
         return run
 
     def has_flats(self, h: HalfEdge) -> bool:
-        """Whether an angle may be next to a flat one."""
+        """Return True if an angle may be next to a flat one."""
         m = self.mesh.map
         return (
             bool(self.table.flat) or self._is_flat(m.following[h]) or self._is_flat(m.previous[h])
         )
 
     def _is_flat(self, h: HalfEdge) -> bool:
-        """Whether the angle of h is flat; a flat angle of one rigid body is not in the table."""
+        """Return True if the angle of h is flat (of one rigid body it is not in the table)."""
         a, p, b = self.angle(h)
         return h in self.table.flat or (
             a != b and self.certifier.rigid(a, p, b) and self.after().sign(a, p, b) == 0
@@ -313,10 +313,10 @@ class CertifiedMesh:
     # Bodies
 
     def ring_angles(self, i: int) -> list[HalfEdge]:
-        """The half-edges out of the vertices of a body: the stars of its vertices."""
+        """Return the half-edges out of the vertices of a body: the stars of its vertices."""
         m, ring_edge = self.mesh.map, self.mesh.ring_edge
         return [h for v in self.vertices.bodies[i].ring for h in m.star(ring_edge[v])]
 
     def edges_at(self, i: int) -> list[HalfEdge]:
-        """One half-edge, the even one, of every edge at the vertices of a body."""
+        """Return one half-edge, the even one, of every edge at the vertices of a body."""
         return list(dict.fromkeys(min(h, twin(h)) for h in self.ring_angles(i)))

@@ -53,7 +53,7 @@ class Entry(NamedTuple):
 
     @property
     def is_for_convex(self) -> bool:
-        """Whether it is for convex bodies alone; its name may be that of another one too."""
+        """True if it is for convex bodies alone; another tiling may have the same name."""
         return self.bodies is Bodies.CONVEX
 
 
@@ -82,12 +82,12 @@ ENTRIES: Final = [
 
 
 def known() -> list[str]:
-    """All that can be asked for."""
+    """Return all names that a user may give."""
     return list(dict.fromkeys([AUTO, *(entry.name for entry in ENTRIES)]))
 
 
 def names(*, points: bool) -> list[str]:
-    """The names of the tilings of any bodies; of points alone too, if there are but such."""
+    """Return the names of the tilings of any bodies; of points alone too, if there are but such."""
     kinds = (Bodies.CONVEX, Bodies.ANY, *([Bodies.POINTS] if points else []))
     found = [entry for kind in kinds for entry in ENTRIES if entry.bodies is kind]
     return list(dict.fromkeys(entry.name for entry in found))
@@ -96,12 +96,12 @@ def names(*, points: bool) -> list[str]:
 def choose(
     name: str, *, points: bool, convex: Callable[[], bool], fewest_events: bool = False
 ) -> Entry:
-    """The tiling with a name that is for the bodies; by "auto" the first one that is.
+    """Return the tiling with a name that is for the bodies; by "auto" the first one that is.
 
     Args:
         name: one of `names`, or `AUTO`.
         points: whether the bodies are points alone.
-        convex: whether they stay convex; asked only if it matters.
+        convex: whether they stay convex; called only if it matters.
         fewest_events: whether by "auto" only tilings with the fewest events are meant.
 
     Raises:
@@ -119,7 +119,7 @@ def choose(
 
 
 def find(name: str, *, convex: bool) -> Entry:
-    """The tiling of a saved run.
+    """Return the tiling of a saved run.
 
     Args:
         name: its name.
@@ -134,5 +134,5 @@ def has_convex_rules(name: str) -> bool:
 
 
 def with_relative_hulls() -> Entry:
-    """The first tiling of any bodies whose mesh contains their relative hulls."""
+    """Return the first tiling of any bodies whose mesh contains their relative hulls."""
     return next(e for e in ENTRIES if e.has_relative_hulls and e.bodies is Bodies.ANY)

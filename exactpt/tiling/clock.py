@@ -39,7 +39,7 @@ class Clock:
         self._until: tuple[QQ, float] = (certifier.end, frame.time(certifier.end)[0])
 
     def next_number(self) -> AlgebraicNumber | None:
-        """The exact time of the next failure; None if there is none."""
+        """Return the exact time of the next failure; None if there is none."""
         popped = self.table.pending.pop()
         if popped is None:
             return None
@@ -49,7 +49,7 @@ class Clock:
         return number
 
     def is_after(self, t: QQ) -> bool:
-        """Whether now is after a rational time; exactly, but for most times by enclosures."""
+        """Return True if now is after a rational time; exact, mostly by enclosures."""
         low, high = self._frame.time(t)
         if self.certifier.now_low > high:
             return True
@@ -124,7 +124,7 @@ class Clock:
             yield rational_between(now, AlgebraicNumber(now._high + width / 2))
 
     def end_of_piece(self, moving: MovingBody) -> EventTime | None:
-        """The end of a body's current piece of motion; None if it is after the time span."""
+        """Return the end of a body's current piece of motion; None if it is after the time span."""
         if moving.until is None or moving.until > self.certifier.end:
             return None
         low, high = self._frame.time(moving.until)

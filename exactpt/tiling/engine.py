@@ -90,7 +90,7 @@ class Engine(Tiling):
         self.stats.most = max(self.stats.most, self.certified.certify_everything())
 
     def state(self) -> State:
-        """The flat angles, the mesh, and the data of the rules."""
+        """Return the flat angles, the mesh, and the data of the rules."""
         flat = sorted(self.table.flat)
         return {"flat": flat, "mesh": self.mesh.state(), **self.rules.state()}
 
@@ -111,7 +111,7 @@ class Engine(Tiling):
         return self.certified.mesh
 
     def mesh_after(self) -> Mesh:
-        """The tiling just after the current time: not a copy."""
+        """Return the tiling just after the current time: not a copy."""
         return self.certified.mesh
 
     def mesh_at(self, instant: PredicatesAt) -> Mesh:
@@ -119,7 +119,7 @@ class Engine(Tiling):
         return type(self.rules).build(instant)
 
     def mesh_now(self, time: QQ) -> Mesh:
-        """The tiling at a rational time: the current one, or one before the next event.
+        """Return the tiling at a rational time: the current one, or one before the next event.
 
         It is the current tiling with closed corners collapsed (`Rules.close`); if these
         cannot be collapsed one by one, it is built from scratch.
@@ -190,7 +190,7 @@ class Engine(Tiling):
         self.stats.most = max(self.stats.most, len(self.table.pending))
 
     def _begin_batch(self, failed: list[CertificateId]) -> None:
-        """Record what is violated just after now.
+        """Record the certificates that are violated just after now.
 
         Raises:
             ContactFound: if there is a contact now.
@@ -318,7 +318,7 @@ class Engine(Tiling):
         try:
             self._build(later)
         except (AuditError, RebuildNeeded):
-            return False  # bodies overlap there, or the tiling is another one before
+            return False  # bodies overlap there, or the tiling differs before
         following = self.next_number()
         return not (self.table.angles or self.rules.is_violated()) and (
             following is None or following.compare_rational(later) > 0

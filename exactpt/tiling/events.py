@@ -112,12 +112,12 @@ class Log:
                 self._events.append(TilingEvent(self._certifier.now, kind, removed, added))
 
     def take(self) -> list[TilingEvent]:
-        """The events not yet reported, which then count as reported."""
+        """Return the events not yet reported, which then count as reported."""
         events, self._events = self._events, []
         return events
 
     def _has_copies(self, edges: Edges) -> bool:
-        """Whether an edge ends at a vertex that has copies."""
+        """Return True if an edge ends at a vertex that has copies."""
         every = self._certifier.all
         for a, b in edges:  # noqa: SIM110 - called at every event
             if every[a].offset is not None or every[b].offset is not None:

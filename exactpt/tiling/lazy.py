@@ -26,7 +26,7 @@ class LazyRules(Rules):
 
     @staticmethod
     def build(instant: PredicatesAt) -> Mesh:
-        """A tiling of an instant: the greedy one of convex bodies, otherwise by a plane sweep."""
+        """Return a tiling of an instant: greedy for convex bodies, else by a plane sweep."""
         if all_stay_convex(instant):
             return greedy_mesh(instant, VerticalDecomposition.at(instant))[0]
         mesh = build_mesh(instant, sweep_diagonals(instant))

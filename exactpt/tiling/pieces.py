@@ -15,7 +15,7 @@ def certify_piece(clock: Clock, moving: MovingBody, i: int) -> None:
     """Schedule the end of body i's current piece of motion, and the loss of its interior.
 
     A segment may shrink to a point, and a triangle may become flat; the interior of every
-    other body that deforms is tiled, so that angles of its tiles fail then.
+    other body that deforms is tiled, so that angles of its tiles fail in that case.
     """
     loss = _loss_of_interior(clock.certifier, moving) if moving.deforms else None
     clock.table.schedule(pack(SHRINK, i), loss)

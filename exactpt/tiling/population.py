@@ -1,6 +1,6 @@
-"""Insertion and removal of bodies: the tiling changes only in the faces that they meet.
+"""Insertion and removal of bodies: the tiling changes only in the faces that they intersect.
 
-The faces that a new body meets, or the faces at the vertices of a removed one, are merged
+The faces that a new body intersects, or the faces at the vertices of a removed one, are merged
 into a region that is tiled again (`exactpt.pseudotriangulation.region`). Only new angles are
 certified; the flips that make a canonical tiling canonical again start from these tiles, as
 after any repair.
@@ -82,7 +82,7 @@ def _retile(certified: CertifiedMesh, log: Log, region: Region) -> bool:
 def _by_scene_edge(
     vertices: Vertices, edges: Iterable[Ends]
 ) -> dict[frozenset[tuple[int, int]], Ends]:
-    """Edges by their ends in the scene, one for all its infinitesimal copies.
+    """Return edges by their ends in the scene, one for all its infinitesimal copies.
 
     Edges between copies of one vertex are left out.
     """

@@ -64,7 +64,7 @@ class Repairs:
         rules.restore()
 
     def first_violated(self) -> HalfEdge:
-        """The least violated angle; of copies of its triple, the first in the perturbed order."""
+        """Return the least violated angle; of copies, the first in the perturbed order."""
         certified, violated = self.certified, self.certified.table.angles
         if len(violated) == 1:
             for only in violated:
@@ -81,7 +81,7 @@ class Repairs:
         return first
 
     def _violated_at(self, vertices: set[tuple[int, int]]) -> set[HalfEdge]:
-        """The violated angles at vertices of the scene, given by body and index."""
+        """Return the violated angles at vertices of the scene, given by body and index."""
         certified = self.certified
         origin, every = certified.mesh.map.origin, certified.vertices.all
         return {
@@ -193,7 +193,7 @@ class Repairs:
 
         Args:
             h: the half-edge whose angle has been repaired.
-            before: the half-edge before h until then.
+            before: the half-edge before h until the repair.
             kind: the kind of the event.
             ends: the old end of the edge, its fixed end and its new one.
             origin_moves: whether h has moved, or else the edge before it.

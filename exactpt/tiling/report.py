@@ -15,7 +15,7 @@ __all__ = ["counts_of", "report", "rules_of"]
 
 
 def report(scene: Scene, kinetic: Tiling | None) -> dict[str, object]:
-    """The counts of a run so far; the tiling is None if there is none yet."""
+    """Return the counts of a run so far; the tiling is None if there is none yet."""
     counts = counts_of(kinetic)
     data: dict[str, object] = {
         "bodies": len(scene.bodies),
@@ -55,7 +55,7 @@ def report(scene: Scene, kinetic: Tiling | None) -> dict[str, object]:
 
 
 def rules_of(kinetic: Tiling, *, is_auto: bool) -> dict[str, object]:
-    """The class of the rules of a tiling, and why it was chosen.
+    """Return the class of the rules of a tiling, and why it was chosen.
 
     Args:
         kinetic: the tiling.
@@ -82,7 +82,7 @@ def _may_bend(moving: MovingBody) -> bool:
 
 
 def counts_of(kinetic: Tiling | None) -> Counts:
-    """The counts of decisions of a run so far."""
+    """Return the counts of decisions of a run so far."""
     return Counts(0, 0, {}) if kinetic is None else kinetic.vertices.counters.now()
 
 

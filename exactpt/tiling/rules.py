@@ -61,10 +61,10 @@ class Rules(Followers, ABC):
     @staticmethod
     @abstractmethod
     def build(instant: PredicatesAt) -> Mesh:
-        """The tiling of an instant, built from scratch."""
+        """Return the tiling of an instant, built from scratch."""
 
     def begin(self, instant: PredicatesAt) -> Mesh:
-        """The tiling of an instant, to be maintained from then on.
+        """Return the tiling of an instant, to be maintained from then on.
 
         Data that the rules maintain besides the mesh are built too.
         """
@@ -89,11 +89,11 @@ class Rules(Followers, ABC):
     # State to and from JSON
 
     def state(self) -> State:
-        """The data besides the mesh and the flat angles, as a JSON object."""
+        """Return the data besides the mesh and the flat angles, as a JSON object."""
         return {}
 
     def empty_mesh(self, vertices: Vertices) -> Mesh:  # noqa: ARG002 - labels need them
-        """A mesh of this tiling without edges."""
+        """Return a mesh of this tiling without edges."""
         return Mesh(0)
 
     def resume(self, state: State) -> None:
@@ -109,7 +109,7 @@ class Rules(Followers, ABC):
     # Repairs
 
     def is_violated(self) -> bool:
-        """Whether a certificate, other than of an angle, is violated just after now."""
+        """Return True if a certificate, other than of an angle, is violated just after now."""
         return False
 
     def repair(self) -> None:
@@ -135,19 +135,19 @@ class Rules(Followers, ABC):
     # Changes of plans, insertion and removal of bodies
 
     def allows_plan(self, body: Body, t: QQ) -> bool:  # noqa: ARG002
-        """Whether a body of the tiling may take this new motion from a time on."""
+        """Return True if a body of the tiling may take this new motion from a time on."""
         return True
 
     def allows_body(self, body: Body, t: QQ) -> bool:  # noqa: ARG002
-        """Whether a body may be added at a time."""
+        """Return True if a body may be added at a time."""
         return True
 
     def region_of_insertion(self, zone: ConflictZone) -> Region:
-        """The region to retile when a body is added: the faces that it meets."""
+        """Return the region to retile when a body is added: the faces that it intersects."""
         return Region(self.certified.mesh, zone.faces, zone.crossed)
 
     def region_of_removal(self, i: int) -> Region:
-        """The region to retile when a body is removed: the faces at its vertices."""
+        """Return the region to retile when a body is removed: the faces at its vertices."""
         gone = self.certified.edges_at(i)
         return Region(self.certified.mesh, [g for h in gone for g in (h, twin(h))], gone)
 

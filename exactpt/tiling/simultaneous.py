@@ -40,7 +40,7 @@ class Batch:
         self._repair = 0
 
     def begin_repair(self) -> None:
-        """Begin another repair, to which `touch` refers from now on; ask for the budget.
+        """Begin the next repair, to which later `touch` calls refer, and check the budget.
 
         Repairs of a forged tiling may have no end. For the first one at a time, whoever advanced
         to it has asked.
@@ -61,13 +61,13 @@ class Batch:
         self._interact = True
 
     def needs_check(self, mesh: Mesh) -> bool:
-        """Whether repairs may interact, so that their result has to be checked."""
+        """Return True if repairs may interact, so that their result has to be checked."""
         if self.has_new_motions and self._repair > 0:
             return True
         return self._interact or (self._repair > 1 and self._share_faces(mesh))
 
     def _share_faces(self, mesh: Mesh) -> bool:
-        """Whether two repairs have touched one face, or one has removed an edge of another."""
+        """Return True if two repairs share a face, or one removed an edge of the other."""
         m, touched = mesh.map, self.touched
         return any(
             m.origin[h] < 0 or any(touched.get(g, repair) != repair for g in m.face(h))

@@ -61,7 +61,7 @@ class TilingPlan(NamedTuple):
         return self.entry.name
 
     def start(self, time: QQ, *, exact_only: bool = False) -> Tiling:
-        """The kinetic tiling just after a time at which the bodies are disjoint."""
+        """Return the kinetic tiling just after a time at which the bodies are disjoint."""
         certifier = Certifier(self.vertices, time, self.end, exact_only=exact_only)
         tiling = make(self.entry, self.vertices, certifier, Stats())
         with collector_at_rest():
@@ -69,17 +69,17 @@ class TilingPlan(NamedTuple):
         return tiling
 
     def mesh_at(self, time: QQ) -> Mesh:
-        """The static tiling at a time."""
+        """Return the static tiling at a time."""
         return _mesh_at(self.entry, PredicatesAt(self.vertices, time, after=False))
 
 
 def tilings_for(scene: Scene) -> list[str]:
-    """The names of the tilings that are for the bodies of a scene."""
+    """Return the names of the tilings that are for the bodies of a scene."""
     return catalogue.names(points=_are_points(scene.bodies))
 
 
 def tiling_for_contact(scene: Scene, name: str) -> str:
-    """The given name; instead of "auto", the tiling with the fewest events.
+    """Return the given name; instead of "auto", the tiling with the fewest events.
 
     Raises:
         InputError: if there is no such tiling.
@@ -90,13 +90,13 @@ def tiling_for_contact(scene: Scene, name: str) -> str:
 
 
 def start_tiling(scene: Scene, name: str, start: QQ, *, exact_only: bool = False) -> Tiling:
-    """The kinetic tiling of a scene just after a time at which its bodies are disjoint."""
+    """Return the kinetic tiling of a scene just after a time at which its bodies are disjoint."""
     with collector_at_rest():  # in one piece: at its end all that is new is visited once
         return plan_tiling(scene, name, start).start(start, exact_only=exact_only)
 
 
 def plan_tiling(scene: Scene, name: str, start: QQ) -> TilingPlan:
-    """The tiling of a given name; "auto" chooses by the shapes.
+    """Return the tiling of a given name; "auto" chooses by the shapes.
 
     "auto" is "incremental" if all bodies are points, "greedy" if all bodies stay convex until
     the end, and "mixed" otherwise.
@@ -131,7 +131,7 @@ def _are_points(bodies: Sequence[Body]) -> bool:
 
 
 def _vertices_of_points(entry: Entry, bodies: Sequence[Body], start: QQ, end: QQ) -> Vertices:
-    """The moving vertices of points, one each, for a tiling of points alone."""
+    """Return the moving vertices of points, one each, for a tiling of points alone."""
     for body in bodies:
         if body.size > 1:
             raise InputError(
@@ -142,7 +142,7 @@ def _vertices_of_points(entry: Entry, bodies: Sequence[Body], start: QQ, end: QQ
 
 
 def make(entry: Entry, vertices: Vertices, certifier: Certifier, stats: Stats) -> Tiling:
-    """The tiling, still without a mesh; `Tiling.begin` or `Tiling.resume` must follow."""
+    """Return the tiling, still without a mesh; `Tiling.begin` or `Tiling.resume` must follow."""
     loaded = _load(entry)
     if entry.bodies is Bodies.POINTS:
         tiling: Tiling = loaded(entry, vertices, certifier, stats)
@@ -151,7 +151,7 @@ def make(entry: Entry, vertices: Vertices, certifier: Certifier, stats: Stats) -
 
 
 def relative_hulls(instant: PredicatesAt) -> Callable[[int], list[VertexId]]:
-    """The shortest loop around each body, as vertex ids, by a tiling that contains them."""
+    """Return the shortest loop around each body, as vertex ids, by a tiling that contains them."""
     entry = catalogue.with_relative_hulls()
     hulls = _mesh_at(entry, instant).relative_hulls()
     if hulls is None:
@@ -160,7 +160,7 @@ def relative_hulls(instant: PredicatesAt) -> Callable[[int], list[VertexId]]:
 
 
 def _mesh_at(entry: Entry, instant: PredicatesAt) -> Mesh:
-    """The tiling of an instant."""
+    """Return the tiling of an instant."""
     mesh: Mesh = _load(entry).build(instant)
     return mesh
 

@@ -65,7 +65,7 @@ class Tiling(ABC):
 
     @abstractmethod
     def state(self) -> State:
-        """The tiling between two events, exactly, as a JSON object."""
+        """Return the tiling between two events, exactly, as a JSON object."""
 
     @abstractmethod
     def resume(self, state: State) -> None:
@@ -73,10 +73,10 @@ class Tiling(ABC):
 
     @abstractmethod
     def mesh_after(self) -> Mesh:
-        """The tiling just after the current time."""
+        """Return the tiling just after the current time."""
 
     def changes(self) -> set[HalfEdge] | None:
-        """The half-edges that may have another origin or successor since the last call.
+        """Return the half-edges that may have another origin or successor since the last call.
 
         Returns:
             Half-edges of `mesh_after`; None if it is another mesh, and at the first call.
@@ -85,11 +85,11 @@ class Tiling(ABC):
 
     @abstractmethod
     def mesh_now(self, time: QQ) -> Mesh:
-        """The tiling at a rational time: the current one, or one before the next event."""
+        """Return the tiling at a rational time: the current one, or one before the next event."""
 
     @abstractmethod
     def mesh_at(self, instant: PredicatesAt) -> Mesh:
-        """The tiling of an instant, built from scratch."""
+        """Return the tiling of an instant, built from scratch."""
 
     @abstractmethod
     def audit(self, mesh: Mesh, instant: PredicatesAt) -> None:
@@ -121,13 +121,13 @@ class Tiling(ABC):
 
     @abstractmethod
     def add_body(self, body: Body, t: QQ) -> list[TilingEvent] | None:
-        """Add a body as the last one, changing only the faces that it meets.
+        """Add a body as the last one, changing only the faces that it intersects.
 
         Returns:
             The events now; None if this tiling cannot be changed and must be rebuilt.
 
         Raises:
-            InputError: if it touches another one.
+            InputError: if it touches another body.
         """
 
     @abstractmethod
@@ -164,11 +164,11 @@ class Tiling(ABC):
         return self.certifier.exact_now
 
     def is_after(self, t: QQ) -> bool:
-        """Whether now is after a rational time."""
+        """Return True if now is after a rational time."""
         return self.clock.is_after(t)
 
     def next_number(self) -> AlgebraicNumber | None:
-        """The exact time of the next failure; None if there is none."""
+        """Return the exact time of the next failure; None if there is none."""
         return self.clock.next_number()
 
     def advance(self, until: QQ) -> list[TilingEvent] | None:

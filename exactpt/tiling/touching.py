@@ -1,4 +1,4 @@
-"""Contacts at the time of an event: which vanishing angles may be contacts, and what touches.
+"""Contacts at the time of an event: the vanishing angles that may be contacts, and features.
 
 The proof that no contact is missed is in `exactpt.certificates.incidences`.
 """
@@ -34,11 +34,11 @@ def look_for_contact(
 
 
 def may_touch(certified: CertifiedMesh, h: HalfEdge) -> bool:
-    """Whether there may be a contact at an angle that is the only one to vanish now.
+    """Return True if there may be a contact at an angle that is the only one to vanish now.
 
     There is one if a corner closes on a body edge, if vertices coincide, or if a reflex angle
     becomes 2 pi instead of pi (a spike of a deforming body). There is none if a corner closes
-    on a diagonal: a feature met beyond the diagonal would pinch a face there, and another
+    on a diagonal: a feature touched beyond the diagonal would pinch a face there, and another
     angle would vanish now.
     """
     if certified.is_triangle(h):

@@ -21,11 +21,11 @@ AHEAD = 4
 def results_on(
     scheduler: str, work: Work[Item, Result], todo: Iterator[Item], seconds: float | None = None
 ) -> Iterator[Result]:
-    """The results of items as they arrive; at most for a time in seconds.
+    """Yield the results of items as they arrive; at most for a time in seconds.
 
     Args:
         scheduler: the address of a Dask scheduler, whose workers can import what the work needs.
-        work: what is done with each item.
+        work: the work on each item.
         todo: the items, taken a few ahead.
         seconds: the time of all; None for no limit.
 
@@ -66,11 +66,11 @@ def _client(scheduler: str) -> Client:
 
 
 def _silent(step: Step) -> None:
-    """Tell nobody."""
+    """Report nothing."""
 
 
 def _result(work: Work[Item, Result], future: Future, item: Item) -> Iterator[Result]:
-    """The result of an item; one that has ended several workers is given up."""
+    """Yield the result of an item; one that has ended several workers is given up."""
     try:
         yield future.result()
     except Exception as error:  # of the cluster: a job raises nothing

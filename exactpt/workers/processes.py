@@ -1,6 +1,6 @@
 """Worker processes that may be killed or hang: no item is lost, and the others go on.
 
-Each worker has one item at a time and tells what it does next, with the time allowed for it. A
+Each worker has one item at a time and reports its next step, with the time allowed for it. A
 worker that ends is replaced and its item is repeated once; one that is silent for too long is
 killed, which is a finding about its item.
 """
@@ -50,7 +50,7 @@ class _Worker(Generic[Item, Result]):
             self.connection.send(item)
 
     def hear(self) -> list[Result]:
-        """The result, if that is what it says; raises EOFError if it has ended."""
+        """Return the result, if that is what it says; raises EOFError if it has ended."""
         try:
             is_result, message = self.connection.recv()
         except OSError:
@@ -119,10 +119,10 @@ def _do(connection: Connection, job: object) -> None:
 def results_of(
     work: Work[Item, Result], todo: Iterator[Item], jobs: int, seconds: float | None = None
 ) -> Iterator[Result]:
-    """The results of items as they arrive; at most for a time in seconds.
+    """Yield the results of items as they arrive; at most for a time in seconds.
 
     Args:
-        work: what is done with each item.
+        work: the work on each item.
         todo: the items, taken one at a time.
         jobs: the number of processes.
         seconds: the time of all; None for no limit.

@@ -1,4 +1,4 @@
-"""What is done with items, and what becomes of those that end their workers."""
+"""The work on items, and the treatment of items that end their workers."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MOST_TRIES = 2
 
 
 class Step(Protocol):
-    """What a job does next with its item.
+    """The next step of a job with its item.
 
     Attributes:
         seconds: the time that is allowed for it.
@@ -33,14 +33,14 @@ class Step(Protocol):
 
 @dataclass(frozen=True)
 class Work(Generic[Item, Result]):
-    """What is done with each item; jobs and items are pickled.
+    """The work on each item; jobs and items are pickled.
 
     Attributes:
-        job: the result of an item; its second argument tells what it does next.
+        job: the result of an item; its second argument reports its next step.
         lost: the result of an item that is given up, whose last step is given, because it
             `ENDS` its workers, `HANGS` for longer than its step allows, or is `UNFINISHED` when
             the time of all is over; None for no result.
-        starting: the seconds in which a worker starts and a job tells its first step.
+        starting: the seconds in which a worker starts and a job reports its first step.
     """
 
     job: Callable[[Item, Callable[[Step], None]], Result]

@@ -141,7 +141,7 @@ def vertex_face_array(points: ArrayLike, *, errors: Errors = "raise") -> SpaceCo
             `SpaceContacts.refused`.
 
     Raises:
-        InputError: if the shape is another one, or for a query that is not finite, unless masked.
+        InputError: for another shape, or for a query that is not finite, unless masked.
     """
     return _decide("vertex-face", points, errors)
 

@@ -20,11 +20,11 @@ __all__ = ["Bitangent", "tangent_pair"]
 
 
 def tangent_pair(instant: PredicatesAt, a: VertexId, b: VertexId, side_a: int, side_b: int) -> Ends:
-    """The vertices at which the bitangent from the body of a to that of b touches.
+    """Return the vertices at which the bitangent from the body of a to that of b touches.
 
     Each end moves along its ring while a neighbour is on the wrong side of the line. A
     vertex whose two neighbours are on the right side is the tangent point as seen from
-    the other end, since the ring is convex. Of vertices that are on the line for ever, the
+    the other end, since the ring is convex. Of vertices that are on the line for all times, the
     nearest one is taken: by the perturbation it sticks out
     (`exactpt.certificates.perturbation`).
 
@@ -53,7 +53,7 @@ def tangent_pair(instant: PredicatesAt, a: VertexId, b: VertexId, side_a: int, s
 def _wrong_neighbour(
     instant: PredicatesAt, line: Ends, end: VertexId, other: VertexId, side: int
 ) -> VertexId:
-    """A neighbour of one end of a line on its wrong side, or nearer to the other end on it.
+    """Return a neighbour of one end of a line on its wrong side, or nearer to the other end on it.
 
     The end itself if there is none.
     """
@@ -109,7 +109,7 @@ class Bitangent:
         self.key: float = instant.descent(self.a, self.b)
 
     def __lt__(self, other: Bitangent) -> bool:
-        """Whether the sweep meets it first, for bitangents with equal keys: a total order.
+        """Return True if the sweep meets it first, for bitangents with equal keys: a total order.
 
         By theta at the instant. Parallel bitangents on different lines do not cross, so their
         order does not matter; it is that of their lines. On one line they are ordered by theta
@@ -125,7 +125,7 @@ class Bitangent:
         return order < 0 if order else self.number < other.number
 
     def is_parallel(self, other: Bitangent) -> bool:
-        """Whether two bitangents are parallel at the instant."""
+        """Return True if two bitangents are parallel at the instant."""
         return (
             self.key == other.key and self._instant.turn_now(self.a, self.b, other.a, other.b) == 0
         )
@@ -138,7 +138,7 @@ class Bitangent:
         return 0 if self.a == other.a else self._instant.turn_now(self.a, self.b, self.a, other.a)
 
     def offset(self) -> QQ:
-        """The offset of the line among its parallels: its y at x = 0, or its x if vertical."""
+        """Return the offset of the line among its parallels: y at x = 0, or x if vertical."""
         (ax, ay), (bx, by) = self._instant.position(self.a), self._instant.position(self.b)
         return ax if ax == bx else (ay * bx - by * ax) / (bx - ax)
 
@@ -150,7 +150,7 @@ class Bitangent:
     def _new_slope(self) -> Slope:
         vertices = self._instant.vertices.all
         a, b = vertices[self.a], vertices[self.b]
-        # Of zero width at the time itself, or for ever, as the predicates are.
+        # Of zero width at the time itself, or for all times, as the predicates are.
         is_upright = self._instant.position(self.a)[0] == self._instant.position(self.b)[0]
         upright = is_upright and (
             not self._instant.after or not difference(a.track.x, a.track.w, b.track.x, b.track.w)

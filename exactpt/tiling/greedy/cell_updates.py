@@ -22,7 +22,7 @@ __all__ = ["add_body", "cell_along", "remove_body", "rename_body", "rename_cell"
 def cell_along(
     cells: VerticalDecomposition, predicates: Predicates, v: VertexId, cell: int, *, over: bool
 ) -> int:
-    """The cell of a row that contains a vertex.
+    """Return the cell of a row that contains a vertex.
 
     Args:
         cells: the decomposition.
@@ -85,7 +85,7 @@ def _crossed(
     last: VertexId,
     is_above: Callable[[VertexId], bool],
 ) -> tuple[list[int], list[int], list[int]]:
-    """The cells that a new body crosses, and the arcs between them: above it, and below it."""
+    """Return the cells that a new body crosses, and the arcs above and below it."""
     row, tops, bottoms = [first], list[int](), list[int]()
     while (arc := cells.right[row[-1]]) != NO_ARC and predicates.left_of(cells.vertex[arc], last):
         above = is_above(cells.vertex[arc])

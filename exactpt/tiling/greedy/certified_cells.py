@@ -102,12 +102,12 @@ class CertifiedCells:
         return coordinate_order(self._certified.certifier, u, v, 1) > 0
 
     def pair(self, cell: int) -> Ends:
-        """The extreme vertices at the left and the right end of a cell."""
+        """Return the extreme vertices at the left and the right end of a cell."""
         vertex = self.now.vertex
         return vertex[self.now.left[cell]], vertex[self.now.right[cell]]
 
     def extreme_pair(self, handle: int) -> Ends:
-        """An extreme vertex and its neighbour on the ring, in their certified x-order."""
+        """Return an extreme vertex and its neighbour on the ring, in their certified x-order."""
         arc = handle >> 1
         vertex = self._certified.vertices.all[self.now.vertex[arc]]
         neighbour = vertex.behind if handle % 2 else vertex.ahead
@@ -129,7 +129,7 @@ class CertifiedCells:
             self.certify(cell)
 
     def _cell_around(self, v: VertexId, after: OneSided) -> int:
-        """The cell that contains a vertex: above the body below it, or below the one above."""
+        """Return the cell that contains a vertex, above the body below it or the converse."""
         for up in (False, True):
             h = seen_from(self._certified.mesh, after, v, up=up)
             if h is not None:

@@ -36,7 +36,7 @@ class Chain:
         self.count = count
 
     def vertex(self, k: int) -> VertexId:
-        """The k-th vertex from the left."""
+        """Return the k-th vertex from the left."""
         return self._ring[(self._first + k * self._step) % len(self._ring)]
 
     @property
@@ -46,7 +46,7 @@ class Chain:
 
 
 def chains_of(predicates: Predicates, ring: list[VertexId]) -> tuple[Chain, Chain]:
-    """The lower and the upper chain of a convex ring."""
+    """Return the lower and the upper chain of a convex ring."""
     n = len(ring)
     first, last = _extreme(predicates, ring, 1), _extreme(predicates, ring, -1)
     along = (last - first) % n
@@ -55,7 +55,7 @@ def chains_of(predicates: Predicates, ring: list[VertexId]) -> tuple[Chain, Chai
 
 
 def _extreme(predicates: Predicates, ring: list[VertexId], sense: int) -> int:
-    """The place of the leftmost vertex of a convex ring (1), or of the rightmost one (-1)."""
+    """Return the place of the leftmost (1) or rightmost (-1) vertex of a convex ring."""
     n = len(ring)
     if n <= FEW:
         best = 0
@@ -81,12 +81,12 @@ def _extreme(predicates: Predicates, ring: list[VertexId], sense: int) -> int:
 
 
 def _is_beyond(predicates: Predicates, v: VertexId, w: VertexId, sense: int) -> bool:
-    """Whether v is left of w, or with the sense -1 right of it."""
+    """Return True if v is left of w, or with the sense -1 right of it."""
     return predicates.left_of(v, w) if sense > 0 else predicates.left_of(w, v)
 
 
 def is_above(predicates: Predicates, lower: Chain, v: VertexId) -> bool:
-    """Whether v, which is vertically above or below a convex body, is above it."""
+    """Return True if v, which is vertically above or below a convex body, is above it."""
     low, high = 0, lower.count - 1  # the vertex `low` is left of v, `high` is not
     while high - low > 1:
         middle = (low + high) // 2
@@ -98,14 +98,14 @@ def is_above(predicates: Predicates, lower: Chain, v: VertexId) -> bool:
 
 
 def near_tangent(predicates: Predicates, a: Chain, b: Chain, side_a: int, side_b: int) -> Ends:
-    """Vertices of two chains at or next to which their bitangent touches, if there is one.
+    """Return vertices of two chains at or next to which their bitangent touches, if there is one.
 
     A line from left to right that has the body of a chain on its left touches the lower chain,
     else the upper one. Seen from a vertex of the other body, the following vertex of the chain is
     on the wrong side of the line up to the vertex at which the tangent touches, and on the right
     one from there on: where the line is steeper than an edge of a lower chain, it was so at all
-    vertices before. (Going along an edge, what is above its line is seen under a growing slope,
-    what is below it under a falling one; and slopes of edges grow.)
+    vertices before. (Along an edge, a point above its line is seen under a growing slope,
+    a point below it under a falling slope; and slopes of edges grow.)
 
     Args:
         predicates: the predicates.
@@ -128,7 +128,7 @@ def near_tangent(predicates: Predicates, a: Chain, b: Chain, side_a: int, side_b
 
 
 def _seen_from(predicates: Predicates, v: VertexId, b: Chain, side: int) -> VertexId:
-    """The vertex of a chain at which the tangent from a vertex on its left touches."""
+    """Return the vertex of a chain at which the tangent from a vertex on its left touches."""
     low, high = 0, b.count - 1
     while low < high:
         middle = (low + high) // 2

@@ -42,7 +42,7 @@ class FlippingRules(Rules):
         self._shadows: CertifiedShadows = CertifiedShadows(certified)
         self._changed: list[HalfEdge] = []  # half-edges with new angles
         self._moved: list[HalfEdge] = []  # diagonals of bodies that move anew, or with failures
-        self._marks: vec[i64] = vec[i64]()  # of half-edges: the last search that met each
+        self._marks: vec[i64] = vec[i64]()  # of half-edges: the last search that visited each
         self._searches: i64 = 0
 
     def close(self, mesh: Mesh, instant: PredicatesAt) -> None:
@@ -149,9 +149,9 @@ class FlippingRules(Rules):
         self._moved.clear()
 
     def _edges_of_tiles(self, half_edges: list[HalfEdge]) -> list[HalfEdge]:
-        """The edges (even half-edges) of the tiles on both sides of some half-edges.
+        """Return the edges (even half-edges) of the tiles on both sides of some half-edges.
 
-        Without body edges. `_marks` of one half-edge of each, at least, is `_searches` then.
+        Without body edges. At least one half-edge of each has `_searches` in `_marks` afterwards.
         """
         mesh, origin = self.certified.mesh, self.certified.mesh.map.origin
         following, boundary = mesh.map.following, mesh.boundary

@@ -37,9 +37,9 @@ __all__ = ["VerticalRules", "greedy_mesh"]
 
 
 def greedy_mesh(instant: PredicatesAt, cells: VerticalDecomposition) -> tuple[Mesh, int]:
-    """The greedy tiling, and the number of flips that were needed after the sweep.
+    """Return the greedy tiling, and the number of flips that were needed after the sweep.
 
-    Flips can be needed only if the sweep met two bitangents on one line; these diagonals are
+    Flips can be needed only if the sweep found two bitangents on one line; these diagonals are
     checked. The vertical decomposition is used up.
     """
     diagonals, tied = greedy_diagonals(instant, cells)
@@ -66,7 +66,7 @@ class VerticalRules(Rules):
 
     @staticmethod
     def build(instant: PredicatesAt) -> Mesh:
-        """The greedy tiling of an instant."""
+        """Return the greedy tiling of an instant."""
         return greedy_mesh(instant, VerticalDecomposition.at(instant))[0]
 
     def begin(self, instant: PredicatesAt) -> Mesh:
@@ -250,7 +250,7 @@ class VerticalRules(Rules):
         self._require_check_around(u)
 
     def _crossed_by(self, g: HalfEdge, v: VertexId, predicates: OneSided) -> list[HalfEdge]:
-        """The diagonals of the tile of g that a bitangent from the origin of g to v may replace.
+        """Return the diagonals of g's tile that a bitangent from g's origin to v may replace.
 
         It crosses such a diagonal into a tile with vertex v, or shares an end with it.
         """
@@ -301,13 +301,13 @@ class VerticalRules(Rules):
 
 
 def _is_only_translated(body: Body, t: QQ) -> bool:
-    """Whether a body keeps its shape and its directions from a time on."""
+    """Return True if a body keeps its shape and its directions from a time on."""
     is_last = all(end <= t for end in body._breakpoints)
     return is_last and body._piece_after(t).translation is not None
 
 
 def _is_visited(mesh: Mesh, v: VertexId, h: HalfEdge) -> bool:
-    """Whether a vertex is on the boundary of the face of a half-edge."""
+    """Return True if a vertex is on the boundary of the face of a half-edge."""
     origin = mesh.map.origin
     for g in mesh.map.face(h):  # noqa: SIM110 - called at many events
         if origin[g] == v:

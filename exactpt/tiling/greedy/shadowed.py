@@ -40,7 +40,7 @@ class ShadowRules(FlippingRules):
 
     @staticmethod
     def build(instant: PredicatesAt) -> Mesh:
-        """The greedy tiling of an instant: a plane sweep, made pointed, flipped until greedy."""
+        """Return the greedy tiling of an instant: swept, made pointed, flipped until greedy."""
         mesh = build_mesh(instant, sweep_diagonals(instant))
         make_pointed(mesh, instant)
         flip_until_greedy(mesh, instant, mesh.flippable())

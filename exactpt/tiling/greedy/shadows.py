@@ -3,8 +3,8 @@
 A shadow edge s' of a diagonal s remains the same as long as it is tangent at both ends
 (`exactpt.pseudotriangulation.shadow.is_tangent`), whatever else changes: which diagonal s is,
 where the two faces have corners, or other vertices. So the ends certified last are tried first.
-Signs tell whether s' is tangent there; none are needed where both neighbours and the kind of angle
-are as certified.
+Signs decide whether s' is tangent there; none are needed where both neighbours and the kind of
+angle are as certified.
 
 theta(s) < theta(s') needs no test if both edges are as at the last test, and neither has been
 vertical since (`exactpt.tiling.greedy.flipping`).
@@ -128,7 +128,7 @@ class CertifiedShadows(Shadows):
             for i in range(COUNT):
                 self._certified.table.pending.cancel(pack(SHADOW + i, h))
 
-    # What `flip_until_greedy` asks
+    # Called by `flip_until_greedy`
 
     def is_greedy(self, h: HalfEdge) -> bool:
         """See `Shadows.is_greedy`: whether all is as certified, but for neighbours and angles."""
@@ -290,7 +290,7 @@ class CertifiedShadows(Shadows):
 
 
 def _visit_in_face(mesh: Mesh, h: HalfEdge, end: _End) -> HalfEdge:
-    """A visit in the face of h of the vertex at an end, the last one there if it is one still.
+    """Return a visit of an end's vertex in the face of h, the last one if still valid.
 
     `NO_HALF_EDGE` if there is none, and at an end of h.
     """

@@ -1,7 +1,7 @@
 """The order of parallel bitangents, made total by the perturbation.
 
 Two bitangents that are parallel at an instant are compared just after it; if they stay
-parallel for ever, by the change of their slopes under the perturbation of
+parallel for all times, by the change of their slopes under the perturbation of
 `exactpt.certificates.perturbation`.
 """
 
@@ -46,7 +46,7 @@ class Slope:
 
 
 def slope_terms(s: Slope, t: Slope) -> Iterator[IntPoly]:
-    """The terms, in decreasing order of size, of a sum that is negative iff theta(s) < theta(t).
+    """Yield the terms of a sum, negative iff theta(s) < theta(t), in decreasing size.
 
     theta(s) < theta(t) iff s x t < 0. Inflation changes a slope by (h(b) - h(a)) / L, and the
     larger slope has the smaller theta.

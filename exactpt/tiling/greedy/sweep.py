@@ -38,9 +38,9 @@ MANY: Final = 48
 def greedy_diagonals(
     instant: PredicatesAt, decomposition: VerticalDecomposition
 ) -> tuple[list[Diagonal], set[Ends]]:
-    """The 3k - 3 bitangents of the pseudo-triangulation, each directed from left to right.
+    """Return the 3k - 3 bitangents of the pseudo-triangulation, each directed from left to right.
 
-    The second result is the set of the ends of those that share a line with another one. Their
+    The second result is the set of the ends of bitangents that share a line. Their
     order is that of the perturbation, and the caller may check them: the result is greedy for
     the order of the sweep, so a bitangent whose shadow edge has smaller theta shares a line
     with it. The order of parallel bitangents on different lines does not matter: either order
@@ -107,7 +107,7 @@ class _Sweep:
         return found
 
     def _is_ready(self, cell: int) -> bool:
-        """Whether only its two arcs bound the cell, so that it ends at their bitangent."""
+        """Return True if only its two arcs bound the cell, so that it ends at their bitangent."""
         cells = self.cells
         x, y = cells.left[cell], cells.right[cell]
         if NO_ARC in (x, y) or x >> 1 == y >> 1:
@@ -131,7 +131,7 @@ class _Sweep:
         heapq.heappush(self.heap, (s.key, s))
 
     def _near_tangent(self, x: int, y: int, side_x: int, side_y: int) -> Ends:
-        """Vertices of the bodies of two arcs from which `tangent_pair` is not far.
+        """Return vertices of the bodies of two arcs from which `tangent_pair` is not far.
 
         Those of the arcs, if the bodies have few vertices.
         """
@@ -144,7 +144,7 @@ class _Sweep:
         return self.instant.vertices.bodies[arc >> 1].ring
 
     def _chain(self, arc: int, side: int) -> Chain:
-        """The lower (1) or upper (-1) chain of the body of an arc."""
+        """Return the lower (1) or upper (-1) chain of the body of an arc."""
         pair = self._chains.get(arc >> 1)
         if pair is None:
             pair = self._chains[arc >> 1] = chains_of(self.instant, self._ring(arc))

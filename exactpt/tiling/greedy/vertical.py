@@ -57,7 +57,7 @@ class VerticalDecomposition:
         self.right_down: vec[i64] = vec[i64]([NO_CELL] * arcs)
 
     def copy(self) -> VerticalDecomposition:
-        """An independent copy."""
+        """Return an independent copy."""
         other = VerticalDecomposition(0)
         other.vertex = self.vertex[:]
         other.left, other.right = self.left[:], self.right[:]
@@ -66,7 +66,7 @@ class VerticalDecomposition:
         return other
 
     def state(self) -> dict[str, list[Any]]:
-        """The cells and arcs, as a JSON object."""
+        """Return the cells and arcs, as a JSON object."""
         return {
             "vertex": list(self.vertex),
             "left": list(self.left),
@@ -117,7 +117,7 @@ class VerticalDecomposition:
         self.right_down, _ = pop(self.right_down)
 
     def cells_of(self, arc: int) -> set[i64]:
-        """The cells on both sides of the wall of an arc."""
+        """Return the cells on both sides of the wall of an arc."""
         return {
             self.left_up[arc],
             self.left_down[arc],
@@ -142,7 +142,7 @@ class VerticalDecomposition:
             A and B.
         """
         l, r = self.left[cell], self.right[cell]
-        # What is "up" for l is "down" for r.
+        # "Up" for l is "down" for r.
         a = self.left_up[l] if left_is_lower else self.left_down[l]
         b = self.right_down[r] if left_is_lower else self.right_up[r]
         self._replace_left(r, cell, a)
@@ -169,7 +169,7 @@ class VerticalDecomposition:
 
     @classmethod
     def at(cls, instant: PredicatesAt) -> VerticalDecomposition:
-        """The decomposition just after an instant: a sweep from left to right.
+        """Return the decomposition just after an instant: a sweep from left to right.
 
         O(k log n) comparisons of positions for k bodies with n vertices.
         """

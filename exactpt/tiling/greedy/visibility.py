@@ -11,7 +11,7 @@ __all__ = ["facing_visit", "seen_from"]
 
 
 def seen_from(mesh: Mesh, predicates: Predicates, v: VertexId, *, up: bool) -> HalfEdge | None:
-    """The body edge vertically above (or below) a vertex; None if there is none.
+    """Return the body edge vertically above (or below) a vertex; None if there is none.
 
     Args:
         mesh: a tiling.
@@ -45,7 +45,7 @@ def seen_from(mesh: Mesh, predicates: Predicates, v: VertexId, *, up: bool) -> H
 def facing_visit(
     mesh: Mesh, around: list[HalfEdge], target: VertexId, predicates: Predicates
 ) -> HalfEdge | None:
-    """The half-edge out of a vertex whose free angle contains the direction to a target.
+    """Return the half-edge out of a vertex whose free angle contains the direction to a target.
 
     Args:
         mesh: a tiling.
@@ -72,7 +72,7 @@ def facing_visit(
 
 
 def _visit(mesh: Mesh, predicates: Predicates, v: VertexId, *, up: bool) -> HalfEdge | None:
-    """The half-edge out of a vertex whose angle, in free space, contains the vertical."""
+    """Return the half-edge out of a vertex whose angle, in free space, contains the vertical."""
     m = mesh.map
     wide = None
     for h in m.star(mesh.ring_edge[v]):
@@ -88,7 +88,7 @@ def _visit(mesh: Mesh, predicates: Predicates, v: VertexId, *, up: bool) -> Half
 
 
 def _faces(mesh: Mesh, predicates: Predicates, h: HalfEdge, v: VertexId, *, up: bool) -> bool:
-    """Whether a half-edge crosses the vertical above a vertex (or below), which is on its left."""
+    """Return True if a half-edge crosses the vertical above (or below) a vertex on its left."""
     left, right = mesh.ends(h)[::-1] if up else mesh.ends(h)
     return (
         predicates.left_of(left, v)
@@ -98,7 +98,7 @@ def _faces(mesh: Mesh, predicates: Predicates, h: HalfEdge, v: VertexId, *, up: 
 
 
 def _is_nearer(mesh: Mesh, predicates: Predicates, g: HalfEdge, h: HalfEdge) -> bool:
-    """Whether g is nearer than h, of two half-edges that have the vertex on their left.
+    """Return True if g is nearer than h, of two half-edges that have the vertex on their left.
 
     They do not cross. An end of one is vertically above or below the other, and its side decides.
     """

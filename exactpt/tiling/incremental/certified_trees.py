@@ -110,7 +110,7 @@ class CertifiedTrees:
                     self.certify_edge(side, b)
 
     def replace(self, new: IncrementalStructure) -> None:
-        """Replace the structure by another one; certificates common to both are kept."""
+        """Replace the structure by a new one; certificates common to both are kept."""
         old, self.now = self.now, new
         for side in (UPPER, LOWER):
             for b in new.order:

@@ -44,7 +44,7 @@ class _Swept(NamedTuple):
 def column_around(
     certifier: Certifier, structure: IncrementalStructure, p: VertexId
 ) -> tuple[int, int]:
-    """The range of ranks, its end excluded, of the points with the x of p now."""
+    """Return the range of ranks, its end excluded, of the points with the x of p now."""
     order, rank, vertices = structure.order, structure.rank, certifier.all
     low = high = rank[p]
     while low > 0 and not coordinate_order(certifier, vertices[order[low - 1]], vertices[p], 0):
@@ -128,7 +128,7 @@ def _sweep(
 
 
 def _fits(tree: TangentTree, swept: _Swept, rank: list[int], end: int) -> bool:
-    """Whether the children right of a column still hang on the hull, in preorder."""
+    """Return True if the children right of a column still hang on the hull, in preorder."""
     if any(tree.last[z] >= 0 and rank[tree.last[z]] >= end for z in swept.covered):
         return False
     ranks = [rank[c] for z in reversed(swept.hull) for c in _later(tree, z, rank, end)]
@@ -139,7 +139,7 @@ def _fits(tree: TangentTree, swept: _Swept, rank: list[int], end: int) -> bool:
 
 
 def _later(tree: TangentTree, z: VertexId, rank: list[int], end: int) -> list[VertexId]:
-    """The children of a point that are right of its column, in x-order."""
+    """Return the children of a point that are right of its column, in x-order."""
     children = []
     c = tree.last[z]
     while c >= 0 and rank[c] >= end:

@@ -1,8 +1,8 @@
 """Contacts of points, found by the x-order alone.
 
-Two points that coincide at a time have equal x then, and so has every point between them in
+Two points that coincide at a time have equal x, and so has every point between them in
 the order just before. So each pair of neighbours from one to the other either has equal x
-for ever, or a certificate that vanishes at that time (certificates that vanish without a
+for all times, or a certificate that vanishes at that time (certificates that vanish without a
 change of sign have events too). Consecutive such pairs form a column, and points of equal y
 in it are in contact.
 """
@@ -25,7 +25,7 @@ __all__ = ["coinciding"]
 def coinciding(
     certifier: Certifier, structure: IncrementalStructure, candidates: Iterable[VertexId]
 ) -> list[Touch]:
-    """The points that coincide now, as pairs, in order.
+    """Return the points that coincide now, as pairs, in order.
 
     Args:
         certifier: at the current time.
@@ -61,7 +61,7 @@ def coinciding(
 
 
 def _have_equal_x(certifier: Certifier, p: VertexId, q: VertexId) -> bool:
-    """Whether two neighbours in the x-order have equal x, now or for ever."""
+    """Return True if two neighbours in the x-order have equal x, now or for all times."""
     if certifier.vanishes_now(p, q, X_ORDER):
         return True
     a, b = certifier.all[p], certifier.all[q]

@@ -18,7 +18,7 @@ __all__ = ["Fan", "chain", "fan_edges", "path"]
 
 
 def path(v: VertexId, tree: TangentTree) -> Iterator[VertexId]:
-    """The path from v that always continues to the last child."""
+    """Yield the path from v that always continues to the last child."""
     while v >= 0:
         yield v
         v = tree.last[v]
@@ -38,7 +38,7 @@ def chain(structure: IncrementalStructure, p: VertexId) -> list[VertexId]:
 
 
 def fan_edges(structure: IncrementalStructure) -> Iterator[Ends]:
-    """The edges of the fan triangulation, each once, with the right end first."""
+    """Yield the edges of the fan triangulation, each once, with the right end first."""
     for p in structure.order[1:]:
         for z in chain(structure, p):
             yield p, z
@@ -61,7 +61,7 @@ class Fan:
         self.changes: int = 0
 
     def begin(self, structure: IncrementalStructure) -> None:
-        """Derive the edges from the trees; this is no change."""
+        """Derive the edges from the trees; this is not a change."""
         self.edges = {edge_key(p, z) for p, z in fan_edges(structure)}
 
     def derive(self, structure: IncrementalStructure) -> None:
@@ -77,7 +77,7 @@ class Fan:
 
         The three points in line are p on the right, the middle one m, and z. The edge pz is
         added if the tangent leads to z now, or else removed; it stays if it is the other
-        tangent. The tile beyond pz loses m from its chain then, or else gets it; at the hull
+        tangent. The tile beyond pz loses m from its chain, or else gets it; at the hull
         there is none.
 
         Args:

@@ -106,7 +106,7 @@ class IncrementalTiling(Tiling):
         return self._certified.now
 
     def state(self) -> State:
-        """The trees, and the representation of chains."""
+        """Return the trees, and the representation of chains."""
         structure, chains = self.structure, self.chains
         return {"structure": structure.state(), "chains": [chains.kind, chains.allowed]}
 
@@ -117,7 +117,7 @@ class IncrementalTiling(Tiling):
 
     @staticmethod
     def build(instant: PredicatesAt) -> Mesh:
-        """The incremental tiling of an instant."""
+        """Return the incremental tiling of an instant."""
         return mesh_of(sweep_at(instant))
 
     def mesh_at(self, instant: PredicatesAt) -> Mesh:
@@ -129,7 +129,7 @@ class IncrementalTiling(Tiling):
         mesh.audit()
 
     def mesh_after(self) -> Mesh:
-        """The tiling just after the current time, derived from the trees: not a copy."""
+        """Return the tiling just after the current time, derived from the trees: not a copy."""
         if self._mesh is None or not self._is_current:
             changed = self.structure.take_changes()
             if self._mesh is None or changed is None:
@@ -140,7 +140,7 @@ class IncrementalTiling(Tiling):
         return self._mesh
 
     def mesh_now(self, time: QQ) -> Mesh:
-        """The tiling at a rational time: the current one, or one before the next event.
+        """Return the tiling at a rational time: the current one, or one before the next event.
 
         If certificates vanish at that time, it is built by the sweep.
 

@@ -20,7 +20,7 @@ __all__ = ["mesh_of", "update_mesh"]
 
 
 def mesh_of(structure: IncrementalStructure) -> Mesh:
-    """The tiles Delta(p), p from the third point on, and the outer face."""
+    """Return the tiles Delta(p), p from the third point on, and the outer face."""
     mesh = Mesh(len(structure.order))
     points = [VertexId(p) for p in range(len(structure.order))]
     for p in points:
@@ -50,7 +50,7 @@ def _place_edges(mesh: Mesh, structure: IncrementalStructure, p: VertexId) -> No
 
 
 def _beside(structure: IncrementalStructure, side: int, v: VertexId) -> VertexId:
-    """The point of whose tile the chain through v is a side; the first one: the outer face."""
+    """Return the point whose tile has the chain through v; the first one: outer face."""
     tree = structure.trees[side]
     while (z := tree.parent[v]) >= 0 and tree.last[z] == v:
         v = z
@@ -75,7 +75,7 @@ def _close_tile(mesh: Mesh, structure: IncrementalStructure, p: VertexId) -> Non
 
 
 def _from(structure: IncrementalStructure, side: int, p: VertexId) -> HalfEdge:
-    """The half-edge from p to its parent in a tree."""
+    """Return the half-edge from p to its parent in a tree."""
     upper, lower = structure.trees
     if side == LOWER and upper.parent[p] != lower.parent[p]:
         return HalfEdge(4 * p + 2)
@@ -85,7 +85,7 @@ def _from(structure: IncrementalStructure, side: int, p: VertexId) -> HalfEdge:
 def _sides(
     structure: IncrementalStructure, upper_top: VertexId, lower_top: VertexId
 ) -> list[HalfEdge]:
-    """The half-edges of a chain from its upper end to its lower one, bulging to the right.
+    """Return the half-edges of a chain from its upper end to its lower one, bulging to the right.
 
     Args:
         structure: the structure.

@@ -30,7 +30,7 @@ class SearchableTree(TangentTree):
 
     @classmethod
     def of(cls, tree: TangentTree) -> SearchableTree:
-        """The same tree, with splay trees; it takes over the lists."""
+        """Return the same tree, with splay trees; it takes over the lists."""
         self = cls(0)
         self.parent, self.first, self.last = tree.parent, tree.first, tree.last
         self.before, self.after, self.steps = tree.before, tree.after, tree.steps
@@ -59,7 +59,7 @@ class SearchableTree(TangentTree):
             self._join(z, self.last[z])
 
     def top(self, v: VertexId) -> VertexId:
-        """The top of the path of last children through v."""
+        """Return the top of the path of last children through v."""
         self._splay(v)
         while self._left[v] >= 0:
             v = self._left[v]

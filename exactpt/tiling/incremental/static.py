@@ -13,20 +13,20 @@ __all__ = ["holds_at", "sweep_at"]
 
 
 def sweep_at(instant: PredicatesAt) -> IncrementalStructure:
-    """The incremental pseudo-triangulation of an instant: O(n log n)."""
+    """Return the incremental pseudo-triangulation of an instant: O(n log n)."""
     order = sorted_by_x(instant, map(VertexId, range(len(instant.vertices.all))))
     return IncrementalStructure.sweep(order, instant)
 
 
 def holds_at(structure: IncrementalStructure, instant: PredicatesAt) -> bool:
-    """Whether a structure that is valid just before or just after an instant is valid at it.
+    """Return True if a structure that is valid just before or just after an instant is valid at it.
 
     Args:
         structure: the structure.
         instant: the predicates at the time itself.
 
     Raises:
-        AuditError: if a certificate is violated, instead of only vanishing then.
+        AuditError: if a certificate is violated, instead of only vanishing at it.
     """
     holds = True
     for p, q in pairwise(structure.order):

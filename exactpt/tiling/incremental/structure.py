@@ -2,11 +2,11 @@
 
 Paper, sections 3.1 and 3.2. Of a point p, u(p) and d(p) are the left ends of its upper and
 lower tangent to the hull of the points left of p: its parents in the *upper* and in the
-*lower* tree. We say that p *hangs* on its parent. Of several points on one tangent the
+*lower* tree. p *hangs* on its parent. Of several points on one tangent the
 nearest is taken: by the rule of `exactpt.certificates.perturbation` for collinear points, the
 middle one of three blocks the edge between the others. Below, "a, b, c turn away" means a
 left turn in the upper tree and a right turn in the lower tree; three points that are
-collinear for ever never turn away.
+collinear for all times never turn away.
 
 **Certificates.** One for every pair of neighbours in x-order, and one for every edge of
 either tree, from z to b:
@@ -111,7 +111,7 @@ class IncrementalStructure:
     def of(
         cls, order: list[VertexId], parents: tuple[list[VertexId], list[VertexId]]
     ) -> IncrementalStructure:
-        """The structure with these points from left to right, and these parents in both trees."""
+        """Return the structure of these points from left to right with these parents."""
         trees = TangentTree(len(order)), TangentTree(len(order))
         for tree, parent in zip(trees, parents, strict=True):
             for p in order[1:]:
@@ -119,7 +119,7 @@ class IncrementalStructure:
         return cls(order, trees)
 
     def state(self) -> dict[str, Any]:
-        """The structure, as a JSON object."""
+        """Return the structure, as a JSON object."""
         return {
             "order": list(self.order),
             "parents": [list(tree.parent) for tree in self.trees],
@@ -128,7 +128,7 @@ class IncrementalStructure:
 
     @classmethod
     def resumed(cls, state: dict[str, Any]) -> IncrementalStructure:
-        """The structure of a saved state.
+        """Return the structure of a saved state.
 
         Raises:
             AuditError: if it is none: walks along its trees might not end.
@@ -146,7 +146,7 @@ class IncrementalStructure:
         return structure
 
     def take_changes(self) -> set[VertexId] | None:
-        """The points with other links in either tree since the last call; None at the first."""
+        """Return the points whose links changed since the last call; None at the first call."""
         upper, lower = (tree.changed for tree in self.trees)
         for tree in self.trees:
             tree.changed = set()
@@ -160,7 +160,7 @@ class IncrementalStructure:
     def certificate(
         self, side: int, b: VertexId
     ) -> tuple[VertexId, VertexId, VertexId, bool] | None:
-        """The certificate of the edge on which b hangs; None if it has none.
+        """Return the certificate of the edge on which b hangs; None if it has none.
 
         Returns:
             Three points from left to right, and whether they must turn away.
@@ -210,7 +210,7 @@ class IncrementalStructure:
           before p.
         * Lower tree: p has no child except possibly q. It is detached from d(p) and hangs on q.
 
-        Both take O(1) time, and one search along the chain for r'. (The paper says that edge
+        Both take O(1) time, and one search along the chain for r'. (According to the paper, edge
         r p, r = d(p), is replaced by r' p, and gives one case of the two; it is r' q.)
 
         Returns:
@@ -230,7 +230,7 @@ class IncrementalStructure:
         return Exchanged(edges, side, end, old)
 
     def _may_exchange(self, side: int, p: VertexId, q: VertexId) -> bool:
-        """Whether q has no children in this tree, and p none but q in the other."""
+        """Return True if q has no children in this tree, and p none but q in the other."""
         other = self.trees[1 - side]
         alone = other.first[p] == other.last[p] and other.last[p] in (NONE, q)
         return alone and self.trees[side].first[q] < 0

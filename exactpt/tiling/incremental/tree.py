@@ -104,7 +104,7 @@ class TangentTree:
     # Chains
 
     def top(self, v: VertexId) -> VertexId:
-        """The top of the path of last children through v."""
+        """Return the top of the path of last children through v."""
         parent, last = self.parent, self.last
         z = parent[v]
         while z >= 0 and last[z] == v:
@@ -115,7 +115,7 @@ class TangentTree:
     def tangent_end(
         self, p: VertexId, bottom: VertexId, hides: Callable[[VertexId, VertexId], bool]
     ) -> VertexId:
-        """The end on the chain of p of the tangent from a new point just left of p.
+        """Return the end on the chain of p of the tangent from a new point just left of p.
 
         Args:
             p: a point other than the root.

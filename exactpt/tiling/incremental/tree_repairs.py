@@ -110,7 +110,7 @@ class TreeRepairs:
             self._certified.certify_edge(side, c)
 
     def _kind(self, side: int, b: VertexId) -> str:
-        """The kind of event at which the certificate of b fails."""
+        """Return the kind of event at which the certificate of b fails."""
         structure = self._certified.now
         tree = structure.trees[side]
         n = tree.after[b]
@@ -166,7 +166,7 @@ class TreeRepairs:
         return found
 
     def _edges_of(self, *points: VertexId) -> set[Ends]:
-        """The edges from some points to the left."""
+        """Return the edges from some points to the left."""
         return {
             edge_key(p, tree.parent[p])
             for tree in self._certified.now.trees

@@ -1,10 +1,10 @@
 """Insertion and removal of bodies in the mixed tiling: which geodesics change.
 
 Between a geodesic and its chain of the boundary lie the tiles of its node and of the nodes
-below. A new body changes the geodesic if it meets one of these tiles. Otherwise there is
+below. A new body changes the geodesic if it intersects one of these tiles. Otherwise there is
 nothing new between the two, and a shortest path in the free space remains shortest in a
 smaller free space. A removed body changes the geodesic if the geodesic bends at it. The body
-is on its right then; the geodesic of a longer chain passes between the two, and so bends at
+is on its right; the geodesic of a longer chain passes between the two, and so bends at
 the body too. In either case, if the geodesic of a node changes, so do those of all its
 ancestors.
 """
@@ -46,14 +46,14 @@ class ChangedGeodesics(NamedTuple):
 
 
 def nodes_changed_by_insertion(mesh: LabelledMesh, faces: Iterable[HalfEdge]) -> set[int]:
-    """The nodes whose geodesics change when a body is added that meets some faces."""
+    """Return the nodes whose geodesics change when a body is added that intersects some faces."""
     return _with_ancestors(mesh, (mesh.node(h) for h in faces if mesh.region[h] == FREE))
 
 
 def nodes_changed_by_removal(
     mesh: LabelledMesh, own: RingTree, sides: Iterable[HalfEdge]
 ) -> set[int]:
-    """The nodes of other bodies whose geodesics change when a body is removed.
+    """Return the nodes of other bodies whose geodesics change when a body is removed.
 
     Args:
         mesh: the tiling.
@@ -66,7 +66,7 @@ def nodes_changed_by_removal(
 
 
 def _with_ancestors(mesh: LabelledMesh, nodes: Iterable[int]) -> set[int]:
-    """Some nodes with all their ancestors; -1 is no node."""
+    """Return some nodes with all their ancestors; -1 is not a node."""
     found: set[int] = set()
     for node in nodes:
         while node >= 0 and node not in found:
@@ -78,7 +78,7 @@ def _with_ancestors(mesh: LabelledMesh, nodes: Iterable[int]) -> set[int]:
 def changed_geodesics(
     mesh: LabelledMesh, ring_tree: RingTree, changing: set[int]
 ) -> ChangedGeodesics:
-    """The chains of a body: the geodesics of its highest nodes that do not change, in order."""
+    """Return the chains of a body: geodesics of its highest unchanged nodes, in order."""
     tree = ring_tree.tree
     edges: list[HalfEdge] = []
     after: dict[HalfEdge, HalfEdge] = {}

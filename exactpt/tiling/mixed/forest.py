@@ -88,26 +88,26 @@ class Forest:
             del self.pinned[tree.chain[0]]
 
     def body(self, node: int) -> int:
-        """The number of the body to which a node belongs."""
+        """Return the number of the body to which a node belongs."""
         return self.vertices.all[node >> 1].body
 
     def bot(self, label: Label) -> int:
-        """The deepest node of a label."""
+        """Return the deepest node of a label."""
         return max(label, key=self.depth.__getitem__)
 
     def top(self, label: Label) -> int:
-        """The highest node of a label."""
+        """Return the highest node of a label."""
         return min(label, key=self.depth.__getitem__)
 
     def is_path(self, label: Label) -> bool:
-        """Whether a label is a path of ancestors."""
+        """Return True if a label is a path of ancestors."""
         return not label or (
             self.depth[self.bot(label)] - self.depth[self.top(label)] + 1 == len(label)
             and all(self.parent[v] in label for v in label if v != self.top(label))
         )
 
     def node(self, label: Label, twin: Label) -> int:
-        """The node whose tile is on the left of a half-edge with these labels; -1 in F2."""
+        """Return the node whose tile is on the left of a half-edge with these labels; -1 in F2."""
         if label:
             return self.bot(label)
         return self.parent[self.top(twin)] if twin else -1

@@ -59,7 +59,7 @@ class Geodesics:
         self._triangles = triangles
 
     def path(self, chain: Sequence[HalfEdge]) -> list[VertexId]:
-        """The geodesic homotopic to a chain, as vertices.
+        """Return the geodesic homotopic to a chain, as vertices.
 
         Args:
             chain: half-edges, each of which starts where the one before ends. If the chain is
@@ -68,7 +68,7 @@ class Geodesics:
         return joined(self.parts(chain))
 
     def without_loops(self, chain: Sequence[HalfEdge]) -> Sequence[HalfEdge]:
-        """A chain without contractible loops at vertices that it passes several times."""
+        """Return a chain without contractible loops at vertices that it passes several times."""
         m = self._mesh.map
         kept = without_steps_back(chain)
         before = -1
@@ -80,7 +80,7 @@ class Geodesics:
         return kept
 
     def _without_loops_at(self, v: VertexId, chain: list[HalfEdge]) -> list[HalfEdge]:
-        """A chain without contractible loops at one vertex."""
+        """Return a chain without contractible loops at one vertex."""
         kept: list[HalfEdge] = []
         start = 0
         for part in self.parts(chain, v):
@@ -90,7 +90,7 @@ class Geodesics:
         return kept
 
     def parts(self, chain: Sequence[HalfEdge], pin: VertexId = NO_VERTEX) -> list[Part]:
-        """The geodesic in parts: they end at a pin, or if a face on the right is no triangle."""
+        """Return the geodesic in parts, cut at pins and beside faces that are not triangles."""
         m = self._mesh.map
         parts = []
         start = m.origin[chain[0]]
@@ -107,7 +107,7 @@ class Geodesics:
         return parts
 
     def from_leftmost(self, cycle: Sequence[HalfEdge]) -> list[HalfEdge]:
-        """The half-edges of a cycle around a body, from its leftmost vertex on.
+        """Return the half-edges of a cycle around a body, from its leftmost vertex on.
 
         The cycle is the ring of the body, or consists of geodesics along it. Its leftmost vertex
         is on the convex hull of the body, and so on the unpinned geodesic cycle, which lies
@@ -120,11 +120,11 @@ class Geodesics:
         return [*cycle[first:], *cycle[:first]]
 
     def around_contents(self, ring: Sequence[HalfEdge]) -> list[HalfEdge]:
-        """A chain around all that is in a hole, from its leftmost vertex p on; none if it is empty.
+        """Return a chain around the contents of a hole from their leftmost vertex p, or none.
 
         The chain leads from p to the ring of the hole, around it, and back. The unpinned geodesic
-        cycle is convex only at vertices of the contents, so p is its leftmost vertex too. What is
-        left of p in the hole is empty, and no part of the cycle: where the chain meets the ring
+        cycle is convex only at vertices of the contents, so p is its leftmost vertex too. The part
+        left of p in the hole is empty, and no part of the cycle: where the chain touches the ring
         there does not matter. A triangle at p that reaches to the left has a vertex there.
         """
         m, origins = self._mesh.map, {self._mesh.map.origin[h]: i for i, h in enumerate(ring)}
@@ -144,7 +144,7 @@ class Geodesics:
         return [bridge, *ring[first:], *ring[:first], twin(bridge)]
 
     def _component(self, first: HalfEdge) -> set[HalfEdge]:
-        """The half-edges of all triangles that are connected to one."""
+        """Return the half-edges of all triangles that are connected to one."""
         m = self._mesh.map
         seen: set[HalfEdge] = set()
         todo = [first]
@@ -157,7 +157,7 @@ class Geodesics:
         return seen
 
     def _triangles_at(self, before: HalfEdge, after: HalfEdge) -> list[HalfEdge] | None:
-        """The triangles on the right of a chain at a vertex; None if a face is no triangle.
+        """Return the triangles right of a chain at a vertex; None if a face is not one.
 
         A triangle is represented by its least half-edge.
         """
@@ -174,7 +174,7 @@ class Geodesics:
     def _funnel(
         self, start: VertexId, goal: VertexId, sleeve: Sequence[HalfEdge]
     ) -> list[VertexId]:
-        """The shortest path from start to goal through a sleeve of triangles."""
+        """Return the shortest path from start to goal through a sleeve of triangles."""
         if len(sleeve) < 2:
             return [start] if start == goal else [start, goal]
         funnel = _Funnel(start, self._turn)
@@ -186,9 +186,9 @@ class Geodesics:
         return path if path[-1] == goal else [*path, goal]
 
     def _turn(self, apex: VertexId, p: VertexId, side_p: int, q: VertexId, side_q: int) -> int:
-        """The orientation of apex, p, q, for obstacles p and q on given sides of the path.
+        """Return the orientation of apex, p, q, for obstacles p and q on given sides of the path.
 
-        Of three vertices collinear for ever the middle one sticks out, away from its body: an
+        Of three vertices collinear for all times the middle one sticks out, away from its body: an
         obstacle on the left of the path (side 1) sticks out to the right, and vice versa.
         """
         if p == q:
@@ -199,7 +199,7 @@ class Geodesics:
         return s
 
     def _portals(self, sleeve: Sequence[HalfEdge]) -> list[Ends]:
-        """The left and the right end of the edge between each triangle of a sleeve and the next."""
+        """Return the ends, left and right, of the edges between triangles of a sleeve."""
         m = self._mesh.map
         portals = []
         for t, u in pairwise(sleeve):
@@ -210,7 +210,7 @@ class Geodesics:
 
 
 def joined(parts: Sequence[Part]) -> list[VertexId]:
-    """The vertices along a geodesic."""
+    """Return the vertices along a geodesic."""
     return [*parts[0].path[:1], *(v for part in parts for v in part.path[1:])]
 
 

@@ -3,7 +3,7 @@
 A new geodesic is computed in a triangulated region, along a chain: the unchanged geodesics of
 the highest nodes below its own (for a new body, its ring). The chain is homotopic to the
 boundary, with the body and the tiles of these nodes on its left and the new geodesic on its
-right. The region consists of the faces that the body meets, or the faces at its vertices, and
+right. The region consists of the faces that the body intersects, or the faces at its vertices, and
 the tiles of the nodes that change. At a vertex where a face on the right of the chain is
 outside the region, the geodesic is assumed to pass. The resulting path is the shortest one of
 its homotopy class, which is unique, if it is locally shortest; that is, if at every vertex
@@ -55,7 +55,7 @@ __all__ = ["LabelledRegion", "region_of_insertion", "region_of_removal"]
 
 
 def region_of_insertion(mesh: LabelledMesh, faces: Sequence[HalfEdge]) -> LabelledRegion:
-    """The region to retile when a body is added.
+    """Return the region to retile when a body is added.
 
     Args:
         mesh: the tiling.
@@ -65,7 +65,7 @@ def region_of_insertion(mesh: LabelledMesh, faces: Sequence[HalfEdge]) -> Labell
 
 
 def region_of_removal(mesh: LabelledMesh, i: int, edges: Sequence[HalfEdge]) -> LabelledRegion:
-    """The region to retile when a body is removed.
+    """Return the region to retile when a body is removed.
 
     Args:
         mesh: the tiling.
@@ -142,7 +142,7 @@ class LabelledRegion(Region):
         self._remove(self._inner())
         bridges = self._label(predicates, paths)
         retiled = super().tile(predicates)
-        # A tile may become one of F2 unchanged; its edges can be flipped then.
+        # A tile may become one of F2 unchanged; its edges can then be flipped.
         refixed = [
             g
             for h, was_fixed in self._was_fixed.items()
@@ -157,7 +157,7 @@ class LabelledRegion(Region):
         )
 
     def _inner(self) -> list[HalfEdge]:
-        """The diagonals between faces of the region."""
+        """Return the diagonals between faces of the region."""
         before = self._before
         return [
             h for h in before if h % 2 == 0 and h ^ 1 in before and not self.mesh.is_boundary(h)
@@ -193,7 +193,7 @@ class LabelledRegion(Region):
                     self._triangles.update(face)
 
     def _paths(self, predicates: Predicates) -> list[tuple[int, list[VertexId]]]:
-        """The nodes with new geodesics, and these geodesics."""
+        """Return the nodes with new geodesics, and these geodesics."""
         geodesics = Geodesics(predicates, self.mesh, self._triangles)
         paths = []
         for tree, edges, after, spans in self._changed:
@@ -209,7 +209,7 @@ class LabelledRegion(Region):
         chain: Sequence[HalfEdge],
         after: dict[HalfEdge, HalfEdge],
     ) -> list[VertexId]:
-        """The geodesic homotopic to a chain; tiles into which it moves are added to the region."""
+        """Return the geodesic homotopic to a chain; tiles that it enters join the region."""
         while True:
             chain = geodesics.without_loops(chain)
             parts = geodesics.parts(chain)
@@ -231,7 +231,7 @@ class LabelledRegion(Region):
                     self._triangulate(predicates, self.mesh.map.face(h), SOLID)
 
     def _is_taut(self, predicates: Predicates, a: VertexId, v: VertexId, b: VertexId) -> bool:
-        """Whether a path a v b bends around the body of v, or is straight for ever."""
+        """Return True if a path a v b bends around the body of v, or is straight for all times."""
         s = 0 if a == b else predicates.sign(a, v, b)
         if s == 0:
             return a != b and predicates.nearer(a, v, b)
@@ -245,7 +245,7 @@ class LabelledRegion(Region):
         )
 
     def _beside(self, before: HalfEdge, after: HalfEdge) -> list[HalfEdge]:
-        """The angles at a vertex, on the right of a chain, of tiles not in the region yet.
+        """Return the angles at a vertex, on the right of a chain, of tiles not in the region yet.
 
         Raises:
             AuditError: if there are none, or a face there is not in free space.

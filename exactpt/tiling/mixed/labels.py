@@ -60,20 +60,20 @@ class LabelledMesh(Mesh):
             self.labels[h] = self.labels[h + 1] = NO_LABEL
 
     def is_fixed(self, h: HalfEdge) -> bool:
-        """Whether an edge is not a diagonal of F2 or inside a body."""
+        """Return True if an edge is not a diagonal of F2 or inside a body."""
         return super().is_fixed(h) or bool(self.labels[h] or self.labels[h ^ 1])
 
     def tile(self, h: HalfEdge) -> Tile:
-        """The body and the depth of the node to which the tile on the left of h belongs."""
+        """Return the body and the depth of the node to which the tile on the left of h belongs."""
         node = self.node(h)
         return F2 if node < 0 else Tile(self.forest.body(node), self.forest.depth[node])
 
     def node(self, h: HalfEdge) -> int:
-        """The node whose tile is on the left of a half-edge of free space; -1 in F2."""
+        """Return the node whose tile is on the left of a half-edge of free space; -1 in F2."""
         return self.forest.node(self.labels[h], self.labels[h ^ 1])
 
     def geodesic(self, ring_tree: RingTree, k: int) -> list[HalfEdge]:
-        """The half-edges along the geodesic of a node; the cycle of `TOP` starts anywhere.
+        """Return the half-edges along the geodesic of a node; the cycle of `TOP` starts anywhere.
 
         Where the geodesic passes a vertex twice, it continues along the first of its half-edges
         clockwise: on its left there is only the body or a pocket that it closes.
@@ -109,7 +109,7 @@ class LabelledMesh(Mesh):
         raise AuditError(f"the geodesic of node {node} is no path")
 
     def _clockwise(self, first: HalfEdge, node: int, last: HalfEdge) -> HalfEdge:
-        """The first half-edge clockwise around a vertex with the node in its label, or ``last``."""
+        """Return the first half-edge clockwise whose label has the node, or ``last``."""
         h = first
         while node not in self.labels[h] and h != last:
             h = self.map.following[h ^ 1]
@@ -130,7 +130,7 @@ class LabelledMesh(Mesh):
         )
 
     def _straightened(self, h: HalfEdge) -> tuple[Label, Label]:
-        """The geodesics, in both directions, that no longer bend at the origin of h."""
+        """Return the geodesics, in both directions, that no longer bend at the origin of h."""
         before, pinned = self.map.previous[h], self.forest.pinned
         kept = pinned.get(self.map.origin[h], NO_LABEL)
         return (
@@ -180,7 +180,7 @@ class LabelledMesh(Mesh):
         return e
 
     def copy(self) -> LabelledMesh:
-        """An independent copy, with the same trees."""
+        """Return an independent copy, with the same trees."""
         other = LabelledMesh(0, self.forest)
         self._copy_to(other)
         other.labels = self.labels[:]
@@ -196,7 +196,7 @@ class LabelledMesh(Mesh):
         self.labels = [frozenset(label) for label in state["labels"]]
 
     def labelling(self) -> list[Label]:
-        """The labels."""
+        """Return the labels."""
         return self.labels
 
     def relative_hulls(self) -> Callable[[int], list[VertexId]]:

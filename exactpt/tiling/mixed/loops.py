@@ -15,7 +15,7 @@ __all__ = ["loop_along"]
 
 
 def loop_along(m: PlanarMap, labels: list[frozenset[int]], top: int) -> list[VertexId]:
-    """The vertex ids along the unpinned cycle of a body, counter-clockwise, by its node.
+    """Return the vertex ids along the unpinned cycle of a body, counter-clockwise, by its node.
 
     Raises:
         AuditError: if the labels do not form a single cycle.

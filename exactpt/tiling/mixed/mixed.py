@@ -9,7 +9,7 @@ added or removed, geodesics that change are recomputed (`exactpt.tiling.mixed.la
 
 A hole is a ring as an outline is: the body is on the left of its half-edges, and the geodesics
 along it lead through the free space in the hole. Its unpinned cycle is the shortest loop around
-all that is in the hole; what is between the ring and this loop belongs to F1 as well. Loops of
+all that is in the hole; faces between the ring and this loop belong to F1 as well. Loops of
 different rings do not cross, since the rings do not: so a half-edge has labels of one ring, in the
 holes too, and the repairs, which are local, are those of outlines. Where nothing is in a hole, the
 loops of `ROOT` and `TOP` are points, without an edge, and remain so: geodesics keep their homotopy
@@ -44,7 +44,7 @@ class MixedRules(FlippingRules):
 
     @staticmethod
     def build(instant: PredicatesAt) -> Mesh:
-        """The mixed tiling of an instant."""
+        """Return the mixed tiling of an instant."""
         return mixed_mesh(instant)
 
     def empty_mesh(self, vertices: Vertices) -> Mesh:

@@ -22,7 +22,7 @@ __all__ = ["mixed_mesh"]
 
 
 def mixed_mesh(instant: PredicatesAt) -> LabelledMesh:
-    """The mixed tiling of an instant."""
+    """Return the mixed tiling of an instant."""
     vertices = instant.vertices
     forest = Forest(vertices)
     by_ends = _geodesic_labels(instant, forest)
@@ -44,7 +44,7 @@ def mixed_mesh(instant: PredicatesAt) -> LabelledMesh:
 
 
 def _geodesic_labels(instant: PredicatesAt, forest: Forest) -> dict[Ends, Label]:
-    """The labels by the ends of the half-edges."""
+    """Return the labels by the ends of the half-edges."""
     triangulation = build_mesh(instant, Sweep(instant, body_edges(instant), triangulate=True).run())
     triangles = {h for h in triangulation.map.half_edges() if triangulation.region[h] == FREE}
     geodesics = Geodesics(instant, triangulation, triangles)
@@ -65,7 +65,7 @@ def _geodesic_labels(instant: PredicatesAt, forest: Forest) -> dict[Ends, Label]
 def _f2_edges(
     instant: PredicatesAt, forest: Forest, labels: dict[Ends, Label]
 ) -> Iterable[SweptEdge]:
-    """All labelled edges, directed from left to right; only the parts of F2 above are tiled."""
+    """Yield all labelled edges, from left to right; only the parts of F2 above are tiled."""
     done = set()
     for u, v in labels:
         a, b = (u, v) if instant.left_of(u, v) else (v, u)

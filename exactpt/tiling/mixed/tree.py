@@ -30,7 +30,7 @@ class GeodesicTree:
         low, high: for each node, its interval (a, b).
         parent: for each node, its parent; -1 for `TOP`.
         depth: for each node, its depth; 0 for `TOP`.
-        child: for each node, the first of its two children, the other one being the next node;
+        child: for each node, the first of its two children, of which the second is the next node;
             -1 for `TOP` and for a leaf.
         leaf: for each edge, its node.
     """
@@ -65,5 +65,5 @@ class GeodesicTree:
 
 @lru_cache(maxsize=256)
 def tree_of_size(size: int) -> GeodesicTree:
-    """The tree over this many vertices, built once and shared."""
+    """Return the tree over this many vertices, built once and shared."""
     return GeodesicTree(size)
