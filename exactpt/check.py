@@ -28,8 +28,6 @@ from exactpt.tiling.events import TilingEvent
 from exactpt.tiling.start import plan_tiling
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["Report", "check_run", "check_scene"]
-
 
 @final
 @dataclass(slots=True)

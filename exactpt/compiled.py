@@ -9,8 +9,6 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-__all__ = ["compare", "write"]
-
 ROOT = Path(__file__).parents[1]
 LIST = Path(__file__).with_name("compiled.txt")
 

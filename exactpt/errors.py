@@ -11,18 +11,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
 
-__all__ = [
-    "AuditError",
-    "BudgetExceeded",
-    "ExactPTError",
-    "InputError",
-    "RoundingError",
-    "TimeRangeError",
-    "UnreachableError",
-    "carrying",
-    "printable",
-]
-
 
 def printable(text: str) -> str:
     """Return the text with every unprintable character escaped: controls, line breaks, overrides.

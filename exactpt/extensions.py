@@ -11,8 +11,6 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-__all__ = ["extension", "register"]
-
 _places: dict[str, str] = {}
 
 

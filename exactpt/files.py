@@ -20,8 +20,6 @@ if sys.platform == "win32":
 else:
     import fcntl
 
-__all__ = ["MOST_BYTES", "lock", "read_bytes", "read_text", "write_atomically", "writing"]
-
 MOST_BYTES: Final = 100_000_000
 """Maximum size of a file that is read, unless another limit is given."""
 CHUNK: Final = 1 << 20

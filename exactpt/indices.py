@@ -13,19 +13,6 @@ from typing import Final, NewType, TypeAlias, TypeVar
 from librt.vecs import vec
 from mypy_extensions import i64
 
-__all__ = [
-    "NO_HALF_EDGE",
-    "NO_VERTEX",
-    "CertificateId",
-    "Ends",
-    "HalfEdge",
-    "Index",
-    "Triple",
-    "VertexId",
-    "half_edge_vec",
-    "vertex_vec",
-]
-
 VertexId = NewType("VertexId", i64)
 """A vertex: its position among the moving vertices of a scene, or in a planar map."""
 

@@ -14,8 +14,6 @@ from exactpt.motion.incidence import Touch
 if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
 
-__all__ = ["record", "record_edges", "record_overlaps"]
-
 
 def record_edges(
     contacts: Contacts, pairs: Indices, low: Floats, high: Floats,

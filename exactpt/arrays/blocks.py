@@ -24,8 +24,6 @@ from exactpt.kernel.rounding import SLACK, U
 from exactpt.pairs.rational import Candidate
 from exactpt.scene.body_arrays import BodyArrays
 
-__all__ = ["Block"]
-
 CHUNK: Final = 1 << 14
 """Maximum number of pairs of a vertex and an edge at a time: their arrays fit a cache."""
 LARGEST: Final = 1 << 18

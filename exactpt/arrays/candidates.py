@@ -18,8 +18,6 @@ from exactpt.kernel.rounding import SLACK, U
 from exactpt.motion.incidence import Touch
 from exactpt.pairs.rational import Candidate
 
-__all__ = ["Candidates", "all_candidates", "shifted", "vertex_candidates"]
-
 
 class Candidates(NamedTuple):
     """Pairs of a vertex and an edge.

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from exactpt.pairs.contact import Contact
     from exactpt.scene.scene import Scene
 
-__all__ = ["KINDS", "Contacts", "Errors", "masks"]
-
 KINDS: Final = ("none", "initial", "self", "vertex-edge", "vertex-vertex")
 """The kinds of contacts, as in `Contact.kind`; "none" where there is none."""
 

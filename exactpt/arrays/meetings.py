@@ -13,8 +13,6 @@ from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.kernel.vectorized import Answers, linears, quadratics
 
-__all__ = ["Meetings", "Span", "first_meetings"]
-
 INFINITY: Final = np.inf
 
 

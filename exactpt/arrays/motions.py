@@ -10,8 +10,6 @@ from exactpt.arrays.spans import Spans
 from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.rounding import SLACK, TINY, U
 
-__all__ = ["Motions", "reaches", "relative_motions"]
-
 
 class Motions(NamedTuple):
     """Translations as polynomials in the time s since the start.

@@ -10,8 +10,6 @@ from exactpt.geometry.ragged import Edges, Flags, edges_of
 from exactpt.kernel.doubles import Floats, Indices, native
 from exactpt.scene.body_arrays import BodyArrays
 
-__all__ = ["Outlines", "outlines_of"]
-
 
 class Outlines(NamedTuple):
     """Outlines in columns.

@@ -19,8 +19,6 @@ from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene, scene_of
 from exactpt.scene.simple import check_simple
 
-__all__ = ["first_contacts"]
-
 BLOCK: Final = 1 << 14
 """Number of pairs at a time."""
 

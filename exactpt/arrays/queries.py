@@ -28,8 +28,6 @@ from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.rational import Earliest
 from exactpt.scene.scene import Scene
 
-__all__ = ["point_segment_contacts"]
-
 CHUNK: Final = 1 << 14
 """Number of queries at a time: their arrays fit a cache."""
 APART: Final = np.array([0.0, 1.0, 0.0, 0.0, 1.0, 0.0, *([0.0] * 6)])

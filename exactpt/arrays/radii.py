@@ -23,8 +23,6 @@ from exactpt.kernel.doubles import Floats, Indices, native
 from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 from exactpt.kernel.vectorized import quadratics
 
-__all__ = ["core_distances", "vertex_meetings"]
-
 K: Final = 16.0 * U
 """Relative bound on the rounding of sums of up to eight terms, and of products of two."""
 DEPTH: Final = 12

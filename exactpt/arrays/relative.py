@@ -15,8 +15,6 @@ from exactpt.geometry.ragged import Flags
 from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.rounding import SLACK, TINY, U
 
-__all__ = ["Coefficient", "Relative", "orientations", "sides"]
-
 K: Final = 8.0 * U
 """Relative bound on the rounding of a coefficient of an orientation: see `orientations`."""
 

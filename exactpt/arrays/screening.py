@@ -16,8 +16,6 @@ from exactpt.kernel.rounding import SLACK, U
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene
 
-__all__ = ["screened"]
-
 
 def screened(bodies: BodyArrays, time: Floats, scene: Callable[[int], Scene]) -> Contacts:
     """Return the first contacts of the pairs (0, 1), (2, 3), ... of bodies with rounded numbers.

@@ -11,8 +11,6 @@ from exactpt.kernel.double_double import Double2, add2, exact_sum, multiply2
 from exactpt.kernel.doubles import Floats
 from exactpt.kernel.rounding import SLACK, TINY, U
 
-__all__ = ["ExactRelative", "sharpened"]
-
 Plane2: TypeAlias = tuple[Double2, Double2]
 
 QUARTER: Final = 0.25 * U

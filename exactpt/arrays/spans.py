@@ -12,8 +12,6 @@ from exactpt.errors import InputError
 from exactpt.kernel.doubles import Floats, Indices, doubles, first_true
 from exactpt.kernel.numbers import QQ
 
-__all__ = ["Spans", "exact", "read_spans"]
-
 
 class Spans(NamedTuple):
     """The start and the end of each time span.

@@ -14,8 +14,6 @@ from exactpt.geometry.ragged import Flags, ranges, segments_meet, spread
 from exactpt.kernel.doubles import Floats, Indices
 from exactpt.kernel.rounding import SLACK, TINY, U
 
-__all__ = ["at_start"]
-
 CHUNK: Final = 1 << 14
 """Maximum number of pairs of edges in a chunk."""
 

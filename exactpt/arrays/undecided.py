@@ -15,8 +15,6 @@ from exactpt.pairs.search import pair_search
 from exactpt.pairs.start import initial_touches
 from exactpt.pairs.two_pieces import first_at_distance
 
-__all__ = ["decide", "search"]
-
 MOST: Final = 64
 """Maximum number of candidates that are decided here; with more, the search is faster."""
 

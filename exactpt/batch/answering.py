@@ -21,8 +21,6 @@ from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
 
-__all__ = ["Answer", "answer", "answers", "answers_of"]
-
 TOGETHER: Final = 512
 """Number of scenes that are taken together."""
 

@@ -12,8 +12,6 @@ from exactpt.batch.question import Question
 from exactpt.workers.processes import results_of
 from exactpt.workers.work import Step, Work
 
-__all__ = ["Answered", "Chunk", "Record", "answered", "one_by_one", "record_of"]
-
 
 class Chunk(NamedTuple):
     """Some lines of the input, one after the other.

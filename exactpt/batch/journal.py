@@ -14,8 +14,6 @@ from exactpt.batch.question import Question
 from exactpt.errors import InputError
 from exactpt.files import lock
 
-__all__ = ["Journal"]
-
 VERSION = 1
 
 

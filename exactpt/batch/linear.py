@@ -10,8 +10,6 @@ from exactpt.batch.two_bodies import Moving, Raw, TwoBodies, exact
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, finite, nearest_float
 
-__all__ = ["initial_contact", "is_linear", "linear_contact"]
-
 Vector = tuple[QQ, QQ]
 
 SMALLEST: Final = 2.0**-200

@@ -14,8 +14,6 @@ from typing import BinaryIO, Final, Protocol
 from exactpt.batch.chunks import Chunk, Record
 from exactpt.errors import InputError
 
-__all__ = ["DIGEST", "Lines", "Source", "changed", "size_of"]
-
 LARGEST: Final = 1 << 18
 """Most bytes of a chunk, unless it is one line."""
 SMALLEST: Final = 1 << 12

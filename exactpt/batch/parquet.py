@@ -17,8 +17,6 @@ from exactpt.errors import InputError
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
 
-__all__ = ["Rows", "table"]
-
 COLUMN = "scene"
 AT_A_TIME = 1024
 """Number of rows that are read at a time."""

@@ -16,8 +16,6 @@ from exactpt.pairs.approach import first_within
 from exactpt.pairs.intervals import contacts
 from exactpt.scene.scene import Scene
 
-__all__ = ["Question"]
-
 NOTHING: Final = Scene([])
 """A scene to which any question has an answer, if its parts go together."""
 FIRST_ONLY: Final = ("method", "tiling", "ignoring", "after_start", "between", "exact_only")

@@ -19,8 +19,6 @@ from exactpt.workers.cluster import results_on
 from exactpt.workers.processes import results_of
 from exactpt.workers.work import Work
 
-__all__ = ["Summary", "run"]
-
 PARQUET = ".parquet"
 ON_A_CLUSTER = 16
 """Number of workers of a cluster for which an input is cut into enough chunks."""

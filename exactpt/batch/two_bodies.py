@@ -16,8 +16,6 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.body import is_text
 from exactpt.scene.json_values import Number
 
-__all__ = ["Moving", "TwoBodies", "exact", "read_two_bodies"]
-
 Raw: TypeAlias = "int | str"
 """A number as it is written: a JSON integer, or the text of another number."""
 

@@ -36,8 +36,6 @@ from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY, U
 from exactpt.motion.vertex import Vertex
 from exactpt.motion.vertices import Vertices
 
-__all__ = ["PredicatesAt", "sorted_by_x"]
-
 STEPS: Final = 2.0**30
 """Number of units per unit of slope, as slopes are first compared in floats."""
 

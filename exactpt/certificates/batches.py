@@ -12,8 +12,6 @@ from exactpt.kernel.rounding import SLACK
 from exactpt.kernel.vectorized import Answers, quadratics
 from exactpt.motion.vertices import HORIZON, MOTION, OTHER_MOTION, WIDTH, Vertices
 
-__all__ = ["linear_orientations"]
-
 BLOCK: Final = 1 << 13
 """Number of triples whose arrays are in a processor's cache together."""
 

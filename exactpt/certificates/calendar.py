@@ -13,9 +13,6 @@ from mypy_extensions import i32, i64
 from exactpt.certificates.certificate import KIND_COUNT
 from exactpt.kernel.rounding import INFINITY
 
-__all__ = ["Calendar"]
-
-
 DAYS: Final[int] = 1000
 """Maximum number of days: their lists are in a processor's cache together."""
 

@@ -16,28 +16,6 @@ from mypy_extensions import i64
 
 from exactpt.indices import CertificateId, VertexId
 
-__all__ = [
-    "ANGLE",
-    "CELL",
-    "EXTREME",
-    "KIND_COUNT",
-    "MOTION",
-    "OTHER",
-    "POINT_MOTION",
-    "POINT_ORDER",
-    "SHADOW",
-    "SHRINK",
-    "TURN",
-    "Kind",
-    "PointKind",
-    "kind_of",
-    "pack",
-    "pack_point",
-    "part_of",
-    "point_kind_of",
-    "point_of",
-]
-
 KIND_COUNT: Final[int] = 16
 """All packed codes of kinds are less."""
 

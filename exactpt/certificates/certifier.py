@@ -40,8 +40,6 @@ if TYPE_CHECKING:
     from exactpt.motion.vertex import Vertex
     from exactpt.motion.vertices import Vertices
 
-__all__ = ["X_ORDER", "Certifier"]
-
 FEW: Final = 16
 """Number of certificates from one look at the budget to the next."""
 

@@ -19,9 +19,6 @@ from exactpt.kernel.rounding import U
 from exactpt.motion.image import Image
 from exactpt.motion.vertices import MOTION
 
-__all__ = ["K", "linear_orientation", "linear_x_difference", "orientation", "x_difference"]
-
-
 K: Final = 8.0 * U
 """Relative bound on the rounding of the linear and quadratic coefficients formed here.
 

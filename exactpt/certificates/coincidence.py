@@ -22,16 +22,6 @@ if TYPE_CHECKING:
     from exactpt.certificates.certifier import Certifier
     from exactpt.motion.vertex import Vertex
 
-__all__ = [
-    "boxes_now",
-    "coincide",
-    "coordinate_order",
-    "lies_on",
-    "nearer",
-    "nearer_copy",
-    "strictly_between",
-]
-
 
 def coordinate_order(certifier: Certifier, a: Vertex, b: Vertex, axis: int) -> int:
     """Return the sign of x(b) - x(a) (axis 0) or of y(b) - y(a) (axis 1) at the current time."""

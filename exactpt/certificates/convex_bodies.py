@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from exactpt.certificates.at_time import PredicatesAt
 
-__all__ = ["all_stay_convex"]
-
 
 def all_stay_convex(instant: PredicatesAt) -> bool:
     """Return True if all bodies are convex and stay so; angles of pi are allowed.

@@ -19,8 +19,6 @@ from exactpt.kernel.rounding import SLACK, Answer, U
 from exactpt.kernel.sextics import sextic
 from exactpt.motion.image import Image
 
-__all__ = ["pair", "three", "x_difference"]
-
 K: Final = 8.0 * U
 
 

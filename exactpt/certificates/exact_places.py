@@ -16,8 +16,6 @@ from exactpt.indices import VertexId
 from exactpt.kernel.error_free import NOT_EXACT, exact_turn, is_exact_product, is_exact_sum
 from exactpt.motion.vertices import WIDTH, Vertices
 
-__all__ = ["ExactPlaces"]
-
 
 @final
 class ExactPlaces:

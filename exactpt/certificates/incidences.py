@@ -57,8 +57,6 @@ if TYPE_CHECKING:
     from exactpt.motion.vertex import Vertex
     from exactpt.motion.vertices import Vertices
 
-__all__ = ["touches"]
-
 FEW: Final = 24
 """Maximum number of points for which testing all pairs is faster than boxes."""
 

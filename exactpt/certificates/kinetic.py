@@ -21,8 +21,6 @@ from exactpt.kernel.numbers import Rational, rational
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.kernel.rounding import check_rounding
 
-__all__ = ["CertificateQueue"]
-
 
 @final
 class _Failures:

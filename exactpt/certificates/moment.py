@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from exactpt.motion.frame import Frame
     from exactpt.motion.vertex import Stage
 
-__all__ = ["Moment", "Numbered", "exact_time"]
-
 Numbered: TypeAlias = "tuple[Piece, int]"
 """A vertex: the piece of motion of its body, and its number in the scene."""
 

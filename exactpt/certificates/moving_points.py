@@ -6,8 +6,6 @@ from typing import TypeAlias
 
 from exactpt.kernel.polynomial import Polynomial
 
-__all__ = ["MovingPoint", "orientation", "squared_distance", "x_order"]
-
 MovingPoint: TypeAlias = tuple[Polynomial, Polynomial]
 """The coordinates x and y of a point over time."""
 

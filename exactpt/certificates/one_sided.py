@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from exactpt.kernel.integer_polynomial import IntPoly
     from exactpt.motion.vertex import Vertex
 
-__all__ = ["OneSided"]
-
 
 @final
 class OneSided(Predicates):

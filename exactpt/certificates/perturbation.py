@@ -54,15 +54,6 @@ from exactpt.motion.incidence import orientation as base_orientation
 from exactpt.motion.track import Track
 from exactpt.motion.vertex import Vertex
 
-__all__ = [
-    "comes_first",
-    "copies_first",
-    "cross",
-    "orientation",
-    "x_order",
-    "x_order_terms",
-]
-
 
 def cross(a: Track, b: Track, c: Track, d: Track) -> IntPoly:
     """Return a positive multiple of (b - a) x (d - c)."""

@@ -12,8 +12,6 @@ from exactpt.motion.image import Image
 from exactpt.motion.vertex import Vertex
 from exactpt.motion.vertices import HORIZON, MOTION, OTHER_MOTION, WIDTH, Vertices
 
-__all__ = ["K", "Positions", "cross_sign", "linear_position", "positions_at"]
-
 K: Final = 8.0 * U
 """Relative bound on the rounding of a 2 x 2 determinant of differences; see
 `exactpt.certificates.coefficients`."""

@@ -9,8 +9,6 @@ from abc import abstractmethod
 
 from exactpt.indices import VertexId
 
-__all__ = ["Predicates"]
-
 
 class Predicates:
     """Signs at a time, just after it, or just before it."""

@@ -24,9 +24,6 @@ from exactpt.kernel.rounding import INFINITY
 if TYPE_CHECKING:
     from exactpt.kernel.doubles import Floats, Indices
 
-__all__ = ["EventQueue", "EventTime", "ExactQueue", "Resolver", "earlier"]
-
-
 NO_CERTIFICATE: Final = CertificateId(-1)
 
 LARGEST: Final[float] = float.fromhex("0x1.fffffffffffffp+1023")

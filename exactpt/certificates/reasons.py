@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from exactpt.motion.vertex import Vertex
 
-__all__ = ["reason"]
-
 
 def reason(*vertices: Vertex, is_zero: bool, exact_only: bool) -> str:
     """Return the reason why a sign was decided exactly.

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from exactpt.motion.vertex import MovingBody, Vertex
 
-__all__ = ["keeps_x_order", "rigid"]
-
 
 def rigid(bodies: list[MovingBody], a: Vertex, b: Vertex, c: Vertex) -> bool:
     """Return True if three vertices keep their orientation for all times, so that no zero is lost.

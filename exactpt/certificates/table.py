@@ -10,8 +10,6 @@ from exactpt.certificates.queue import EventQueue, EventTime, ExactQueue
 from exactpt.indices import CertificateId, HalfEdge, VertexId
 from exactpt.kernel.rounding import INFINITY
 
-__all__ = ["CertificateTable"]
-
 
 @final
 class CertificateTable:

@@ -24,8 +24,6 @@ from exactpt.kernel.rounding import Answer, U
 from exactpt.kernel.sextics import sextic
 from exactpt.motion.image import Arm, Image
 
-__all__ = ["pair", "three", "x_difference"]
-
 UNIT: Final = 32.0 * U
 
 ONE: Final = [1.0]

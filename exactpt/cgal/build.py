@@ -8,8 +8,6 @@ from typing import Final
 
 from exactpt.errors import InputError
 
-__all__ = ["PACKAGES", "build_program", "sources"]
-
 PACKAGES: Final = "g++ cmake make libcgal-dev nlohmann-json3-dev"
 """What Debian calls the packages that the build needs."""
 

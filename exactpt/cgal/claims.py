@@ -14,8 +14,6 @@ from exactpt.kernel.numbers import QQ, ZZ, Rational, rational, shorten
 from exactpt.motion.body import Body
 from exactpt.scene.scene import Scene
 
-__all__ = ["BodyShape", "IsolatedRoot", "RootClaim", "Signs", "Tile", "Verdict", "exactly"]
-
 Tile: TypeAlias = Mapping[str, object]
 """The ``tile`` dictionary of docs/format.md, as `json.load` returns it."""
 

@@ -18,8 +18,6 @@ from exactpt.cgal.requests import point_words, polynomial_words, root_words, til
 from exactpt.errors import AuditError, InputError
 from exactpt.kernel.numbers import Rational, rational
 
-__all__ = ["CgalCheck", "find_program"]
-
 _VARIABLE: Final = "EXACTPT_CGAL_CHECK"
 _GREETING: Final = "exactpt-check 1"
 _ANSWERS: Final = {"ok", "bad", _GREETING.split(" ")[0]}

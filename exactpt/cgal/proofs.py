@@ -10,8 +10,6 @@ from typing import Final, NamedTuple
 from exactpt.cgal.client import find_program, recognise
 from exactpt.errors import AuditError, BudgetExceeded, InputError
 
-__all__ = ["ProofVerdict", "check_proof", "check_proofs"]
-
 _ACCEPTED: Final = 0
 _REJECTED: Final = 1
 _NO_PROOF: Final = 2

@@ -10,8 +10,6 @@ from exactpt.cgal.claims import BodyShape, IsolatedRoot, RootClaim, Tile, Verdic
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, ZZ, Rational, rational, shorten
 
-__all__ = ["point_words", "polynomial_words", "root_words", "tiling_request"]
-
 _WRITTEN: Final = re.compile(r"-?[0-9]+(?:/[0-9]*[1-9][0-9]*)?", re.ASCII)
 
 

@@ -13,8 +13,6 @@ from typing import Final, NoReturn
 from exactpt.errors import BudgetExceeded
 from exactpt.kernel.budget import within
 
-__all__ = ["endings", "time_limit"]
-
 GRACE: Final = 0.25
 """Seconds beyond the limit in which the library may stop by itself, between two events."""
 

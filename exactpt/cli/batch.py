@@ -22,8 +22,6 @@ from exactpt.errors import InputError
 from exactpt.files import MOST_BYTES
 from exactpt.kernel.numbers import QQ
 
-__all__ = ["batch"]
-
 
 @click.command()
 @click.argument("scenes", type=click.Path(path_type=Path), metavar="SCENES")

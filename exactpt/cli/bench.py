@@ -11,8 +11,6 @@ import click
 import exactpt
 from exactpt.cli.terminal import tell
 
-__all__ = ["bench"]
-
 
 @click.command(
     add_help_option=False,

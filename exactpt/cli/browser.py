@@ -15,8 +15,6 @@ from exactpt.collision.searches import Question, search_for
 from exactpt.errors import InputError
 from exactpt.scene.format import loads
 
-__all__ = ["answer", "picture"]
-
 
 def answer(scene: str, method: str, tiling: str) -> str:
     """Return the first contact of a scene.

@@ -19,8 +19,6 @@ from exactpt.kernel.numbers import QQ, show
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
 
-__all__ = ["convert", "generate"]
-
 _FEW = 3
 """Number of touching pairs of bodies that are named."""
 

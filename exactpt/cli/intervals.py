@@ -15,8 +15,6 @@ from exactpt.cli.words import bounds_in_words, intervals_in_words
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 
-__all__ = ["collide_all", "collide_enclosed"]
-
 TOGETHER: Final = {
     "scene", "as_json", "until", "exit_code", "max_seconds", "max_memory", "max_bytes"
 }  # fmt: skip

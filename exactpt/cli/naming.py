@@ -7,8 +7,6 @@ import csv
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import shorten
 
-__all__ = ["names_in", "two_names"]
-
 
 def names_in(text: str, option: str) -> list[str]:
     """Return the names in a text, separated by commas and perhaps quoted, as in CSV."""

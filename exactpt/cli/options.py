@@ -24,24 +24,6 @@ if TYPE_CHECKING:
 else:  # before click 8.4 it has no parameter
     _RationalType = _MomentType = click.ParamType
 
-__all__ = [
-    "MOMENT",
-    "QUIET",
-    "RATIONAL",
-    "SCENE",
-    "SCENE_FILE",
-    "SECONDS",
-    "TILING",
-    "bounded",
-    "budget",
-    "load",
-    "max_bytes",
-    "max_memory",
-    "naming_at",
-    "output",
-    "typed",
-]
-
 
 class _Rational(_RationalType):
     """A number of the scene format: 3, 1/3, 0.25, -3e-2."""

@@ -27,8 +27,6 @@ from exactpt.cli.words import answer_in_words
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 
-__all__ = ["demo", "draw"]
-
 
 @click.command()
 @SCENE

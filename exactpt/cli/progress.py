@@ -18,9 +18,6 @@ if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.scene.scene import Scene
 
-__all__ = ["SECONDS", "estimating", "progress"]
-
-
 _STEPS: Final = 1000
 """Number of steps of the full bar."""
 

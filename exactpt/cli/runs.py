@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from exactpt.simulation.event import Event
     from exactpt.simulation.simulation import Simulation
 
-__all__ = ["collide", "simulate"]
-
 
 @click.command()
 @SCENE

@@ -12,15 +12,6 @@ import click
 
 from exactpt.errors import printable
 
-__all__ = [
-    "drop_standard_output",
-    "drop_unwritten_output",
-    "encodable",
-    "is_terminal",
-    "say",
-    "tell",
-]
-
 
 def say(*lines: str) -> None:
     """Print lines of an answer on standard output, unprintable characters escaped."""

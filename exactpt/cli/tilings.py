@@ -26,8 +26,6 @@ from exactpt.cli.terminal import say, tell
 from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import QQ, rational
 
-__all__ = ["check", "tile"]
-
 
 @click.command()
 @SCENE

@@ -17,8 +17,6 @@ from exactpt.cli.terminal import say, tell
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 
-__all__ = ["judge", "oracle", "questions"]
-
 _FEW = 10
 """Number of wrong answers that are named."""
 _FOLDER = "exact-2d-collision-set-1"

@@ -15,15 +15,6 @@ if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
     from exactpt.simulation.event import Event
 
-__all__ = [
-    "answer_in_words",
-    "bounds_in_words",
-    "event_in_words",
-    "intervals_in_words",
-    "name_in_words",
-    "stats_in_words",
-]
-
 
 def answer_in_words(scene: Scene, contact: Contact | None, new: str = "") -> list[str]:
     """Return the first contact in words: time, kind, and all incidences with their points.

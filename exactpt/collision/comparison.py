@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from exactpt.pairs.contact import Contact
 
-__all__ = ["contrast", "in_words"]
-
 
 def contrast(expected: Contact | None, found: Contact | None) -> str | None:
     """Return the first attribute in which two contacts of one scene differ; None if they agree.

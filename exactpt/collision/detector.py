@@ -16,9 +16,6 @@ from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene, a_scene
 from exactpt.tiling import catalogue
 
-__all__ = ["METHODS", "first_contact"]
-
-
 METHODS: Final = ("kinetic", "pairs", "auto")
 """Names of the methods of `first_contact`."""
 

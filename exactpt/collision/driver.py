@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
 
-__all__ = ["CHANGES", "EVENTS", "NOTHING", "TIMES", "Driver", "Observer"]
-
 NOTHING: Final = 0
 """Listen only to the start, the end, and changes of motions."""
 TIMES: Final = 1

@@ -49,8 +49,6 @@ from exactpt.pairs.start import initial_touches
 from exactpt.pairs.sure import surely_meet, surely_passed
 from exactpt.scene.scene import Scene, a_scene, scene_of
 
-__all__ = ["EnclosedContact", "first_contact_enclosed"]
-
 STEPS: Final = 256
 """Minimum number of steps of a whole time span."""
 FINEST: Final = 60

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from exactpt.pairs.contact import Contact
 
-__all__ = ["Search"]
-
 
 class Search(Protocol):
     """A search for the first contact of a scene."""

@@ -14,8 +14,6 @@ from exactpt.scene.scene import Scene
 if TYPE_CHECKING:
     from exactpt.collision.search import Search
 
-__all__ = ["Question", "search_for", "searches_pairs"]
-
 
 class Question(NamedTuple):
     """A query for a first contact, and the way to answer it.

@@ -12,8 +12,6 @@ from exactpt.scene.scene import Scene
 from exactpt.tiling.report import report
 from exactpt.tiling.start import tiling_for_contact
 
-__all__ = ["TilingSearch"]
-
 
 class TilingSearch:
     """A search for the first contact.

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from exactpt.geometry.predicates import Point
     from exactpt.kernel.numbers import Rational
 
-__all__ = ["Holes", "Parts", "Repair", "body_of", "free_name", "scene_of"]
-
 Holes: TypeAlias = Literal["keep", "refuse", "fill"]
 Parts: TypeAlias = Literal["keep", "split"]
 Repair: TypeAlias = "Callable[[Shape], Iterable[Shape]]"

@@ -14,8 +14,6 @@ from exactpt.errors import InputError
 from exactpt.exchange.shapes import DEEPEST
 from exactpt.kernel.numbers import shorten
 
-__all__ = ["NAMESPACE", "read_drawing", "valid_text"]
-
 NAMESPACE: Final = "http://www.w3.org/2000/svg"
 
 _MOST_COPIES: Final = 100_000

@@ -16,8 +16,6 @@ from exactpt.pairs.contact import Contact
 from exactpt.pairs.intervals import ContactInterval
 from exactpt.scene.scene import Scene
 
-__all__ = ["to_features"]
-
 
 def to_features(
     scene: Scene,

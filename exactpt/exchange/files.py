@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from exactpt.kernel.numbers import Rational
     from exactpt.scene.scene import Scene
 
-__all__ = ["ENDINGS", "holds_scene", "read_shapes", "write_shapes"]
-
 Format: TypeAlias = Literal["scene", "geojson", "mfjson", "wkt", "svg"]
 
 ENDINGS: Final[dict[str, Format]] = {

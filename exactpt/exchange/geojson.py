@@ -19,20 +19,6 @@ from exactpt.scene.json_values import Json, Number, a_list, exact_number, parse_
 if TYPE_CHECKING:
     from exactpt.geometry.predicates import Point
 
-__all__ = [
-    "TYPES",
-    "coordinates_of",
-    "geojson_of",
-    "geometry_of",
-    "geometry_shapes",
-    "is_type",
-    "name_of",
-    "named",
-    "part",
-    "properties_of",
-    "shapes_of",
-]
-
 Place: TypeAlias = tuple[float, float]
 
 _PARTS: Final[dict[str, Kind]] = {"Point": "point", "LineString": "line", "Polygon": "polygon"}

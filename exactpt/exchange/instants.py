@@ -12,8 +12,6 @@ from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, Rational, floor, fraction, parse_rational, shorten, show
 from exactpt.scene.json_values import Json, Number, exact_number, shown
 
-__all__ = ["from_datetime", "instant_of", "seconds_of", "to_datetime"]
-
 _TEXT: Final = re.compile(
     r"(\d{4}-\d\d-\d\d)[Tt ](\d\d:\d\d:\d\d)(\.\d+)?(?:([Zz])|([+-])(\d\d)(?::?(\d\d))?)?", re.ASCII
 )

@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from exactpt.geometry.predicates import Point
     from exactpt.kernel.numbers import Rational
 
-__all__ = ["is_moving", "mfjson_of", "scene_of_features"]
-
 _KINDS: Final[dict[str, Kind]] = {
     "MovingPoint": "point",
     "MovingLineString": "line",

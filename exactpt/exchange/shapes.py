@@ -25,18 +25,6 @@ if TYPE_CHECKING:
     from exactpt.motion.body import Body
     from exactpt.scene.scene import Scene
 
-__all__ = [
-    "DEEPEST",
-    "Kind",
-    "Shape",
-    "nested",
-    "rounded",
-    "rounded_rings",
-    "shape_at",
-    "shapes_at",
-    "together",
-]
-
 DEEPEST: Final = 100
 """Maximum depth to which collections and groups may be nested in a file."""
 

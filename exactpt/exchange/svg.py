@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
     from exactpt.geometry.predicates import Point
 
-__all__ = ["shapes_of", "svg_of"]
-
 _MOST_CHORDS: Final = 20_000
 """Maximum number of chords of one curve; more indicate a mistaken tolerance."""
 _MOST_POINTS: Final = 2_000_000

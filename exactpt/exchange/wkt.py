@@ -15,8 +15,6 @@ from exactpt.errors import InputError
 from exactpt.exchange.shapes import DEEPEST, Shape, rounded_rings
 from exactpt.scene.json_values import exact_number
 
-__all__ = ["shapes_of", "wkt_of"]
-
 _NEXT: Final = re.compile(r"(?:(?<=\))|(?<=EMPTY))[\s;]+(?=[A-Z])", re.IGNORECASE)
 """The separator between two geometries; parts of one geometry are separated by a comma."""
 _PARENTHESIS: Final = re.compile(r"[()]")

@@ -13,16 +13,6 @@ from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.kernel.rounding import FAR
 
-__all__ = [
-    "Boxes",
-    "Indices",
-    "boxes_of_points",
-    "crossing_pairs",
-    "grown",
-    "overlapping_pairs",
-    "widen_unknown",
-]
-
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
 

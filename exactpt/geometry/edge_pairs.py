@@ -12,8 +12,6 @@ from exactpt.geometry.boxes import Floats, overlapping_pairs
 from exactpt.kernel.budget import ask
 from exactpt.kernel.rounding import SLACK, TINY, U
 
-__all__ = ["unsure_pairs"]
-
 K: Final = 8.0 * U
 CHUNK: Final = 1 << 13
 """Number of pairs that are compared at once, so that their numbers stay in the cache."""

@@ -11,16 +11,6 @@ from exactpt.geometry.predicates import Point, between, side
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ
 
-__all__ = [
-    "contains",
-    "edges",
-    "first_self_touch",
-    "first_touch",
-    "is_counter_clockwise",
-    "segments_meet",
-    "signed_area2",
-]
-
 
 def edges(size: int, *, closed: bool) -> list[tuple[int, int]]:
     """Return the edges of a body as pairs of vertices; edge i starts at vertex i.

@@ -11,8 +11,6 @@ from typing import Protocol, Self, TypeVar
 
 from exactpt.kernel.numbers import QQ, sign
 
-__all__ = ["Point", "Ring", "between", "orient2d", "side"]
-
 
 class Ring(Protocol):
     """The operations that `orient2d` needs on coordinates: no division, no comparison."""

@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 from exactpt.kernel.doubles import Floats, Indices, native
 from exactpt.kernel.rounding import SLACK, TINY, U
 
-__all__ = ["Edges", "Flags", "edges_of", "ranges", "segments_meet", "spread", "surely_simple"]
-
 Flags: TypeAlias = NDArray[np.bool_]
 
 K: Final = 8.0 * U

@@ -16,8 +16,6 @@ from typing import Final
 from exactpt.geometry.polygon import edges
 from exactpt.kernel.rounding import SLACK, TINY, U
 
-__all__ = ["is_surely_simple", "turn_of_doubles"]
-
 Edge = tuple[float, float, float, float]
 
 K: Final = 8.0 * U

@@ -31,8 +31,6 @@ from exactpt.kernel.integer_polynomial import (
 from exactpt.kernel.numbers import QQ, ZZ, ceil, exponent, floor, is_square, isqrt, power_of_two
 from exactpt.kernel.sturm import count_roots, sturm_sequence
 
-__all__ = ["lowest_terms", "quotient_at", "square_root"]
-
 RELATIVE_BITS: Final = 8
 """Binary digits of the first bounds of the square root of a rational."""
 

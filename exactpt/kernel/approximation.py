@@ -16,14 +16,6 @@ from exactpt.kernel.numbers import QQ, ZZ, enclosing_floats, floor, nearest_floa
 if TYPE_CHECKING:
     from exactpt.kernel.isolated_root import IsolatedRoot
 
-__all__ = [
-    "canonical_interval",
-    "enclosing_doubles",
-    "multiple_before",
-    "nearest_double",
-    "rational_between",
-]
-
 LARGEST_BITS: Final = 500
 """Maximum bit length of coefficients as floats: products with powers of t seldom overflow."""
 MOST_STEPS: Final = 60

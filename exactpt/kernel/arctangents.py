@@ -6,8 +6,6 @@ from functools import lru_cache
 
 from exactpt.kernel.numbers import QQ, floor, power_of_two
 
-__all__ = ["Bounds", "atan_bounds", "pi_bounds"]
-
 Bounds = tuple[QQ, QQ]
 
 _GUARD = 16

@@ -21,17 +21,6 @@ from exactpt.errors import BudgetExceeded, InputError
 from exactpt.kernel.numbers import shorten
 from exactpt.kernel.rounding import check_rounding
 
-__all__ = [
-    "GRACE",
-    "LONG",
-    "Budget",
-    "ask",
-    "check_bounds",
-    "resident_memory",
-    "searching",
-    "within",
-]
-
 LONG: Final = 64
 """Number of coefficients from which on loops over the coefficients of a polynomial ask."""
 

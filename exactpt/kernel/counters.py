@@ -10,8 +10,6 @@ from collections import Counter
 from collections.abc import Mapping
 from typing import NamedTuple, final
 
-__all__ = ["Counters", "Counts"]
-
 
 class Counts(NamedTuple):
     """Numbers of decisions made.

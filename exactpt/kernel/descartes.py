@@ -16,8 +16,6 @@ from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import QQ, ZZ, sign
 from exactpt.kernel.sturm import sign_changes
 
-__all__ = ["single_roots"]
-
 HALVINGS: Final = 8
 """Maximum number of bisections; roots closer than that are left to Sturm's sequence."""
 

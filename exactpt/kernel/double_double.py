@@ -14,8 +14,6 @@ from typing import Final, TypeAlias
 
 from exactpt.kernel.doubles import Floats
 
-__all__ = ["Double2", "add2", "exact_difference", "exact_sum", "multiply2"]
-
 Double2: TypeAlias = tuple[Floats, Floats]
 """A sum of two doubles, of which the first is the nearest to it."""
 

@@ -11,18 +11,6 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import shorten
 from exactpt.kernel.rounding import check_rounding
 
-__all__ = [
-    "Floats",
-    "Indices",
-    "doubles",
-    "finite_rows",
-    "first_true",
-    "indices",
-    "middles",
-    "native",
-    "view",
-]
-
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
 

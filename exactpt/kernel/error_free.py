@@ -12,8 +12,6 @@ from __future__ import annotations
 
 from typing import Final
 
-__all__ = ["NOT_EXACT", "exact_turn", "is_exact_product", "is_exact_sum"]
-
 NOT_EXACT: Final = 2
 """Instead of a sign: something would have been rounded."""
 _SPLITTER: Final = 2.0**27 + 1.0

@@ -5,8 +5,6 @@ from __future__ import annotations
 from exactpt.kernel.integer_polynomial import IntPoly, negate
 from exactpt.kernel.numbers import ZZ
 
-__all__ = ["irreducible_factors"]
-
 
 def irreducible_factors(f: IntPoly) -> list[IntPoly]:
     """Return the primitive irreducible factors of a polynomial, with positive leading coefficients.

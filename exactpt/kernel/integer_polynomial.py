@@ -19,26 +19,6 @@ from typing import Final, TypeAlias
 from exactpt.kernel.budget import LONG, ask
 from exactpt.kernel.numbers import QQ, ZZ, gcd, sign
 
-__all__ = [
-    "IntPoly",
-    "add",
-    "derivative",
-    "evaluate",
-    "greatest_common_divisor",
-    "multiply",
-    "negate",
-    "positive_remainder",
-    "primitive",
-    "quotient",
-    "range_on",
-    "scale",
-    "sign_at",
-    "sign_on",
-    "square_free",
-    "subtract",
-    "trimmed",
-]
-
 IntPoly: TypeAlias = "tuple[ZZ, ...]"
 
 SLACK: Final = 32

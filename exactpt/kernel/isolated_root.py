@@ -36,8 +36,6 @@ from exactpt.kernel.numbers import (
     rational,
 )
 
-__all__ = ["IsolatedRoot"]
-
 FIRST_STEPS: Final = 6
 """Number of initial refinements by bisection; most numbers need no more."""
 

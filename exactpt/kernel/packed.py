@@ -16,8 +16,6 @@ from functools import cache
 from exactpt.kernel.integer_polynomial import IntPoly
 from exactpt.kernel.numbers import ZZ, digits
 
-__all__ = ["coefficient_bits", "pack", "unpack", "width_for"]
-
 
 def coefficient_bits(*polynomials: IntPoly) -> int:
     """Return the bit length of the largest coefficient."""

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from exactpt.kernel.integer_polynomial import IntPoly
     from exactpt.kernel.sympy_door import Expression, Variable
 
-__all__ = ["ONE", "ZERO", "Polynomial", "polynomial"]
-
 
 @final
 class Polynomial:

@@ -12,8 +12,6 @@ from exactpt.kernel.budget import ask
 from exactpt.kernel.integer_polynomial import IntPoly, range_on, scale, subtract
 from exactpt.kernel.numbers import QQ, ZZ, nearest_float
 
-__all__ = ["decimal_quotient", "exponent", "nearest_quotient"]
-
 
 def exponent(p: IntPoly, w: IntPoly, time: AlgebraicNumber) -> int:
     """About the binary exponent of p / w at a time; the least integer if p vanishes there."""

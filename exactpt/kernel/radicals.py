@@ -16,8 +16,6 @@ from typing import TypeAlias
 from exactpt.kernel.budget import ask
 from exactpt.kernel.numbers import QQ, ZZ, is_square, isqrt, nearest_float, power_of_two
 
-__all__ = ["nearest_root_sum", "root_sum_sign"]
-
 Terms: TypeAlias = "dict[ZZ, QQ]"
 """The sum of c sqrt(n), for the coefficient c of each integer n."""
 

@@ -14,8 +14,6 @@ from exactpt.kernel.integer_polynomial import trimmed
 from exactpt.kernel.isolated_root import IsolatedRoot
 from exactpt.kernel.numbers import QQ, ZZ, Rational, floor, fraction, rational
 
-__all__ = ["RealNumber"]
-
 ONE: Final = QQ(1)
 LONGEST: Final = 120
 """Most characters of a number or of coefficients in ``str`` and ``repr``."""

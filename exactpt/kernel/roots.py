@@ -22,8 +22,6 @@ from exactpt.kernel.integer_polynomial import (
 from exactpt.kernel.numbers import QQ, isqrt_rem
 from exactpt.kernel.sturm import isolating_intervals, sturm_sequence
 
-__all__ = ["Root", "common_roots", "roots_after"]
-
 DIGITS: Final = 80
 """Bits of a square root; so many that a double seldom separates the bounds of the root."""
 

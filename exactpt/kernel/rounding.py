@@ -37,8 +37,6 @@ from typing import Final, TypeAlias
 
 from exactpt.errors import RoundingError
 
-__all__ = ["FAR", "INFINITY", "SLACK", "SMALL", "TINY", "UNSURE", "Answer", "U", "check_rounding"]
-
 Answer: TypeAlias = tuple[int, float, float]
 """(sign, low, high): the sign of a function just after now, and an enclosure of its first
 root after now, which is simple (a crossing); (inf, inf) if there is none up to the

@@ -38,8 +38,6 @@ from typing import Final, TypeAlias
 
 from exactpt.kernel.rounding import INFINITY, SLACK, TINY, UNSURE, Answer, U
 
-__all__ = ["sextic"]
-
 Six: TypeAlias = tuple[float, float, float, float, float, float]
 Seven: TypeAlias = tuple[float, float, float, float, float, float, float]
 

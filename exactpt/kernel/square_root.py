@@ -6,8 +6,6 @@ from typing import Final
 
 from exactpt.kernel.numbers import QQ, isqrt, isqrt_rem, nearest_float, power_of_two
 
-__all__ = ["exact_square_root", "nearest_root_less", "nearest_square_root"]
-
 BITS: Final = 64
 """Bits of the integer square root, at least: more than a double and its rounding bit have."""
 

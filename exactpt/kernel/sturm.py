@@ -21,14 +21,6 @@ from exactpt.kernel.integer_polynomial import (
 )
 from exactpt.kernel.numbers import QQ
 
-__all__ = [
-    "cauchy_bound",
-    "count_roots",
-    "isolating_intervals",
-    "sign_changes",
-    "sturm_sequence",
-]
-
 
 def sturm_sequence(f: IntPoly) -> list[IntPoly]:
     """f, f', then the negated remainders, all divided by the last that is not zero.

@@ -17,15 +17,6 @@ if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.kernel.polynomial import Polynomial
 
-__all__ = [
-    "Expression",
-    "Variable",
-    "algebraic_to_sympy",
-    "coefficients_from_sympy",
-    "integer_factors",
-    "polynomial_to_sympy",
-]
-
 Expression: TypeAlias = sympy.Expr
 Variable: TypeAlias = sympy.Symbol
 

@@ -17,8 +17,6 @@ from numpy.typing import NDArray
 from exactpt.kernel.filters import U2, U4, U8
 from exactpt.kernel.rounding import INFINITY, SLACK, SMALL, TINY
 
-__all__ = ["Answers", "linears", "quadratics"]
-
 Floats: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
 

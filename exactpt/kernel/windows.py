@@ -23,8 +23,6 @@ from __future__ import annotations
 from exactpt.kernel.rounding import INFINITY, SLACK, TINY, UNSURE, Answer, U
 from exactpt.kernel.sextics import sextic
 
-__all__ = ["polynomial"]
-
 
 def polynomial(
     c: list[float],

@@ -37,8 +37,6 @@ from exactpt.motion.shape import Keyframe, Keyframes, Shape, VertexLike, listed
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["Body", "is_text", "refuse_rounded"]
-
 _PLAIN: Final = (int, float)
 _SHARP: Final = QQ(0)
 _NO_HOLES: Final = ()

@@ -14,8 +14,6 @@ from exactpt.motion.incidence import orientation
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
 
-__all__ = ["stays_convex"]
-
 
 def stays_convex(body: Body, ring: Sequence[int], start: QQ, end: QQ) -> bool:
     """Return True if a polygon turns strictly left at every vertex throughout (start, end].

@@ -15,8 +15,6 @@ from exactpt.motion.motions import Motion, Pieces, Position, SimpleMotion, Trans
 from exactpt.motion.shape import Places, Shape
 from exactpt.motion.track import Track
 
-__all__ = ["Course", "Piece", "jump"]
-
 
 @final
 class Piece:

@@ -22,8 +22,6 @@ from exactpt.motion.pose_path import PosePath
 from exactpt.motion.spin import Spin
 from exactpt.motion.turned_angle import bound_on
 
-__all__ = ["displacement"]
-
 BITS: Final = 24
 """Significant bits of a displacement, which is rounded up."""
 

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from exactpt.motion.course import Piece
     from exactpt.motion.track import Track
 
-__all__ = ["Enclosures"]
-
 MOST_SCALED: Final = 900
 """Largest absolute value of a scale 2^s by which doubles are multiplied."""
 SMALLEST_OF_ARMS: Final = 2.0**-100

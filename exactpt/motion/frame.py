@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.motion.track import Track
 
-__all__ = ["Frame", "binary_exponent", "combined", "frame_for"]
-
 
 @final
 class Frame:

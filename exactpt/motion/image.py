@@ -13,8 +13,6 @@ from exactpt.kernel.rounding import U
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["LARGEST", "SMALLEST", "Arm", "Image", "translated"]
-
 SMALLEST: Final = 2.0**-300
 LARGEST: Final = 2.0**100
 """Range of the size of nonzero coefficients that the filters accept.

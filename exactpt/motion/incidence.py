@@ -10,16 +10,6 @@ from exactpt.kernel.integer_polynomial import IntPoly, add, multiply, subtract, 
 from exactpt.kernel.packed import unpack, width_for
 from exactpt.motion.track import Track
 
-__all__ = [
-    "Touch",
-    "coincide",
-    "difference",
-    "lies_on",
-    "orientation",
-    "renumbered",
-    "vertex_touch",
-]
-
 
 class Touch(NamedTuple):
     """A vertex on an edge, or on a vertex, numbered as in the scene.

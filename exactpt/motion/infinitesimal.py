@@ -19,8 +19,6 @@ from exactpt.kernel.roots import roots_after
 from exactpt.motion.incidence import difference
 from exactpt.motion.track import Track
 
-__all__ = ["Direction", "Displacements", "displacements", "ring_of_copies"]
-
 Direction: TypeAlias = tuple[IntPoly, IntPoly]
 """A direction (dx, dy), polynomials in t."""
 

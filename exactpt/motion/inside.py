@@ -8,8 +8,6 @@ from exactpt.geometry.polygon import contains
 from exactpt.geometry.predicates import Point
 from exactpt.motion.body import Body
 
-__all__ = ["covers", "one_is_inside"]
-
 
 def covers(body: Body, points: Sequence[Point], p: Point) -> bool:
     """Return True if the polygon that is a body, with its vertices at given points, contains p."""

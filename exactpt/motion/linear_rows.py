@@ -25,8 +25,6 @@ from exactpt.motion.ring_order import turns_left
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
 
-__all__ = ["LinearRows", "linear_rows"]
-
 LEAST: Final = 2.0**-19
 """Least extent of a scene that certainly needs no scale, see `exactpt.motion.frame`."""
 MOST: Final = 2.0**19

@@ -15,8 +15,6 @@ from exactpt.kernel.numbers import QQ, Rational, rational, shorten, show
 from exactpt.kernel.polynomial import Polynomial
 from exactpt.motion.motions import Affine, Pieces, Rigid, SimpleMotion, Translation
 
-__all__ = ["PiecewisePolynomial", "Velocity", "in_local_time", "spline"]
-
 
 class PiecewisePolynomial(Protocol):
     """The attributes of ``scipy.interpolate.PPoly``, and of the splines derived from it.

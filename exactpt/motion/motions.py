@@ -29,19 +29,6 @@ from exactpt.motion.track import Track, track, translated
 if TYPE_CHECKING:
     from exactpt.motion.turn import Turn
 
-__all__ = [
-    "REST",
-    "Affine",
-    "Coefficients",
-    "Motion",
-    "Pieces",
-    "Position",
-    "Rigid",
-    "SimpleMotion",
-    "Translation",
-    "made",
-]
-
 T = TypeVar("T")
 
 Coefficients: TypeAlias = "Polynomial | Rational | Iterable[Rational]"

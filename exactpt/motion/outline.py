@@ -12,17 +12,6 @@ from exactpt.kernel.rounding import FAR, TINY, U
 from exactpt.motion.body import Body
 from exactpt.motion.motions import Motion, Pieces, Rigid, SimpleMotion, Translation
 
-__all__ = [
-    "Outline",
-    "Straight",
-    "far_origin",
-    "is_rigid",
-    "outline_at",
-    "pieces_of",
-    "rest_outline",
-    "straight_pieces",
-]
-
 
 class Outline(NamedTuple):
     """Vertices in doubles.

@@ -30,8 +30,6 @@ from exactpt.kernel.polynomial import ONE, Polynomial
 from exactpt.motion.motions import Rigid
 from exactpt.motion.turned_angle import angle_of, bits_for, bound_on
 
-__all__ = ["Pose", "angle_error", "place_error_squared"]
-
 Pose = tuple[Polynomial, Polynomial, Polynomial]
 """x, y and the angle in radians."""
 

@@ -19,8 +19,6 @@ from exactpt.motion.motions import Coefficients, Pieces, Rigid, SimpleMotion
 from exactpt.motion.path_error import Pose, angle_error, place_error_squared
 from exactpt.motion.pose_pieces import DEGREE, pieces_along
 
-__all__ = ["PosePath"]
-
 
 @final
 class PosePath(Pieces):

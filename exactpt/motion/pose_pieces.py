@@ -30,8 +30,6 @@ from exactpt.motion.path_error import Pose, angle_error, place_error_squared
 from exactpt.motion.spin import rounded, tangent_near, vector_near
 from exactpt.motion.turned_angle import bits_for
 
-__all__ = ["DEGREE", "pieces_along"]
-
 _MOST: Final = 100_000
 DEGREE: Final = 3
 """Of half turns, and of translations at most."""

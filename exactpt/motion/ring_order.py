@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from exactpt.indices import VertexId
     from exactpt.motion.body import Body
 
-__all__ = ["ring_indices", "rings_of", "turns_left"]
-
 
 def ring_indices(body: Body, t: QQ, *, plain: bool = False) -> list[int]:
     """Return the indices of a body's vertices, with copies where it needs them, along its rings.

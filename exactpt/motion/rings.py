@@ -9,8 +9,6 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import shorten
 from exactpt.motion.shape import Shape, VertexLike, listed
 
-__all__ = ["Outline", "PartLike", "Parts", "parts_given", "read_rings", "ring_edges"]
-
 Outline: TypeAlias = "Iterable[VertexLike]"
 """The vertices of a ring as a caller may write them."""
 

@@ -14,8 +14,6 @@ from exactpt.kernel.polynomial import Polynomial, polynomial
 from exactpt.motion.image import LARGEST, SMALLEST
 from exactpt.motion.motions import Coefficients, Position
 
-__all__ = ["Keyframe", "Keyframes", "Places", "Shape", "VertexLike", "listed"]
-
 VertexLike: TypeAlias = (
     "Sequence[Rational] | Mapping[str, Coefficients] | tuple[Polynomial, Polynomial]"
 )

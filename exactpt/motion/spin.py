@@ -32,8 +32,6 @@ from exactpt.kernel.polynomial import ZERO, Polynomial
 from exactpt.motion.motions import Coefficients, Pieces, Rigid, SimpleMotion
 from exactpt.motion.turned_angle import bits_for, is_within
 
-__all__ = ["Spin", "rounded", "tangent_near", "vector_near"]
-
 _MOST: Final = 100_000
 _SHORTEST: Final = 1 / 41
 """Radians of a piece; for shorter ones the degree is raised (but for the last of a `Spin`)."""

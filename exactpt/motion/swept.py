@@ -16,8 +16,6 @@ from exactpt.kernel.rounding import SLACK, SMALL, TINY, U
 if TYPE_CHECKING:
     from exactpt.motion.image import Image
 
-__all__ = ["SweptBoxes"]
-
 Floats: TypeAlias = NDArray[np.float64]
 
 INSTANT: Final = 2.0**-20

@@ -17,8 +17,6 @@ from exactpt.motion.body import Body
 from exactpt.motion.swept import SweptBoxes
 from exactpt.motion.vertices import Vertices
 
-__all__ = ["Near", "SweptEdges"]
-
 Near: TypeAlias = tuple[Indices, Indices]
 """Pairs of a vertex and an edge, by number."""
 

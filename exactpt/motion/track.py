@@ -11,8 +11,6 @@ from exactpt.kernel.numbers import QQ, ZZ, Rational, gcd, place, rational
 from exactpt.kernel.packed import coefficient_bits, pack
 from exactpt.kernel.polynomial import Polynomial
 
-__all__ = ["Track", "Turning", "track", "translated"]
-
 _ONE: Final = ZZ(1)
 
 

@@ -14,8 +14,6 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.polynomial import ONE, Polynomial
 from exactpt.motion.track import Track, Turning, track
 
-__all__ = ["Turn", "turn_of"]
-
 
 class Turn(NamedTuple):
     """A turn: polynomials, and coefficients of polynomials, all of one length.

@@ -23,8 +23,6 @@ from exactpt.kernel.numbers import QQ, exponent, floor, show
 from exactpt.kernel.polynomial import ONE, Polynomial
 from exactpt.motion.motions import Pieces, Rigid
 
-__all__ = ["angle_of", "bits_for", "bound_on", "is_within"]
-
 _SAMPLES: Final = 8
 _MOST_BITS: Final = 512
 

@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     from exactpt.motion.infinitesimal import Direction
     from exactpt.motion.track import Track
 
-__all__ = ["MovingBody", "Stage", "Vertex", "unused"]
-
-
 _START: Final = QQ(0)
 
 

@@ -10,8 +10,6 @@ from exactpt.openset import passages
 from exactpt.openset.parts import VERSION, Part, Written
 from exactpt.testing import families
 
-__all__ = ["LICENSE", "about"]
-
 _HERE: Final = Path(__file__).parent
 
 LICENSE: Final = (_HERE / "CC0-1.0.txt").read_text(encoding="utf-8")

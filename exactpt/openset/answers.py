@@ -14,8 +14,6 @@ from exactpt.kernel.numbers import QQ, rational
 from exactpt.openset.passages import Passage, polynomial
 from exactpt.testing.truth import Truth, first_pair, root_between
 
-__all__ = ["answers", "coordinates"]
-
 
 def answers(passages: Sequence[Passage]) -> Iterator[Truth]:
     """The first contact of each point, body "a", with its segment, "b", for t in [0, 1]."""

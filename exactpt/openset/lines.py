@@ -8,8 +8,6 @@ from exactpt.openset.answers import coordinates
 from exactpt.openset.passages import Passage
 from exactpt.testing.truth import Truth
 
-__all__ = ["ccd_query", "question_line", "truth_line"]
-
 
 def question_line(name: str, passage: Passage) -> str:
     """The question as `exactpt oracle` reads it: a point "a" and a segment "b"."""

@@ -19,8 +19,6 @@ from exactpt.proof import prove
 from exactpt.testing.families import make_question
 from exactpt.testing.truth import Truth
 
-__all__ = ["VERSION", "Part", "Written", "write_part"]
-
 VERSION: Final = 1
 """The version of the set; the seed of its scenes."""
 CHUNK: Final = 4096

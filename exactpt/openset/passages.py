@@ -13,8 +13,6 @@ from typing import Final, NamedTuple, TypeAlias
 from exactpt.errors import InputError
 from exactpt.openset.places import Corners, Place, cross, mean, minus, plus, shifted, times
 
-__all__ = ["DEGENERATE", "FAMILIES", "GENERIC", "Passage", "make_passage", "polynomial"]
-
 FINE: Final = 40
 """Number of binary places of a hair."""
 EIGHTHS: Final = 8

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
-__all__ = ["Corners", "Place", "cross", "mean", "minus", "plus", "shifted", "times"]
-
 Place: TypeAlias = tuple[int, int]
 Corners: TypeAlias = tuple[Place, Place, Place]
 

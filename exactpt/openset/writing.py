@@ -20,8 +20,6 @@ from exactpt.openset.about import LICENSE, about
 from exactpt.openset.parts import Part, Written, write_part
 from exactpt.testing import families
 
-__all__ = ["PASSAGES", "SCENES", "Summary", "planned", "write_set"]
-
 PASSAGES: Final = 1_000_000
 """Number of questions about a point and a segment in the whole set."""
 SCENES: Final = 10_000

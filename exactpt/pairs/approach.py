@@ -27,8 +27,6 @@ from exactpt.pairs.two_pieces import ContactDistance
 from exactpt.pairs.within import Norm, asked_distance, of_cores, time_within
 from exactpt.scene.scene import Scene, a_scene, scene_of
 
-__all__ = ["Approach", "first_within", "root_above", "time_within_of_two"]
-
 Near: TypeAlias = "tuple[AlgebraicNumber, Collection[tuple[int, int]]]"
 """The time of an approach, and the indices i < j of the bodies that are within the distance."""
 

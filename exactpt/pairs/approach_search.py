@@ -28,8 +28,6 @@ from exactpt.pairs.rational import Earliest, Meeting
 from exactpt.pairs.start import Apart, Limit
 from exactpt.scene.scene import Scene
 
-__all__ = ["ApproachSearch"]
-
 Indices: TypeAlias = NDArray[np.int64]
 
 FEW: Final = 4

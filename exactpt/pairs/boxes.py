@@ -23,8 +23,6 @@ from exactpt.pairs.oriented import CHUNK, K, OrientedBoxes, times_between
 if TYPE_CHECKING:
     from exactpt.pairs.pieces import MotionPiece
 
-__all__ = ["PieceBoxes", "candidate_pairs", "pairs_at", "radius_above"]
-
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
 

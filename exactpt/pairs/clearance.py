@@ -44,15 +44,6 @@ from exactpt.pairs.near_features import NearFeatures
 from exactpt.pairs.stretches import Stretch, stretches, two_bodies
 from exactpt.scene.scene import Scene
 
-__all__ = [
-    "Clearance",
-    "ClearancePiece",
-    "CloseInterval",
-    "Minimum",
-    "a_distance",
-    "clearance_of_two",
-]
-
 ENOUGH: Final = 8
 """Number of pairs of features that are compared exactly without further ado."""
 IN_VAIN: Final = 5

@@ -18,8 +18,6 @@ from exactpt.pairs.features import Feature
 from exactpt.pairs.stretches import meet, two_bodies
 from exactpt.scene.scene import Scene
 
-__all__ = ["Distance", "distance", "squared_distance", "squared_from_interior", "squared_gap"]
-
 
 @final
 @dataclass(frozen=True, slots=True)

@@ -11,8 +11,6 @@ from exactpt.motion.course import Piece
 from exactpt.motion.incidence import Touch, difference, orientation
 from exactpt.motion.track import Track
 
-__all__ = ["exterior_side"]
-
 
 def exterior_side(
     body: Body, pieces: Mapping[int, Piece], touch: Touch, time: AlgebraicNumber

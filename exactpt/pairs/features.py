@@ -30,8 +30,6 @@ from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch, difference, orientation, vertex_touch
 from exactpt.motion.track import Track
 
-__all__ = ["Feature", "FeaturePair", "feature_pairs"]
-
 
 class Feature(NamedTuple):
     """A vertex or an edge of a body; one of the two fields is None.

@@ -42,8 +42,6 @@ from exactpt.pairs.selection import groups_of
 from exactpt.pairs.start import initial_touches
 from exactpt.scene.scene import Scene
 
-__all__ = ["PairsSearch"]
-
 FEW: Final = 64
 """Number of pairs that are compared exactly before a tiling would have been built."""
 

@@ -32,8 +32,6 @@ from exactpt.motion.outline import Outline, Straight
 from exactpt.pairs.rational import Candidate, Span
 from exactpt.pairs.vertex_filter import Path, vertex_candidates
 
-__all__ = ["candidates_of", "relative", "window"]
-
 U2: Final = 2.0 * U
 U4: Final = 4.0 * U
 K: Final = 16.0 * U

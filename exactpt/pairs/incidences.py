@@ -18,8 +18,6 @@ from exactpt.motion.outline import is_rigid
 from exactpt.motion.track import Track
 from exactpt.scene.scene import Scene
 
-__all__ = ["Pair", "details", "tracks_just_before"]
-
 
 @final
 @dataclass(frozen=True, slots=True)

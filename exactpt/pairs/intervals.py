@@ -28,8 +28,6 @@ from exactpt.pairs.selection import Selection
 from exactpt.pairs.stretches import Stretch, stretches, two_bodies
 from exactpt.scene.scene import Scene, a_scene
 
-__all__ = ["ContactInterval", "contact_intervals", "contacts", "incidence_times", "intervals"]
-
 FEW: Final = 100
 """Maximum number of pairs of vertices of two bodies whose features are compared exactly at once."""
 

@@ -14,8 +14,6 @@ from exactpt.pairs.boxes import PieceBoxes
 from exactpt.pairs.pieces import ScenePieces, linear_pieces
 from exactpt.scene.scene import Scene
 
-__all__ = ["pairs_that_come_near"]
-
 FEW: Final = 4
 """Maximum number of bodies of which all pairs are named at once."""
 SLABS: Final = 64

@@ -37,8 +37,6 @@ from exactpt.motion.swept import SweptBoxes
 from exactpt.pairs.features import FeaturePair, feature_pairs
 from exactpt.pairs.stretches import Stretch
 
-__all__ = ["NearFeatures"]
-
 Floats: TypeAlias = NDArray[np.float64]
 
 LARGEST: Final = 2.0**400

@@ -19,8 +19,6 @@ from exactpt.pairs.boxes import PieceBoxes
 from exactpt.pairs.pieces import MotionPiece, linear_pieces
 from exactpt.scene.scene import Scene
 
-__all__ = ["Obstacles", "SlabBoxes", "Stretch"]
-
 Floats: TypeAlias = NDArray[np.float64]
 
 SLABS: Final = 64

@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.motion.outline import Outline
 
-__all__ = ["CHUNK", "K", "OrientedBoxes", "times_between"]
-
 Floats: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.int64]
 

@@ -14,8 +14,6 @@ from exactpt.motion.rings import ring_edges
 from exactpt.pairs.distance import squared_distance
 from exactpt.pairs.stretches import meet, segments_of
 
-__all__ = ["bodies_meet", "overlap"]
-
 Segment: TypeAlias = "tuple[Point, Point]"
 
 

@@ -21,18 +21,6 @@ from exactpt.scene.scene import Scene
 if TYPE_CHECKING:
     from exactpt.pairs.boxes import PieceBoxes
 
-__all__ = [
-    "FEW",
-    "MOST_VERTICES",
-    "Distance",
-    "MotionPiece",
-    "ScenePieces",
-    "contact_distance",
-    "linear_pieces",
-    "pieces_during",
-    "window_of",
-]
-
 FEW: Final = 10
 """Maximum number of pieces of which all pairs are compared without numpy."""
 MOST_VERTICES: Final = 64

@@ -18,8 +18,6 @@ from exactpt.pairs.pieces import MOST_VERTICES, ScenePieces, pieces_during
 from exactpt.pairs.search import LinearSearch
 from exactpt.scene.scene import Scene
 
-__all__ = ["Planner"]
-
 NAME: Final = "shape"
 """The name of a shape that is given by its vertices."""
 

@@ -20,8 +20,6 @@ from exactpt.motion.body import Body
 from exactpt.motion.incidence import Touch
 from exactpt.motion.track import Track
 
-__all__ = ["core_distance", "first_at_distance", "touches_at_distance"]
-
 Point: TypeAlias = "tuple[QQ, QQ]"
 Segment: TypeAlias = "tuple[Point, Point]"
 Ratio: TypeAlias = "tuple[IntPoly, IntPoly]"

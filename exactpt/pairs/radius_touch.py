@@ -18,8 +18,6 @@ from exactpt.kernel.numbers import QQ, ZZ
 from exactpt.motion.incidence import difference
 from exactpt.motion.track import Track
 
-__all__ = ["Place", "place_of"]
-
 
 class Place(NamedTuple):
     """The point and the unit normal of a touch; both have a denominator that is positive then.

@@ -12,19 +12,6 @@ from exactpt.kernel.numbers import QQ, enclosing_floats
 from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Straight
 
-__all__ = [
-    "Candidate",
-    "Earliest",
-    "Meeting",
-    "Span",
-    "algebraic",
-    "compare",
-    "double_above",
-    "earliest",
-    "first_incidence",
-    "span_of",
-]
-
 
 class Span(NamedTuple):
     """A closed span of time, and doubles that enclose its start and its end.

@@ -28,8 +28,6 @@ from exactpt.pairs.radius_reference import (
 )
 from exactpt.scene.scene import Scene
 
-__all__ = ["first_contact_allpairs", "touches_at"]
-
 
 def first_contact_allpairs(scene: Scene) -> Contact | None:
     """Return the first contact in the scene's closed time span; None if there is none."""

@@ -16,8 +16,6 @@ from exactpt.motion.body import Body
 from exactpt.pairs.intervals import incidence_times
 from exactpt.pairs.overlap import bodies_meet, overlap
 
-__all__ = ["new_contact_time"]
-
 
 def new_contact_time(a: Body, b: Body, start: QQ, end: QQ) -> AlgebraicNumber | None:
     """Return the first time of a new contact of two bodies that touch at the start, or None.

@@ -23,8 +23,6 @@ from exactpt.pairs.pieces import MOST_VERTICES, MotionPiece, ScenePieces
 from exactpt.scene.body_arrays import BodyArrays
 from exactpt.scene.scene import Scene
 
-__all__ = ["pieces_on_demand"]
-
 Floats: TypeAlias = NDArray[np.float64]
 
 

@@ -35,13 +35,6 @@ from exactpt.scene.scene import Scene
 if TYPE_CHECKING:
     from exactpt.pairs.features_sweep import PairsSearch
 
-__all__ = [
-    "LinearSearch",
-    "first_among_pieces",
-    "pair_search",
-    "scene_pieces_if_linear",
-]
-
 
 @final
 class LinearSearch:

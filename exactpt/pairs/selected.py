@@ -29,8 +29,6 @@ from exactpt.pairs.selection import Selection
 from exactpt.pairs.start import initial_touches, touches_at_distance
 from exactpt.scene.scene import Scene, scene_of
 
-__all__ = ["SelectedSearch"]
-
 Meeting: TypeAlias = "tuple[AlgebraicNumber, Iterable[Touch]]"
 
 

@@ -11,8 +11,6 @@ from exactpt.kernel.numbers import shorten
 from exactpt.motion.body import Body
 from exactpt.scene.scene import Scene
 
-__all__ = ["Selection", "groups_of"]
-
 
 class _Names(TypedDict):
     between: Sequence[Sequence[str]] | None

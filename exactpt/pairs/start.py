@@ -26,18 +26,6 @@ from exactpt.pairs.features import feature_pairs
 from exactpt.pairs.incidences import tracks_just_before
 from exactpt.scene.scene import Scene
 
-__all__ = [
-    "Apart",
-    "Edge",
-    "Limit",
-    "incidences",
-    "initial_touches",
-    "near_at_start",
-    "near_pairs",
-    "touches_at_distance",
-    "within_at_start",
-]
-
 Indices: TypeAlias = NDArray[np.int64]
 Limit: TypeAlias = Callable[[int, int], QQ]
 """The square of the distance that two bodies keep, by their indices."""

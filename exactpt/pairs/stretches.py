@@ -16,8 +16,6 @@ from exactpt.motion.inside import one_is_inside
 from exactpt.motion.track import Track
 from exactpt.scene.scene import Scene, a_scene
 
-__all__ = ["Stretch", "meet", "segments_of", "stretches", "two_bodies"]
-
 
 class Stretch(NamedTuple):
     """A time interval in which neither of two bodies changes its motion.

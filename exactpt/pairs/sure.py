@@ -50,8 +50,6 @@ from exactpt.pairs.distance import squared_distance, squared_from_interior
 from exactpt.pairs.features import FeaturePair
 from exactpt.pairs.stretches import segments_of, stretches
 
-__all__ = ["surely_meet", "surely_passed"]
-
 Segment: TypeAlias = "tuple[Point, Point]"
 
 

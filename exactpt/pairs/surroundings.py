@@ -22,8 +22,6 @@ from exactpt.pairs.distance import Distance, distance
 from exactpt.pairs.near import pairs_that_come_near
 from exactpt.scene.scene import Scene, a_scene
 
-__all__ = ["NearestApproach", "Surroundings", "clearance"]
-
 
 class NearestApproach(NamedTuple):
     """The least distance of a body from all others; ``float`` gives the nearest double.

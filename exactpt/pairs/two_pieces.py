@@ -15,8 +15,6 @@ from exactpt.motion.outline import Straight
 from exactpt.pairs.filters import candidates_of
 from exactpt.pairs.rational import Candidate, Meeting, Span, earliest, first_incidence
 
-__all__ = ["ContactDistance", "first_at_distance", "first_meeting"]
-
 
 class ContactDistance(NamedTuple):
     """The distance of two cores at which they count as touching; it is positive.

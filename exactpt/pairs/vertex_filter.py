@@ -16,8 +16,6 @@ from exactpt.motion.incidence import Touch
 from exactpt.motion.outline import Straight
 from exactpt.pairs.rational import Candidate
 
-__all__ = ["Path", "vertex_candidates"]
-
 K: Final = 16.0 * U
 """Relative bound on the rounding of sums of up to eight terms, and of products of two."""
 

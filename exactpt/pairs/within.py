@@ -35,8 +35,6 @@ from exactpt.pairs.distance import squared_distance
 from exactpt.pairs.rational import Earliest
 from exactpt.pairs.stretches import Stretch, meet, segments_of, stretches
 
-__all__ = ["NORMS", "Norm", "asked_distance", "of_cores", "time_within"]
-
 Norm: TypeAlias = Literal["euclidean", "max", "x", "y"]
 NORMS: Final = ("euclidean", "max", "x", "y")
 """Supported norms: "max" is the larger of the distances in x and y; "x", "y" use one axis."""

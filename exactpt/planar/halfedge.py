@@ -17,8 +17,6 @@ from librt.vecs import append, vec
 from exactpt.errors import AuditError
 from exactpt.indices import NO_VERTEX, HalfEdge, Index, VertexId, half_edge_vec, vertex_vec
 
-__all__ = ["PlanarMap", "edge_key", "twin", "without_steps_back"]
-
 
 def twin(h: HalfEdge) -> HalfEdge:
     """Return the half-edge of the same edge in the opposite direction."""

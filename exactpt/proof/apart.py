@@ -22,8 +22,6 @@ from exactpt.kernel.budget import ask
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
 
-__all__ = ["Floats", "Paths", "Plane", "Separation"]
-
 Items: TypeAlias = "np.ndarray[Any, np.dtype[np.intp]]"
 Floats: TypeAlias = "np.ndarray[Any, np.dtype[np.float64]]"
 

@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from exactpt.collision.searches import Question
     from exactpt.pairs.contact import Contact
 
-__all__ = ["CertifiedSearch", "certificate_of", "certify", "certify_rows"]
-
 NEAR: Final = 22
 """A contact is enclosed in a part 2^-20 of the time span: L is about 2^-22 of it before."""
 

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.proof.nodes import Nodes
 
-__all__ = ["Angle", "Angles", "DirectedEdge", "change", "followers"]
-
 DirectedEdge: TypeAlias = tuple[int, int]
 Angle: TypeAlias = tuple[int, int, int]
 Entry: TypeAlias = "tuple[float, int, DirectedEdge, AlgebraicNumber]"

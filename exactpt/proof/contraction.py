@@ -14,8 +14,6 @@ from exactpt.indices import HalfEdge
 from exactpt.kernel.numbers import QQ
 from exactpt.planar.halfedge import edge_key
 
-__all__ = ["Contraction", "Cycle", "Face"]
-
 Edge: TypeAlias = tuple[int, int]
 
 

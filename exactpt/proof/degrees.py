@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from exactpt.motion.body import Body
     from exactpt.motion.motions import SimpleMotion
 
-__all__ = ["refuse_degrees"]
-
 MOST: Final = 64
 """The highest degree of a coordinate in a proof (docs/scene-grammar.md, What has no proof)."""
 

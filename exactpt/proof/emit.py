@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
 
-__all__ = ["Part", "ProofRun", "beside", "scene_bytes"]
-
 
 def scene_bytes(scene: Scene) -> bytes:
     """Return the bytes that `Scene.save` writes: the file to which a proof of this scene refers."""

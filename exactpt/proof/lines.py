@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from exactpt.proof.nodes import Nodes
     from exactpt.proof.watch import Step
 
-__all__ = ["Lines", "header"]
-
 
 def header(scene_file: bytes, start: QQ, end: QQ) -> list[str]:
     """Return the lines at the beginning.

@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
     from exactpt.tiling.tiling import Tiling
 
-__all__ = ["ProofFolder"]
-
 CHAIN: Final = "exactpt-chain 1"
 """The first line of ``run.chain``."""
 

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from exactpt.motion.track import Track
     from exactpt.scene.scene import Scene
 
-__all__ = ["Nodes", "rigid_until"]
-
 
 @final
 class Nodes:

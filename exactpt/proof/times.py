@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from exactpt.kernel.algebraic import AlgebraicNumber
     from exactpt.proof.nodes import Nodes
 
-__all__ = ["time_text"]
-
 
 def time_text(time: AlgebraicNumber, names: Iterable[tuple[int, ...]], nodes: Nodes) -> str:
     """Return a time in the notation of docs/proofs.md.

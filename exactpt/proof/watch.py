@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from exactpt.proof.nodes import Nodes
     from exactpt.tiling.tiling import Tiling
 
-__all__ = ["Step", "Watch"]
-
 
 class Step(NamedTuple):
     """A change of the tiling.

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from exactpt.pairs.contact import Contact
     from exactpt.proof_check import Proved
 
-__all__ = ["Proof", "prove", "write_proof"]
-
 
 class Proof(NamedTuple):
     """An answer with its proof, or its certificate (`certify`), in memory.

@@ -9,8 +9,6 @@ from exactpt.errors import AuditError
 from exactpt.indices import HalfEdge
 from exactpt.pseudotriangulation.mesh import SOLID, Mesh
 
-__all__ = ["audit_angles", "audit_star"]
-
 
 def audit_angles(mesh: Mesh, predicates: Predicates) -> None:
     """Check links and marks, the sign of every marked angle, and the order around vertices.

@@ -20,8 +20,6 @@ from exactpt.planar.halfedge import PlanarMap, twin
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, OUTER, SOLID, Diagonal, Mesh
 from exactpt.pseudotriangulation.stars import follow_stars
 
-__all__ = ["build_mesh", "star_order"]
-
 MANY: Final = 300
 """Number of vertices from which on a mesh of free space is built in numpy."""
 

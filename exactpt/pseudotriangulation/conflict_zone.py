@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from exactpt.motion.body import Body
     from exactpt.motion.vertices import Vertices
 
-__all__ = ["ConflictZone", "find_conflict_zone"]
-
 
 class ConflictZone(NamedTuple):
     """The faces and diagonals that a body intersects.

@@ -18,8 +18,6 @@ from exactpt.motion.vertex import Vertex
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, Mesh
 
-__all__ = ["close_at"]
-
 
 def close_at(mesh: Mesh, instant: PredicatesAt) -> bool:
     """Collapse, in place, every corner whose angle is 0 or pi at an instant.

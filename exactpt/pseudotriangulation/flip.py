@@ -12,8 +12,6 @@ from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import Mesh
 from exactpt.pseudotriangulation.shadow import shadow
 
-__all__ = ["Flip", "Shadows", "flip", "flip_until_greedy"]
-
 
 def flip(
     mesh: Mesh, h: HalfEdge, visits: tuple[HalfEdge, HalfEdge], predicates: Predicates

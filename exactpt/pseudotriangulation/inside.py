@@ -9,8 +9,6 @@ from exactpt.kernel.budget import ask
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import INSIDE, Mesh
 
-__all__ = ["tile_inside"]
-
 
 def tile_inside(mesh: Mesh, first: HalfEdge, predicates: Predicates) -> None:
     """Triangulate the solid interior of a body by ear clipping.

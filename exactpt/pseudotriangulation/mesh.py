@@ -16,8 +16,6 @@ from exactpt.errors import AuditError
 from exactpt.indices import NO_HALF_EDGE, Ends, HalfEdge, VertexId, half_edge_vec
 from exactpt.planar.halfedge import PlanarMap, twin
 
-__all__ = ["F2", "FREE", "INSIDE", "OUTER", "SOLID", "Diagonal", "Mesh", "Tile"]
-
 FREE: Final = 0
 OUTER: Final = 1
 SOLID: Final = 2

@@ -25,8 +25,6 @@ from exactpt.indices import NO_VERTEX, VertexId
 from exactpt.kernel.budget import ask
 from exactpt.pseudotriangulation.mesh import FREE, INSIDE, SOLID, Diagonal
 
-__all__ = ["Sweep", "SweptEdge", "body_edges", "sweep_diagonals"]
-
 
 @final
 class SweptEdge:

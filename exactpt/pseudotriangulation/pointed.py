@@ -28,8 +28,6 @@ from exactpt.pseudotriangulation.flip import flip
 from exactpt.pseudotriangulation.mesh import OUTER, Mesh
 from exactpt.pseudotriangulation.shadow import shadow
 
-__all__ = ["Change", "make_pointed", "point_vertex"]
-
 
 class Change(NamedTuple):
     """A diagonal removed, or replaced by another.

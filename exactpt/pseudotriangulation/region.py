@@ -27,8 +27,6 @@ from exactpt.pseudotriangulation.pointed import make_pointed
 if TYPE_CHECKING:
     from exactpt.motion.vertices import MovingBody, Vertices
 
-__all__ = ["Region", "Retiled"]
-
 
 class Retiled(NamedTuple):
     """The changes made by retiling a region.

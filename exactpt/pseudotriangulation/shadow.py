@@ -17,17 +17,6 @@ from exactpt.indices import NO_HALF_EDGE, HalfEdge, VertexId
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import Mesh
 
-__all__ = [
-    "crosses",
-    "has_visits",
-    "is_corner_without",
-    "is_tangent",
-    "opposite_corner",
-    "shadow",
-    "visit_after",
-    "visit_before",
-]
-
 
 def opposite_corner(mesh: Mesh, h: HalfEdge) -> HalfEdge:
     """Return the corner of the face of h opposite to the side chain with h.

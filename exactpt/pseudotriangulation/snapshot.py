@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from exactpt.motion.vertices import Vertices
     from exactpt.pseudotriangulation.mesh import Mesh
 
-__all__ = ["Edge", "Face", "Node", "Snapshot", "node_of", "snapshot", "snapshot_of"]
-
 
 @final
 @dataclass(frozen=True, slots=True)

@@ -16,8 +16,6 @@ from exactpt.indices import HalfEdge, VertexId
 from exactpt.kernel.budget import ask
 from exactpt.kernel.doubles import Floats, Indices
 
-__all__ = ["Sort", "follow_stars"]
-
 Sort: TypeAlias = "Callable[[VertexId, HalfEdge, list[HalfEdge]], list[HalfEdge]]"
 """Sorts the half-edges out of a vertex, counter-clockwise from a reference among them."""
 

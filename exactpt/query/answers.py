@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["PLACES", "Hit", "Located", "Path", "Place", "VertexName"]
-
 PLACES: Final = ("tile", "diagonal", "outside", "body", "edge", "vertex")
 """The kinds of a `Place`; `Located.kind` has indices of them."""
 

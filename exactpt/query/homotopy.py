@@ -24,8 +24,6 @@ from exactpt.query.sleeve import NOWHERE, Sleeves, bends, pull_tight
 from exactpt.query.subdivision import OUTSIDE, Subdivision
 from exactpt.query.walk import On, Ray, Spot, next_step
 
-__all__ = ["ShortestPaths"]
-
 
 @final
 class ShortestPaths:

@@ -11,8 +11,6 @@ from exactpt.kernel.numbers import QQ
 from exactpt.kernel.radicals import root_sum_sign
 from exactpt.kernel.square_root import nearest_square_root
 
-__all__ = ["Length", "squared_distance"]
-
 
 def squared_distance(p: Point, q: Point) -> QQ:
     """Return the square of the Euclidean distance."""

@@ -14,8 +14,6 @@ from exactpt.query.answers import PLACES, Hit, Place
 from exactpt.query.subdivision import OUTSIDE, Subdivision
 from exactpt.query.walk import On, Ray, Spot, next_step
 
-__all__ = ["cast", "codes_of", "find", "place_of"]
-
 
 def find(plane: Subdivision, p: Point) -> tuple[Spot, int]:
     """Point location by a straight walk from a node near the point (jump-and-walk).

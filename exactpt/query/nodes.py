@@ -9,8 +9,6 @@ from typing import final
 from exactpt.geometry.predicates import Point
 from exactpt.kernel.numbers import QQ, nearest_float
 
-__all__ = ["Nodes"]
-
 
 @final
 class Nodes:

@@ -18,8 +18,6 @@ from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.pseudotriangulation.snapshot import Edge, Face, Node, Snapshot
 from exactpt.query.sleeve import triangulated
 
-__all__ = ["OuterRectangle", "with_outer_triangulation"]
-
 
 class OuterRectangle(NamedTuple):
     """A series of rectangles around the bodies: their bounding box, with a margin that doubles."""

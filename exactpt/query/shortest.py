@@ -16,8 +16,6 @@ from exactpt.indices import VertexId
 from exactpt.query.lengths import Length, squared_distance
 from exactpt.query.sight import Corner, FreeTriangles
 
-__all__ = ["Step", "last_step"]
-
 
 @final
 class Step:

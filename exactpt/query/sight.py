@@ -24,8 +24,6 @@ from exactpt.query.sleeve import Sleeves, Triangle
 from exactpt.query.subdivision import OUTSIDE, Subdivision
 from exactpt.query.walk import On, Spot
 
-__all__ = ["Corner", "FreeTriangles", "Seen"]
-
 Corner: TypeAlias = Ends
 """A vertex, and the other end of the first wall of the corner: the free space is counter-clockwise
 from it. Around a vertex without walls, the least of its neighbours."""

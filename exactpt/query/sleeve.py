@@ -22,8 +22,6 @@ from exactpt.geometry.predicates import Point, between, side
 from exactpt.indices import NO_HALF_EDGE, NO_VERTEX, Ends, HalfEdge, Index, Triple, VertexId
 from exactpt.query.subdivision import Subdivision
 
-__all__ = ["Sleeves", "Triangle", "bends", "pull_tight", "triangulated"]
-
 Triangle: TypeAlias = Triple
 Portal: TypeAlias = Ends
 """The left and the right end, as nodes, of an edge that a path crosses."""

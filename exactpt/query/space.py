@@ -39,8 +39,6 @@ from exactpt.query.subdivision import OUTSIDE, Subdivision
 from exactpt.tiling.start import relative_hulls
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["FreeSpace", "PointLike"]
-
 PointLike: TypeAlias = "Sequence[Rational]"
 """A point or a direction: a sequence of two numbers."""
 

@@ -24,8 +24,6 @@ from exactpt.planar.halfedge import PlanarMap, twin
 from exactpt.pseudotriangulation.snapshot import Snapshot
 from exactpt.query.nodes import Nodes
 
-__all__ = ["OUTSIDE", "Subdivision", "cross"]
-
 OUTSIDE: Final = -1
 """The face outside the convex hull."""
 

@@ -20,8 +20,6 @@ from exactpt.kernel.rounding import SLACK, TINY, U
 from exactpt.planar.halfedge import twin
 from exactpt.query.subdivision import Subdivision, cross
 
-__all__ = ["On", "Ray", "RayStep", "Spot", "next_step"]
-
 _LARGEST: Final = 2.0**500
 
 

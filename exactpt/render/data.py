@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from exactpt.render.film import Film, Step
     from exactpt.scene.scene import Scene
 
-__all__ = ["data_of"]
-
 _SAFE: Final = 2**53
 _LONGEST: Final = 1200
 """Maximum number of digits of the polynomial of a time; longer polynomials are left out."""

@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
     from exactpt.simulation.simulation import Simulation
 
-__all__ = ["ENDINGS", "draw", "draw_run"]
-
 ENDINGS: Final = (".svg", ".png", ".html", ".gif", ".mp4")
 MOVIES: Final = (".gif", ".mp4")
 

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from exactpt.tiling.events import TilingEvent
     from exactpt.tiling.tiling import Tiling
 
-__all__ = ["Change", "Film", "Step", "film_of"]
-
 Pairs: TypeAlias = "tuple[tuple[int, int], ...]"
 
 

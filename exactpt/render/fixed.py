@@ -11,8 +11,6 @@ from typing import Final
 from exactpt.kernel.algebraic import AlgebraicNumber
 from exactpt.kernel.numbers import QQ, floor, power_of_two
 
-__all__ = ["BITS", "exponent_above", "fixed", "near"]
-
 BITS: Final = 192
 """Precision in bits: 2**-192 of the time span for times, of the size of the scene for points."""
 

@@ -20,18 +20,6 @@ if TYPE_CHECKING:
     from exactpt.render.still import Still
     from exactpt.scene.scene import Scene
 
-__all__ = [
-    "Frame",
-    "Line",
-    "Mark",
-    "Pixel",
-    "Shape",
-    "Tile",
-    "frame_of",
-    "marks_of",
-    "tints",
-]
-
 Pixel: TypeAlias = tuple[float, float]
 
 NAMED: Final = 40

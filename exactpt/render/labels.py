@@ -7,8 +7,6 @@ from typing import Final, NamedTuple, TypeAlias
 
 from exactpt.render.words import short
 
-__all__ = ["Named", "labels"]
-
 Pixel: TypeAlias = tuple[float, float]
 _Box: TypeAlias = tuple[float, float, float, float]
 

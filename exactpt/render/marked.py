@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
     from exactpt.simulation.history import History, Mark
 
-__all__ = ["film_of_run"]
-
 Span = TypeVar("Span", EdgeSpan, TileSpan)
 
 _WORDS: Final = {

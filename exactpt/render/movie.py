@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
     from exactpt.render.film import Film
 
-__all__ = ["frames_of", "write_movie"]
-
 SECONDS: Final = 8
 """Length of a film, unless another is given."""
 RATE: Final = 20

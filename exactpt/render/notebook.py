@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
     from exactpt.simulation.simulation import Simulation
 
-__all__ = ["contact_html", "scene_player", "scene_svg", "simulation_player", "simulation_svg"]
-
 MOST_EVENTS: Final = 2000
 MOST_SECONDS: Final = 5.0
 """Bounds on the run of a scene that a notebook shows."""

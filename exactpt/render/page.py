@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from exactpt.pairs.clearance import Clearance
     from exactpt.render.film import Film
 
-__all__ = ["page_of"]
-
 SCRIPTS: Final = (
     "exact",
     "film",

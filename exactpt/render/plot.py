@@ -14,8 +14,6 @@ from exactpt.render.words import clean, short, time_in_words
 if TYPE_CHECKING:
     from exactpt.pairs.clearance import Clearance
 
-__all__ = ["Plot", "plot_of", "strip_of", "svg_of_plot"]
-
 SAMPLES: Final = 240
 """Number of equal parts of the time span at whose ends the distance is computed."""
 MOST_TICKS: Final = 10

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from exactpt.errors import InputError
 
-__all__ = ["png_of"]
-
 
 def png_of(svg: str, *, zoom: int = 2) -> bytes:
     """Return the PNG image of an SVG document, with ``zoom`` pixels per unit in each direction.

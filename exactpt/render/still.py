@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from exactpt.pairs.contact import Contact
     from exactpt.scene.scene import Scene
 
-__all__ = ["Still", "still", "still_of"]
-
 
 @final
 @dataclass(frozen=True, slots=True)

@@ -13,8 +13,6 @@ from exactpt.render.words import clean, short
 if TYPE_CHECKING:
     from exactpt.render.frame import Frame, Line, Mark, Pixel, Shape, Tile
 
-__all__ = ["THEMES", "svg_of"]
-
 THEMES: Final = ("auto", "light", "dark")
 """Names of the themes; ``auto`` follows the reader's preference."""
 

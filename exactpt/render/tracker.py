@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from exactpt.planar.halfedge import PlanarMap
     from exactpt.tiling.tiling import Tiling
 
-__all__ = ["EdgeSpan", "TileSpan", "Tracker"]
-
 _CHUNK: Final = 64
 
 

@@ -8,8 +8,6 @@ from typing import Final, final
 
 from exactpt.kernel.numbers import QQ, ceil, nearest_float
 
-__all__ = ["Window", "window_of"]
-
 WIDTH: Final = 960
 HEIGHT: Final = 680
 LEAST: Final = (560, 240)

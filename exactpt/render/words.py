@@ -13,15 +13,6 @@ if TYPE_CHECKING:
     from exactpt.kernel.numbers import QQ
     from exactpt.pairs.contact import Contact, Pair
 
-__all__ = [
-    "clean",
-    "contact_in_words",
-    "pair_in_words",
-    "polynomial_in_words",
-    "short",
-    "time_in_words",
-]
-
 
 def clean(text: str) -> str:
     """Return the text with each character that XML does not allow replaced by U+FFFD."""

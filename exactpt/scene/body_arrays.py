@@ -18,8 +18,6 @@ from exactpt.motion.motions import REST, Translation
 if TYPE_CHECKING:
     from exactpt.motion.motions import Motion
 
-__all__ = ["BodyArrays"]
-
 BLOCK: Final = 1 << 15
 """Number of bodies that are tested at a time."""
 

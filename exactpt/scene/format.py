@@ -34,8 +34,6 @@ from exactpt.scene.json_values import (
 )
 from exactpt.scene.scene import Scene
 
-__all__ = ["from_json", "load", "loads"]
-
 
 def load(path: Path, max_bytes: int | None = None) -> Scene:
     """Read a scene file of at most ``max_bytes``, by default `exactpt.files.MOST_BYTES`.

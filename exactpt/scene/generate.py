@@ -19,21 +19,6 @@ from exactpt.scene.families import (
 )
 from exactpt.scene.scene import Scene
 
-__all__ = [
-    "CATALOGUE",
-    "CONVEX",
-    "EVERY",
-    "FAMILIES",
-    "POINTS",
-    "RINGS",
-    "ROUNDED",
-    "SIMPLE",
-    "SPINNING",
-    "Family",
-    "families",
-    "generate",
-]
-
 Family: TypeAlias = Callable[[Random], Scene]
 
 

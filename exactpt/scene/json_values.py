@@ -13,19 +13,6 @@ from typing import Final, TypeAlias
 from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, parse_rational, shorten
 
-__all__ = [
-    "MOST_DIGITS",
-    "VERSION",
-    "Json",
-    "Number",
-    "a_list",
-    "an_object",
-    "exact_number",
-    "is_too_long",
-    "parse_json",
-    "shown",
-]
-
 VERSION: Final = 1
 """The version of the file format (docs/format.md)."""
 MOST_DIGITS: Final = 10_000

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
     from exactpt.scene.body_arrays import BodyArrays
 
-__all__ = ["Scene", "a_scene", "scene_of"]
-
 
 @final
 class Scene:

@@ -12,8 +12,6 @@ from exactpt.kernel.numbers import QQ, shorten, show
 from exactpt.motion.body import Body
 from exactpt.motion.outline import outline_at
 
-__all__ = ["check_simple"]
-
 
 def check_simple(body: Body, start: QQ) -> None:
     """Check that a body is a simple polygon or chain at the start of a scene.

@@ -28,8 +28,6 @@ from exactpt.scene.json_values import MOST_DIGITS, VERSION, is_too_long
 if TYPE_CHECKING:
     from exactpt.scene.scene import Scene
 
-__all__ = ["save", "to_json"]
-
 
 def _text(value: QQ) -> str:
     if is_too_long(value):

@@ -13,8 +13,6 @@ from exactpt.motion.vertex import Vertex
 from exactpt.tiling.events import Edges, TilingEvent
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["Event", "events_of"]
-
 _Names: TypeAlias = tuple[tuple[str, str], ...]
 _Ends: TypeAlias = tuple[tuple[Vertex, Vertex], ...]
 

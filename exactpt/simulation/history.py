@@ -15,8 +15,6 @@ from exactpt.motion.motions import Pieces, SimpleMotion
 from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
 
-__all__ = ["History", "Life", "Log", "Mark"]
-
 
 class Mark(NamedTuple):
     """What happened to bodies at a time.

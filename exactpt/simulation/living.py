@@ -17,8 +17,6 @@ from exactpt.simulation.plans import planned
 from exactpt.tiling.start import plan_tiling
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["Choice", "LivingScene"]
-
 
 class Choice(NamedTuple):
     """The choice of a tiling.

@@ -9,8 +9,6 @@ from exactpt.motion.body import Body
 from exactpt.pairs.contact import Contact
 from exactpt.simulation.living import LivingScene
 
-__all__ = ["Met", "met"]
-
 
 class Met(NamedTuple):
     """A contact, with the motions that its bodies had just before it.

@@ -21,8 +21,6 @@ from typing import Final, TypeAlias
 from exactpt.kernel.numbers import QQ, nearest_float
 from exactpt.motion.body import Body
 
-__all__ = ["Vector", "normals_at"]
-
 Vector: TypeAlias = tuple[float, float]
 
 TINY: Final = 1e-9

@@ -24,8 +24,6 @@ from exactpt.motion.body import Body
 from exactpt.motion.course import jump
 from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, SimpleMotion, Translation
 
-__all__ = ["GRID", "onward", "planned", "rounded", "translation_at", "translation_velocity"]
-
 GRID = power_of_two(-20)
 """Default grid of velocities."""
 

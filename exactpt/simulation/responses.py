@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from exactpt.pairs.contact import Contact, Pair
     from exactpt.simulation.simulation import Simulation
 
-__all__ = ["Bounce", "stop"]
-
 ROUNDS: Final = 8
 """Maximum number of passes over the incidences of a contact."""
 

@@ -22,8 +22,6 @@ from exactpt.simulation.living import Choice, LivingScene
 from exactpt.simulation.met import Met, met
 from exactpt.tiling.start import plan_tiling
 
-__all__ = ["Response", "Run", "begin"]
-
 Response: TypeAlias = "Callable[[Contact], object]"
 """Called just before a contact; it may change motions."""
 

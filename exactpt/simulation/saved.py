@@ -32,16 +32,6 @@ from exactpt.tiling.events import Stats
 from exactpt.tiling.start import make
 from exactpt.tiling.tiling import Tiling
 
-__all__ = [
-    "Data",
-    "contact_from_json",
-    "event_from_json",
-    "number_from_json",
-    "number_to_json",
-    "tiling_from_json",
-    "tiling_to_json",
-]
-
 Data: TypeAlias = "dict[str, Any]"
 """A JSON object that has been read; defects are detected where it is used."""
 

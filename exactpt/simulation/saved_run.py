@@ -20,8 +20,6 @@ from exactpt.simulation.saved import (
 )
 from exactpt.tiling.report import counts_of
 
-__all__ = ["run_from_json", "run_to_json"]
-
 
 def run_to_json(run: Run, scene: object) -> Data:
     """Return the state of a run, with a given representation of its scene.

@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     from exactpt.query.space import FreeSpace, PointLike
     from exactpt.tiling.tiling import Tiling
 
-__all__ = ["Simulation"]
-
 
 @final
 class Simulation:

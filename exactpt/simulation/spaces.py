@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from exactpt.query.space import FreeSpace
     from exactpt.tiling.tiling import Tiling
 
-__all__ = ["SpaceCache"]
-
 
 @final
 class SpaceCache:

@@ -15,8 +15,6 @@ from exactpt.kernel.numbers import shorten
 from exactpt.scene.format import loads
 from exactpt.scene.scene import Scene
 
-__all__ = ["VERSION", "json_text", "reading", "scene_from_json", "sealed"]
-
 VERSION: Final = 5
 """Version of the file format; files of other versions are refused."""
 WIDTH: Final = 100

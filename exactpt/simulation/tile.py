@@ -10,8 +10,6 @@ from exactpt.simulation.simulation import Simulation
 from exactpt.tiling.catalogue import AUTO
 from exactpt.tiling.start import plan_tiling, tiling_for_contact
 
-__all__ = ["tile_at"]
-
 
 def tile_at(
     scene: Scene,

@@ -16,8 +16,6 @@ from exactpt.testing.shrinking import shrink_question
 from exactpt.testing.table import Table
 from exactpt.testing.truth import Truth, truths
 
-__all__ = ["Counterexample", "Report", "Subject", "check", "check_subject"]
-
 
 class Checked(Protocol):
     """A test question: in the plane (`Question`) or in space (`SpaceQuery`)."""

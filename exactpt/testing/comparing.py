@@ -12,16 +12,6 @@ from exactpt.kernel.numbers import QQ, Rational, rational, shorten, show
 from exactpt.pairs.contact import Contact
 from exactpt.scene.scene import Scene
 
-__all__ = [
-    "TOLERANCE",
-    "VERDICTS",
-    "Answer",
-    "assert_same_contact",
-    "bound",
-    "shown_time",
-    "verdict",
-]
-
 VERDICTS: Final = ("right", "missed", "invented", "early", "late", "crashed")
 """What an answer can be."""
 

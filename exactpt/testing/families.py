@@ -16,8 +16,6 @@ from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.scene.families.shapes import box, convex_polygon, hull
 from exactpt.testing.questions import Moving, Question
 
-__all__ = ["DEGENERATE", "FAMILIES", "GENERIC", "LINEAR", "Pass", "make_question"]
-
 Number: TypeAlias = "QQ | int"
 Outline: TypeAlias = "Sequence[tuple[Number, Number]]"
 

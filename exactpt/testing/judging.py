@@ -13,8 +13,6 @@ from exactpt.testing.questions import Asked, Name, double, objects, read_questio
 from exactpt.testing.table import Table
 from exactpt.testing.truth import truths
 
-__all__ = ["NO_ANSWER", "judged", "questions_in"]
-
 CHUNK: Final = 4096
 NO_ANSWER: Final = object()
 """The answer to a question that has none, or an error."""

@@ -17,8 +17,6 @@ from exactpt.testing.space.exact import SpaceContact, contact_of
 from exactpt.testing.space.queries import SpaceQuery
 from exactpt.testing.truth import Truth, truths
 
-__all__ = ["Refusals", "answers", "batches"]
-
 MOST: Final = 4096
 """Most questions that are answered at once."""
 LONGEST: Final = 1 << 24

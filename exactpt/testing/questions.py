@@ -20,8 +20,6 @@ from exactpt.motion.motions import Translation
 from exactpt.scene.format import from_json
 from exactpt.scene.scene import Scene
 
-__all__ = ["Asked", "Moving", "Name", "Question", "double", "id_of", "objects", "read_question"]
-
 Doubles: TypeAlias = tuple[float, ...]
 Name: TypeAlias = "str | int | None"
 

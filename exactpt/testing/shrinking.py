@@ -23,8 +23,6 @@ from exactpt.scene.written import to_json
 from exactpt.testing.questions import Question
 from exactpt.testing.truth import Truth, truth_of
 
-__all__ = ["coarser_numbers", "shrink", "shrink_data", "shrink_question", "simpler_numbers"]
-
 Data: TypeAlias = Any
 """A scene as JSON data. Candidates may be invalid scenes; ``fails`` must be false for these."""
 

@@ -34,17 +34,6 @@ try:
 except ImportError:
     raise InputError("this needs Hypothesis: pip install 'exactpt[testing]'") from None
 
-__all__ = [
-    "chains",
-    "convex_polygons",
-    "coordinates",
-    "motions",
-    "pairs_in_motion",
-    "scenes",
-    "simple_polygons",
-    "space_queries",
-]
-
 Outline: TypeAlias = list[tuple[float, float]]
 
 

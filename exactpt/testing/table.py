@@ -6,8 +6,6 @@ from typing import final
 
 from exactpt.testing.comparing import VERDICTS
 
-__all__ = ["Table"]
-
 
 @final
 class Table:

@@ -17,8 +17,6 @@ from exactpt.kernel.polynomial import Polynomial
 from exactpt.pairs.contact import Contact
 from exactpt.testing.questions import Asked, Moving, Question
 
-__all__ = ["Truth", "contacts_of", "first_pair", "root_between", "truth_of", "truths"]
-
 
 class Truth(NamedTuple):
     """The first contact of two bodies, "a" and "b".

@@ -29,8 +29,6 @@ from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import SOLID, Mesh
 from exactpt.tiling.simultaneous import Batch
 
-__all__ = ["CertifiedMesh", "Followers"]
-
 MANY: Final = 50
 """Number of angles from which on they are certified in numpy."""
 FEW: Final = 16

@@ -8,19 +8,6 @@ from typing import Final, NamedTuple, final
 
 from exactpt.errors import InputError
 
-__all__ = [
-    "AUTO",
-    "ENTRIES",
-    "Bodies",
-    "Entry",
-    "choose",
-    "find",
-    "has_convex_rules",
-    "known",
-    "names",
-    "with_relative_hulls",
-]
-
 
 @final
 @unique

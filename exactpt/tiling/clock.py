@@ -15,8 +15,6 @@ from exactpt.kernel.numbers import QQ, power_of_two
 from exactpt.motion.frame import Frame
 from exactpt.motion.vertex import MovingBody
 
-__all__ = ["Clock"]
-
 MAX_TIMES: Final = 15
 """Maximum number of times just after now; number k is within a distance of 2^-(2^k)."""
 

@@ -40,8 +40,6 @@ from exactpt.tiling.touching import look_for_contact, may_touch, report_touches
 if TYPE_CHECKING:
     from exactpt.motion.body import Body
 
-__all__ = ["Engine"]
-
 
 @final
 class Engine(Tiling):

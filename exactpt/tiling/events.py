@@ -11,9 +11,6 @@ from exactpt.certificates.queue import EventTime
 from exactpt.indices import Ends, VertexId
 from exactpt.motion.incidence import Touch
 
-__all__ = ["ContactFound", "Edges", "Log", "Stats", "TilingEvent"]
-
-
 Edges: TypeAlias = tuple[Ends, ...]
 """Edges, as pairs of vertex ids."""
 

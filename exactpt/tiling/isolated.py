@@ -22,8 +22,6 @@ from exactpt.tiling.clock import Clock
 from exactpt.tiling.events import Log
 from exactpt.tiling.rules import Rules
 
-__all__ = ["DONE", "LEFT", "OPEN", "IsolatedEvents"]
-
 LEFT: Final[int] = 0
 DONE: Final[int] = 1
 OPEN: Final[int] = 2

@@ -14,8 +14,6 @@ from exactpt.tiling.greedy.greedy import greedy_mesh
 from exactpt.tiling.greedy.vertical import VerticalDecomposition
 from exactpt.tiling.rules import Rules
 
-__all__ = ["LazyRules"]
-
 
 @final
 class LazyRules(Rules):

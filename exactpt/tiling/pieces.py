@@ -8,8 +8,6 @@ from exactpt.certificates.queue import EventTime
 from exactpt.motion.vertex import MovingBody
 from exactpt.tiling.clock import Clock
 
-__all__ = ["certify_piece"]
-
 
 def certify_piece(clock: Clock, moving: MovingBody, i: int) -> None:
     """Schedule the end of body i's current piece of motion, and the loss of its interior.

@@ -20,8 +20,6 @@ from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.events import Log
 from exactpt.tiling.rules import Rules
 
-__all__ = ["add_ring", "remove_ring"]
-
 
 def add_ring(certified: CertifiedMesh, rules: Rules, log: Log, i: int, zone: ConflictZone) -> bool:
     """Insert the ring of a new body into a tiling, and certify the new angles.

@@ -26,8 +26,6 @@ from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.events import Log
 from exactpt.tiling.rules import Rules
 
-__all__ = ["RebuildNeeded", "Repairs"]
-
 
 class RebuildNeeded(Exception):  # noqa: N818 - control flow, no error
     """The failures of one time cannot be repaired one by one."""

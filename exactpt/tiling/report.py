@@ -11,8 +11,6 @@ from exactpt.scene.scene import Scene
 from exactpt.tiling.catalogue import Bodies, has_convex_rules
 from exactpt.tiling.tiling import Tiling
 
-__all__ = ["counts_of", "report", "rules_of"]
-
 
 def report(scene: Scene, kinetic: Tiling | None) -> dict[str, object]:
     """Return the counts of a run so far; the tiling is None if there is none yet."""

@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from exactpt.tiling.events import Log
     from exactpt.tiling.tiling import State
 
-__all__ = ["Rules"]
-
 
 @mypyc_attr(allow_interpreted_subclasses=True)
 class Rules(Followers, ABC):

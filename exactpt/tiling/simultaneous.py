@@ -8,8 +8,6 @@ from exactpt.indices import HalfEdge
 from exactpt.kernel.budget import ask
 from exactpt.pseudotriangulation.mesh import Mesh
 
-__all__ = ["Batch"]
-
 
 @final
 class Batch:

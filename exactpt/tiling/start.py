@@ -27,17 +27,6 @@ from exactpt.tiling.tiling import Tiling
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = [
-    "TILINGS",
-    "TilingPlan",
-    "make",
-    "plan_tiling",
-    "relative_hulls",
-    "start_tiling",
-    "tiling_for_contact",
-    "tilings_for",
-]
-
 TILINGS: Final = tuple(catalogue.names(points=False))
 """Names of the tilings that accept bodies of any shape."""
 

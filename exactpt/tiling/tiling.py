@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from exactpt.motion.body import Body
     from exactpt.pseudotriangulation.mesh import Mesh
 
-__all__ = ["State", "Tiling"]
-
 FEW: Final = 16
 """Number of event times from one look at the budget to the next."""
 

@@ -13,8 +13,6 @@ from exactpt.indices import HalfEdge, VertexId
 from exactpt.tiling.angles import CertifiedMesh
 from exactpt.tiling.events import ContactFound
 
-__all__ = ["look_for_contact", "may_touch", "report_touches"]
-
 
 def look_for_contact(
     certified: CertifiedMesh, angles: Iterable[HalfEdge], shrinking: Iterable[int]

@@ -12,8 +12,6 @@ from exactpt.workers.work import ENDS, Item, Result, Step, Work
 if TYPE_CHECKING:
     from distributed import Client, Future
 
-__all__ = ["results_on"]
-
 AHEAD = 4
 """Number of items at a time for each thread of the cluster."""
 

@@ -20,8 +20,6 @@ from typing import Final, Generic
 
 from exactpt.workers.work import ENDS, HANGS, MOST_TRIES, UNFINISHED, Item, Result, Step, Work
 
-__all__ = ["results_of"]
-
 GRACE: Final = 5.0
 """Seconds of silence beyond three times the announced ones after which a worker is killed."""
 

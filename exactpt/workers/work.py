@@ -6,8 +6,6 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
-__all__ = ["ENDS", "HANGS", "MOST_TRIES", "UNFINISHED", "Item", "Result", "Step", "Work"]
-
 Item = TypeVar("Item", bound=Hashable)
 Result = TypeVar("Result")
 

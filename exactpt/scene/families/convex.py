@@ -13,16 +13,6 @@ from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, Translation
 from exactpt.scene.families.shapes import cells, convex_polygon, in_cells, poly, shape, velocity
 from exactpt.scene.scene import Scene
 
-__all__ = [
-    "ballistic",
-    "convex",
-    "deforming",
-    "keyframed",
-    "mixed_shapes",
-    "pieces",
-    "turning",
-]
-
 
 def convex(rng: Random) -> Scene:
     """Convex polygons in linear motion."""

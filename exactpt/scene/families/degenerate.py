@@ -13,21 +13,6 @@ from exactpt.motion.motions import Rigid, Translation
 from exactpt.scene.families.shapes import box, cells, in_cells, poly, shape, velocity
 from exactpt.scene.scene import Scene
 
-__all__ = [
-    "concentric",
-    "convoy",
-    "grazing",
-    "grids",
-    "grids_passing",
-    "hairs",
-    "mirrored",
-    "polygons_in_step",
-    "rings",
-    "row",
-    "small_grid",
-    "sweeping",
-]
-
 
 def small_grid(rng: Random) -> Scene:
     """Shapes with tiny integer coordinates and velocities: degeneracies everywhere."""

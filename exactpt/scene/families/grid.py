@@ -13,8 +13,6 @@ from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, Translation
 from exactpt.scene.families.shapes import cells, is_simple
 from exactpt.scene.scene import Scene
 
-__all__ = ["bodies_on_grid", "chains_on_grid"]
-
 RADIUS: Final = 2
 ATTEMPTS: Final = 20
 

@@ -11,20 +11,6 @@ from exactpt.motion.motions import Pieces, Rigid, SimpleMotion, Translation
 from exactpt.scene.families.shapes import poly, velocity
 from exactpt.scene.scene import Scene
 
-__all__ = [
-    "ballistic_points",
-    "crossing_lines",
-    "grid_points",
-    "linear_points",
-    "parabola_points",
-    "piecewise_points",
-    "point_convoy",
-    "point_grids_passing",
-    "points_in_line",
-    "simultaneous_swaps",
-    "turning_points",
-]
-
 
 def _points(positions: list[tuple[QQ | int, QQ | int]], motions: list[SimpleMotion]) -> list[Body]:
     return [

@@ -24,8 +24,6 @@ from exactpt.scene.families.shapes import (
 from exactpt.scene.families.simple import star
 from exactpt.scene.scene import Scene
 
-__all__ = ["frames", "lakes", "walls"]
-
 QUARTER = [(5, 0), (4, 3), (3, 4)]
 """Directions of length 5 from the first axis to the second one."""
 

@@ -11,16 +11,6 @@ from exactpt.motion.motions import Affine, Motion, Pieces, Rigid, Translation
 from exactpt.scene.families.shapes import box, cells, convex_polygon, is_simple, poly, velocity
 from exactpt.scene.scene import Scene
 
-__all__ = [
-    "discs",
-    "discs_in_corners",
-    "kissing_discs",
-    "rolling_discs",
-    "rounded_grid",
-    "rounded_motions",
-    "sliding_capsules",
-]
-
 TRIPLES = [(3, 4, 5), (5, 12, 13), (8, 15, 17), (1, 0, 1), (0, 2, 2)]
 """Legs and hypotenuse of right triangles."""
 

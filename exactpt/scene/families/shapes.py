@@ -14,18 +14,6 @@ from exactpt.motion.body import Body
 from exactpt.motion.motions import Translation
 from exactpt.scene.scene import Scene
 
-__all__ = [
-    "box",
-    "cells",
-    "convex_polygon",
-    "hull",
-    "in_cells",
-    "is_simple",
-    "poly",
-    "shape",
-    "velocity",
-]
-
 
 def convex_polygon(rng: Random, center: Point, radius: int, size: int) -> list[Point]:
     """A convex polygon of 3 to ``size`` integer vertices around a center, counter-clockwise.

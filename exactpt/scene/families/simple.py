@@ -12,20 +12,6 @@ from exactpt.motion.motions import Motion, Rigid, Translation
 from exactpt.scene.families.shapes import box, cells, is_simple, poly, shape, velocity
 from exactpt.scene.scene import Scene
 
-__all__ = [
-    "blobs",
-    "chains",
-    "clamps",
-    "combs",
-    "flat",
-    "letters",
-    "nested",
-    "spirals",
-    "star",
-    "stars",
-    "turning_stars",
-]
-
 # Directions around a circle in order, exact and of about equal length.
 _CIRCLE = [
     (100, 0), (92, 38), (71, 71), (38, 92), (0, 100), (-38, 92), (-71, 71), (-92, 38),

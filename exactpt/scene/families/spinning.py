@@ -12,8 +12,6 @@ from exactpt.motion.motions import Translation
 from exactpt.motion.spin import Spin
 from exactpt.scene.scene import Scene
 
-__all__ = ["gears", "mills", "orbits"]
-
 ERRORS = ["1/50", "1/1000", "1/1000", "1e-6", "1e-9"]
 """Errors of an angle."""
 

@@ -17,8 +17,6 @@ from exactpt.testing.space.families import FAMILIES, make_query
 from exactpt.testing.space.queries import Kind, SpaceQuery
 from exactpt.testing.truth import Truth
 
-__all__ = ["assert_same_time", "check_edge_edge", "check_vertex_face", "shrink_query"]
-
 SECONDS: Final = 60.0
 """Time limit for shrinking one counterexample."""
 

@@ -41,8 +41,6 @@ from exactpt.kernel.numbers import QQ, ZZ, Rational
 from exactpt.kernel.roots import roots_after
 from exactpt.testing.space.queries import Kind, SpaceQuery, read_points
 
-__all__ = ["SpaceContact", "contact_of", "edge_edge", "first_contact_of", "vertex_face"]
-
 Vector: TypeAlias = tuple[IntPoly, IntPoly, IntPoly]
 """A vector whose components are integer polynomials in t."""
 Quotient: TypeAlias = tuple[IntPoly, IntPoly]

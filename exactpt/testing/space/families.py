@@ -15,8 +15,6 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ
 from exactpt.testing.space.queries import KINDS, Kind, Point, SpaceQuery
 
-__all__ = ["FAMILIES", "make_query"]
-
 Places: TypeAlias = Sequence[Sequence["QQ | int"]]
 Motion: TypeAlias = tuple[Places, Places]
 """Four points at t = 0, and the same at t = 1."""

@@ -10,8 +10,6 @@ from exactpt.errors import InputError
 from exactpt.kernel.numbers import QQ, Rational, rational, shorten
 from exactpt.testing.questions import Name, double, id_of
 
-__all__ = ["KINDS", "Kind", "Point", "SpaceQuery", "read_points"]
-
 Kind: TypeAlias = Literal["vertex-face", "edge-edge"]
 KINDS: Final = ("vertex-face", "edge-edge")
 

@@ -44,8 +44,6 @@ from exactpt.kernel.rounding import TINY, U, check_rounding
 from exactpt.testing.space.exact import SpaceContact, first_contact_of
 from exactpt.testing.space.queries import Kind
 
-__all__ = ["SpaceContacts", "edge_edge_array", "vertex_face_array"]
-
 BLOCK: Final = 4096
 """Number of queries in one pass of the filter; its arrays fit the cache."""
 HALVINGS: Final = 3

@@ -16,8 +16,6 @@ from exactpt.kernel.numbers import QQ
 from exactpt.motion.incidence import difference
 from exactpt.tiling.greedy.slope import Slope, slope_terms
 
-__all__ = ["Bitangent", "tangent_pair"]
-
 
 def tangent_pair(instant: PredicatesAt, a: VertexId, b: VertexId, side_a: int, side_b: int) -> Ends:
     """Return the vertices at which the bitangent from the body of a to that of b touches.

@@ -16,8 +16,6 @@ from exactpt.certificates.predicates import Predicates
 from exactpt.indices import Ends, VertexId
 from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition
 
-__all__ = ["add_body", "cell_along", "remove_body", "rename_body", "rename_cell"]
-
 
 def cell_along(
     cells: VerticalDecomposition, predicates: Predicates, v: VertexId, cell: int, *, over: bool

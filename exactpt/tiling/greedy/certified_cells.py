@@ -18,8 +18,6 @@ from exactpt.tiling.greedy.convex_ring import chains_of, is_above
 from exactpt.tiling.greedy.vertical import NO_ARC, VerticalDecomposition
 from exactpt.tiling.greedy.visibility import seen_from
 
-__all__ = ["CertifiedCells"]
-
 
 @final
 class CertifiedCells:

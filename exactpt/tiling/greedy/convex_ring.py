@@ -13,8 +13,6 @@ from typing import Final, final
 from exactpt.certificates.predicates import Predicates
 from exactpt.indices import Ends, VertexId
 
-__all__ = ["Chain", "chains_of", "is_above", "near_tangent"]
-
 FEW: Final = 12
 """Rings of at most so many vertices are searched one by one."""
 

@@ -30,8 +30,6 @@ from exactpt.tiling.repairs import RebuildNeeded
 from exactpt.tiling.rules import Rules
 from exactpt.tiling.tiling import State
 
-__all__ = ["FlippingRules"]
-
 
 @mypyc_attr(allow_interpreted_subclasses=True)
 class FlippingRules(Rules):

@@ -33,8 +33,6 @@ from exactpt.tiling.repairs import RebuildNeeded
 from exactpt.tiling.rules import Rules
 from exactpt.tiling.tiling import State
 
-__all__ = ["VerticalRules", "greedy_mesh"]
-
 
 def greedy_mesh(instant: PredicatesAt, cells: VerticalDecomposition) -> tuple[Mesh, int]:
     """Return the greedy tiling, and the number of flips that were needed after the sweep.

@@ -25,8 +25,6 @@ from exactpt.tiling.events import Log
 from exactpt.tiling.greedy.flipping import FlippingRules
 from exactpt.tiling.repairs import RebuildNeeded
 
-__all__ = ["ShadowRules"]
-
 
 @final
 class ShadowRules(FlippingRules):

@@ -31,8 +31,6 @@ from exactpt.pseudotriangulation.shadow import (
 )
 from exactpt.tiling.angles import CertifiedMesh
 
-__all__ = ["CertifiedShadows"]
-
 COUNT: Final = 6
 """Number of certificates of a diagonal; bit k of a set of them is that of kind SHADOW + k: the
 x-orders of s and s', then at each end of s' the neighbour after it and that before it."""

@@ -15,8 +15,6 @@ from exactpt.kernel.numbers import ZZ
 from exactpt.motion.incidence import difference
 from exactpt.motion.vertex import Vertex
 
-__all__ = ["Slope", "slope_terms"]
-
 
 @final
 class Slope:

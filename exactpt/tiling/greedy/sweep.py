@@ -27,8 +27,6 @@ from exactpt.tiling.greedy.bitangent import Bitangent, tangent_pair
 from exactpt.tiling.greedy.convex_ring import Chain, chains_of, near_tangent
 from exactpt.tiling.greedy.vertical import NO_ARC, NO_CELL, VerticalDecomposition
 
-__all__ = ["greedy_diagonals"]
-
 FEW: Final = 16
 """Number of bitangents from one look at the budget to the next."""
 MANY: Final = 48

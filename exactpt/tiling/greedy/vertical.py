@@ -28,8 +28,6 @@ from exactpt.indices import NO_VERTEX, VertexId, vertex_vec
 from exactpt.kernel.budget import ask
 from exactpt.tiling.greedy.convex_ring import Chain, chains_of, is_above
 
-__all__ = ["NO_ARC", "NO_CELL", "VerticalDecomposition"]
-
 NO_ARC: Final = -1
 NO_CELL: Final = -1
 

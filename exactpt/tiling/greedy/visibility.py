@@ -7,8 +7,6 @@ from exactpt.indices import NO_VERTEX, HalfEdge, VertexId
 from exactpt.planar.halfedge import twin
 from exactpt.pseudotriangulation.mesh import FREE, SOLID, Mesh
 
-__all__ = ["facing_visit", "seen_from"]
-
 
 def seen_from(mesh: Mesh, predicates: Predicates, v: VertexId, *, up: bool) -> HalfEdge | None:
     """Return the body edge vertically above (or below) a vertex; None if there is none.

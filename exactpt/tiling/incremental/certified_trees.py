@@ -14,8 +14,6 @@ from exactpt.certificates.table import CertificateTable
 from exactpt.indices import VertexId
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
 
-__all__ = ["CertifiedTrees"]
-
 
 @final
 class CertifiedTrees:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Final, Literal, TypeAlias, final
 
-__all__ = ["PATIENCE", "ChainKind", "Chains"]
-
 ChainKind: TypeAlias = Literal["auto", "linked", "searchable"]
 
 PATIENCE: Final = 8

@@ -24,8 +24,6 @@ from exactpt.indices import VertexId
 from exactpt.tiling.incremental.structure import IncrementalStructure
 from exactpt.tiling.incremental.tree import NONE, TangentTree
 
-__all__ = ["column_around", "resweep"]
-
 
 class _Swept(NamedTuple):
     """The result of the sweep of a column in one tree.

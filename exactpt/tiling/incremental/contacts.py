@@ -19,8 +19,6 @@ from exactpt.indices import VertexId
 from exactpt.motion.incidence import Touch, difference
 from exactpt.tiling.incremental.structure import IncrementalStructure
 
-__all__ = ["coinciding"]
-
 
 def coinciding(
     certifier: Certifier, structure: IncrementalStructure, candidates: Iterable[VertexId]

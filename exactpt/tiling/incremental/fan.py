@@ -14,8 +14,6 @@ from exactpt.planar.halfedge import edge_key
 from exactpt.tiling.incremental.structure import Exchanged, IncrementalStructure
 from exactpt.tiling.incremental.tree import TangentTree
 
-__all__ = ["Fan", "chain", "fan_edges", "path"]
-
 
 def path(v: VertexId, tree: TangentTree) -> Iterator[VertexId]:
     """Yield the path from v that always continues to the last child."""

@@ -37,8 +37,6 @@ from exactpt.tiling.incremental.structure import IncrementalStructure
 from exactpt.tiling.incremental.tree_repairs import TreeRepairs
 from exactpt.tiling.tiling import State, Tiling
 
-__all__ = ["IncrementalTiling"]
-
 
 @final
 class IncrementalTiling(Tiling):

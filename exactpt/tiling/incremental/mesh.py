@@ -16,8 +16,6 @@ from exactpt.pseudotriangulation.mesh import FREE, OUTER, Mesh
 from exactpt.tiling.incremental.fan import path
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
 
-__all__ = ["mesh_of", "update_mesh"]
-
 
 def mesh_of(structure: IncrementalStructure) -> Mesh:
     """Return the tiles Delta(p), p from the third point on, and the outer face."""

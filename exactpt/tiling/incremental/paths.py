@@ -15,8 +15,6 @@ from typing import final
 from exactpt.indices import VertexId
 from exactpt.tiling.incremental.tree import NONE, TangentTree
 
-__all__ = ["SearchableTree"]
-
 
 @final
 class SearchableTree(TangentTree):

@@ -9,8 +9,6 @@ from exactpt.errors import AuditError
 from exactpt.indices import VertexId
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
 
-__all__ = ["holds_at", "sweep_at"]
-
 
 def sweep_at(instant: PredicatesAt) -> IncrementalStructure:
     """Return the incremental pseudo-triangulation of an instant: O(n log n)."""

@@ -48,8 +48,6 @@ from exactpt.indices import VertexId
 from exactpt.tiling.incremental.paths import SearchableTree
 from exactpt.tiling.incremental.tree import NONE, TangentTree
 
-__all__ = ["LOWER", "UPPER", "Exchanged", "IncrementalStructure"]
-
 UPPER: Final = 0
 LOWER: Final = 1
 

@@ -18,8 +18,6 @@ from typing import Final
 
 from exactpt.indices import VertexId
 
-__all__ = ["NONE", "TangentTree"]
-
 NONE: Final = VertexId(-1)
 """No point."""
 

@@ -32,8 +32,6 @@ from exactpt.tiling.incremental.columns import column_around, resweep
 from exactpt.tiling.incremental.fan import Fan
 from exactpt.tiling.incremental.structure import LOWER, UPPER, IncrementalStructure
 
-__all__ = ["TreeRepairs"]
-
 
 @final
 class TreeRepairs:

@@ -21,13 +21,6 @@ from exactpt.tiling.mixed.forest import RingTree
 from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.mixed.tree import ROOT, TOP
 
-__all__ = [
-    "ChangedGeodesics",
-    "changed_geodesics",
-    "nodes_changed_by_insertion",
-    "nodes_changed_by_removal",
-]
-
 
 class ChangedGeodesics(NamedTuple):
     """The geodesics of one body that have to be recomputed, and the chains along which.

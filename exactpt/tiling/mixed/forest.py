@@ -9,8 +9,6 @@ from exactpt.indices import VertexId
 from exactpt.motion.vertices import MovingBody, Vertices
 from exactpt.tiling.mixed.tree import ROOT, GeodesicTree, tree_of_size
 
-__all__ = ["NO_LABEL", "Forest", "Label", "RingTree"]
-
 Label: TypeAlias = frozenset[int]
 """A set of nodes; the nodes of all rings are numbered consecutively, two for each vertex."""
 

@@ -25,8 +25,6 @@ from exactpt.indices import NO_VERTEX, Ends, HalfEdge, VertexId
 from exactpt.planar.halfedge import twin, without_steps_back
 from exactpt.pseudotriangulation.mesh import Mesh
 
-__all__ = ["Geodesics", "Part", "joined"]
-
 LEFT: Final = 1
 RIGHT: Final = -1
 

@@ -51,8 +51,6 @@ from exactpt.tiling.mixed.tree import TOP
 if TYPE_CHECKING:
     from exactpt.motion.vertices import MovingBody, Vertices
 
-__all__ = ["LabelledRegion", "region_of_insertion", "region_of_removal"]
-
 
 def region_of_insertion(mesh: LabelledMesh, faces: Sequence[HalfEdge]) -> LabelledRegion:
     """Return the region to retile when a body is added.

@@ -35,8 +35,6 @@ from exactpt.tiling.mixed.forest import NO_LABEL, Forest, Label, RingTree
 from exactpt.tiling.mixed.loops import loop_along
 from exactpt.tiling.mixed.tree import ROOT, TOP
 
-__all__ = ["LabelledMesh"]
-
 
 @final
 class LabelledMesh(Mesh):

@@ -11,8 +11,6 @@ from exactpt.errors import AuditError
 from exactpt.indices import VertexId
 from exactpt.planar.halfedge import PlanarMap
 
-__all__ = ["loop_along"]
-
 
 def loop_along(m: PlanarMap, labels: list[frozenset[int]], top: int) -> list[VertexId]:
     """Return the vertex ids along the unpinned cycle of a body, counter-clockwise, by its node.

@@ -31,8 +31,6 @@ from exactpt.tiling.mixed.labelled_region import region_of_insertion, region_of_
 from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.mixed.static import mixed_mesh
 
-__all__ = ["MixedRules"]
-
 
 @final
 class MixedRules(FlippingRules):

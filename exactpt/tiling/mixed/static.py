@@ -18,8 +18,6 @@ from exactpt.tiling.mixed.geodesics import Geodesics
 from exactpt.tiling.mixed.labels import LabelledMesh
 from exactpt.tiling.mixed.tree import ROOT, TOP
 
-__all__ = ["mixed_mesh"]
-
 
 def mixed_mesh(instant: PredicatesAt) -> LabelledMesh:
     """Return the mixed tiling of an instant."""

@@ -15,8 +15,6 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Final, final
 
-__all__ = ["ROOT", "TOP", "GeodesicTree", "tree_of_size"]
-
 TOP: Final = 0
 ROOT: Final = 1
 
